@@ -1,0 +1,83 @@
+// Corrections for partial contact, side by side: the S factor and the affine shifts p_T (Eqs 8-11, 13, 21).
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "asperity/asperities.hpp"
+#include "asperity/export.hpp"
+#include "asperity/rubber.hpp"
+#include "asperity/spectrum.hpp"
+#include "asperity/surface.hpp"
+
+namespace asperity {
+
+/// Persson 2001 as it stands.
+struct NoCorrection {
+  bool operator==(const NoCorrection&) const = default;
+};
+
+/// S = gamma + (1 - gamma) P^2 (Eq. 8). On the friction: a factor of the integrand of Eq. 22, with the
+/// uncorrected P. On the area: inside G, int_0^G dg / S(P(g)) = G_uncorrected, for the area and the adhesion.
+struct SFactor {
+  enum class AppliesTo { friction, area, both };
+  double gamma = 0.5;
+  AppliesTo applies_to = AppliesTo::friction;
+  bool operator==(const SFactor&) const = default;
+};
+
+/// C -> C / p^2 (Eq. 11) with a given p >= 1.
+struct AffineShift {
+  double p;
+  bool operator==(const AffineShift&) const = default;
+};
+
+/// p_T1 = z_max / (z_max - <h_peaks>) (Eq. 13).
+struct LocalPeaks {
+  std::vector<double> heights;          // of the peaks, above the mean plane [m]
+  std::optional<double> z_max = {};     // highest point of the profile [m]; unset: the highest peak
+  bool operator==(const LocalPeaks&) const = default;
+};
+
+/// p_T2 = (z_max - z_min) / (z_max - d~) (Eq. 21 as its text says), d~ of the improved Greenwood-Williamson
+/// model at E* = |E(q0 v)| / (1 - nu^2). z_max, z_min are the height profile's own, R and n_a those of
+/// MacroAsperities; `peaks`, where given, stand in for the Gaussian heights (Section 3.2).
+struct GreenwoodWilliamson {
+  double z_max, z_min;                         // [m] about the mean plane
+  std::vector<double> peaks = {};              // [m]
+  Reading reading = Reading::implicit;
+  std::optional<double> rms_height = {}, q0 = {};  // of the macro-asperities; unset: the spectrum's
+  bool operator==(const GreenwoodWilliamson&) const = default;
+};
+
+/// The article's Conclusions: the profile is shifted by p_T1 first, and Greenwood-Williamson runs on what
+/// results, whose z_max, z_min and rms height are those of the profile divided by p_T1; p_T = p_T1 p_T2.
+struct PeaksThenGreenwoodWilliamson {
+  LocalPeaks peaks;
+  double z_max, z_min;
+  Reading reading = Reading::implicit;
+  std::optional<double> rms_height = {}, q0 = {};
+  bool operator==(const PeaksThenGreenwoodWilliamson&) const = default;
+};
+
+using Correction = std::variant<NoCorrection, SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson,
+                                PeaksThenGreenwoodWilliamson>;
+
+ASPERITY_EXPORT void validate(const Correction& correction);
+
+/// p_T1 of Eq. 13.
+ASPERITY_EXPORT double shift_factor(const LocalPeaks& peaks);
+
+/// An affine shift at one velocity and pressure.
+struct Shift {
+  double p = 1;                                // infinite without contact
+  double relative_error = 0;                   // of p
+  ContactState state = ContactState::partial;  // always partial where no Greenwood-Williamson model is asked
+  double separation_over_rms = 0;              // d~ / h_rms, beyond 3 the model has left its range
+};
+/// The p_T that `correction` sets; 1 for those that shift nothing.
+ASPERITY_EXPORT Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
+                                   double pressure, double velocity, double poisson_ratio);
+
+}  // namespace asperity

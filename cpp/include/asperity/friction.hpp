@@ -1,0 +1,66 @@
+// Rubber friction: hysteresis (Eq. 22), adhesion (Eq. 23) and their sum (Eq. 24).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "asperity/export.hpp"
+
+namespace asperity {
+
+/// mu_A = (tau_f0 / sigma0) (A / A0) exp(-c log10(v / v0)^2).
+struct Adhesion {
+  double shear_stress;               // tau_f0 [Pa]
+  double reference_velocity = 6e-3;  // v0 [m/s]
+  double width = 0.1;                // c [-]
+  bool operator==(const Adhesion&) const = default;
+};
+
+ASPERITY_EXPORT void validate(const Adhesion& adhesion);
+
+/// Where the hysteresis comes from. Tables are row-major: a row a point.
+struct Contributions {
+  std::vector<double> wavenumber;      // [1/m], n of them
+  std::vector<double> dmu_dlnq;        // points x n
+  std::vector<double> decade_edges;    // angular frequencies v q [rad/s], m + 1 powers of ten
+  std::vector<double> decade_share;    // points x m, shares of the hysteresis
+};
+
+/// One entry a point.
+struct Friction {
+  std::vector<double> pressure, velocity;    // [Pa], [m/s]
+  std::vector<double> mu;                    // hysteresis + adhesion
+  std::vector<double> hysteresis, adhesion;  // mu_H, mu_A
+  std::vector<double> contact_area;          // A/A0 at q1
+  std::vector<double> shift_factor;          // p_T, 1 where nothing is shifted, infinite without contact
+  std::vector<double> error_estimate;        // absolute, of mu
+  std::vector<double> extrapolated_share;    // of mu_H, from frequencies outside of the measured range
+  std::vector<std::string> notes;            // where the theory or its input leaves its range
+  std::optional<Contributions> contributions;
+};
+
+/// Everything a friction curve needs beside the surface, the rubber and the velocities.
+struct Conditions {
+  double pressure;  // sigma0 [Pa]
+  double poisson_ratio = 0.5;
+  Correction correction = NoCorrection{};
+  std::optional<Adhesion> adhesion = std::nullopt;
+  Form form = Form::exact;
+  double rtol = 1e-6;
+  bool contributions = false;
+};
+
+/// The friction curve at one pressure.
+ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
+                                  std::span<const double> velocity);
+
+/// For pairs of pressure and velocity. NotConverged where the relative tolerance of mu is not reached.
+ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                  const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                                  std::span<const double> velocity, bool contributions = false);
+
+}  // namespace asperity

@@ -1,0 +1,84 @@
+// The complex modulus of rubber, as a Prony series or a measured master curve, and its angular integrals.
+#pragma once
+
+#include <complex>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "asperity/errors.hpp"
+#include "asperity/export.hpp"
+
+namespace asperity {
+
+/// I1 = int_0^2pi cos(phi) Im E(w cos phi) dphi and I2 = int_0^2pi |E(w cos phi)|^2 dphi, with the parts of
+/// them that come from frequencies outside of the measured range.
+struct AngularIntegrals {
+  double i1;              // [Pa]
+  double i2;              // [Pa^2]
+  double i1_outside = 0;  // [Pa]
+  double i2_outside = 0;  // [Pa^2]
+};
+
+/// E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k). Without terms: elastic.
+class ASPERITY_EXPORT PronySeries {
+ public:
+  PronySeries(double equilibrium_modulus, std::vector<double> moduli, std::vector<double> relaxation_times);
+  [[nodiscard]] double equilibrium_modulus() const { return equilibrium_; }
+  [[nodiscard]] const std::vector<double>& moduli() const { return moduli_; }
+  [[nodiscard]] const std::vector<double>& relaxation_times() const { return times_; }
+  /// At angular frequency w [rad/s].
+  [[nodiscard]] std::complex<double> modulus(double angular_frequency) const;
+  [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
+  /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w).
+  [[nodiscard]] PronySeries shifted(double a_T) const;
+  bool operator==(const PronySeries&) const = default;
+
+ private:
+  double equilibrium_;
+  std::vector<double> moduli_, times_;
+  std::vector<double> weights_;  // w_k = 2 E_k (E_inf + sum_l E_l tau_l / (tau_k + tau_l))
+};
+
+enum class Extrapolation { power_law, clamp };
+
+/// A measured modulus: Steffen's monotone interpolant of ln E' and ln E'' in ln w. Outside the table nothing
+/// is known: OutOfRange, unless an extrapolation over at most one decade at either end is asked for by name.
+class ASPERITY_EXPORT MasterCurve {
+ public:
+  MasterCurve(std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+              std::vector<double> loss_modulus, std::optional<Extrapolation> extrapolation = std::nullopt);
+  [[nodiscard]] const std::vector<double>& angular_frequency() const;
+  [[nodiscard]] const std::vector<double>& storage_modulus() const;
+  [[nodiscard]] const std::vector<double>& loss_modulus() const;
+  [[nodiscard]] std::optional<Extrapolation> extrapolation() const;
+  [[nodiscard]] std::complex<double> modulus(double angular_frequency) const;
+  /// cos(phi) always runs through zero: below the lowest frequency E' is taken constant and E'' as
+  /// proportional to w, and what comes from there is returned as the part outside.
+  [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
+  [[nodiscard]] MasterCurve shifted(double a_T) const;
+  /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
+  [[nodiscard]] double lowest_frequency() const;
+  [[nodiscard]] double highest_frequency() const;
+  /// Where the interpolant changes its formula [rad/s], in rising order.
+  [[nodiscard]] std::span<const double> knots() const;
+
+ private:
+  struct Table;
+  std::shared_ptr<const Table> table_;
+};
+
+using Rubber = std::variant<PronySeries, MasterCurve>;
+
+ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
+ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);
+
+/// 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2 (Eq. 15) [Pa].
+ASPERITY_EXPORT double effective_modulus(double modulus, double poisson_ratio,
+                                         double modulus_2 = std::numeric_limits<double>::infinity(),
+                                         double poisson_ratio_2 = 0);
+
+}  // namespace asperity

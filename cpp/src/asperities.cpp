@@ -1,0 +1,109 @@
+#include "asperity/asperities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "checks.hpp"
+#include "integrate.hpp"
+#include "roots.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+using std::numbers::sqrt2;
+
+double hertz_penetration(double force, double effective_modulus, double radius) {
+  require_positive("force", force);
+  require_positive("effective_modulus", effective_modulus);
+  require_positive("radius", radius);
+  const double ratio = force / effective_modulus;
+  return std::cbrt(9.0 / 16 * ratio / radius * ratio);
+}
+
+// With s = x - t the integrand is exp(g(s)), g = 1.5 ln s - (s + t)^2 / 2, largest at s* = (sqrt(t^2 + 6) - t) / 2.
+// Scaled by its maximum it neither under- nor overflows for any t, so that no switch of method is needed.
+double log_gaussian_moment(double t) {
+  require_finite("t", t);
+  const double root = std::hypot(t, std::sqrt(6.0));
+  const double peak = t > 0 ? 3 / (root + t) : (root - t) / 2;  // the two forms of s*, each where it does not cancel
+  const double width = 1 / std::sqrt(1 + 1.5 / (peak * peak));
+  // g(s) - g(s*) with r = s / s* - 1: 1.5 (ln(1 + r) - r) - (r s*)^2 / 2, since g' vanishes at s*
+  const auto shape = [&](double s) {
+    const double r = s / peak - 1;
+    return s > 0 ? std::exp(1.5 * (std::log1p(r) - r) - r * peak * r * peak / 2) : 0.0;
+  };
+  // On either side of the peak, in units of its width; u^2 tames the s^1.5 at the lower end.
+  constexpr double rtol = 1e-13, reach = 40;
+  const double bottom = std::fmax(0, peak - reach * width);
+  const auto left = integrate(
+      [&](double u) { return 2 * u * shape(bottom + u * u); }, 0, std::sqrt(peak - bottom), rtol);
+  const auto right = integrate(shape, peak, peak + 4 * width, rtol);
+  const auto tail = integrate(shape, peak + 4 * width, peak + reach * width, rtol, rtol * right.value);
+  const double at_peak = 1.5 * std::log(peak) - (peak + t) * (peak + t) / 2;
+  return at_peak + std::log(left.value + right.value + tail.value) - std::log(2 * pi) / 2;
+}
+
+namespace {
+
+/// ln of the mean of max(z - d, 0)^1.5 over the peaks.
+double log_peak_moment(std::span<const double> peaks, double d) {
+  double sum = 0;
+  for (const double z : peaks)
+    if (z > d) sum += std::pow(z - d, 1.5);
+  return std::log(sum / static_cast<double>(peaks.size()));
+}
+
+/// d of sigma0 / E* = (4/3) sqrt(R) n_a <(z - d)^1.5> (Eqs 16 and 20), solved in the logarithm: the moment falls
+/// with d, so the root is unique.
+double greenwood_williamson(const MacroAsperities& a, double log_moment) {
+  if (a.peaks.empty()) {
+    // In units of h_rms. Jensen: <(x - t)_+^1.5> >= (-t)^1.5 gives the lower end.
+    const double target = log_moment - 1.5 * std::log(a.rms_height);
+    const auto excess = [&](double t) { return log_gaussian_moment(t) - target; };
+    const double lower = -std::exp(target * (2.0 / 3)) - 1e-3;
+    double upper = 8;
+    while (excess(upper) > 0) upper *= 2;
+    return a.rms_height * bracketed_root(excess, lower, upper);
+  }
+  const double highest = std::ranges::max(a.peaks);
+  double mean = 0;
+  for (const double z : a.peaks) mean += z / static_cast<double>(a.peaks.size());
+  // In the depth below the highest peak and its logarithm, so that shallow roots keep their digits.
+  const auto excess = [&](double log_depth) {
+    return log_peak_moment(a.peaks, highest - std::exp(log_depth)) - log_moment;
+  };
+  const double deepest = highest - mean + std::exp(log_moment * (2.0 / 3));
+  const double shallowest = std::exp(log_moment * (2.0 / 3));  // every peak as high as the highest
+  return highest - std::exp(bracketed_root(excess, std::log(shallowest) - 1e-9, std::log(deepest) + 1e-9));
+}
+
+}  // namespace
+
+Separation separation(const MacroAsperities& a, double pressure, double effective_modulus, Reading reading) {
+  require_positive("pressure", pressure);
+  require_positive("effective_modulus", effective_modulus);
+  require_positive("rms_height", a.rms_height);
+  require_positive("q0", a.q0);
+  if (!a.peaks.empty() && a.peaks.size() < 3)
+    throw InvalidInput("peaks has " + std::to_string(a.peaks.size()) + " entries: must be 3 or more");
+  for (const double z : a.peaks) require_finite("peaks", z);
+  // (4/3) sqrt(R) n_a = 2 q0 / (3 pi^2 sqrt(3 sqrt2 h_rms))
+  const double load = std::log(pressure) - std::log(effective_modulus);
+  const double stiffness = 2 * a.q0 / (3 * pi * pi * std::sqrt(3 * sqrt2 * a.rms_height));
+  const double d = greenwood_williamson(a, load - std::log(stiffness));
+  const double interaction = pressure / effective_modulus * 2 * pi / a.q0;  // sigma0 sqrt(A_a) / E* (Eq. 19)
+  return reading == Reading::implicit ? Separation{d, d - interaction} : Separation{d + interaction, d};
+}
+
+ContactState contact_state(double effective_separation, double z_max, double z_min) {
+  require_finite("z_max", z_max);
+  require_finite("z_min", z_min);
+  if (!(z_max > z_min)) refuse("z_max", z_max, "above z_min = " + show(z_min));
+  if (effective_separation >= z_max) return ContactState::no_contact;
+  return effective_separation <= z_min ? ContactState::full : ContactState::partial;
+}
+
+}  // namespace asperity

@@ -1,0 +1,60 @@
+// Checks of arguments at the door: each failure names the argument, the value and what is allowed.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "asperity/errors.hpp"
+
+namespace asperity {
+
+/// A number as a person would write it, with all the digits that matter.
+inline std::string show(double value, int digits = 12) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+[[noreturn]] inline void refuse(std::string_view name, double value, std::string_view allowed) {
+  throw InvalidInput(std::string(name) + " = " + show(value) + ": must be " + std::string(allowed));
+}
+
+// Written so that NaN fails every one of them.
+inline void require_positive(std::string_view name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) refuse(name, value, "positive and finite");
+}
+inline void require_finite(std::string_view name, double value) {
+  if (!std::isfinite(value)) refuse(name, value, "finite");
+}
+inline void require_not_negative(std::string_view name, double value) {
+  if (!(value >= 0) || !std::isfinite(value)) refuse(name, value, "finite and not negative");
+}
+inline void require_poisson(std::string_view name, double value) {
+  if (!(value >= 0 && value <= 0.5)) refuse(name, value, "in [0, 0.5]");
+}
+inline void require_each_positive(std::string_view name, std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0) || !std::isfinite(values[i]))
+      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "positive and finite");
+}
+inline void require_rising(std::string_view name, std::span<const double> values) {
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(values[i] > values[i - 1]))
+      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
+             "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+}
+inline void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
+  if (size != other_size)
+    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " entries, " + std::string(other) + " has " +
+                       std::to_string(other_size) + ": must be as many");
+}
+inline void require_rtol(double rtol) {
+  if (!(rtol >= 1e-12 && rtol <= 0.1)) refuse("rtol", rtol, "in [1e-12, 0.1]");
+}
+
+}  // namespace asperity

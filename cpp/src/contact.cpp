@@ -1,0 +1,125 @@
+#include "asperity/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "checks.hpp"
+#include "contact_checks.hpp"
+#include "persson.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// The G that the contact area is to be taken at, for the S factor on the area or not.
+double area_g(double g, const ContactModel& model) {
+  const auto* s = std::get_if<SFactor>(&model.correction);
+  if (!s || s->applies_to == SFactor::AppliesTo::friction) return g;
+  return g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
+}
+
+std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  const auto [q0, q1] = band(spectrum);
+  if (wavenumber.empty()) return {q1};
+  for (const double q : wavenumber) {
+    require_positive("wavenumber", q);
+    if (q < q0 || q > q1)
+      throw OutOfRange("wavenumber = " + show(q) + ": the spectrum's band is [" + show(q0) + ", " + show(q1) +
+                       "] 1/m");
+  }
+  return {wavenumber.begin(), wavenumber.end()};
+}
+
+/// Calls visit(index of point, index of wavenumber, uncorrected-by-S G, shift) for every combination; G is
+/// negative where there is no contact at all.
+template <class Visit>
+void visit_g(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+             std::span<const double> pressure, std::span<const double> velocity,
+             std::span<const double> wavenumber, Visit visit) {
+  check_contact(model, pressure, velocity);
+  const std::vector<Segment> surface = segments(spectrum);
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    check_frequencies(spectrum, rubber, velocity[i]);
+    const Shift shift =
+        affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    if (shift.state == ContactState::no_contact) {
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
+      continue;
+    }
+    const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, wavenumber, false,
+                    model.rtol);
+    for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, path.g(wavenumber[j]), shift);
+  }
+}
+
+}  // namespace
+
+std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                 std::span<const double> pressure, std::span<const double> velocity,
+                                 std::span<const double> wavenumber) {
+  const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  std::vector<double> result(pressure.size() * q.size());
+  visit_g(spectrum, rubber, model, pressure, velocity, q, [&](std::size_t i, std::size_t j, double g, const Shift&) {
+    result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g(g, model), model.form);
+  });
+  return result;
+}
+
+std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                  std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> wavenumber) {
+  std::vector<double> result = contact_area(spectrum, rubber, model, pressure, velocity, wavenumber);
+  const std::size_t columns = pressure.empty() ? 0 : result.size() / pressure.size();
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = result[i] > 0 ? pressure[i / columns] / result[i] : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                      std::span<const double> pressure, std::span<const double> velocity,
+                                      std::span<const double> wavenumber) {
+  const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  std::vector<double> result(pressure.size() * q.size());
+  const auto* s = std::get_if<SFactor>(&model.correction);
+  visit_g(spectrum, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
+            double& factor = result[i * q.size() + j];
+            if (g < 0) {
+              factor = 0;
+            } else if (s && s->applies_to != SFactor::AppliesTo::area) {
+              const double share = contact_share(g, model.form);
+              factor = (s->gamma + (1 - s->gamma) * share * share) * share;
+            } else {
+              factor = contact_share(area_g(g, model), model.form) / (shift.p * shift.p);
+            }
+          });
+  return result;
+}
+
+std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                          std::span<const double> stress, std::span<const double> pressure,
+                                          std::span<const double> velocity, double wavenumber) {
+  require_same_size("stress", stress.size(), "pressure", pressure.size());
+  if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
+  for (const double sigma : stress) require_not_negative("stress", sigma);
+  const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
+  std::vector<double> result(pressure.size());
+  visit_g(spectrum, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
+            if (uncorrected < 0) return;
+            const double g = area_g(uncorrected, model), x = stress[i] / pressure[i];
+            if (g == 0)
+              throw InvalidInput("wavenumber = " + show(wavenumber) +
+                                 ": must be above q0, where the pressure is a delta at its nominal value");
+            // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
+            const double bell = std::exp(-(x - 1) * (x - 1) / (4 * g)) / std::sqrt(4 * pi * g);
+            result[i] = -bell * std::expm1(-x / g) / pressure[i];
+          });
+  return result;
+}
+
+}  // namespace asperity

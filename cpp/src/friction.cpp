@@ -1,0 +1,137 @@
+#include "asperity/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+#include "contact_checks.hpp"
+#include "notes.hpp"
+#include "persson.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// mu_A per contact share (Eq. 23).
+double adhesion_per_share(const Adhesion& a, double pressure, double velocity) {
+  const double decades = std::log10(velocity / a.reference_velocity);
+  return a.shear_stress / pressure * std::exp(-a.width * decades * decades);
+}
+
+/// Powers of ten that enclose every v q [rad/s].
+std::vector<double> decades(double lowest, double highest) {
+  std::vector<double> edges;
+  for (int k = static_cast<int>(std::floor(std::log10(lowest) + 1e-9));; ++k) {
+    edges.push_back(std::pow(10.0, k));
+    if (edges.back() >= highest * (1 - 1e-9)) return edges;
+  }
+}
+
+/// 32 wavenumbers a decade, both ends included.
+std::vector<double> contribution_wavenumbers(double q0, double q1) {
+  const double length = std::log(q1 / q0);
+  const auto steps = static_cast<std::size_t>(std::ceil(32 * length / std::log(10.0)));
+  std::vector<double> q(steps + 1);
+  for (std::size_t i = 0; i <= steps; ++i)
+    q[i] = q0 * std::exp(length * static_cast<double>(i) / static_cast<double>(steps));
+  q.back() = q1;
+  return q;
+}
+
+/// How an error of G passes on to P S: |d ln(P S) / d ln G| is 1/2 at most for P alone and 3/2 with S.
+double sensitivity(bool with_s) { return with_s ? 1.5 : 0.5; }
+
+}  // namespace
+
+void validate(const Adhesion& adhesion) {
+  require_not_negative("shear_stress", adhesion.shear_stress);
+  require_positive("reference_velocity", adhesion.reference_velocity);
+  require_not_negative("width", adhesion.width);
+}
+
+Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
+                  std::span<const double> velocity) {
+  const std::vector<double> pressure(velocity.size(), conditions.pressure);
+  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form, conditions.rtol};
+  return friction(spectrum, rubber, model, conditions.adhesion, pressure, velocity, conditions.contributions);
+}
+
+Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                  const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                  std::span<const double> velocity, bool contributions) {
+  check_contact(model, pressure, velocity);
+  if (adhesion) validate(*adhesion);
+  const std::vector<Segment> surface = segments(spectrum);
+  const auto [q0, q1] = band(spectrum);
+  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+
+  const auto* s = std::get_if<SFactor>(&model.correction);
+  const bool s_in_area = s && s->applies_to != SFactor::AppliesTo::friction;
+  const bool s_in_integrand = s && s->applies_to != SFactor::AppliesTo::area;
+  const std::optional<double> gamma = s_in_integrand ? std::optional(s->gamma) : std::nullopt;
+
+  const std::size_t n = velocity.size();
+  Friction f;
+  f.pressure.assign(pressure.begin(), pressure.end());
+  f.velocity.assign(velocity.begin(), velocity.end());
+  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
+                       &f.extrapolated_share})
+    column->assign(n, 0.0);
+  if (contributions && n > 0) {
+    const auto [slowest, fastest] = std::ranges::minmax(velocity);
+    f.contributions = Contributions{contribution_wavenumbers(q0, q1), {}, decades(slowest * q0, fastest * q1), {}};
+    f.contributions->dmu_dlnq.assign(n * f.contributions->wavenumber.size(), 0.0);
+    f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
+  }
+
+  Notes notes(rms_slope(spectrum), n);
+  std::vector<double> stops;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Shift shift =
+        affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    f.shift_factor[i] = shift.p;
+    notes.add(shift, velocity[i]);
+    if (shift.state == ContactState::no_contact) continue;
+
+    stops.clear();
+    if (f.contributions)
+      for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
+    const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, stops, true, model.rtol);
+    const Path::Hysteresis hysteresis = path.hysteresis(model.form, gamma);
+    f.hysteresis[i] = hysteresis.value;
+    if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
+
+    double g = path.g(q1);
+    if (s_in_area) g = g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
+    f.contact_area[i] = contact_share(g, model.form);
+    if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
+    f.mu[i] = f.hysteresis[i] + f.adhesion[i];
+
+    const double g_error = path.relative_error() + 2 * shift.relative_error;
+    const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
+    f.error_estimate[i] = hysteresis.error +
+                          f.hysteresis[i] * (sensitivity(s_in_integrand) * g_error + 2 * shift.relative_error) +
+                          f.adhesion[i] * area_error;
+    if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
+      throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) + " at pressure = " +
+                         show(pressure[i]) + ", velocity = " + show(velocity[i]) + ", where rtol = " +
+                         show(model.rtol) + " was asked for");
+
+    if (!f.contributions) continue;
+    Contributions& c = *f.contributions;
+    for (std::size_t j = 0; j < c.wavenumber.size(); ++j)
+      c.dmu_dlnq[i * c.wavenumber.size() + j] = path.hysteresis_density(c.wavenumber[j], model.form, gamma);
+    const auto panels = path.panels();
+    for (std::size_t j = 0; j < panels.size() && hysteresis.value > 0; ++j) {
+      const double w = velocity[i] * std::sqrt(panels[j][0] * panels[j][1]);
+      const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
+      const auto m = c.decade_edges.size() - 1;
+      const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
+      c.decade_share[i * m + decade] += hysteresis.by_panel[j] / hysteresis.value;
+    }
+  }
+  f.notes = notes.texts();
+  return f;
+}
+
+}  // namespace asperity

@@ -1,0 +1,72 @@
+// Adaptive integration: the one place that knows GSL's quadrature.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+
+namespace asperity {
+
+struct Integral {
+  double value;
+  double error;      // absolute, GSL's estimate
+  double magnitude;  // integral of |f|; only the fixed rule gives it, 0 otherwise
+};
+
+namespace detail {
+
+/// A callable that C can call: exceptions wait in `failure` until GSL has returned.
+struct Callback {
+  double (*call)(double x, void* self) noexcept;
+  void* self;
+};
+/// One 21-point Gauss-Kronrod rule.
+Integral kronrod(const Callback& f, double lower, double upper);
+/// GSL's QAG with the 21-point rule. Throws NotConverged where neither tolerance is reached.
+Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol);
+
+template <class F>
+struct Guarded {
+  F& f;
+  std::exception_ptr failure = nullptr;
+  static double call(double x, void* self) noexcept {
+    auto& guarded = *static_cast<Guarded*>(self);
+    if (guarded.failure) return 0;
+    try {
+      return guarded.f(x);
+    } catch (...) {
+      guarded.failure = std::current_exception();
+      return 0;
+    }
+  }
+};
+
+template <class F, class Rule>
+Integral run(F& f, Rule rule) {
+  Guarded<F> guarded{f};
+  const Integral result = rule(Callback{&Guarded<F>::call, &guarded});
+  if (guarded.failure) std::rethrow_exception(guarded.failure);
+  return result;
+}
+
+}  // namespace detail
+
+/// Gauss-Legendre nodes and weights on [-1, 1], good to rounding where a piece is analytic far around.
+struct GaussRule {
+  static constexpr std::size_t size = 12;
+  double node[size], weight[size];
+};
+const GaussRule& gauss_rule();
+
+/// int_lower^upper f(x) dx by one rule, for pieces known to be smooth.
+template <class F>
+Integral integrate_smooth(F&& f, double lower, double upper) {
+  return detail::run(f, [&](const detail::Callback& c) { return detail::kronrod(c, lower, upper); });
+}
+
+/// int_lower^upper f(x) dx to the looser of an absolute and a relative tolerance, by bisection.
+template <class F>
+Integral integrate(F&& f, double lower, double upper, double rtol, double atol = 0) {
+  return detail::run(f, [&](const detail::Callback& c) { return detail::adaptive(c, lower, upper, atol, rtol); });
+}
+
+}  // namespace asperity

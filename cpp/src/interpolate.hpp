@@ -1,0 +1,62 @@
+// Steffen's monotone cubic interpolation.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace asperity {
+
+/// A piecewise cubic that has its extrema at the data and nowhere else; M. Steffen, Astron. Astrophys. 239, 443
+/// (1990): the slope at a row is the parabola's through it and its neighbours, limited to twice the smaller of
+/// the two secants, and zero where they differ in sign.
+class Steffen {
+ public:
+  Steffen(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()) {
+    const std::size_t n = x_.size();
+    const auto step = [&](std::size_t i) { return x_[i + 1] - x_[i]; };
+    const auto secant = [&](std::size_t i) { return (y_[i + 1] - y_[i]) / step(i); };
+    if (n == 2) {
+      slope_[0] = slope_[1] = secant(0);
+      return;
+    }
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double before = secant(i - 1), after = secant(i);
+      const double parabola = (before * step(i) + after * step(i - 1)) / (step(i - 1) + step(i));
+      const double limit = 2 * std::fmin(std::fabs(before), std::fabs(after));
+      slope_[i] = before * after <= 0 ? 0 : std::copysign(std::fmin(limit, std::fabs(parabola)), before);
+    }
+    slope_[0] = end_slope(secant(0), secant(1), step(0), step(1));
+    slope_[n - 1] = end_slope(secant(n - 2), secant(n - 3), step(n - 2), step(n - 3));
+  }
+
+  [[nodiscard]] std::span<const double> x() const { return x_; }
+
+  /// Interval that holds `at`: i with x_i <= at < x_(i + 1), the last one at the upper end.
+  [[nodiscard]] std::size_t interval(double at) const {
+    const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, at);
+    return static_cast<std::size_t>(above - x_.begin()) - 1;
+  }
+  [[nodiscard]] double in_interval(std::size_t i, double at) const {
+    const double h = x_[i + 1] - x_[i], t = at - x_[i], secant = (y_[i + 1] - y_[i]) / h;
+    const double cubic = (slope_[i] + slope_[i + 1] - 2 * secant) / (h * h);
+    const double square = (3 * secant - 2 * slope_[i] - slope_[i + 1]) / h;
+    return y_[i] + t * (slope_[i] + t * (square + t * cubic));
+  }
+  double operator()(double at) const { return in_interval(interval(at), at); }
+  /// Slope at the end of the table that `at` is.
+  [[nodiscard]] double end_slope_at(double at) const { return at <= x_.front() ? slope_.front() : slope_.back(); }
+
+ private:
+  static double end_slope(double secant, double next_secant, double step, double next_step) {
+    const double parabola = secant * (1 + step / (step + next_step)) - next_secant * step / (step + next_step);
+    if (parabola * secant <= 0) return 0;
+    return std::fabs(parabola) > 2 * std::fabs(secant) ? 2 * secant : parabola;
+  }
+
+  std::vector<double> x_, y_, slope_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,69 @@
+// Persson's G along the magnification, and what follows from it: area, S factor, hysteresis.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "segments.hpp"
+
+namespace asperity {
+
+/// P(G), the share of the nominal area in contact.
+double contact_share(double g, Form form);
+
+/// G with S = gamma + (1 - gamma) P^2 inside it: int_0^G dg / S(P(g)) = `uncorrected`.
+double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol);
+
+/// One velocity and one pressure on one surface, with s = ln(q / q0):
+///   dG/ds   = q^4 C I2(v q) / (8 ((1 - nu^2) sigma0 p_T)^2)                     (Eq. 7)
+///   dmu_H/ds = q^4 C I1(v q) / (2 (1 - nu^2) sigma0 p_T^2) P(G) [S(P(G))]       (Eq. 22)
+/// Panels end wherever the spectrum or the rubber changes its formula, are no longer than 1, and grow by
+/// factors of 4 from the front, of width 1 / G'(0), in which the contact breaks up.
+class Path {
+ public:
+  struct Point {
+    double poisson_ratio, pressure, velocity, shift;
+  };
+  /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
+  Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
+       bool resolve_front, double rtol);
+
+  /// G at a wavenumber, q0 to q1.
+  [[nodiscard]] double g(double wavenumber) const;
+  /// Of every G above.
+  [[nodiscard]] double relative_error() const { return relative_error_; }
+
+  struct Hysteresis {
+    double value = 0, error = 0;   // error of the outer integral alone
+    double outside = 0;            // part of value from frequencies outside of the measured range
+    std::vector<double> by_panel;  // sums to value
+  };
+  /// mu_H; `gamma` puts the factor S of the uncorrected P into the integrand.
+  [[nodiscard]] Hysteresis hysteresis(Form form, std::optional<double> gamma) const;
+  /// dmu_H / dln q.
+  [[nodiscard]] double hysteresis_density(double wavenumber, Form form, std::optional<double> gamma) const;
+  /// Lower and upper wavenumber of each panel.
+  [[nodiscard]] std::vector<std::array<double, 2>> panels() const;
+
+ private:
+  struct Panel {
+    double lower, upper;  // in s
+    const Segment* segment;
+    double g_lower;
+  };
+  [[nodiscard]] double g_rate(const Panel& panel, double s) const;
+  [[nodiscard]] double g_inside(const Panel& panel, double s) const;
+  [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
+                                       double* outside) const;
+  [[nodiscard]] const Panel& panel_at(double s) const;
+
+  const Rubber& rubber_;
+  Point point_;
+  double q0_, rtol_, relative_error_ = 0;
+  double g_factor_, mu_factor_;
+  std::vector<Panel> panels_;
+  double g_end_ = 0;
+};
+
+}  // namespace asperity

@@ -1,0 +1,24 @@
+// A spectrum as the pieces on which it is one power law or one straight line.
+#pragma once
+
+#include <vector>
+
+#include "asperity/spectrum.hpp"
+
+namespace asperity {
+
+struct Segment {
+  double a, b;    // [1/m]
+  double at_a;    // C(a) [m^4]
+  double at_b;    // C(b) [m^4]
+  double slope;   // of ln C in ln q, where it is a power law
+  bool straight;  // linear in q: a zero at either end has no logarithm
+
+  [[nodiscard]] double density(double q) const;
+  /// int_a^q k^n C(k) dk for n = 1 and 3, without cancellation on narrow segments.
+  [[nodiscard]] double moment(int n, double q) const;
+};
+
+std::vector<Segment> segments(const Spectrum& spectrum);
+
+}  // namespace asperity

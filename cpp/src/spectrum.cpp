@@ -1,0 +1,275 @@
+#include "asperity/spectrum.hpp"
+
+#include <math.h>  // j0
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "checks.hpp"
+#include "integrate.hpp"
+#include "roots.hpp"
+#include "segments.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// int_0^L exp(e x) dx, for any e including 0.
+double exponential_integral(double e, double length) { return e == 0 ? length : std::expm1(e * length) / e; }
+
+/// The slope of ln C in ln q above the roll-off.
+double fall(const SelfAffineSpectrum& s) { return -2 * (s.hurst + 1); }
+
+/// h_rms^2 / (2 pi C_r), C_r the density at the roll-off.
+double height_per_density(const SelfAffineSpectrum& s) {
+  const double q_r = s.rolloff.value_or(s.q0);
+  const double flat = s.q0 * s.q0 * exponential_integral(2, std::log(q_r / s.q0));
+  return flat + q_r * q_r * exponential_integral(-2 * s.hurst, std::log(s.q1 / q_r));
+}
+
+double density_at_rolloff(const SelfAffineSpectrum& s) {
+  return s.rms_height * s.rms_height / (2 * pi) / height_per_density(s);
+}
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+/// 2 pi int q^n C dq
+double total_moment(const Spectrum& spectrum, int n) {
+  double sum = 0;
+  for (const Segment& s : segments(spectrum)) sum += s.moment(n, s.b);
+  return 2 * pi * sum;
+}
+
+}  // namespace
+
+double Segment::density(double q) const {
+  if (straight) return at_a + (at_b - at_a) * ((q - a) / (b - a));
+  return at_a * std::exp(slope * std::log(q / a));
+}
+
+double Segment::moment(int n, double q) const {
+  if (!straight) return at_a * std::pow(a, n + 1) * exponential_integral(n + 1 + slope, std::log(q / a));
+  // a polynomial of degree 4 at most: the Gauss rule of three points is exact
+  const double node = std::sqrt(0.6), middle = a + (q - a) / 2, half = (q - a) / 2;
+  const auto f = [&](double at) { return std::pow(at, n) * density(at); };
+  return half * (5 * f(middle - node * half) + 8 * f(middle) + 5 * f(middle + node * half)) / 9;
+}
+
+std::vector<Segment> segments(const Spectrum& spectrum) {
+  validate(spectrum);
+  std::vector<Segment> result;
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
+    const double top = density_at_rolloff(*s), q_r = s->rolloff.value_or(s->q0);
+    if (q_r > s->q0) result.push_back({s->q0, q_r, top, top, 0, false});
+    result.push_back({q_r, s->q1, top, top * std::pow(s->q1 / q_r, fall(*s)), fall(*s), false});
+    return result;
+  }
+  const auto& table = std::get<TabulatedSpectrum>(spectrum);
+  const auto& q = table.wavenumber();
+  const auto& c = table.density();
+  for (std::size_t i = 0; i + 1 < q.size(); ++i) {
+    const bool straight = c[i] == 0 || c[i + 1] == 0;
+    const double slope = straight ? 0 : std::log(c[i + 1] / c[i]) / std::log(q[i + 1] / q[i]);
+    result.push_back({q[i], q[i + 1], c[i], c[i + 1], slope, straight});
+  }
+  return result;
+}
+
+SelfAffineSpectrum SelfAffineSpectrum::from_article(double h0, double hurst, double q0, double q1) {
+  require_positive("h0", h0);
+  SelfAffineSpectrum s{.rms_height = h0, .hurst = hurst, .q0 = q0, .q1 = q1};
+  validate(s);
+  s.rms_height = h0 * std::sqrt(-std::expm1(-2 * hurst * std::log(q1 / q0)) / 2);
+  return s;
+}
+
+TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density,
+                                     std::vector<double> count)
+    : wavenumber_(std::move(wavenumber)), density_(std::move(density)), count_(std::move(count)) {
+  require_same_size("density", density_.size(), "wavenumber", wavenumber_.size());
+  if (wavenumber_.size() < 2)
+    throw InvalidInput("wavenumber has " + std::to_string(wavenumber_.size()) + " entries: must be 2 or more");
+  require_each_positive("wavenumber", wavenumber_);
+  require_rising("wavenumber", wavenumber_);
+  const auto not_negative = [](std::string_view name, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      require_not_negative(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
+  };
+  not_negative("density", density_);
+  if (!count_.empty()) {
+    require_same_size("count", count_.size(), "wavenumber", wavenumber_.size());
+    not_negative("count", count_);
+  }
+}
+
+void validate(const Spectrum& spectrum) {
+  // a table was checked when it was made, and cannot change
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) validate(*s);
+}
+
+void validate(const SelfAffineSpectrum& s) {
+  require_positive("rms_height", s.rms_height);
+  if (!(s.hurst > 0 && s.hurst <= 1)) refuse("hurst", s.hurst, "in (0, 1]");
+  require_positive("q0", s.q0);
+  require_finite("q1", s.q1);
+  if (!(s.q1 > s.q0)) refuse("q1", s.q1, "above q0 = " + show(s.q0));
+  if (s.rolloff && !(*s.rolloff > s.q0 && *s.rolloff < s.q1))
+    refuse("rolloff", *s.rolloff, "between q0 = " + show(s.q0) + " and q1 = " + show(s.q1));
+}
+
+double density(const Spectrum& spectrum, double wavenumber) {
+  return density(spectrum, std::span(&wavenumber, 1)).front();
+}
+
+std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  const std::vector<Segment> pieces = segments(spectrum);
+  const auto [q0, q1] = band(spectrum);
+  const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
+  std::vector<double> result;
+  result.reserve(wavenumber.size());
+  for (const double q : wavenumber) {
+    require_positive("wavenumber", q);
+    if (q < q0 || q > q1) {
+      if (measured)
+        throw OutOfRange("wavenumber = " + show(q) + ": the spectrum is known in [" + show(q0) + ", " + show(q1) +
+                         "] 1/m");
+      result.push_back(0);
+      continue;
+    }
+    const auto piece = std::ranges::lower_bound(pieces, q, {}, &Segment::b);
+    result.push_back(piece->density(q));
+  }
+  return result;
+}
+
+std::array<double, 2> band(const Spectrum& spectrum) {
+  return std::visit(Overloaded{
+                        [](const SelfAffineSpectrum& s) { return std::array{s.q0, s.q1}; },
+                        [](const TabulatedSpectrum& s) {
+                          return std::array{s.wavenumber().front(), s.wavenumber().back()};
+                        },
+                    },
+                    spectrum);
+}
+
+double rms_height(const Spectrum& spectrum) {
+  validate(spectrum);
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) return s->rms_height;
+  return std::sqrt(total_moment(spectrum, 1));
+}
+
+double rms_slope(const Spectrum& spectrum) { return std::sqrt(total_moment(spectrum, 3)); }
+
+double cutoff_for_slope(const Spectrum& spectrum, double slope) {
+  require_positive("slope", slope);
+  double left = slope * slope / (2 * pi);  // of int q^3 C dq
+  for (const Segment& s : segments(spectrum)) {
+    const double here = s.moment(3, s.b);
+    if (here < left) {
+      left -= here;
+      continue;
+    }
+    if (s.straight) return bracketed_root([&](double q) { return s.moment(3, q) - left; }, s.a, s.b);
+    // at_a a^4 (exp(e L) - 1) / e = left, solved for L = ln(q / a)
+    const double e = 4 + s.slope, share = left / (s.at_a * std::pow(s.a, 4));
+    return std::min(s.b, s.a * std::exp(e == 0 ? share : std::log1p(e * share) / e));
+  }
+  return band(spectrum)[1];
+}
+
+double cutoff_for_contamination(const Spectrum& spectrum, double size) {
+  require_positive("size", size);
+  const auto [q0, q1] = band(spectrum);
+  const double q = 2 * pi / size;
+  if (!(q > q0))
+    refuse("size", size, "below the longest wavelength of the spectrum, " + show(2 * pi / q0) + " m");
+  return std::min(q, q1);
+}
+
+Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::optional<double> new_q1) {
+  validate(spectrum);
+  const auto [old_q0, old_q1] = band(spectrum);
+  const double q0 = new_q0.value_or(old_q0), q1 = new_q1.value_or(old_q1);
+  const std::string inside = "in [" + show(old_q0) + ", " + show(old_q1) + "], the spectrum's band [1/m]";
+  if (!(q0 >= old_q0 && q0 < old_q1)) refuse("q0", q0, inside);
+  if (!(q1 > old_q0 && q1 <= old_q1)) refuse("q1", q1, inside);
+  if (!(q1 > q0)) refuse("q1", q1, "above q0 = " + show(q0));
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
+    const double q_r = s->rolloff.value_or(s->q0);
+    if (q1 <= q_r)
+      refuse("q1", q1, "above the roll-off, " + show(q_r) + ": what is left would be flat, not self-affine");
+    SelfAffineSpectrum cut = *s;
+    cut.q0 = q0;
+    cut.q1 = q1;
+    if (!(q_r > q0)) cut.rolloff.reset();
+    // the density at the new roll-off (or q0) stays what it was
+    const double top = density_at_rolloff(*s) * std::pow(std::max(q_r, q0) / q_r, fall(*s));
+    cut.rms_height = std::sqrt(2 * pi * top * height_per_density(cut));
+    return cut;
+  }
+  const auto& table = std::get<TabulatedSpectrum>(spectrum);
+  const bool counted = !table.count().empty();
+  std::vector<double> q, c, n;
+  const auto add = [&](double wavenumber, double value, double count) {
+    q.push_back(wavenumber);
+    c.push_back(value);
+    if (counted) n.push_back(count);
+  };
+  // A row put in at a cut is no measurement of its own: its count is 0.
+  if (!std::ranges::binary_search(table.wavenumber(), q0)) add(q0, density(spectrum, q0), 0);
+  for (std::size_t i = 0; i < table.wavenumber().size(); ++i)
+    if (table.wavenumber()[i] >= q0 && table.wavenumber()[i] <= q1)
+      add(table.wavenumber()[i], table.density()[i], counted ? table.count()[i] : 0);
+  if (!std::ranges::binary_search(table.wavenumber(), q1)) add(q1, density(spectrum, q1), 0);
+  return TabulatedSpectrum(std::move(q), std::move(c), std::move(n));
+}
+
+Spectrum scaled(const Spectrum& spectrum, double factor) {
+  validate(spectrum);
+  require_positive("factor", factor);
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
+    SelfAffineSpectrum result = *s;
+    result.rms_height *= std::sqrt(factor);
+    return result;
+  }
+  const auto& table = std::get<TabulatedSpectrum>(spectrum);
+  std::vector<double> values = table.density();
+  for (double& value : values) value *= factor;
+  return TabulatedSpectrum(table.wavenumber(), std::move(values), table.count());
+}
+
+// A rule a piece: no piece is longer than a period of J0 or than a factor e in q. A falling power law is left
+// as soon as what remains cannot matter: by parts |int_Q q C J0| <= 2 C(Q) sqrt(2 Q / (pi r^3)).
+std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const double> distance) {
+  const std::vector<Segment> pieces = segments(spectrum);
+  const double at_zero = total_moment(spectrum, 1);
+  constexpr double negligible = 1e-10;
+  std::vector<double> result;
+  for (const double r : distance) {
+    require_not_negative("distance", r);
+    double sum = 0;
+    for (const Segment& s : pieces) {
+      for (double q = s.a; q < s.b;) {
+        const bool falling = !s.straight && s.slope < 0 && &s == &pieces.back();
+        if (r > 0 && falling && 4 * pi * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero)
+          break;
+        double next = q * std::numbers::e;
+        if (r > 0) next = std::min(next, q + 2 * pi / r);
+        next = std::min(next, s.b);
+        sum += integrate_smooth([&](double k) { return k * s.density(k) * ::j0(k * r); }, q, next).value;
+        q = next;
+      }
+    }
+    result.push_back(2 * pi * sum);
+  }
+  return result;
+}
+
+}  // namespace asperity

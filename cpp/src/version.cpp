@@ -1,0 +1,5 @@
+#include "asperity/version.hpp"
+
+namespace asperity {
+const char* version() { return ASPERITY_VERSION; }
+}  // namespace asperity

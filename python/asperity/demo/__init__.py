@@ -1,0 +1,51 @@
+"""The scene that ships with the package: rubber on a synthetic asphalt scan."""
+
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput, SelfAffineSpectrum, synthesize
+
+PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
+SHAPE = (480, 640)
+
+
+def scan() -> NDArray[np.float32]:
+    """Heights [m] of a synthetic asphalt as a profilometer would give them.
+
+    Table 1's asphalt (H 0.87, rms height 265.7 um, q0 2000 1/m), 17 longest waves long and wide,
+    tilted, curved, and with 2 % of the points dropped out (NaN). Seeded: always the same.
+    """
+    asphalt = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000.0, q1=1e6)
+    heights = synthesize(asphalt, shape=SHAPE, pixel_size=PIXEL_SIZE, seed=2024).heights
+    y, x = (np.arange(n) * d for n, d in zip(SHAPE, PIXEL_SIZE, strict=True))
+    trend = 0.01 * x + 0.03 * y[:, None] + (x - x.mean()) ** 2 / 2.0  # radius 1 m
+    dropouts = np.random.default_rng(2024).random(SHAPE) < 0.02
+    return np.where(dropouts, np.nan, heights + trend).astype(np.float32)
+
+
+def scene_text() -> str:
+    """The scene file, as it ships."""
+    return files(__package__).joinpath("scene.toml").read_text(encoding="utf-8")
+
+
+def write_inputs(directory: Path) -> Path:
+    """Write scan and scene into `directory` and return the path of the scene.
+
+    Raises
+    ------
+    InvalidInput
+        If the directory cannot be written, or holds another scene (an edited one, say).
+    """
+    scene = directory / "scene.toml"
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        if scene.exists() and scene.read_text(encoding="utf-8") != scene_text():
+            raise InvalidInput(f"{scene}: is not the demo's own: choose another --output")
+        scene.write_text(scene_text(), encoding="utf-8")
+        np.save(directory / "scan.npy", scan())
+    except (OSError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{directory}: cannot be written: {error}") from error
+    return scene

@@ -1,0 +1,280 @@
+"""Surface, rubber, correction and adhesion of a scene, each built from its table."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from asperity._core import (
+    Adhesion,
+    AffineShift,
+    GreenwoodWilliamson,
+    HeightMap,
+    LocalPeaks,
+    MasterCurve,
+    PeaksThenGreenwoodWilliamson,
+    PronySeries,
+    SelfAffineSpectrum,
+    SFactor,
+    TabulatedSpectrum,
+    power_spectrum,
+)
+from asperity.fields import (
+    Field,
+    anything,
+    arguments,
+    count,
+    named,
+    names_of,
+    nearest,
+    number,
+    numbers,
+    pixel_size,
+    read_table,
+    refuse,
+    require,
+    text,
+)
+from asperity.read import read_filled, read_master_curve
+
+Values = dict[str, Any]
+Spectrum = SelfAffineSpectrum | TabulatedSpectrum
+Rubber = PronySeries | MasterCurve
+Correction = SFactor | AffineShift | LocalPeaks | GreenwoodWilliamson | PeaksThenGreenwoodWilliamson
+
+_SELF_AFFINE = {
+    "rms_height_m": Field(number, "rms_height"),
+    "hurst": Field(number, "hurst"),
+    "rolloff_per_m": Field(number, "rolloff"),
+}
+_BAND = {"q0_per_m": Field(number, "q0"), "q1_per_m": Field(number, "q1")}
+_CUTOFFS = {
+    "contamination_size_m": Field(number, "size"),
+    "slope_cutoff": Field(number, "slope"),
+}
+_READ = {
+    "channel": Field(count, "channel"),
+    "pixel_size_m": Field(pixel_size, "pixel_size"),
+    "unit": Field(text, "unit"),
+}
+_TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
+_SURFACE = {"file": Field(text), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
+
+_PRONY = {
+    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
+    "moduli_pa": Field(numbers, "moduli"),
+    "relaxation_times_s": Field(numbers, "relaxation_times"),
+}
+_NOT_YET = dict.fromkeys(("isotherms", "temperature_k", "shift"), Field(anything))
+_RUBBER = {
+    **_PRONY,
+    "master_curve": Field(text),
+    "extrapolation": Field(text, "extrapolation"),
+    **_NOT_YET,
+}
+
+_KIND = {"kind": Field(text)}
+_PEAKS = {
+    **_KIND,
+    "heights_m": Field(numbers, "heights_or_map"),
+    "min_distance_m": Field(number, "min_distance"),
+    "z_max_m": Field(number, "z_max"),
+}
+_ASPERITIES = {
+    **_PEAKS,
+    "z_min_m": Field(number, "z_min"),
+    "reading": Field(text, "reading"),
+    "rms_height_m": Field(number, "rms_height"),
+    "q0_per_m": Field(number, "q0"),
+}
+_CORRECTIONS = {
+    "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
+    "affine-shift": {**_KIND, "p": Field(number, "p")},
+    "local-peaks": _PEAKS,
+    "greenwood-williamson": _ASPERITIES,
+    "peaks-then-greenwood-williamson": _ASPERITIES,
+}
+_ADHESION = {
+    "shear_stress_pa": Field(number, "shear_stress"),
+    "reference_velocity_m_s": Field(number, "reference_velocity"),
+    "width": Field(number, "width"),
+}
+
+
+def build_surface(path: Path, table: object) -> tuple[Spectrum, HeightMap | None, Values, Values]:
+    """Spectrum, the map it was measured on, the table with its defaults, and what came out."""
+    values = read_table(path, "surface", table, _SURFACE)
+    derived: Values = {}
+    if "file" in values:
+        for key in _SELF_AFFINE:
+            if key in values:
+                refuse(path, f"[surface] {key}", "must be left out where file is given")
+        values = {"window": "split-cosine-bell", "detrend": "plane", **values}
+        surface = _read_map(path, values, derived)
+        spectrum: Spectrum = _measure(path, surface, values)
+    else:
+        for key in (*_READ, *_TRANSFORM):
+            if key in values:
+                refuse(path, f"[surface] {key}", "must be left out where no file is given")
+        needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
+        require(path, "surface", values, needed, "give file, or " + ", ".join(needed))
+        surface = None
+        fields = {**_SELF_AFFINE, **_BAND}
+        with named(path, names_of("surface", fields)):
+            spectrum = SelfAffineSpectrum(**arguments(values, fields))
+    spectrum = _cut(path, spectrum, values)
+    derived |= {
+        "q0_per_m": spectrum.q0,
+        "q1_per_m": spectrum.q1,
+        "rms_height_m": spectrum.rms_height,
+        "rms_slope": spectrum.rms_slope,
+    }
+    return spectrum, surface, values, derived
+
+
+def _read_map(path: Path, values: Values, derived: Values) -> HeightMap:
+    """The map without drop-outs; trends are still in it."""
+    with named(path, names_of("surface", _READ)):
+        raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
+    derived["shape"] = list(raw.heights.shape)
+    derived["pixel_size_m"] = list(raw.pixel_size)
+    derived["dropout_fraction"] = raw.dropout_fraction
+    return filled
+
+
+def _measure(path: Path, surface: HeightMap, values: Values) -> TabulatedSpectrum:
+    settings = arguments(values, _TRANSFORM)
+    if settings["detrend"] == "none":
+        settings["detrend"] = None
+    band = arguments(values, _BAND)
+    with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
+        spectrum = power_spectrum(surface, **settings)
+        return spectrum.truncated(**band) if band else spectrum
+
+
+def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
+    """The spectrum up to the smaller of the cut-offs that are named."""
+    cutoffs = {}
+    with named(path, names_of("surface", _CUTOFFS)):
+        if "contamination_size_m" in values:
+            size = values["contamination_size_m"]
+            cutoffs["contamination_size_m"] = spectrum.cutoff_for_contamination(size)
+        if "slope_cutoff" in values:
+            cutoffs["slope_cutoff"] = spectrum.cutoff_for_slope(values["slope_cutoff"])
+    if not cutoffs:
+        return spectrum
+    key = min(cutoffs, key=cutoffs.__getitem__)
+    with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
+        return spectrum.truncated(q1=cutoffs[key])
+
+
+def build_rubber(path: Path, table: object) -> tuple[Rubber, Values]:
+    values = read_table(path, "rubber", table, _RUBBER)
+    alternatives = "give master_curve, or equilibrium_modulus_pa, moduli_pa and relaxation_times_s"
+    for key in _NOT_YET:
+        if key in values:
+            refuse(path, f"[rubber] {key}", f"isotherms are not read yet: {alternatives}")
+    if "master_curve" not in values:
+        if "extrapolation" in values:
+            refuse(
+                path, "[rubber] extrapolation", "must be left out where no master_curve is given"
+            )
+        require(path, "rubber", values, tuple(_PRONY), alternatives)
+        with named(path, names_of("rubber", _PRONY)):
+            return PronySeries(**arguments(values, _PRONY)), values
+    for key in _PRONY:
+        if key in values:
+            refuse(path, f"[rubber] {key}", "must be left out where master_curve is given")
+    file = path.parent / values["master_curve"]
+    with named(path, {"extrapolation": "[rubber] extrapolation"}):
+        return read_master_curve(file, values.get("extrapolation")), values
+
+
+def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
+    values = read_table(path, "adhesion", table, _ADHESION)
+    require(path, "adhesion", values, ("shear_stress_pa",))
+    with named(path, names_of("adhesion", _ADHESION)):
+        adhesion = Adhesion(**arguments(values, _ADHESION))
+    return adhesion, _with_defaults(values, _ADHESION, adhesion)
+
+
+def build_correction(
+    path: Path, table: object, surface: HeightMap | None, surface_values: Mapping[str, Any]
+) -> tuple[Correction, Values]:
+    """Correction of a scene; peaks and extremes not given come from the measured map."""
+    if not isinstance(table, dict):
+        refuse(path, "[correction]", "must be a table")
+    kind = table.get("kind")
+    if kind is None:
+        refuse(path, "[correction] kind", "missing, " + nearest("", _CORRECTIONS))
+    if not isinstance(kind, str) or kind not in _CORRECTIONS:
+        refuse(path, f"[correction] kind = {kind!r}", nearest(str(kind), _CORRECTIONS))
+    fields = _CORRECTIONS[kind]
+    values = read_table(path, "correction", table, fields)
+    if "z_max_m" in fields:
+        values = _with_map(path, kind, values, surface, surface_values)
+    settings = arguments(values, fields)
+    settings.pop("min_distance", None)
+    correction: Correction
+    with named(path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}):
+        if kind == "s-factor":
+            correction = SFactor(**settings)
+        elif kind == "affine-shift":
+            require(path, "correction", values, ("p",))
+            correction = AffineShift(settings["p"])
+        elif kind == "greenwood-williamson":
+            correction = GreenwoodWilliamson(peaks=settings.pop("heights_or_map", None), **settings)
+        else:
+            part = LocalPeaks if kind == "local-peaks" else PeaksThenGreenwoodWilliamson
+            correction = part(settings.pop("heights_or_map"), **settings)
+    if "min_distance_m" in values:
+        values["peaks"] = len(values.pop("heights_m"))
+    return correction, _with_defaults(values, fields, correction)
+
+
+def _with_map(
+    path: Path,
+    kind: str,
+    values: Values,
+    surface: HeightMap | None,
+    surface_values: Mapping[str, Any],
+) -> Values:
+    """`values` with what the map can tell of peaks and extremes."""
+    values = dict(values)
+    gaussian = kind == "greenwood-williamson" and "heights_m" not in values
+    if "min_distance_m" in values:
+        if "heights_m" in values:
+            refuse(path, "[correction] min_distance_m", "must be left out where heights_m is given")
+        if surface is None:
+            refuse(path, "[correction] min_distance_m", "needs a surface file; give heights_m")
+    extremes = ("z_max_m",) if kind == "local-peaks" else ("z_max_m", "z_min_m")
+    if surface is None:
+        needed = extremes if gaussian else ("heights_m", *extremes)
+        require(path, "correction", values, needed, "or [surface] needs a file to take it from")
+        return values
+    if not gaussian and "heights_m" not in values:
+        require(path, "correction", values, ("min_distance_m",), "the least distance of two peaks")
+    if kind != "local-peaks" and "q0_per_m" not in surface_values:
+        require(
+            path,
+            "correction",
+            values,
+            ("q0_per_m",),
+            "the wavenumber of the macro-asperities, which a scan does not tell",
+        )
+    if surface_values["detrend"] != "none":
+        surface = surface.detrend(surface_values["detrend"])
+    if "min_distance_m" in values:
+        with named(path, names_of("correction", _PEAKS)):
+            peaks = surface.local_peaks(min_distance=values["min_distance_m"])
+        values["heights_m"] = peaks.tolist()
+    for key in extremes:
+        values.setdefault(key, surface.z_max if key == "z_max_m" else surface.z_min)
+    return values
+
+
+def _with_defaults(values: Values, fields: Mapping[str, Field], part: object) -> Values:
+    """`values` and the arguments that `part` took by default."""
+    missing = {key: field.argument for key, field in fields.items() if key not in values}
+    defaults = {key: getattr(part, name, None) for key, name in missing.items() if name}
+    plain = {k: v for k, v in defaults.items() if isinstance(v, int | float | str)}
+    return {**values, **plain}

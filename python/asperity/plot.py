@@ -1,0 +1,167 @@
+"""Figures for a paper: friction over velocity, area over magnification, spectra (matplotlib)."""
+
+import io
+from collections.abc import Sequence
+from itertools import cycle
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput, SelfAffineFit, TabulatedSpectrum
+from asperity.scene import Curves, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
+    from matplotlib.figure import Figure
+
+FORMATS = (".png", ".svg", ".pdf")
+# Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
+
+def check_plot(path: Path) -> None:
+    """Refuse, before any work, a picture that cannot be drawn."""
+    if path.suffix.lower() not in FORMATS:
+        raise InvalidInput(f"{path}: must end in {', '.join(FORMATS)}")
+    try:
+        import matplotlib  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise InvalidInput(
+            f"{path}: pictures are drawn by matplotlib: pip install asperity[plot]"
+        ) from error
+
+
+def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
+    """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
+    figure, axes = _figure(wide=True)
+    over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
+    adhesive = any(scene.adhesion is not None for scene in scenes)
+    kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
+    names = [scene.path.name for scene in scenes]
+    if len(set(names)) < len(names):
+        names = [str(scene.path) for scene in scenes]
+    curves = []
+    for name, scene, result in zip(names, scenes, results, strict=True):
+        values = [result.mu, result.hysteresis, result.adhesion]
+        loads = [_pressure(float(pressure)) for pressure in scene.pressure]
+        if over_pressure:
+            values = [array.T for array in values]
+            loads = [f"{float(scene.velocity[0]):.4g} m/s"]
+        for row, load in enumerate(loads):
+            label = f"{name}, {load}" if len(scenes) > 1 else load
+            x = scene.pressure if over_pressure else scene.velocity
+            curves.append((label, x, [array[row] for array in values]))
+    for (label, x, lines), colour in zip(curves, _colours(len(curves)), strict=True):
+        order = np.argsort(x)
+        for y, (kind, dashes) in zip(lines, kinds.items(), strict=False):
+            axes.plot(
+                x[order],
+                y[order],
+                dashes,
+                color=colour,
+                linewidth=1.8 if kind == "total" else 1.2,
+                marker="o" if x.size == 1 else None,
+                label=label if kind == "total" else None,
+            )
+    if adhesive:
+        for kind, dashes in kinds.items():
+            axes.plot([], [], dashes, color="0.3", label=kind)
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(
+        "Nominal pressure $\\sigma_0$ [Pa]" if over_pressure else "Sliding velocity $v$ [m/s]"
+    )
+    axes.set_ylabel("Friction coefficient $\\mu$ [-]")
+    figure.legend(loc="outside right upper")
+    return _picture(figure, path)
+
+
+def area_figure(
+    scene: Scene, wavenumber: NDArray[np.float64], area: NDArray[np.float64], path: Path
+) -> bytes:
+    """A/A0 over magnification, a colour a velocity and a line style a pressure."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LogNorm
+
+    figure, axes = _figure(wide=True)
+    many = scene.velocity.size > len(_COLOURS)
+    order = np.argsort(scene.velocity)
+    for pressure, rows, dashes in zip(
+        scene.pressure, area, cycle(("-", "--", ":", "-.")), strict=False
+    ):
+        load = _pressure(float(pressure))
+        for column, colour in zip(order, _colours(order.size), strict=True):
+            label = f"{load}, {float(scene.velocity[column]):.3g} m/s"
+            if many:
+                label = load if column == order[0] else "_"
+            x = wavenumber / wavenumber[0]
+            axes.plot(x, rows[column], dashes, color=colour, label=label)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("Magnification $q / q_0$ [-]")
+    axes.set_ylabel("Relative contact area $A / A_0$ [-]")
+    if many:
+        norm = LogNorm(float(scene.velocity.min()), float(scene.velocity.max()))
+        shades = ScalarMappable(norm, _shades())
+        figure.colorbar(shades, ax=axes, label="Sliding velocity $v$ [m/s]")
+        axes.legend(loc="lower left")
+    else:
+        figure.legend(loc="outside right upper")
+    return _picture(figure, path)
+
+
+def spectrum_figure(
+    spectrum: TabulatedSpectrum, fit: SelfAffineFit, cutoff: float, path: Path
+) -> bytes:
+    """C(q) with its self-affine fit and the wavenumber at which the rms slope reaches 1.3."""
+    figure, axes = _figure(wide=False)
+    axes.plot(spectrum.wavenumber, spectrum.density, ".", markersize=3, color=_COLOURS[0])
+    fitted = np.geomspace(fit.q0, fit.q1, 200)
+    label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
+    axes.plot(fitted, fit.spectrum.at(fitted), color=_COLOURS[1], label=label)
+    if cutoff < spectrum.q1:
+        axes.axvline(cutoff, color="0.4", linestyle="--", label="rms slope 1.3")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("Wavenumber $q$ [1/m]")
+    axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+    figure.legend(loc="outside upper center", ncols=2)
+    return _picture(figure, path)
+
+
+def _figure(*, wide: bool) -> "tuple[Figure, Axes]":
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.6 if wide else 4.6, 3.5), layout="constrained")
+    axes = figure.add_subplot()
+    axes.tick_params(which="both", direction="in", top=True, right=True)
+    return figure, axes
+
+
+def _picture(figure: "Figure", path: Path) -> bytes:
+    out = io.BytesIO()
+    figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
+    return out.getvalue()
+
+
+def _colours(count: int) -> Sequence[Any]:
+    if count <= len(_COLOURS):
+        return _COLOURS[:count]
+    return list(_shades()(np.linspace(0, 1, count)))
+
+
+def _shades() -> "Colormap":
+    from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap(colormaps["cividis"](np.linspace(0, 0.92, 256)))
+
+
+def _pressure(value: float) -> str:
+    for factor, unit in ((1e6, "MPa"), (1e3, "kPa")):
+        if value >= factor:
+            return f"{value / factor:.4g} {unit}"
+    return f"{value:.4g} Pa"

@@ -1,0 +1,187 @@
+"""A scene: a TOML file that names the parts of a computation, read into objects of the core."""
+
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import Adhesion, Friction, contact_area, friction
+from asperity.fields import (
+    Field,
+    arguments,
+    named,
+    names_of,
+    nearest,
+    number,
+    read_table,
+    refuse,
+    require,
+    sweep,
+    text,
+)
+from asperity.parts import (
+    Correction,
+    Rubber,
+    Spectrum,
+    build_adhesion,
+    build_correction,
+    build_rubber,
+    build_surface,
+)
+
+_POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
+_CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
+_SOLVER = {"rtol": Field(number, "rtol"), "form": Field(text, "form")}
+_NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
+_TABLES = dict.fromkeys(("surface", "rubber", "conditions", "correction", "adhesion", "solver"))
+
+
+COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
+_CHUNK = 4  # velocities between two steps of a progress bar
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Results of a scene, arrays of shape (pressures, velocities)."""
+
+    notes: list[str]
+    mu: NDArray[np.float64]
+    hysteresis: NDArray[np.float64]
+    adhesion: NDArray[np.float64]
+    contact_area: NDArray[np.float64]
+    shift_factor: NDArray[np.float64]
+    error_estimate: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The parts that a scene file names, as objects of the core.
+
+    `inputs` holds what was used, defaults included, by table and key; `derived` what the surface
+    turned out to be.
+    """
+
+    path: Path
+    spectrum: Spectrum
+    rubber: Rubber
+    pressure: NDArray[np.float64]  # [Pa], shape (n,)
+    velocity: NDArray[np.float64]  # [m/s], shape (m,)
+    correction: Correction | None
+    adhesion: Adhesion | None
+    options: Mapping[str, Any]  # poisson_ratio, rtol, form
+    inputs: Mapping[str, Mapping[str, Any]]
+    derived: Mapping[str, Any]
+
+    def friction(self, progress: Callable[[list[Any]], Iterable[Any]] = iter) -> Curves:
+        """Friction at every pressure and velocity; `progress` sees the chunks of velocities."""
+        chunks = np.split(self.velocity, range(_CHUNK, self.velocity.size, _CHUNK))
+        parts = [self._friction(chunk) for chunk in progress(chunks)]
+        columns = {name: [getattr(part, name) for part in parts] for name in COLUMNS}
+        notes = merge_notes([part.notes for part in parts], self.pressure.size * self.velocity.size)
+        return Curves(notes, **{name: np.hstack(column) for name, column in columns.items()})
+
+    def _friction(self, velocity: NDArray[np.float64]) -> Friction:
+        with named(self.path, _NAMES):
+            return friction(
+                self.spectrum,
+                self.rubber,
+                pressure=self.pressure[:, None],
+                velocity=velocity,
+                correction=self.correction,
+                adhesion=self.adhesion,
+                **self.options,
+            )
+
+    def contact_area(self, wavenumber: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A/A0 of shape (pressures, velocities, wavenumbers)."""
+        with named(self.path, _NAMES):
+            area: NDArray[np.float64] = contact_area(
+                self.spectrum,
+                self.rubber,
+                pressure=self.pressure[:, None],
+                velocity=self.velocity,
+                correction=self.correction,
+                wavenumber=wavenumber,
+                **self.options,
+            )
+        return area
+
+
+def load_scene(path: str | Path) -> Scene:
+    """Read a scene file and build the parts that it names.
+
+    Raises
+    ------
+    InvalidInput, OutOfRange
+        In one line: file, table and key, the value found and what is allowed.
+    """
+    path = Path(path)
+    tables = _read_toml(path)
+    conditions = read_table(path, "conditions", tables["conditions"], _CONDITIONS)
+    require(path, "conditions", conditions, tuple(_POINTS))
+    solver = read_table(path, "solver", tables.get("solver", {}), _SOLVER)
+    points = {key: conditions.pop(key) for key in _POINTS}
+    conditions = {"poisson_ratio": 0.5, **conditions}
+    solver = {"rtol": 1e-6, "form": "exact", **solver}
+
+    spectrum, surface, surface_values, derived = build_surface(path, tables["surface"])
+    rubber, rubber_values = build_rubber(path, tables["rubber"])
+    inputs = {
+        "surface": surface_values,
+        "rubber": rubber_values,
+        "conditions": {**{key: tables["conditions"][key] for key in _POINTS}, **conditions},
+    }
+    correction = adhesion = None
+    if "correction" in tables:
+        correction, inputs["correction"] = build_correction(
+            path, tables["correction"], surface, surface_values
+        )
+    if "adhesion" in tables:
+        adhesion, inputs["adhesion"] = build_adhesion(path, tables["adhesion"])
+    inputs["solver"] = solver
+    return Scene(
+        path=path,
+        spectrum=spectrum,
+        rubber=rubber,
+        pressure=points["pressure_pa"],
+        velocity=points["velocity_m_s"],
+        correction=correction,
+        adhesion=adhesion,
+        options={**arguments(conditions, _CONDITIONS), **arguments(solver, _SOLVER)},
+        inputs=inputs,
+        derived=derived,
+    )
+
+
+def merge_notes(parts: Sequence[Sequence[str]], points: int) -> list[str]:
+    """Notes on the chunks of one computation, with "at k of n points" counted over all of it."""
+    counts: dict[tuple[str, ...], int] = {}
+    for note in (note for notes in parts for note in notes):
+        found = re.split(r"(?<=\bat )(\d+) of \d+(?= points)", note, maxsplit=1)
+        text = (found[0], found[-1]) if len(found) == 3 else (note,)
+        counts[text] = counts.get(text, 0) + int(found[1] if len(found) == 3 else 0)
+    return [f"{count} of {points}".join(text) for text, count in counts.items()]
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    """Tables of a scene file, of which the three that every scene needs are there."""
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        refuse(path, "cannot be read", error.strerror or str(error))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        refuse(path, "not a TOML file", str(error))
+    for name, table in tables.items():
+        if name not in _TABLES:
+            hint = nearest(name, _TABLES, "[{}]")
+            kind, field = ("table", f"[{name}]") if isinstance(table, dict) else ("key", name)
+            refuse(path, field, f"unknown {kind}, {hint}")
+    for name in ("surface", "rubber", "conditions"):
+        if name not in tables:
+            refuse(path, f"[{name}]", "missing: a scene needs this table")
+    return tables

@@ -1,0 +1,121 @@
+"""Results as CSV, JSON and terminal tables, written all or not at all."""
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput, __version__
+
+UNITS = {
+    "scene": "file",
+    "pressure_pa": "Pa",
+    "velocity_m_s": "m/s",
+    "wavenumber_per_m": "1/m",
+    "density_m4": "m^4",
+}  # all other columns are pure numbers
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Columns of equal length, and what they were computed from."""
+
+    command: str
+    inputs: Sequence[Mapping[str, Any]]  # one for each scene or file
+    notes: Sequence[str]
+    columns: Mapping[str, Sequence[Any]]
+
+    def csv(self) -> str:
+        """Comment lines with inputs, notes and units, a header line, a row a point."""
+        out = io.StringIO()
+        out.write(f"# asperity {__version__} {self.command}\n")
+        for inputs in self.inputs:
+            for key, value in _flat(inputs):
+                out.write(f"# {key} = {json.dumps(value, ensure_ascii=False)}\n")
+        for note in self.notes:
+            out.write(f"# note: {note}\n")
+        units = ", ".join(f"{name} [{UNITS.get(name, '-')}]" for name in self.columns)
+        out.write(f"# columns: {units}\n")
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(
+            [_digits(cell) for cell in row] for row in zip(*self.columns.values(), strict=True)
+        )
+        return out.getvalue()
+
+    def json(self) -> str:
+        """The same content as one object; infinite numbers as the text "inf"."""
+        content = {
+            "asperity": __version__,
+            "command": self.command,
+            "inputs": [dict(inputs) for inputs in self.inputs],
+            "notes": list(self.notes),
+            "units": {name: UNITS.get(name, "-") for name in self.columns},
+            "columns": {
+                name: [_plain(cell) for cell in column] for name, column in self.columns.items()
+            },
+        }
+        return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def terminal_table(columns: Mapping[str, Sequence[float]]) -> str:
+    """Columns of numbers with four digits, right-aligned under their names."""
+    cells = [[name, *(f"{value:.4g}" for value in column)] for name, column in columns.items()]
+    widths = [max(map(len, column)) for column in cells]
+    rows = zip(*cells, strict=True)
+    lines = ("  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in rows)
+    return "\n".join(lines) + "\n"
+
+
+def check_output(path: Path, inputs: Sequence[Path]) -> None:
+    """Refuse, before any work, a path that cannot be written or would overwrite an input."""
+    directory = path.resolve().parent
+    if not directory.is_dir():
+        raise InvalidInput(f"{path}: cannot be written: no directory {directory.name}")
+    if not os.access(directory, os.W_OK | os.X_OK):
+        raise InvalidInput(f"{path}: cannot be written: no permission for its directory")
+    if path.exists() and not path.is_file():
+        raise InvalidInput(f"{path}: cannot be written: not a regular file")
+    if any(path.exists() and other.exists() and path.samefile(other) for other in inputs):
+        raise InvalidInput(f"{path}: is an input: choose another name for the output")
+
+
+def write_files(contents: Mapping[Path, bytes]) -> None:
+    """Write all files or none: each beside its place first, then moved onto it."""
+    parts = {path.resolve(): data for path, data in contents.items()}
+    parts_of = {path: path.with_name(f".{path.name}.{os.getpid()}.part") for path in parts}
+    try:
+        for path, data in parts.items():
+            parts_of[path].write_bytes(data)
+        for path, part in parts_of.items():
+            os.replace(part, path)
+    finally:
+        for part in parts_of.values():
+            part.unlink(missing_ok=True)
+
+
+def _flat(inputs: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    lines: list[tuple[str, Any]] = []
+    for key, value in inputs.items():
+        if isinstance(value, Mapping):
+            lines += [(f"{key}.{name}", entry) for name, entry in value.items()]
+        else:
+            lines.append((key, value))
+    return lines
+
+
+def _digits(cell: Any) -> str:
+    return f"{cell:.17g}" if isinstance(cell, float) else str(cell)
+
+
+def _plain(cell: Any) -> Any:
+    if isinstance(cell, np.generic):
+        cell = cell.item()
+    return cell if not isinstance(cell, float) or math.isfinite(cell) else str(cell)

@@ -1,0 +1,137 @@
+// Array traffic between NumPy and the core: array-likes in, arrays of their broadcast shape out.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/errors.hpp"
+
+namespace asperity::python {
+
+namespace py = pybind11;
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Shape = std::vector<py::ssize_t>;
+
+/// Any real array-like as float64, or InvalidInput in the name of the argument.
+inline Array real_array(const py::handle& values, const std::string& name) {
+  if (PyFloat_Check(values.ptr())) {  // the common scalar, without asking NumPy
+    Array scalar(Shape{});
+    *scalar.mutable_data() = PyFloat_AS_DOUBLE(values.ptr());
+    return scalar;
+  }
+  const py::array any = py::array::ensure(values);
+  if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos) {
+    PyErr_Clear();
+    throw InvalidInput(name + " = " + py::repr(values).cast<std::string>().substr(0, 60) +
+                       ": must be a number or an array of real numbers");
+  }
+  return Array::ensure(any);
+}
+
+/// A one-dimensional array-like as a vector.
+inline std::vector<double> vector_of(const py::handle& values, const std::string& name) {
+  const Array array = real_array(values, name);
+  if (array.ndim() != 1)
+    throw InvalidInput(name + " has " + std::to_string(array.ndim()) + " dimensions: must have 1");
+  return {array.data(), array.data() + array.size()};
+}
+
+/// Several arguments brought to one shape, as NumPy does.
+struct Broadcast {
+  Shape shape;
+  std::vector<std::vector<double>> columns;  // one an argument, flattened
+};
+
+inline Broadcast broadcast(std::initializer_list<std::pair<const char*, py::handle>> arguments) {
+  Broadcast result;
+  std::vector<Array> arrays;
+  for (const auto& [name, values] : arguments) arrays.push_back(real_array(values, name));
+  for (const Array& a : arrays)
+    if (a.ndim() > static_cast<py::ssize_t>(result.shape.size()))
+      result.shape.insert(result.shape.begin(), static_cast<std::size_t>(a.ndim()) - result.shape.size(), 1);
+  const std::size_t rank = result.shape.size();
+  std::string shapes;
+  bool fits = true;
+  std::size_t at = 0;
+  for (const auto& [name, values] : arguments) {
+    const Array& a = arrays[at++];
+    shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " +
+              py::str(a.attr("shape")).cast<std::string>();
+    for (py::ssize_t i = 0; i < a.ndim(); ++i) {
+      py::ssize_t& side = result.shape[rank - static_cast<std::size_t>(a.ndim() - i)];
+      if (a.shape(i) != 1 && side != 1 && side != a.shape(i)) fits = false;
+      if (a.shape(i) != 1) side = a.shape(i);
+    }
+  }
+  if (!fits) throw InvalidInput("shapes " + shapes + ": must broadcast together");
+  std::size_t size = 1;
+  for (const py::ssize_t side : result.shape) size *= static_cast<std::size_t>(side);
+  for (const Array& a : arrays) {
+    std::vector<double>& column = result.columns.emplace_back(size);
+    std::vector<py::ssize_t> index(rank, 0);
+    for (std::size_t i = 0; i < size; ++i) {
+      py::ssize_t offset = 0;
+      for (py::ssize_t k = 0; k < a.ndim(); ++k) {
+        const py::ssize_t j = a.shape(k) == 1 ? 0 : index[rank - static_cast<std::size_t>(a.ndim() - k)];
+        offset = offset * a.shape(k) + j;
+      }
+      column[i] = a.data()[offset];
+      for (std::size_t k = rank; k-- > 0;) {
+        if (++index[k] < result.shape[k]) break;
+        index[k] = 0;
+      }
+    }
+  }
+  return result;
+}
+
+/// The vector as an array that owns it, or a float where the shape is that of a scalar.
+template <class T>
+py::object shaped(std::vector<T> values, const Shape& shape) {
+  if (shape.empty()) return py::cast(values.front());
+  auto* const owned = new std::vector<T>(std::move(values));
+  const py::capsule keeper(owned, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return py::array_t<T>(shape, owned->data(), keeper);
+}
+
+/// The vector as a one-dimensional array that owns it.
+inline py::object flat(std::vector<double> values) {
+  const Shape shape{static_cast<py::ssize_t>(values.size())};
+  return shaped(std::move(values), shape);
+}
+
+/// f over every entry, in the shape of the argument.
+template <class F>
+py::object map_array(const py::handle& values, const std::string& name, F f) {
+  const Array array = real_array(values, name);
+  std::vector<decltype(f(0.0))> result(static_cast<std::size_t>(array.size()));
+  for (py::ssize_t i = 0; i < array.size(); ++i) result[static_cast<std::size_t>(i)] = f(array.data()[i]);
+  return shaped(std::move(result), Shape(array.shape(), array.shape() + array.ndim()));
+}
+
+/// An option given by name.
+template <class T>
+T choice(const std::string& argument, const std::string& found,
+         std::initializer_list<std::pair<const char*, T>> allowed) {
+  std::string names;
+  for (const auto& [name, value] : allowed) {
+    if (found == name) return value;
+    names += (names.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+  }
+  throw InvalidInput(argument + " = \"" + found + "\": must be one of " + names);
+}
+
+/// The name of an option.
+template <class T>
+const char* name_of(T found, std::initializer_list<std::pair<const char*, T>> allowed) {
+  for (const auto& [name, value] : allowed)
+    if (found == value) return name;
+  return "";
+}
+
+}  // namespace asperity::python

@@ -1,0 +1,21 @@
+#include <pybind11/pybind11.h>
+
+#include "asperity/version.hpp"
+#include "parts.hpp"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
+  using namespace asperity::python;
+  m.doc() = "The compiled core of asperity.";
+  m.attr("__version__") = asperity::version();
+  m.def("_rebuild", [](const py::object& cls, const py::dict& fields) { return cls(**fields); });
+  bind_errors(m);
+  bind_surface(m);
+  bind_spectrum(m);
+  bind_rubber(m);
+  bind_asperities(m);
+  bind_correction(m);
+  bind_contact(m);
+  bind_friction(m);
+}

@@ -1,0 +1,157 @@
+#include "asperity/rubber.hpp"
+
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "parts.hpp"
+#include "value.hpp"
+
+namespace asperity::python {
+
+namespace {
+
+const auto extrapolations = {std::pair{"power-law", Extrapolation::power_law}, std::pair{"clamp", Extrapolation::clamp}};
+
+/// f(AngularIntegrals) over every frequency, the GIL released.
+template <class R, class F>
+py::tuple two_columns(const R& rubber, const py::object& angular_frequency, F f) {
+  const Array w = real_array(angular_frequency, "angular_frequency");
+  const auto n = static_cast<std::size_t>(w.size());
+  std::vector<double> first(n), second(n);
+  {
+    const double* const data = w.data();
+    const py::gil_scoped_release release;
+    for (std::size_t i = 0; i < n; ++i) std::tie(first[i], second[i]) = f(rubber.angular_integrals(data[i]));
+  }
+  const Shape shape(w.shape(), w.shape() + w.ndim());
+  return py::make_tuple(shaped(std::move(first), shape), shaped(std::move(second), shape));
+}
+
+template <class R>
+void bind_common(py::classh<R>& cls) {
+  cls.def(
+         "modulus",
+         [](const R& r, const py::object& w) {
+           return map_array(w, "angular_frequency", [&](double at) { return r.modulus(at); });
+         },
+         py::arg("angular_frequency"),
+         "Complex modulus E' + i E'' [Pa] at `angular_frequency` [rad/s], any shape. A table raises OutOfRange "
+         "outside of its range.")
+      .def(
+          "angular_integrals",
+          [](const R& r, const py::object& w) {
+            return two_columns(r, w, [](const AngularIntegrals& a) { return std::pair(a.i1, a.i2); });
+          },
+          py::arg("angular_frequency"),
+          "(I1 [Pa], I2 [Pa^2]) at `angular_frequency` w = v q [rad/s], any shape: I1 = int_0^2pi cos(phi) "
+          "Im E(w cos phi) dphi of Eq. 22, I2 = int_0^2pi |E(w cos phi)|^2 dphi of Eq. 7.")
+      .def("shifted", &R::shifted, py::arg("a_T"),
+           "The rubber at another temperature: E(w) becomes E(a_T w), so that a_T > 1 is colder; a new rubber.");
+}
+
+}  // namespace
+
+void bind_rubber(py::module_& m) {
+  py::classh<PronySeries> prony(m, "PronySeries", R"(E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k).
+
+The angular integrals are closed forms (THEORY section 2). Without terms the rubber is elastic.
+
+Parameters
+----------
+equilibrium_modulus : float
+    E_inf [Pa], not negative.
+moduli : array_like, shape (n,)
+    E_k [Pa], positive.
+relaxation_times : array_like, shape (n,)
+    tau_k [s], positive, in any order.
+
+Raises
+------
+InvalidInput
+
+Examples
+--------
+>>> from asperity import PronySeries
+>>> rubber = PronySeries(equilibrium_modulus=1e6, moduli=[1e9], relaxation_times=[1e-6])
+>>> rubber.modulus(1e6)
+(501000000+500000000j)
+)");
+  prony
+      .def(py::init([](double e, const py::object& moduli, const py::object& times) {
+             return PronySeries(e, vector_of(moduli, "moduli"), vector_of(times, "relaxation_times"));
+           }),
+           py::kw_only(), py::arg("equilibrium_modulus"), py::arg("moduli"), py::arg("relaxation_times"))
+      .def_property_readonly("equilibrium_modulus", &PronySeries::equilibrium_modulus, "E_inf [Pa].")
+      .def_property_readonly(
+          "moduli", [](const PronySeries& s) { return flat(s.moduli()); }, "E_k [Pa], shape (n,).")
+      .def_property_readonly(
+          "relaxation_times", [](const PronySeries& s) { return flat(s.relaxation_times()); }, "tau_k [s], shape (n,).");
+  bind_common(prony);
+  value_semantics(prony, {"equilibrium_modulus", "moduli", "relaxation_times"});
+
+  py::classh<MasterCurve> curve(m, "MasterCurve", R"(A measured complex modulus.
+
+Steffen's monotone interpolant of ln E' and ln E'' in ln w (M. Steffen, Astron. Astrophys. 239, 443 (1990)).
+
+Parameters
+----------
+angular_frequency : array_like, shape (n,)
+    w = 2 pi f [rad/s], strictly rising, n >= 2.
+storage_modulus, loss_modulus : array_like, shape (n,)
+    E', E'' [Pa], positive.
+extrapolation : {None, "power-law", "clamp"}
+    Over at most one decade at either end: none, with the slope that ln E', ln E'' have at the end, or constant.
+
+Raises
+------
+InvalidInput
+OutOfRange
+    From the methods, where they are asked outside of the measured range.
+)");
+  curve
+      .def(py::init([](const py::object& w, const py::object& storage, const py::object& loss,
+                       const std::optional<std::string>& extrapolation) {
+             return MasterCurve(vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
+                                vector_of(loss, "loss_modulus"),
+                                extrapolation ? std::optional(choice<Extrapolation>("extrapolation", *extrapolation,
+                                                                                   extrapolations))
+                                              : std::nullopt);
+           }),
+           py::kw_only(), py::arg("angular_frequency"), py::arg("storage_modulus"), py::arg("loss_modulus"),
+           py::arg("extrapolation") = py::none())
+      .def_property_readonly(
+          "angular_frequency", [](const MasterCurve& s) { return flat(s.angular_frequency()); }, "w [rad/s].")
+      .def_property_readonly(
+          "storage_modulus", [](const MasterCurve& s) { return flat(s.storage_modulus()); }, "E' [Pa].")
+      .def_property_readonly(
+          "loss_modulus", [](const MasterCurve& s) { return flat(s.loss_modulus()); }, "E'' [Pa].")
+      .def_property_readonly(
+          "extrapolation",
+          [](const MasterCurve& s) {
+            return s.extrapolation() ? py::object(py::str(name_of(*s.extrapolation(), extrapolations)))
+                                     : py::object(py::none());
+          },
+          "None, \"power-law\" or \"clamp\".")
+      .def(
+          "extrapolated_shares",
+          [](const MasterCurve& r, const py::object& w) {
+            return two_columns(r, w, [](const AngularIntegrals& a) {
+              return std::pair(a.i1_outside / a.i1, a.i2_outside / a.i2);
+            });
+          },
+          py::arg("angular_frequency"),
+          "Shares of I1 and I2 that come from outside of the measured frequencies: w cos(phi) always runs to zero, "
+          "and below the lowest frequency E' is taken constant and E'' proportional to w.");
+  bind_common(curve);
+  value_semantics(curve, {"angular_frequency", "storage_modulus", "loss_modulus", "extrapolation"});
+
+  m.def("effective_modulus", &effective_modulus, py::kw_only(), py::arg("modulus"), py::arg("poisson_ratio"),
+        py::arg("modulus_2") = std::numeric_limits<double>::infinity(), py::arg("poisson_ratio_2") = 0.0,
+        R"(E* [Pa] of 1 / E* = (1 - nu^2) / E + (1 - nu_2^2) / E_2 (Eq. 15); the second body is rigid by default.
+
+Moduli [Pa] positive, Poisson ratios in [0, 0.5], else InvalidInput.
+)");
+}
+
+}  // namespace asperity::python

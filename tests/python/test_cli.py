@@ -1,0 +1,230 @@
+"""The shell command: what it writes and prints."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli import main
+from asperity.table import Table, terminal_table
+
+SCENE = """
+[surface]
+rms_height_m = 76.572e-6
+hurst = 0.7
+q0_per_m = 2000.0
+q1_per_m = 1e5
+[rubber]
+equilibrium_modulus_pa = 2e6
+moduli_pa = [1e9, 1e8, 1e7]
+relaxation_times_s = [1e-8, 1e-6, 1e-4]
+[conditions]
+pressure_pa = [81e3, 2e5]
+velocity_m_s = {from = 1e-4, to = 1, points = 5}
+[adhesion]
+shear_stress_pa = 8.3e6
+"""
+FRICTION = (
+    "pressure_pa,velocity_m_s,mu,hysteresis,adhesion,contact_area,shift_factor,error_estimate"
+)
+MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working directory, with a scene and a scan."""
+    (tmp_path / "scene.toml").write_text(SCENE)
+    spectrum = asperity.SelfAffineSpectrum(rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e6)
+    scan = asperity.synthesize(spectrum, shape=(60, 80), pixel_size=(2e-5, 1e-5), seed=1)
+    np.save(tmp_path / "scan.npy", scan.heights)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def rows_of(text: str) -> tuple[list[str], list[dict[str, str]]]:
+    """Comment lines and rows of a CSV text."""
+    lines = text.splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    return comments, list(csv.DictReader(lines[len(comments) :]))
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def expected() -> asperity.Friction:
+    return asperity.friction(
+        asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
+        asperity.PronySeries(
+            equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
+        ),
+        pressure=[[81e3], [2e5]],
+        velocity=np.geomspace(1e-4, 1, 5),
+        adhesion=asperity.Adhesion(shear_stress=8.3e6),
+    )
+
+
+def test_friction_table_is_the_cores_to_the_last_digit(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["friction", "scene.toml"]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    assert out.splitlines()[len(comments)] == FRICTION
+    assert len(rows) == 10
+    result = expected()
+    for name in ("pressure", "velocity", *FRICTION.split(",")[2:]):
+        column = {"pressure": "pressure_pa", "velocity": "velocity_m_s"}.get(name, name)
+        values = [float(row[column]) for row in rows]
+        np.testing.assert_array_equal(values, np.ravel(getattr(result, name)), err_msg=name)
+    assert err.splitlines() == [f"note: {note}" for note in result.notes]
+
+
+def test_header_carries_every_input_and_unit(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["friction", "scene.toml"])
+    comments, _ = rows_of(capsys.readouterr().out)
+    assert comments[0] == f"# asperity {asperity.__version__} friction"
+    for line in (
+        '# scene = "scene.toml"',
+        "# surface.rms_height_m = 7.6572e-05",
+        "# rubber.moduli_pa = [1000000000.0, 100000000.0, 10000000.0]",
+        '# conditions.velocity_m_s = {"from": 0.0001, "to": 1, "points": 5}',
+        "# conditions.poisson_ratio = 0.5",
+        "# adhesion.width = 0.1",
+        "# adhesion.reference_velocity_m_s = 0.006",
+        "# solver.rtol = 1e-06",
+        '# solver.form = "exact"',
+        "# derived.q1_per_m = 100000.0",
+    ):
+        assert line in comments
+    assert comments[-1].startswith("# columns: pressure_pa [Pa], velocity_m_s [m/s], mu [-], ")
+
+
+def test_several_scenes_stand_under_one_another(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "half.toml").write_text(SCENE.replace("hurst = 0.7", "hurst = 0.5"))
+    assert main(["friction", "scene.toml", "half.toml", "--plot", "mu.png"]) == 0
+    comments, rows = rows_of(capsys.readouterr().out)
+    assert list(rows[0])[:2] == ["scene", "pressure_pa"]
+    assert [row["scene"] for row in rows] == ["scene.toml"] * 10 + ["half.toml"] * 10
+    assert rows[0]["mu"] != rows[10]["mu"]
+    assert "# surface.hurst = 0.5" in comments
+    assert (folder / "mu.png").read_bytes().startswith(MAGIC[".png"])
+
+
+def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["friction", "scene.toml", "--json", "--output", "mu.json"]) == 0
+    assert capsys.readouterr().out == ""
+    content = json.loads((folder / "mu.json").read_text())
+    result = expected()
+    assert ",".join(content["columns"]) == FRICTION
+    assert content["columns"]["mu"] == np.ravel(result.mu).tolist()
+    assert content["inputs"][0]["surface"]["hurst"] == 0.7
+    assert content["units"]["pressure_pa"] == "Pa"
+    assert content["notes"] == list(result.notes)
+
+
+@pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
+@pytest.mark.parametrize(
+    "verb",
+    [
+        ["friction", "scene.toml"],
+        ["area", "scene.toml", "--points", "9"],
+        ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"],
+    ],
+    ids=lambda verb: verb[0],
+)
+def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
+    pytest.importorskip("matplotlib")
+    picture = f"picture{ending}"
+    assert main([*verb, "--plot", picture, "--output", "table.csv"]) == 0
+    assert (folder / picture).read_bytes().startswith(MAGIC[ending])
+    assert names(folder) == sorted(["scan.npy", "scene.toml", picture, "table.csv"])
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
+        ("[81e3, 2e5]", "{from = 1e4, to = 1e6, points = 12}"),
+        ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
+    ],
+)
+@pytest.mark.parametrize("verb", ["friction", "area"])
+def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
+    pytest.importorskip("matplotlib")
+    (folder / "scene.toml").write_text(SCENE.replace(old, new))
+    assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0
+    assert (folder / "a.png").stat().st_size > 10000
+
+
+def test_area_over_wavenumber(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["area", "scene.toml", "--points", "7"]) == 0
+    comments, rows = rows_of(capsys.readouterr().out)
+    assert list(rows[0]) == ["pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area"]
+    assert "# points = 7" in comments
+    assert len(rows) == 2 * 5 * 7
+    area = np.array([float(row["contact_area"]) for row in rows]).reshape(2, 5, 7)
+    assert np.all(area[..., 0] == 1)
+    assert np.all(np.diff(area, axis=-1) < 0)
+    np.testing.assert_allclose(area[..., -1], expected().contact_area, rtol=1e-5)
+
+
+def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    assert main([*arguments, "--window", "none", "--q-min", "2.5e4", "--q-max", "1.5e5"]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    assert list(rows[0]) == ["wavenumber_per_m", "density_m4", "count"]
+    assert sum(int(row["count"]) for row in rows) == 60 * 80 - 1
+    assert "# pixel_size_m = [2e-05, 1e-05]" in comments
+    found = dict(line.split(" = ") for line in err.splitlines() if " = " in line)
+    assert float(found["fit_hurst"]) == pytest.approx(0.8, abs=0.1)
+    assert 0 < float(found["fit_hurst_standard_error"]) < 0.1
+    assert {"rms_height_m", "rms_slope", "slope_cutoff_1.3_per_m"} < set(found)
+    assert any(line.startswith("# found.fit_hurst = 0.") for line in comments)
+
+
+@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])
+def test_help_has_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main([verb, "--help"])
+    assert caught.value.code == 0
+    assert f"example:\n  asperity {verb} " in capsys.readouterr().out
+
+
+def test_bar_only_on_a_terminal(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tqdm = pytest.importorskip("tqdm")
+    bars: list[object] = []
+
+    def bar(chunks: list[object], **settings: object) -> list[object]:
+        bars.append(settings["delay"])
+        return chunks
+
+    monkeypatch.setattr(tqdm, "tqdm", bar)
+    main(["friction", "scene.toml"])
+    assert bars == []
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    main(["friction", "scene.toml"])
+    assert bars == [2]
+
+
+def test_infinite_numbers_survive_both_forms() -> None:
+    table = Table(
+        "friction", [{}], [], {"shift_factor": [np.float64(np.inf), 1.5], "count": [3, 4]}
+    )
+    assert table.csv().splitlines()[-2:] == ["inf,3", "1.5,4"]
+    assert json.loads(table.json())["columns"] == {"shift_factor": ["inf", 1.5], "count": [3, 4]}
+
+
+def test_terminal_table_is_aligned() -> None:
+    text = terminal_table({"v": [1e-6, 10.0], "mu": [0.123456, 1.0]})
+    assert text == "    v      mu\n1e-06  0.1235\n   10       1\n"
