@@ -63,8 +63,8 @@ class ChebyshevPieces {
     }
     for (std::size_t j = 0; j < order; ++j)
       for (std::size_t i = 0; i < order; ++i) {
-        const double weight =
-            (j == 0 ? 1.0 : 2.0) / order * std::cos(pi * static_cast<double>(j) * (static_cast<double>(i) + 0.5) / order);
+        const double weight = (j == 0 ? 1.0 : 2.0) / order *
+                              std::cos(pi * static_cast<double>(j) * (static_cast<double>(i) + 0.5) / order);
         for (std::size_t k = 0; k < Outputs; ++k) piece.coefficient[j][k] += weight * sample[i][k];
       }
     double tail = 0;

@@ -16,7 +16,7 @@ using std::numbers::pi;
 using std::numbers::sqrt2;
 
 double hertz_penetration(double force, double effective_modulus, double radius) {
-  require_positive("force", force);
+  require_not_negative("force", force);
   require_positive("effective_modulus", effective_modulus);
   require_positive("radius", radius);
   const double ratio = force / effective_modulus;
@@ -38,8 +38,8 @@ double log_gaussian_moment(double t) {
   // On either side of the peak, in units of its width; u^2 tames the s^1.5 at the lower end.
   constexpr double rtol = 1e-13, reach = 40;
   const double bottom = std::fmax(0, peak - reach * width);
-  const auto left = integrate(
-      [&](double u) { return 2 * u * shape(bottom + u * u); }, 0, std::sqrt(peak - bottom), rtol);
+  const auto left =
+      integrate([&](double u) { return 2 * u * shape(bottom + u * u); }, 0, std::sqrt(peak - bottom), rtol);
   const auto right = integrate(shape, peak, peak + 4 * width, rtol);
   const auto tail = integrate(shape, peak + 4 * width, peak + reach * width, rtol, rtol * right.value);
   const double at_peak = 1.5 * std::log(peak) - (peak + t) * (peak + t) / 2;

@@ -50,8 +50,8 @@ inline void require_rising(std::string_view name, std::span<const double> values
 }
 inline void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
   if (size != other_size)
-    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " entries, " + std::string(other) + " has " +
-                       std::to_string(other_size) + ": must be as many");
+    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " entries, " + std::string(other) +
+                       " has " + std::to_string(other_size) + ": must be as many");
 }
 inline void require_rtol(double rtol) {
   if (!(rtol >= 1e-12 && rtol <= 0.1)) refuse("rtol", rtol, "in [1e-12, 0.1]");

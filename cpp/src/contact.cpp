@@ -28,8 +28,7 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   for (const double q : wavenumber) {
     require_positive("wavenumber", q);
     if (q < q0 || q > q1)
-      throw OutOfRange("wavenumber = " + show(q) + ": the spectrum's band is [" + show(q0) + ", " + show(q1) +
-                       "] 1/m");
+      throw OutOfRange("wavenumber = " + show(q) + ": the spectrum's band is [" + show(q0) + ", " + show(q1) + "] 1/m");
   }
   return {wavenumber.begin(), wavenumber.end()};
 }
@@ -38,14 +37,13 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
 /// negative where there is no contact at all.
 template <class Visit>
 void visit_g(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-             std::span<const double> pressure, std::span<const double> velocity,
-             std::span<const double> wavenumber, Visit visit) {
+             std::span<const double> pressure, std::span<const double> velocity, std::span<const double> wavenumber,
+             Visit visit) {
   check_contact(model, pressure, velocity);
   const std::vector<Segment> surface = segments(spectrum);
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     check_frequencies(spectrum, rubber, velocity[i]);
-    const Shift shift =
-        affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     if (shift.state == ContactState::no_contact) {
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
       continue;

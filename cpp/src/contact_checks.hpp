@@ -28,8 +28,8 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, do
   if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
     throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
                      " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) +
-                     " rad/s, known in [" + show(lowest) + ", " + show(highest) +
-                     "] rad/s: velocities from " + show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
+                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s: velocities from " +
+                     show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
 }
 
 }  // namespace asperity

@@ -65,35 +65,35 @@ Shift greenwood_williamson_shift(const MacroAsperities& asperities, double z_max
 }  // namespace
 
 void validate(const Correction& correction) {
-  std::visit(Overloaded{
-                 [](const NoCorrection&) {},
-                 [](const SFactor& s) {
-                   if (!(s.gamma >= 0 && s.gamma <= 1)) refuse("gamma", s.gamma, "in [0, 1]");
-                 },
-                 [](const AffineShift& s) {
-                   if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
-                 },
-                 [](const LocalPeaks& s) { validate_peaks(s); },
-                 [](const GreenwoodWilliamson& s) {
-                   validate_heights(s.z_max, s.z_min);
-                   validate_macro(s.rms_height, s.q0);
-                   if (!s.peaks.empty()) {
-                     if (s.peaks.size() < 3)
-                       throw InvalidInput("peaks has " + std::to_string(s.peaks.size()) +
-                                          " entries: must be 3 or more");
-                     for (std::size_t i = 0; i < s.peaks.size(); ++i)
-                       require_finite("peaks[" + std::to_string(i) + "]", s.peaks[i]);
-                     const double highest = std::ranges::max(s.peaks);
-                     if (highest > s.z_max) refuse("z_max", s.z_max, "no lower than the highest peak, " + show(highest));
-                   }
-                 },
-                 [](const PeaksThenGreenwoodWilliamson& s) {
-                   validate_peaks(s.peaks);
-                   validate_heights(s.z_max, s.z_min);
-                   validate_macro(s.rms_height, s.q0);
-                 },
-             },
-             correction);
+  std::visit(
+      Overloaded{
+          [](const NoCorrection&) {},
+          [](const SFactor& s) {
+            if (!(s.gamma >= 0 && s.gamma <= 1)) refuse("gamma", s.gamma, "in [0, 1]");
+          },
+          [](const AffineShift& s) {
+            if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
+          },
+          [](const LocalPeaks& s) { validate_peaks(s); },
+          [](const GreenwoodWilliamson& s) {
+            validate_heights(s.z_max, s.z_min);
+            validate_macro(s.rms_height, s.q0);
+            if (!s.peaks.empty()) {
+              if (s.peaks.size() < 3)
+                throw InvalidInput("peaks has " + std::to_string(s.peaks.size()) + " entries: must be 3 or more");
+              for (std::size_t i = 0; i < s.peaks.size(); ++i)
+                require_finite("peaks[" + std::to_string(i) + "]", s.peaks[i]);
+              const double highest = std::ranges::max(s.peaks);
+              if (highest > s.z_max) refuse("z_max", s.z_max, "no lower than the highest peak, " + show(highest));
+            }
+          },
+          [](const PeaksThenGreenwoodWilliamson& s) {
+            validate_peaks(s.peaks);
+            validate_heights(s.z_max, s.z_min);
+            validate_macro(s.rms_height, s.q0);
+          },
+      },
+      correction);
 }
 
 double shift_factor(const LocalPeaks& peaks) {

@@ -71,8 +71,7 @@ class Filler {
         for (Index dx = -r; dx <= r; dx += step) {
           const Index yy = y + dy, xx = x + dx;
           if (yy < 0 || yy >= ny_ || xx < 0 || xx >= nx_ || std::isnan(known[at(yy, xx)])) continue;
-          const double distance =
-              std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]);
+          const double distance = std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]);
           if (distance < best) {
             best = distance;
             height = known[at(yy, xx)];

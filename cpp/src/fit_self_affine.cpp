@@ -34,7 +34,8 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, std::optional<d
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t row = rows[static_cast<std::size_t>(i)];
     if (spectrum.density()[row] == 0)
-      refuse("density[" + std::to_string(row) + "]", 0, "positive for a fit in the logarithm; q_min, q_max may leave it out");
+      refuse("density[" + std::to_string(row) + "]", 0,
+             "positive for a fit in the logarithm; q_min, q_max may leave it out");
     x[i] = std::log(q[row]);
     y[i] = std::log(spectrum.density()[row]);
     w[i] = spectrum.count().empty() ? 1 : spectrum.count()[row];
@@ -51,8 +52,8 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, std::optional<d
 
   const auto power = [&](double at) { return std::exp(2 * (at - mean_x) + a * (at - mean_x)); };
   const double area = integrate(power, x[0], x[n - 1], 1e-12).value;
-  const double first = integrate([&](double at) { return (at - mean_x) * power(at); }, x[0], x[n - 1], 1e-9,
-                                 1e-9 * area).value;
+  const double first =
+      integrate([&](double at) { return (at - mean_x) * power(at); }, x[0], x[n - 1], 1e-9, 1e-9 * area).value;
   const double rms = std::sqrt(2 * pi * area) * std::exp(b / 2 + mean_x);
   // d ln h_rms / db = 1/2, d ln h_rms / da = <x - m> / 2
   const double error_a = std::sqrt(scatter / spread), error_b = std::sqrt(scatter);

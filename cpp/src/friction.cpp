@@ -74,8 +74,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Friction f;
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
-  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
-                       &f.extrapolated_share})
+  for (auto* column :
+       {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate, &f.extrapolated_share})
     column->assign(n, 0.0);
   if (contributions && n > 0) {
     const auto [slowest, fastest] = std::ranges::minmax(velocity);
@@ -87,8 +87,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Notes notes(rms_slope(spectrum), n);
   std::vector<double> stops;
   for (std::size_t i = 0; i < n; ++i) {
-    const Shift shift =
-        affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
     notes.add(shift, velocity[i]);
     if (shift.state == ContactState::no_contact) continue;
@@ -113,9 +112,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
                           f.hysteresis[i] * (sensitivity(s_in_integrand) * g_error + 2 * shift.relative_error) +
                           f.adhesion[i] * area_error;
     if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
-      throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) + " at pressure = " +
-                         show(pressure[i]) + ", velocity = " + show(velocity[i]) + ", where rtol = " +
-                         show(model.rtol) + " was asked for");
+      throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
+                         " at pressure = " + show(pressure[i]) + ", velocity = " + show(velocity[i]) +
+                         ", where rtol = " + show(model.rtol) + " was asked for");
 
     if (!f.contributions) continue;
     Contributions& c = *f.contributions;

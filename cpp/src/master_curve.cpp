@@ -63,9 +63,7 @@ struct MasterCurve::Table {
     log_knots = logarithms(knots);
   }
 
-  [[nodiscard]] bool measured(double x) const {
-    return x >= log_storage.x().front() && x <= log_storage.x().back();
-  }
+  [[nodiscard]] bool measured(double x) const { return x >= log_storage.x().front() && x <= log_storage.x().back(); }
 
   /// ln E' or ln E'' at x = ln w.
   [[nodiscard]] double beyond(const Steffen& log_modulus, double x) const {
@@ -89,7 +87,8 @@ struct MasterCurve::Table {
       const double near = k + 1 < log_knots.size() ? acosh_exp(x - log_knots[k + 1]) : 0;
       const double far = acosh_exp(x - log_knots[k]);
       // short enough for the rule in z, and in the change of ln E' and ln E'' between two knots
-      const std::complex<double> low = modulus(log_knots[k]), high = modulus(k + 1 < log_knots.size() ? std::min(x, log_knots[k + 1]) : x);
+      const std::complex<double> low = modulus(log_knots[k]),
+                                 high = modulus(k + 1 < log_knots.size() ? std::min(x, log_knots[k + 1]) : x);
       const double change =
           std::fabs(std::log(high.real() / low.real())) + std::fabs(std::log(high.imag() / low.imag()));
       const int parts = 1 + static_cast<int>(std::fmax((far - near) / 0.25, change));

@@ -118,9 +118,7 @@ class Neighbourhood {
   }
 
  private:
-  [[nodiscard]] double apart(double d, double length) const {
-    return periodic_ ? std::remainder(d, length) : d;
-  }
+  [[nodiscard]] double apart(double d, double length) const { return periodic_ ? std::remainder(d, length) : d; }
 
   double ly_, lx_;
   HeightMap::PixelSize pixel_;

@@ -41,8 +41,8 @@ double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol)
     g = std::fmax(g * std::exp(step), low * 2);
     if (std::fabs(step) <= rtol) return g;
   }
-  throw NotConverged("contact area with the S factor inside G: G = " + show(g) + " after 50 steps at rtol = " +
-                     show(rtol));
+  throw NotConverged("contact area with the S factor inside G: G = " + show(g) +
+                     " after 50 steps at rtol = " + show(rtol));
 }
 
 Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
@@ -133,9 +133,8 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
   Hysteresis result;
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
   for (const Panel& panel : panels_) {
-    const Integral part =
-        integrate([&](double s) { return hysteresis_rate(panel, s, form, gamma, nullptr); }, panel.lower, panel.upper,
-                  rtol_ / 4);
+    const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, gamma, nullptr); },
+                                    panel.lower, panel.upper, rtol_ / 4);
     result.value += part.value;
     result.error += part.error;
     result.by_panel.push_back(part.value);
@@ -146,8 +145,7 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
       return rate;
     };
     constexpr double share_tolerance = 1e-4;  // a share is read to two or three digits
-    result.outside +=
-        integrate(outside, panel.lower, panel.upper, share_tolerance, share_tolerance * part.value).value;
+    result.outside += integrate(outside, panel.lower, panel.upper, share_tolerance, share_tolerance * part.value).value;
   }
   return result;
 }

@@ -151,7 +151,9 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
 
 std::array<double, 2> band(const Spectrum& spectrum) {
   return std::visit(Overloaded{
-                        [](const SelfAffineSpectrum& s) { return std::array{s.q0, s.q1}; },
+                        [](const SelfAffineSpectrum& s) {
+                          return std::array{s.q0, s.q1};
+                        },
                         [](const TabulatedSpectrum& s) {
                           return std::array{s.wavenumber().front(), s.wavenumber().back()};
                         },
@@ -188,8 +190,7 @@ double cutoff_for_contamination(const Spectrum& spectrum, double size) {
   require_positive("size", size);
   const auto [q0, q1] = band(spectrum);
   const double q = 2 * pi / size;
-  if (!(q > q0))
-    refuse("size", size, "below the longest wavelength of the spectrum, " + show(2 * pi / q0) + " m");
+  if (!(q > q0)) refuse("size", size, "below the longest wavelength of the spectrum, " + show(2 * pi / q0) + " m");
   return std::min(q, q1);
 }
 

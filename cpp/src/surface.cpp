@@ -15,8 +15,8 @@ namespace {
 
 void require_size(std::size_t size, HeightMap::Shape shape) {
   if (size != shape[0] * shape[1])
-    throw InvalidInput("heights has " + std::to_string(size) + " entries: must be shape = " +
-                       std::to_string(shape[0]) + " x " + std::to_string(shape[1]));
+    throw InvalidInput("heights has " + std::to_string(size) + " entries: must be shape = " + std::to_string(shape[0]) +
+                       " x " + std::to_string(shape[1]));
 }
 
 /// Owns a vector and points at its numbers. A vector's buffer stays where it is when the vector is moved.
@@ -47,7 +47,8 @@ HeightMap::HeightMap(Data data, Strides strides, std::shared_ptr<const void> own
     for (std::size_t x = 0; x < row.size(); ++x) {
       if (std::isnan(row[x])) ++dropouts_;
       if (std::isinf(row[x]))
-        refuse("heights[" + std::to_string(y) + ", " + std::to_string(x) + "]", row[x], "finite, or NaN for a drop-out");
+        refuse("heights[" + std::to_string(y) + ", " + std::to_string(x) + "]", row[x],
+               "finite, or NaN for a drop-out");
     }
   });
   if (dropouts_ == shape_[0] * shape_[1]) throw InvalidInput("heights: every point is a drop-out (NaN)");
@@ -68,8 +69,7 @@ double HeightMap::dropout_fraction() const {
 
 // Two readings: the mean first, so that a map far from zero keeps the digits of its roughness.
 HeightStatistics HeightMap::statistics() const {
-  const double count =
-      static_cast<double>(shape_[0]) * static_cast<double>(shape_[1]) - static_cast<double>(dropouts_);
+  const double count = static_cast<double>(shape_[0]) * static_cast<double>(shape_[1]) - static_cast<double>(dropouts_);
   const double anchor = first_height(*this);
   double sum = 0;
   for_each_row(*this, [&](std::size_t, std::span<const double> row) {
@@ -77,8 +77,8 @@ HeightStatistics HeightMap::statistics() const {
     for (const double z : row) part += std::isnan(z) ? 0 : z - anchor;
     sum += part;
   });
-  HeightStatistics s{anchor + sum / count, 0, 0, 0, -std::numeric_limits<double>::infinity(),
-                     std::numeric_limits<double>::infinity()};
+  HeightStatistics s{
+      anchor + sum / count, 0, 0, 0, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   double m2 = 0, m3 = 0, m4 = 0;
   for_each_row(*this, [&](std::size_t, std::span<const double> row) {
     double part2 = 0, part3 = 0, part4 = 0;
@@ -153,9 +153,7 @@ HeightMap HeightMap::affine_shift(double p) const {
 
 namespace {
 
-constexpr std::size_t terms(Detrend order) {
-  return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6;
-}
+constexpr std::size_t terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
 
 double coordinate(std::size_t i, std::size_t n) {
   return n == 1 ? 0 : 2 * static_cast<double>(i) / static_cast<double>(n - 1) - 1;
@@ -206,8 +204,6 @@ void Trend::subtract(std::size_t y, std::span<double> row) const {
     row[x] = (row[x] - anchor_) - (constant + u * (linear + u * c[3]));
   }
 }
-
-
 
 double first_height(const HeightMap& map) {
   std::vector<double> row(map.shape()[1]);

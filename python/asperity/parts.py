@@ -108,7 +108,7 @@ def build_surface(path: Path, table: object) -> tuple[Spectrum, HeightMap | None
         for key in _SELF_AFFINE:
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
-        values = {"window": "split-cosine-bell", "detrend": "plane", **values}
+        values = {"channel": 0, "window": "split-cosine-bell", "detrend": "plane", **values}
         surface = _read_map(path, values, derived)
         spectrum: Spectrum = _measure(path, surface, values)
     else:

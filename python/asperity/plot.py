@@ -36,7 +36,7 @@ def check_plot(path: Path) -> None:
 
 def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
     """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
-    figure, axes = _figure(wide=True)
+    figure, axes = _figure()
     over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
     adhesive = any(scene.adhesion is not None for scene in scenes)
     kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
@@ -86,25 +86,24 @@ def area_figure(
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LogNorm
 
-    figure, axes = _figure(wide=True)
+    figure, axes = _figure()
     many = scene.velocity.size > len(_COLOURS)
-    order = np.argsort(scene.velocity)
+    norm = LogNorm(float(scene.velocity.min()), float(scene.velocity.max()))
+    colours = _shades()(norm(scene.velocity)) if many else _COLOURS
     for pressure, rows, dashes in zip(
         scene.pressure, area, cycle(("-", "--", ":", "-.")), strict=False
     ):
         load = _pressure(float(pressure))
-        for column, colour in zip(order, _colours(order.size), strict=True):
-            label = f"{load}, {float(scene.velocity[column]):.3g} m/s"
+        for velocity, row, colour in zip(scene.velocity, rows, colours, strict=False):
+            label = f"{load}, {float(velocity):.3g} m/s"
             if many:
-                label = load if column == order[0] else "_"
-            x = wavenumber / wavenumber[0]
-            axes.plot(x, rows[column], dashes, color=colour, label=label)
+                label = load if velocity == scene.velocity[0] else "_"
+            axes.plot(wavenumber / wavenumber[0], row, dashes, color=colour, label=label)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("Magnification $q / q_0$ [-]")
     axes.set_ylabel("Relative contact area $A / A_0$ [-]")
     if many:
-        norm = LogNorm(float(scene.velocity.min()), float(scene.velocity.max()))
         shades = ScalarMappable(norm, _shades())
         figure.colorbar(shades, ax=axes, label="Sliding velocity $v$ [m/s]")
         axes.legend(loc="lower left")
@@ -117,8 +116,9 @@ def spectrum_figure(
     spectrum: TabulatedSpectrum, fit: SelfAffineFit, cutoff: float, path: Path
 ) -> bytes:
     """C(q) with its self-affine fit and the wavenumber at which the rms slope reaches 1.3."""
-    figure, axes = _figure(wide=False)
-    axes.plot(spectrum.wavenumber, spectrum.density, ".", markersize=3, color=_COLOURS[0])
+    figure, axes = _figure()
+    q, density = spectrum.wavenumber, spectrum.density
+    axes.plot(q, density, ".", markersize=3, color=_COLOURS[0], label="measured")
     fitted = np.geomspace(fit.q0, fit.q1, 200)
     label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
     axes.plot(fitted, fit.spectrum.at(fitted), color=_COLOURS[1], label=label)
@@ -128,14 +128,14 @@ def spectrum_figure(
     axes.set_yscale("log")
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
-    figure.legend(loc="outside upper center", ncols=2)
+    figure.legend(loc="outside right upper")
     return _picture(figure, path)
 
 
-def _figure(*, wide: bool) -> "tuple[Figure, Axes]":
+def _figure() -> "tuple[Figure, Axes]":
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(6.6 if wide else 4.6, 3.5), layout="constrained")
+    figure = Figure(figsize=(6.6, 3.5), layout="constrained")
     axes = figure.add_subplot()
     axes.tick_params(which="both", direction="in", top=True, right=True)
     return figure, axes

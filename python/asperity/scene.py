@@ -77,6 +77,12 @@ class Scene:
     inputs: Mapping[str, Mapping[str, Any]]
     derived: Mapping[str, Any]
 
+    @property
+    def sources(self) -> list[Path]:
+        """The scene file and the files that it names."""
+        names = (self.inputs["surface"].get("file"), self.inputs["rubber"].get("master_curve"))
+        return [self.path, *(self.path.parent / name for name in names if name is not None)]
+
     def friction(self, progress: Callable[[list[Any]], Iterable[Any]] = iter) -> Curves:
         """Friction at every pressure and velocity; `progress` sees the chunks of velocities."""
         chunks = np.split(self.velocity, range(_CHUNK, self.velocity.size, _CHUNK))

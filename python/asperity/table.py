@@ -74,8 +74,8 @@ def terminal_table(columns: Mapping[str, Sequence[float]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def check_output(path: Path, inputs: Sequence[Path]) -> None:
-    """Refuse, before any work, a path that cannot be written or would overwrite an input."""
+def check_output(path: Path) -> None:
+    """Refuse, before any work, a path that cannot be written."""
     directory = path.resolve().parent
     if not directory.is_dir():
         raise InvalidInput(f"{path}: cannot be written: no directory {directory.name}")
@@ -83,8 +83,6 @@ def check_output(path: Path, inputs: Sequence[Path]) -> None:
         raise InvalidInput(f"{path}: cannot be written: no permission for its directory")
     if path.exists() and not path.is_file():
         raise InvalidInput(f"{path}: cannot be written: not a regular file")
-    if any(path.exists() and other.exists() and path.samefile(other) for other in inputs):
-        raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
 def write_files(contents: Mapping[Path, bytes]) -> None:

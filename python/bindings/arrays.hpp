@@ -36,8 +36,7 @@ inline Array real_array(const py::handle& values, const std::string& name) {
 /// A one-dimensional array-like as a vector.
 inline std::vector<double> vector_of(const py::handle& values, const std::string& name) {
   const Array array = real_array(values, name);
-  if (array.ndim() != 1)
-    throw InvalidInput(name + " has " + std::to_string(array.ndim()) + " dimensions: must have 1");
+  if (array.ndim() != 1) throw InvalidInput(name + " has " + std::to_string(array.ndim()) + " dimensions: must have 1");
   return {array.data(), array.data() + array.size()};
 }
 
@@ -60,8 +59,7 @@ inline Broadcast broadcast(std::initializer_list<std::pair<const char*, py::hand
   std::size_t at = 0;
   for (const auto& [name, values] : arguments) {
     const Array& a = arrays[at++];
-    shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " +
-              py::str(a.attr("shape")).cast<std::string>();
+    shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " + py::str(a.attr("shape")).cast<std::string>();
     for (py::ssize_t i = 0; i < a.ndim(); ++i) {
       py::ssize_t& side = result.shape[rank - static_cast<std::size_t>(a.ndim() - i)];
       if (a.shape(i) != 1 && side != 1 && side != a.shape(i)) fits = false;

@@ -53,8 +53,7 @@ void bind_over_wavenumber(py::module_& m, const char* name, bool wavenumber_requ
 
 }  // namespace
 
-ContactModel contact_model(double poisson_ratio, const py::object& correction, const std::string& form,
-                           double rtol) {
+ContactModel contact_model(double poisson_ratio, const py::object& correction, const std::string& form, double rtol) {
   return {poisson_ratio, correction_of(correction), choice<Form>("form", form, forms), rtol};
 }
 

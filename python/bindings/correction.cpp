@@ -26,8 +26,7 @@ Profile profile_of(const py::object& source, std::optional<double> min_distance,
   Profile profile;
   if (py::isinstance<HeightMap>(source)) {
     const auto& map = source.cast<const HeightMap&>();
-    if (!min_distance)
-      throw InvalidInput("min_distance: must be given with a HeightMap, for instance 2 pi / q0 [m]");
+    if (!min_distance) throw InvalidInput("min_distance: must be given with a HeightMap, for instance 2 pi / q0 [m]");
     const HeightStatistics statistics = map.statistics();
     profile.peaks = {map.local_peaks(*min_distance), z_max.value_or(statistics.z_max)};
     profile.z_min = statistics.z_min;
@@ -140,12 +139,14 @@ InvalidInput
       .def(py::init([](const py::object& source, std::optional<double> min_distance, std::optional<double> z_max) {
              return BoundLocalPeaks{profile_of(source, min_distance, z_max).peaks, source, min_distance};
            }),
-           py::arg("heights_or_map"), py::kw_only(), py::arg("min_distance") = py::none(), py::arg("z_max") = py::none())
+           py::arg("heights_or_map"), py::kw_only(), py::arg("min_distance") = py::none(),
+           py::arg("z_max") = py::none())
       .def_readonly("heights_or_map", &BoundLocalPeaks::source, "As given.")
       .def_property_readonly(
           "heights", [](const BoundLocalPeaks& s) { return flat(s.heights); }, "Of the peaks [m], shape (n,).")
       .def_readonly("min_distance", &BoundLocalPeaks::min_distance, "Between peaks [m] or None.")
-      .def_property_readonly("z_max", [](const BoundLocalPeaks& s) { return s.z_max; }, "Highest point [m].")
+      .def_property_readonly(
+          "z_max", [](const BoundLocalPeaks& s) { return s.z_max; }, "Highest point [m].")
       .def_property_readonly(
           "shift_factor", [](const BoundLocalPeaks& s) { return shift_factor(s); }, "p_T1 [-].");
   value_semantics(peaks, {"heights_or_map", "min_distance", "z_max"});
@@ -188,7 +189,8 @@ d~ = 3 h_rms the model has left its range: results carry a note.
       .def_readonly("z_max", &GreenwoodWilliamson::z_max, "Highest point [m].")
       .def_readonly("z_min", &GreenwoodWilliamson::z_min, "Lowest point [m].")
       .def_property_readonly(
-          "peaks", [](const GreenwoodWilliamson& s) { return s.peaks.empty() ? py::object(py::none()) : flat(s.peaks); },
+          "peaks",
+          [](const GreenwoodWilliamson& s) { return s.peaks.empty() ? py::object(py::none()) : flat(s.peaks); },
           "Peak heights [m] or None.")
       .def_property_readonly(
           "reading", [](const GreenwoodWilliamson& s) { return name_of_reading(s.reading); }, "Of Eqs 19-20.")
@@ -228,13 +230,19 @@ reading, rms_height, q0
            py::arg("z_max") = py::none(), py::arg("z_min") = py::none(), py::arg("reading") = "implicit",
            py::arg("rms_height") = py::none(), py::arg("q0") = py::none())
       .def_readonly("heights_or_map", &Both::source, "As given.")
-      .def_property_readonly("heights", [](const Both& s) { return flat(s.peaks.heights); }, "Of the peaks [m].")
+      .def_property_readonly(
+          "heights", [](const Both& s) { return flat(s.peaks.heights); }, "Of the peaks [m].")
       .def_readonly("min_distance", &Both::min_distance, "Between peaks [m] or None.")
-      .def_property_readonly("z_max", [](const Both& s) { return s.z_max; }, "Highest point [m].")
-      .def_property_readonly("z_min", [](const Both& s) { return s.z_min; }, "Lowest point [m].")
-      .def_property_readonly("reading", [](const Both& s) { return name_of_reading(s.reading); }, "Of Eqs 19-20.")
-      .def_property_readonly("rms_height", [](const Both& s) { return s.rms_height; }, "h_rms [m] or None.")
-      .def_property_readonly("q0", [](const Both& s) { return s.q0; }, "q0 [1/m] or None.");
+      .def_property_readonly(
+          "z_max", [](const Both& s) { return s.z_max; }, "Highest point [m].")
+      .def_property_readonly(
+          "z_min", [](const Both& s) { return s.z_min; }, "Lowest point [m].")
+      .def_property_readonly(
+          "reading", [](const Both& s) { return name_of_reading(s.reading); }, "Of Eqs 19-20.")
+      .def_property_readonly(
+          "rms_height", [](const Both& s) { return s.rms_height; }, "h_rms [m] or None.")
+      .def_property_readonly(
+          "q0", [](const Both& s) { return s.q0; }, "q0 [1/m] or None.");
   value_semantics(both, {"heights_or_map", "min_distance", "z_max", "z_min", "reading", "rms_height", "q0"});
 }
 

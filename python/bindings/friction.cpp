@@ -13,10 +13,10 @@ namespace asperity::python {
 namespace {
 
 struct FrictionTag {
-  static constexpr const char* names[] = {"mu",           "hysteresis", "adhesion",       "contact_area",
-                                          "shift_factor", "pressure",   "velocity",       "error_estimate",
-                                          "extrapolated_share", "notes", "wavenumber",    "dmu_dlnq",
-                                          "decade_edges", "decade_share"};
+  static constexpr const char* names[] = {
+      "mu",         "hysteresis", "adhesion",       "contact_area",       "shift_factor",
+      "pressure",   "velocity",   "error_estimate", "extrapolated_share", "notes",
+      "wavenumber", "dmu_dlnq",   "decade_edges",   "decade_share"};
 };
 
 Record<FrictionTag> compute(const py::object& spectrum, const py::object& rubber, const py::object& pressure,

@@ -11,7 +11,8 @@ namespace asperity::python {
 
 namespace {
 
-const auto extrapolations = {std::pair{"power-law", Extrapolation::power_law}, std::pair{"clamp", Extrapolation::clamp}};
+const auto extrapolations = {std::pair{"power-law", Extrapolation::power_law},
+                             std::pair{"clamp", Extrapolation::clamp}};
 
 /// f(AngularIntegrals) over every frequency, the GIL released.
 template <class R, class F>
@@ -86,7 +87,8 @@ Examples
       .def_property_readonly(
           "moduli", [](const PronySeries& s) { return flat(s.moduli()); }, "E_k [Pa], shape (n,).")
       .def_property_readonly(
-          "relaxation_times", [](const PronySeries& s) { return flat(s.relaxation_times()); }, "tau_k [s], shape (n,).");
+          "relaxation_times", [](const PronySeries& s) { return flat(s.relaxation_times()); },
+          "tau_k [s], shape (n,).");
   bind_common(prony);
   value_semantics(prony, {"equilibrium_modulus", "moduli", "relaxation_times"});
 
@@ -112,11 +114,11 @@ OutOfRange
   curve
       .def(py::init([](const py::object& w, const py::object& storage, const py::object& loss,
                        const std::optional<std::string>& extrapolation) {
-             return MasterCurve(vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
-                                vector_of(loss, "loss_modulus"),
-                                extrapolation ? std::optional(choice<Extrapolation>("extrapolation", *extrapolation,
-                                                                                   extrapolations))
-                                              : std::nullopt);
+             return MasterCurve(
+                 vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
+                 vector_of(loss, "loss_modulus"),
+                 extrapolation ? std::optional(choice<Extrapolation>("extrapolation", *extrapolation, extrapolations))
+                               : std::nullopt);
            }),
            py::kw_only(), py::arg("angular_frequency"), py::arg("storage_modulus"), py::arg("loss_modulus"),
            py::arg("extrapolation") = py::none())
@@ -136,9 +138,8 @@ OutOfRange
       .def(
           "extrapolated_shares",
           [](const MasterCurve& r, const py::object& w) {
-            return two_columns(r, w, [](const AngularIntegrals& a) {
-              return std::pair(a.i1_outside / a.i1, a.i2_outside / a.i2);
-            });
+            return two_columns(
+                r, w, [](const AngularIntegrals& a) { return std::pair(a.i1_outside / a.i1, a.i2_outside / a.i2); });
           },
           py::arg("angular_frequency"),
           "Shares of I1 and I2 that come from outside of the measured frequencies: w cos(phi) always runs to zero, "

@@ -21,7 +21,8 @@ void bind_common(py::classh<S>& cls) {
   cls.def_property_readonly(
          "rms_slope", [](const S& s) { return rms_slope(s); }, "h' = sqrt(2 pi int q^3 C dq) [-].")
       .def(
-          "at", [](const S& s, const py::object& q) {
+          "at",
+          [](const S& s, const py::object& q) {
             const Array array = real_array(q, "wavenumber");
             auto values = density(s, std::span(array.data(), static_cast<std::size_t>(array.size())));
             return shaped(std::move(values), Shape(array.shape(), array.shape() + array.ndim()));
@@ -149,21 +150,27 @@ InvalidInput
           "Modes in each row, shape (n,), or None.")
       .def_property_readonly(
           "rms_height", [](const TabulatedSpectrum& s) { return rms_height(s); }, "sqrt(2 pi int q C dq) [m].")
-      .def_property_readonly("q0", [](const TabulatedSpectrum& s) { return band(s)[0]; }, "First row [1/m].")
-      .def_property_readonly("q1", [](const TabulatedSpectrum& s) { return band(s)[1]; }, "Last row [1/m].");
+      .def_property_readonly(
+          "q0", [](const TabulatedSpectrum& s) { return band(s)[0]; }, "First row [1/m].")
+      .def_property_readonly(
+          "q1", [](const TabulatedSpectrum& s) { return band(s)[1]; }, "Last row [1/m].");
   bind_common(table);
   value_semantics(table, {"wavenumber", "density", "count"});
 
   py::classh<SelfAffineFit>(m, "SelfAffineFit", "A power law through a measured spectrum (fit_self_affine).")
-      .def(py::init([](const SelfAffineSpectrum& spectrum, const std::map<std::string, double>& errors, std::size_t rows) {
-             return SelfAffineFit{spectrum, errors.at("rms_height"), errors.at("hurst"), rows};
-           }),
+      .def(py::init(
+               [](const SelfAffineSpectrum& spectrum, const std::map<std::string, double>& errors, std::size_t rows) {
+                 return SelfAffineFit{spectrum, errors.at("rms_height"), errors.at("hurst"), rows};
+               }),
            py::kw_only(), py::arg("spectrum"), py::arg("standard_errors"), py::arg("rows"))
       .def_property_readonly(
           "rms_height", [](const SelfAffineFit& f) { return f.spectrum.rms_height; }, "h_rms on [q0, q1] [m].")
-      .def_property_readonly("hurst", [](const SelfAffineFit& f) { return f.spectrum.hurst; }, "H [-].")
-      .def_property_readonly("q0", [](const SelfAffineFit& f) { return f.spectrum.q0; }, "First row used [1/m].")
-      .def_property_readonly("q1", [](const SelfAffineFit& f) { return f.spectrum.q1; }, "Last row used [1/m].")
+      .def_property_readonly(
+          "hurst", [](const SelfAffineFit& f) { return f.spectrum.hurst; }, "H [-].")
+      .def_property_readonly(
+          "q0", [](const SelfAffineFit& f) { return f.spectrum.q0; }, "First row used [1/m].")
+      .def_property_readonly(
+          "q1", [](const SelfAffineFit& f) { return f.spectrum.q1; }, "Last row used [1/m].")
       .def_readonly("spectrum", &SelfAffineFit::spectrum, "The fit as a SelfAffineSpectrum.")
       .def_readonly("rows", &SelfAffineFit::rows, "Rows of the spectrum that were used.")
       .def_property_readonly(

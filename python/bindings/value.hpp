@@ -33,7 +33,8 @@ inline void value_semantics(py::handle cls, std::vector<std::string> fields) {
     for (const auto& field : fields) {
       const py::object a = self.attr(field.c_str()), b = other.attr(field.c_str());
       const bool numeric = py::isinstance<py::array>(a) && a.attr("dtype").attr("kind").cast<std::string>() != "U";
-      const bool equal = py::isinstance<py::array>(a) ? same(a, b, py::arg("equal_nan") = numeric).cast<bool>() : a.equal(b);
+      const bool equal =
+          py::isinstance<py::array>(a) ? same(a, b, py::arg("equal_nan") = numeric).cast<bool>() : a.equal(b);
       if (!equal) return py::bool_(false);
     }
     return py::bool_(true);
@@ -62,7 +63,8 @@ py::classh<Record<Tag>> bind_record(py::module_& m, const char* name, const char
       if (!given.contains(field)) throw InvalidInput(std::string(field) + ": is missing");
       record.values[field] = given[field];
     }
-    if (given.size() != record.values.size()) throw InvalidInput("unknown field in " + py::repr(given).cast<std::string>());
+    if (given.size() != record.values.size())
+      throw InvalidInput("unknown field in " + py::repr(given).cast<std::string>());
     return record;
   }));
   for (const char* field : Tag::names)

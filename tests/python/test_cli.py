@@ -183,7 +183,8 @@ def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture
     comments, rows = rows_of(out)
     assert list(rows[0]) == ["wavenumber_per_m", "density_m4", "count"]
     assert sum(int(row["count"]) for row in rows) == 60 * 80 - 1
-    assert "# pixel_size_m = [2e-05, 1e-05]" in comments
+    for line in ("# pixel_size_m = [2e-05, 1e-05]", '# unit = "m"', "# q_min = 25000.0"):
+        assert line in comments
     found = dict(line.split(" = ") for line in err.splitlines() if " = " in line)
     assert float(found["fit_hurst"]) == pytest.approx(0.8, abs=0.1)
     assert 0 < float(found["fit_hurst_standard_error"]) < 0.1

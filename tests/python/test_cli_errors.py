@@ -52,6 +52,8 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         (["friction", "scene.toml", "--output", "no/mu.csv"], "no/mu.csv: cannot be written"),
         (["friction", "scene.toml", "--output", "."], ".: cannot be written: not a regular file"),
         (["friction", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
+        ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
+        (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
         (["friction", "scene.toml", "--output", "/dev/null"], "/dev/null: cannot be written"),
         (["friction", "scene.toml", "--plot", "mu.jpg"], "mu.jpg: must end in .png, .svg, .pdf"),
         (
@@ -79,6 +81,8 @@ def test_bad_input_is_one_line_and_leaves_no_file(
     holes = np.ones((20, 20))
     holes[:, :3] = np.nan
     np.save(folder / "holes.npy", holes)
+    scan = "[surface]\nfile = 'scan.npy'\npixel_size_m = 1e-5\nunit = 'm'\n"
+    (folder / "scanned.toml").write_text(scan + SCENE[SCENE.index("[rubber]") :])
     before = names(folder)
     if output and "--output" not in arguments:
         arguments = [*arguments, "--output", output]

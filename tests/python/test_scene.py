@@ -102,7 +102,8 @@ def test_everything_named_reaches_the_core(folder: Path) -> None:
         + "rolloff_per_m = 4000.0\n"
         + RUBBER
         + CONDITIONS
-        + "poisson_ratio = 0.45\n[correction]\nkind = 's-factor'\ngamma = 0.4\napplies_to = 'both'\n"
+        + "poisson_ratio = 0.45\n"
+        + "[correction]\nkind = 's-factor'\ngamma = 0.4\napplies_to = 'both'\n"
         + "[adhesion]\nshear_stress_pa = 8.3e6\nreference_velocity_m_s = 5e-3\nwidth = 0.2\n"
         + "[solver]\nrtol = 1e-4\nform = 'interpolated'\n"
     )

@@ -20,8 +20,8 @@ enum class Reading { implicit, added };
 /// Macro-asperities: n_a = q0^2 / (2 pi^2 sqrt 3) a unit area, of radius R = 1 / (q0^2 sqrt 2 h_rms), their
 /// heights Gaussian of rms h_rms or given.
 struct MacroAsperities {
-  double rms_height;                  // h_rms [m]
-  double q0;                          // [1/m]
+  double rms_height;                   // h_rms [m]
+  double q0;                           // [1/m]
   std::span<const double> peaks = {};  // heights [m] above the mean plane; empty: Gaussian
 };
 

@@ -35,8 +35,8 @@ struct AffineShift {
 
 /// p_T1 = z_max / (z_max - <h_peaks>) (Eq. 13).
 struct LocalPeaks {
-  std::vector<double> heights;          // of the peaks, above the mean plane [m]
-  std::optional<double> z_max = {};     // highest point of the profile [m]; unset: the highest peak
+  std::vector<double> heights;       // of the peaks, above the mean plane [m]
+  std::optional<double> z_max = {};  // highest point of the profile [m]; unset: the highest peak
   bool operator==(const LocalPeaks&) const = default;
 };
 
@@ -44,8 +44,8 @@ struct LocalPeaks {
 /// model at E* = |E(q0 v)| / (1 - nu^2). z_max, z_min are the height profile's own, R and n_a those of
 /// MacroAsperities; `peaks`, where given, stand in for the Gaussian heights (Section 3.2).
 struct GreenwoodWilliamson {
-  double z_max, z_min;                         // [m] about the mean plane
-  std::vector<double> peaks = {};              // [m]
+  double z_max, z_min;             // [m] about the mean plane
+  std::vector<double> peaks = {};  // [m]
   Reading reading = Reading::implicit;
   std::optional<double> rms_height = {}, q0 = {};  // of the macro-asperities; unset: the spectrum's
   bool operator==(const GreenwoodWilliamson&) const = default;
@@ -61,8 +61,8 @@ struct PeaksThenGreenwoodWilliamson {
   bool operator==(const PeaksThenGreenwoodWilliamson&) const = default;
 };
 
-using Correction = std::variant<NoCorrection, SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson,
-                                PeaksThenGreenwoodWilliamson>;
+using Correction =
+    std::variant<NoCorrection, SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, PeaksThenGreenwoodWilliamson>;
 
 ASPERITY_EXPORT void validate(const Correction& correction);
 

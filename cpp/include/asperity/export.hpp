@@ -2,13 +2,13 @@
 #pragma once
 
 #if defined(_WIN32) && defined(ASPERITY_SHARED)
-#  ifdef ASPERITY_BUILDING
-#    define ASPERITY_EXPORT __declspec(dllexport)
-#  else
-#    define ASPERITY_EXPORT __declspec(dllimport)
-#  endif
-#elif defined(__GNUC__)
-#  define ASPERITY_EXPORT __attribute__((visibility("default")))
+#ifdef ASPERITY_BUILDING
+#define ASPERITY_EXPORT __declspec(dllexport)
 #else
-#  define ASPERITY_EXPORT
+#define ASPERITY_EXPORT __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define ASPERITY_EXPORT __attribute__((visibility("default")))
+#else
+#define ASPERITY_EXPORT
 #endif

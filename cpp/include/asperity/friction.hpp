@@ -24,10 +24,10 @@ ASPERITY_EXPORT void validate(const Adhesion& adhesion);
 
 /// Where the hysteresis comes from. Tables are row-major: a row a point.
 struct Contributions {
-  std::vector<double> wavenumber;      // [1/m], n of them
-  std::vector<double> dmu_dlnq;        // points x n
-  std::vector<double> decade_edges;    // angular frequencies v q [rad/s], m + 1 powers of ten
-  std::vector<double> decade_share;    // points x m, shares of the hysteresis
+  std::vector<double> wavenumber;    // [1/m], n of them
+  std::vector<double> dmu_dlnq;      // points x n
+  std::vector<double> decade_edges;  // angular frequencies v q [rad/s], m + 1 powers of ten
+  std::vector<double> decade_share;  // points x m, shares of the hysteresis
 };
 
 /// One entry a point.

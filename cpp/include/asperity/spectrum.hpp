@@ -16,9 +16,9 @@ namespace asperity {
 /// C(q) = C_r (q / q_r)^(-2 (H + 1)) on [q_r, q1], flat C_r on [q0, q_r], zero elsewhere; q_r is the roll-off,
 /// or q0 where there is none. C_r follows from rms_height^2 = 2 pi int_q0^q1 q C dq.
 struct ASPERITY_EXPORT SelfAffineSpectrum {
-  double rms_height;                         // h_rms on the band [m]
-  double hurst;                              // H [-], 0 < H <= 1
-  double q0, q1;                             // lower and upper cut-off [1/m]
+  double rms_height;                             // h_rms on the band [m]
+  double hurst;                                  // H [-], 0 < H <= 1
+  double q0, q1;                                 // lower and upper cut-off [1/m]
   std::optional<double> rolloff = std::nullopt;  // q_r [1/m]
   bool operator==(const SelfAffineSpectrum&) const = default;
 
@@ -86,7 +86,7 @@ ASPERITY_EXPORT SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum,
                                               std::optional<double> q_max);
 
 /// A periodic map with |h(q)|^2 exactly that of the spectrum at every mode the grid holds, phases random.
-ASPERITY_EXPORT HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape,
-                                     HeightMap::PixelSize pixel_size, std::uint64_t seed);
+ASPERITY_EXPORT HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap::PixelSize pixel_size,
+                                     std::uint64_t seed);
 
 }  // namespace asperity

@@ -1,0 +1,60 @@
+// A host program with its own GSL error handler and its own FFTW, which must both stay as they are.
+#include <fftw3.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+
+#include <asperity/friction.hpp>
+#include <asperity/version.hpp>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <cstring>
+
+namespace {
+
+int calls = 0;
+void handler(const char*, const char*, int, int) { ++calls; }
+
+bool check(bool fine, const char* what) {
+  std::printf("%s: %s\n", fine ? "ok" : "FAILED", what);
+  return fine;
+}
+
+}  // namespace
+
+int main() {
+  bool fine = check(std::strcmp(asperity::version(), ASPERITY_VERSION) == 0, "headers and library agree");
+  gsl_set_error_handler(&handler);
+
+  const asperity::SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
+  const asperity::PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
+  const double velocity[] = {1e-3, 1.0};
+  const asperity::Friction f = asperity::friction(road, rubber, {.pressure = 81e3}, velocity);
+  std::printf("mu = %.6f %.6f\n", f.mu[0], f.mu[1]);
+  fine &= check(f.mu[0] > 0 && f.error_estimate[0] < 1e-6 * f.mu[0], "friction within its tolerance");
+
+  try {
+    (void)asperity::friction(road, rubber, {.pressure = -1}, velocity);
+    fine = check(false, "a negative pressure is refused");
+  } catch (const asperity::InvalidInput& error) {
+    fine &= check(std::strstr(error.what(), "pressure = -1") != nullptr, error.what());
+  }
+  (void)asperity::power_spectrum(asperity::synthesize(road, {64, 64}, {1e-4, 1e-4}, 1));
+
+  // An integral that cannot converge makes GSL call the handler of this host, and no other.
+  gsl_integration_workspace* const workspace = gsl_integration_workspace_alloc(2);
+  gsl_function steep{[](double x, void*) { return std::sin(1 / x); }, nullptr};
+  double value = 0, error = 0;
+  gsl_integration_qag(&steep, 1e-9, 1, 0, 1e-12, 2, GSL_INTEG_GAUSS15, workspace, &value, &error);
+  gsl_integration_workspace_free(workspace);
+  fine &= check(calls == 1, "the host's GSL error handler is its own");
+  fine &= check(gsl_set_error_handler(nullptr) == &handler, "the host's GSL error handler was left alone");
+
+  std::complex<double> mode[3];
+  double heights[4] = {1, 2, 3, 4};
+  const fftw_plan plan = fftw_plan_dft_r2c_1d(4, heights, reinterpret_cast<fftw_complex*>(mode), FFTW_ESTIMATE);
+  fftw_execute(plan);
+  fftw_destroy_plan(plan);
+  fine &= check(mode[0] == 10.0, "the host's FFTW works beside ours");
+  return fine ? 0 : 1;
+}

@@ -1,0 +1,60 @@
+#include <numbers>
+
+#include "asperity/contact.hpp"
+#include "reference_table.hpp"
+
+using namespace asperity;
+using std::numbers::pi;
+
+TEST_CASE("the pressure distribution solves Eq. 4") {
+  for (const Row& row : reference("pressure_distribution")) {
+    CAPTURE(row.text("case"));
+    // An elastic rubber whose modulus gives just this G on a surface of rms slope h': G = pi / 4 (E* h' / sigma0)^2 /
+    // pi / 2
+    const SelfAffineSpectrum surface{.rms_height = 1e-5, .hurst = 0.8, .q0 = 1e4, .q1 = 1e6};
+    const double slope = rms_slope(surface), pressure = 1e5;
+    const double stiffness = std::sqrt(8 * row.number("g")) * pressure / slope;
+    if (!(stiffness > 1e-300 && stiffness < 1e300)) continue;
+    const PronySeries elastic(stiffness, {}, {});
+    const double velocity = 1, stress = row.number("stress_over_pressure") * pressure;
+    const double found = pressure_distribution(surface, elastic, {.poisson_ratio = 0}, std::span(&stress, 1),
+                                               std::span(&pressure, 1), std::span(&velocity, 1), surface.q1)[0];
+    const double expected = row.number("density_times_pressure");
+    // an error of G passes on as |d ln P / d ln G|, at most 1/2 + ((s - 1)^2 + 4 s) / 4G
+    const double s = row.number("stress_over_pressure"), g = row.number("g");
+    const double passed = 1 + ((s - 1) * (s - 1) + 4 * s) / (4 * g);
+    CHECK_NEAR(found * pressure, expected, row.number("rtol") * std::fmax(1, passed), 1e-300);
+  }
+}
+
+TEST_CASE("small loads: A/A0 -> sqrt(8 / pi) sigma0 / (E* h')") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-5, .hurst = 0.8, .q0 = 1e4, .q1 = 1e6};
+  const double velocity = 1, pressure = 1;
+  const double area = contact_area(surface, PronySeries(1e9, {}, {}), {.poisson_ratio = 0}, std::span(&pressure, 1),
+                                   std::span(&velocity, 1))[0];
+  CHECK(area == doctest::Approx(std::sqrt(8 / pi) * 1e-9 / rms_slope(surface)).epsilon(1e-9));
+}
+
+TEST_CASE("area at every magnification: 1 at q0, falling, Eq. 1 with the mean pressure") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-5, .hurst = 0.8, .q0 = 1e4, .q1 = 1e6};
+  const PronySeries rubber(1e6, {1e8}, {1e-5});
+  const double q[] = {1e4, 2e4, 5e4, 1e5, 1e6}, pressure = 1e5, velocity = 0.1;
+  const std::span one_pressure(&pressure, 1), one_velocity(&velocity, 1);
+  const auto area = contact_area(surface, rubber, {}, one_pressure, one_velocity, q);
+  const auto mean = mean_pressure(surface, rubber, {}, one_pressure, one_velocity, q);
+  CHECK(area[0] == 1);
+  for (int i = 1; i < 5; ++i) CHECK(area[i] < area[i - 1]);
+  for (int i = 0; i < 5; ++i) CHECK(area[i] * mean[i] == doctest::Approx(pressure).epsilon(1e-14));
+}
+
+TEST_CASE("without contact everything is zero and nothing is NaN") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2000, .q1 = 1e6};
+  const ContactModel model{.correction = GreenwoodWilliamson{.z_max = 1e-4, .z_min = -1e-4}};
+  const PronySeries glass(1e12, {}, {});
+  const double q = 1e6, pressure = 1e3, velocity = 1, stress = 1e3;
+  const std::span p(&pressure, 1), v(&velocity, 1), k(&q, 1), s(&stress, 1);
+  CHECK(contact_area(surface, glass, model, p, v)[0] == 0);
+  CHECK(correction_factor(surface, glass, model, p, v, k)[0] == 0);
+  CHECK(pressure_distribution(surface, glass, model, s, p, v, q)[0] == 0);
+  CHECK(std::isinf(mean_pressure(surface, glass, model, p, v)[0]));
+}

@@ -1,0 +1,93 @@
+#include <numbers>
+#include <numeric>
+
+#include "asperity/spectrum.hpp"
+#include "reference_table.hpp"
+
+using namespace asperity;
+using std::numbers::pi;
+
+TEST_CASE("self-affine densities, slopes and cut-offs") {
+  for (const Row& row : reference("spectrum")) {
+    CAPTURE(row.text("case"));
+    const SelfAffineSpectrum s{row.number("rms_height"), row.number("hurst"), row.number("q0"), row.number("q1"),
+                               row.maybe("rolloff")};
+    const double rtol = row.number("rtol");
+    CHECK_NEAR(density(s, row.number("wavenumber")), row.number("density"), rtol, 0);
+    CHECK_NEAR(rms_slope(s), row.number("rms_slope"), rtol, 0);
+    CHECK_NEAR(cutoff_for_slope(s), row.number("slope_cutoff"), rtol, 0);
+  }
+}
+
+TEST_CASE("tabulated densities and moments, zeros included") {
+  for (const Row& row : reference("tabulated_spectrum")) {
+    CAPTURE(row.text("case"));
+    const TabulatedSpectrum s(row.list("table_wavenumber"), row.list("table_density"));
+    const double rtol = row.number("rtol");
+    CHECK_NEAR(density(s, row.number("wavenumber")), row.number("density"), rtol, 0);
+    CHECK_NEAR(rms_height(s), row.number("rms_height"), rtol, 0);
+    CHECK_NEAR(rms_slope(s), row.number("rms_slope"), rtol, 0);
+    CHECK_NEAR(cutoff_for_slope(s), row.number("slope_cutoff"), rtol, 0);
+  }
+}
+
+TEST_CASE("autocorrelation of a spectrum") {
+  for (const Row& row : reference("autocorrelation")) {
+    CAPTURE(row.text("case"));
+    const double rms = row.number("rms_height"), distance = row.number("distance");
+    const SelfAffineSpectrum s{rms, row.number("hurst"), row.number("q0"), row.number("q1"), row.maybe("rolloff")};
+    CHECK_NEAR(autocorrelation(s, std::span(&distance, 1))[0], row.number("autocorrelation"), row.number("rtol"),
+               rms * rms);
+  }
+}
+
+TEST_CASE("the article's Eq. 12 integrates to half of h0 squared") {
+  const auto s = SelfAffineSpectrum::from_article(265.7e-6, 0.87, 2000, 1e6);
+  CHECK(s.rms_height == doctest::Approx(265.7e-6 / std::sqrt(2)).epsilon(1e-4));
+  CHECK(density(s, 2000) == doctest::Approx(std::pow(265.7e-6 / 2000, 2) * 0.87 / (2 * pi)).epsilon(1e-13));
+}
+
+TEST_CASE("a narrower band keeps its densities") {
+  const SelfAffineSpectrum s{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1e3, .q1 = 1e6, .rolloff = 5e3};
+  for (const double q0 : {1e3, 2e3, 7e3}) {
+    const Spectrum cut = truncated(s, q0, 3e5);
+    CHECK_NEAR(density(cut, 2e4), density(s, 2e4), 1e-13, 0);
+    CHECK(band(cut)[0] == q0);
+    // the rms height is that of the band: against a trapezoid in ln q
+    double sum = 0;
+    const int n = 20000;
+    for (int i = 0; i <= n; ++i) {
+      const double q = q0 * std::pow(3e5 / q0, static_cast<double>(i) / n);
+      sum += (i == 0 || i == n ? 0.5 : 1) * q * q * density(s, std::min(q, 3e5));
+    }
+    CHECK(rms_height(cut) == doctest::Approx(std::sqrt(2 * pi * sum * std::log(3e5 / q0) / n)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a periodic map carries exactly its spectrum, and a transform gives it back") {
+  const SelfAffineSpectrum s{.rms_height = 1e-5, .hurst = 0.7, .q0 = 2 * pi / 96e-6, .q1 = 2 * pi / 8e-6};
+  const HeightMap map = synthesize(s, {96, 128}, {1e-6, 1.5e-6}, 7);
+  const TabulatedSpectrum found = power_spectrum(map, Window::none, std::nullopt);
+  double sum = 0;
+  for (std::size_t i = 0; i < found.count().size(); ++i) sum += found.density()[i] * found.count()[i];
+  const double area = 96e-6 * 192e-6;
+  CHECK_NEAR(sum * 4 * pi * pi / area, std::pow(map.statistics().rms_height, 2), 1e-12, 0);
+  // a ring far inside the band averages the power law over its width only
+  for (std::size_t i = 0; i < found.count().size(); ++i)
+    if (found.wavenumber()[i] > 1.5 * s.q0 && found.wavenumber()[i] < s.q1 / 1.2)
+      CHECK(found.density()[i] == doctest::Approx(density(s, found.wavenumber()[i])).epsilon(0.1));
+  const SelfAffineFit fit = fit_self_affine(found, 1.5 * s.q0, s.q1 / 1.2);
+  CHECK(fit.spectrum.hurst == doctest::Approx(0.7).epsilon(0.02));
+}
+
+TEST_CASE("two maps of one seed are one map") {
+  const SelfAffineSpectrum s{.rms_height = 1e-5, .hurst = 0.7, .q0 = 1e5, .q1 = 1e6};
+  const auto same = [&](std::uint64_t a, std::uint64_t b) {
+    std::vector<double> x(32), y(32);
+    synthesize(s, {32, 32}, {2e-6, 2e-6}, a).read_row(5, x.data());
+    synthesize(s, {32, 32}, {2e-6, 2e-6}, b).read_row(5, y.data());
+    return x == y;
+  };
+  CHECK(same(1, 1));
+  CHECK_FALSE(same(1, 2));
+}
