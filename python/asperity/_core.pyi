@@ -1,25 +1,19 @@
-from collections.abc import Sequence
-from typing import Any, Literal, final
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-type _Array = NDArray[np.float64]
-type _Result = Any  # float for scalar arguments, else an array of their broadcast shape
-type _Spectrum = SelfAffineSpectrum | TabulatedSpectrum
-type _Rubber = PronySeries | MasterCurve
-type _Correction = (
-    SFactor
-    | AffineShift
-    | LocalPeaks
-    | GreenwoodWilliamson
-    | PeaksThenGreenwoodWilliamson
-    | None
+_Array: TypeAlias = NDArray[np.float64]
+_Result: TypeAlias = Any  # float for scalar arguments, else an array of their broadcast shape
+_Spectrum: TypeAlias = SelfAffineSpectrum | TabulatedSpectrum
+_Rubber: TypeAlias = PronySeries | MasterCurve
+_Correction: TypeAlias = (
+    SFactor | AffineShift | LocalPeaks | GreenwoodWilliamson | PeaksThenGreenwoodWilliamson | None
 )
-type _Detrend = Literal["offset", "plane", "quadratic"]
-type _Window = Literal["split-cosine-bell", "hann", "none"]
-type _Form = Literal["exact", "interpolated"]
-type _Reading = Literal["implicit", "added"]
+_Detrend: TypeAlias = Literal["offset", "plane", "quadratic"]
+_Window: TypeAlias = Literal["split-cosine-bell", "hann", "none"]
+_Form: TypeAlias = Literal["exact", "interpolated"]
+_Reading: TypeAlias = Literal["implicit", "added"]
 
 __version__: str
 
@@ -30,9 +24,7 @@ class NotConverged(Error): ...
 
 @final
 class HeightMap:
-    def __init__(
-        self, heights: ArrayLike, *, pixel_size: float | tuple[float, float]
-    ) -> None: ...
+    def __init__(self, heights: ArrayLike, *, pixel_size: float | tuple[float, float]) -> None: ...
     @property
     def heights(self) -> NDArray[Any]: ...
     @property
@@ -68,9 +60,7 @@ class SelfAffineSpectrum:
         rolloff: float | None = None,
     ) -> None: ...
     @staticmethod
-    def from_article(
-        *, h0: float, hurst: float, q0: float, q1: float
-    ) -> SelfAffineSpectrum: ...
+    def from_article(*, h0: float, hurst: float, q0: float, q1: float) -> SelfAffineSpectrum: ...
     @property
     def rms_height(self) -> float: ...
     @property

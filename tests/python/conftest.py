@@ -9,7 +9,7 @@ REFERENCE = Path(__file__).parents[1] / "reference"
 
 
 def reference(name: str) -> list[dict[str, object]]:
-    """Rows of tests/reference/<name>.csv: numbers, lists of numbers (`;`), None for an empty cell."""
+    """Rows of tests/reference/<name>.csv: numbers, lists (`;`), None for an empty cell."""
     with (REFERENCE / f"{name}.csv").open(encoding="utf-8") as file:
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
         return [{key: value_of(key, cell) for key, cell in row.items()} for row in rows]
