@@ -84,7 +84,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
   }
 
-  Notes notes(rms_slope(spectrum), n);
+  Notes notes(rms_slope(spectrum));
   std::vector<double> stops;
   for (std::size_t i = 0; i < n; ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);

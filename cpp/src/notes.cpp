@@ -16,34 +16,35 @@ constexpr double separation_limit = 3;  // d~ / h_rms
 }  // namespace
 
 void Notes::add(const Shift& shift, double velocity) {
-  fast_ += velocity > flash_velocity;
-  full_ += shift.state == ContactState::full;
-  no_contact_ += shift.state == ContactState::no_contact;
-  far_ += shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
+  fast_ |= velocity > flash_velocity;
+  full_ |= shift.state == ContactState::full;
+  no_contact_ |= shift.state == ContactState::no_contact;
+  far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
 }
 
+// One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
 std::vector<std::string> Notes::texts() const {
   std::vector<std::string> result;
-  const auto at = [&](std::size_t count) {
-    return " at " + std::to_string(count) + " of " + std::to_string(points_) + " points";
-  };
   // a spectrum cut by the rule itself ends at the limit to rounding
   if (rms_slope_ > slope_limit * (1 + 1e-9))
     result.push_back("the rms slope is " + show(rms_slope_, 4) +
                      ", above 1.3, where the cut-off rule ends the spectrum: see cutoff_for_slope");
-  if (fast_ > 0)
-    result.push_back("velocity above 0.01 m/s" + at(fast_) +
-                     ": flash heating, which is not modelled, lowers the friction there (Persson 2006, J. Phys.: "
-                     "Condens. Matter 18, 7789)");
-  if (full_ > 0)
-    result.push_back("Greenwood-Williamson: full conformity, p_T = 1," + at(full_) +
-                     " (the separation is below the lowest point z_min)");
-  if (far_ > 0)
-    result.push_back("Greenwood-Williamson has left its range (separation above 3 rms heights)" + at(far_) +
-                     ": the area there does not fall with the load as it must");
-  if (no_contact_ > 0)
-    result.push_back("Greenwood-Williamson: no contact" + at(no_contact_) +
-                     " (the separation is above the highest point z_max); area and mu are 0, p_T is infinite");
+  if (fast_)
+    result.emplace_back(
+        "above 0.01 m/s flash heating, which is not modelled, lowers the friction (Persson 2006, J. Phys.: Condens. "
+        "Matter 18, 7789)");
+  if (full_)
+    result.emplace_back(
+        "Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest point "
+        "z_min");
+  if (far_)
+    result.emplace_back(
+        "Greenwood-Williamson has left its range at some points, where the separation is above 3 rms heights: the area "
+        "there does not fall with the load as it must");
+  if (no_contact_)
+    result.emplace_back(
+        "Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above the highest point "
+        "z_max; area and mu are 0 there");
   return result;
 }
 

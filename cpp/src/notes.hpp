@@ -10,13 +10,13 @@ namespace asperity {
 
 class Notes {
  public:
-  Notes(double rms_slope, std::size_t points) : rms_slope_(rms_slope), points_(points) {}
+  explicit Notes(double rms_slope) : rms_slope_(rms_slope) {}
   void add(const Shift& shift, double velocity);
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
   double rms_slope_;
-  std::size_t points_, fast_ = 0, full_ = 0, no_contact_ = 0, far_ = 0;
+  bool fast_ = false, full_ = false, no_contact_ = false, far_ = false;
 };
 
 }  // namespace asperity

@@ -36,7 +36,7 @@ def check_plot(path: Path) -> None:
 
 def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
     """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
-    figure, axes = _figure()
+    figure, (axes,) = _figure(1)
     over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
     adhesive = any(scene.adhesion is not None for scene in scenes)
     kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
@@ -82,41 +82,77 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
 def area_figure(
     scene: Scene, wavenumber: NDArray[np.float64], area: NDArray[np.float64], path: Path
 ) -> bytes:
-    """A/A0 over magnification, a colour a velocity and a line style a pressure."""
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import LogNorm
-
-    figure, axes = _figure()
-    many = scene.velocity.size > len(_COLOURS)
-    norm = LogNorm(float(scene.velocity.min()), float(scene.velocity.max()))
-    colours = _shades()(norm(scene.velocity)) if many else _COLOURS
-    for pressure, rows, dashes in zip(
-        scene.pressure, area, cycle(("-", "--", ":", "-.")), strict=False
-    ):
-        load = _pressure(float(pressure))
-        for velocity, row, colour in zip(scene.velocity, rows, colours, strict=False):
-            label = f"{load}, {float(velocity):.3g} m/s"
-            if many:
-                label = load if velocity == scene.velocity[0] else "_"
-            axes.plot(wavenumber / wavenumber[0], row, dashes, color=colour, label=label)
+    """A/A0 over magnification, colours for the velocities and line styles for the pressures, or the
+    other way where there are more pressures; beside it the distribution of the pressure at three
+    magnifications, as in the article's Fig. 1."""
+    figure, (axes, right) = _figure(2)
+    sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, _pressure)]
+    title = "Sliding velocity $v$ [m/s]"
+    if scene.pressure.size > scene.velocity.size:
+        sweeps.reverse()
+        area = area.swapaxes(0, 1)
+        title = "Nominal pressure $\\sigma_0$ [Pa]"
+    (coloured, colour_name), (dashed, dash_name) = sweeps
+    many = coloured.size > len(_COLOURS)
+    colours = _shaded(figure, axes, coloured, title) if many else _COLOURS
+    dashes = dict(zip(dashed, cycle(("-", "--", ":", "-.")), strict=False))
+    for dash, rows in zip(dashes.values(), area, strict=True):
+        for colour, row in zip(colours, rows, strict=False):
+            axes.plot(wavenumber / wavenumber[0], row, dash, color=colour)
+    if not many:
+        for value, colour in zip(coloured, colours, strict=False):
+            axes.plot([], [], color=colour, label=colour_name(float(value)))
+    if dashed.size > 1:
+        for value, dash in dashes.items():
+            axes.plot([], [], dash, color="0.3", label=dash_name(float(value)))
+    if not many or dashed.size > 1:
+        axes.legend(loc="upper right", fontsize="small")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("Magnification $q / q_0$ [-]")
     axes.set_ylabel("Relative contact area $A / A_0$ [-]")
-    if many:
-        shades = ScalarMappable(norm, _shades())
-        figure.colorbar(shades, ax=axes, label="Sliding velocity $v$ [m/s]")
-        axes.legend(loc="lower left")
-    else:
-        figure.legend(loc="outside right upper")
+    _draw_distributions(right, scene, float(area[0, 0, -1]))
     return _picture(figure, path)
+
+
+def _shaded(
+    figure: "Figure", axes: "Axes", values: NDArray[np.float64], title: str
+) -> NDArray[np.float64]:
+    """A colour a value, with a bar that tells them."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LogNorm
+
+    norm = LogNorm(float(values.min()), float(values.max()))
+    figure.colorbar(ScalarMappable(norm, _shades()), ax=axes, label=title)
+    return np.asarray(_shades()(norm(values)))
+
+
+def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> None:
+    """P(sigma) at magnifications that are a third, two thirds and all of the way in ln q."""
+    q0, q1 = scene.spectrum.q0, scene.spectrum.q1
+    nominal = float(scene.pressure[0])
+    highest = 10 / max(smallest_area, 1e-12)  # mean pressure is 1 / area
+    stress = np.geomspace(1e-2, highest, 900) * nominal
+    for share, colour in zip((1 / 3, 2 / 3, 1.0), _COLOURS, strict=False):
+        q = q0 * (q1 / q0) ** share if share < 1 else q1
+        density = scene.pressure_distribution(stress, q) * stress
+        axes.plot(stress / nominal, density, color=colour, label=f"$q/q_0$ = {q / q0:.3g}")
+    axes.axvline(1, color="0.4", linestyle="--", linewidth=1, label="$q/q_0$ = 1")
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
+    axes.set_xlabel("Local pressure $\\sigma / \\sigma_0$ [-]")
+    # per ln(sigma), so that the area under a curve is the share in contact
+    axes.set_ylabel("Pressure distribution $\\sigma\\, P(\\sigma)$ [-]")
+    axes.set_title(f"{_pressure(nominal)}, {float(scene.velocity[0]):.3g} m/s", fontsize="medium")
+    axes.legend(loc="upper left", fontsize="small")
 
 
 def spectrum_figure(
     spectrum: TabulatedSpectrum, fit: SelfAffineFit, cutoff: float, path: Path
 ) -> bytes:
     """C(q) with its self-affine fit and the wavenumber at which the rms slope reaches 1.3."""
-    figure, axes = _figure()
+    figure, (axes,) = _figure(1)
     q, density = spectrum.wavenumber, spectrum.density
     axes.plot(q, density, ".", markersize=3, color=_COLOURS[0], label="measured")
     fitted = np.geomspace(fit.q0, fit.q1, 200)
@@ -132,13 +168,14 @@ def spectrum_figure(
     return _picture(figure, path)
 
 
-def _figure() -> "tuple[Figure, Axes]":
+def _figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(6.6, 3.5), layout="constrained")
-    axes = figure.add_subplot()
-    axes.tick_params(which="both", direction="in", top=True, right=True)
-    return figure, axes
+    figure = Figure(figsize=(6.6 if panels == 1 else 9.0, 3.5), layout="constrained")
+    drawn = [figure.add_subplot(1, panels, i + 1) for i in range(panels)]
+    for axes in drawn:
+        axes.tick_params(which="both", direction="in", top=True, right=True)
+    return figure, drawn
 
 
 def _picture(figure: "Figure", path: Path) -> bytes:

@@ -1,8 +1,7 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
-import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Adhesion, Friction, contact_area, friction
+from asperity._core import Adhesion, Friction, contact_area, friction, pressure_distribution
 from asperity.fields import (
     Field,
     arguments,
@@ -88,8 +87,8 @@ class Scene:
         chunks = np.split(self.velocity, range(_CHUNK, self.velocity.size, _CHUNK))
         parts = [self._friction(chunk) for chunk in progress(chunks)]
         columns = {name: [getattr(part, name) for part in parts] for name in COLUMNS}
-        notes = merge_notes([part.notes for part in parts], self.pressure.size * self.velocity.size)
-        return Curves(notes, **{name: np.hstack(column) for name, column in columns.items()})
+        notes = dict.fromkeys(note for part in parts for note in part.notes)
+        return Curves(list(notes), **{name: np.hstack(column) for name, column in columns.items()})
 
     def _friction(self, velocity: NDArray[np.float64]) -> Friction:
         with named(self.path, _NAMES):
@@ -116,6 +115,24 @@ class Scene:
                 **self.options,
             )
         return area
+
+    def pressure_distribution(
+        self, stress: NDArray[np.float64], wavenumber: float
+    ) -> NDArray[np.float64]:
+        """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
+        options = {key: value for key, value in self.options.items() if key != "form"}
+        with named(self.path, _NAMES):
+            density: NDArray[np.float64] = pressure_distribution(
+                stress,
+                self.spectrum,
+                self.rubber,
+                pressure=self.pressure[0],
+                velocity=self.velocity[0],
+                wavenumber=wavenumber,
+                correction=self.correction,
+                **options,
+            )
+        return density
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -162,16 +179,6 @@ def load_scene(path: str | Path) -> Scene:
         inputs=inputs,
         derived=derived,
     )
-
-
-def merge_notes(parts: Sequence[Sequence[str]], points: int) -> list[str]:
-    """Notes on the chunks of one computation, with "at k of n points" counted over all of it."""
-    counts: dict[tuple[str, ...], int] = {}
-    for note in (note for notes in parts for note in notes):
-        found = re.split(r"(?<=\bat )(\d+) of \d+(?= points)", note, maxsplit=1)
-        text = (found[0], found[-1]) if len(found) == 3 else (note,)
-        counts[text] = counts.get(text, 0) + int(found[1] if len(found) == 3 else 0)
-    return [f"{count} of {points}".join(text) for text, count in counts.items()]
 
 
 def _read_toml(path: Path) -> dict[str, Any]:

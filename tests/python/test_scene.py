@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.scene import COLUMNS, load_scene, merge_notes
+from asperity.scene import COLUMNS, load_scene
 
 SURFACE = """
 [surface]
@@ -91,7 +91,7 @@ def test_friction_is_that_of_the_core_with_its_defaults(folder: Path) -> None:
     for name in COLUMNS:
         np.testing.assert_array_equal(getattr(curves, name), getattr(expected, name), err_msg=name)
     assert curves.notes == list(expected.notes)
-    assert any("of 22 points" in note for note in curves.notes)
+    assert any("flash heating" in note for note in curves.notes)
     recorded = {**scene.inputs["conditions"], **scene.inputs["solver"]}
     assert (recorded["poisson_ratio"], recorded["rtol"], recorded["form"]) == (0.5, 1e-6, "exact")
 
@@ -209,14 +209,6 @@ def test_both_combined(folder: Path) -> None:
     assert scene.correction == asperity.PeaksThenGreenwoodWilliamson(
         [1e-4, 2e-4, 1e-4], z_max=3e-4, z_min=-3e-4, reading="added", rms_height=7e-5, q0=2e3
     )
-
-
-def test_notes_of_chunks_are_counted_together() -> None:
-    parts = [
-        ["slope {x}", "fast at 1 of 4 points: hot"],
-        ["slope {x}", "fast at 3 of 4 points: hot"],
-    ]
-    assert merge_notes(parts, 8) == ["slope {x}", "fast at 4 of 8 points: hot"]
 
 
 def test_shipped_scene_is_a_toml_file_with_matching_lists() -> None:
