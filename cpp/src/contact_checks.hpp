@@ -14,6 +14,7 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   require_rtol(model.rtol);
   validate(model.correction);
   require_same_size("velocity", velocity.size(), "pressure", pressure.size());
+  if (velocity.empty()) throw InvalidInput("pressure, velocity: have 0 entries, must have 1 or more");
   for (const double p : pressure) require_positive("pressure", p);
   for (const double v : velocity) require_positive("velocity", v);
 }

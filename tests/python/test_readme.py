@@ -1,0 +1,67 @@
+"""What the README shows works as it stands there."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.scene import load_scene
+
+README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Somewhere with the scan that the README speaks of: 0.64 mm wide, heights in micrometres."""
+    monkeypatch.chdir(tmp_path)
+    spectrum = asperity.SelfAffineSpectrum(rms_height=20e-6, hurst=0.8, q0=1e4, q1=1e6)
+    scan = asperity.synthesize(spectrum, shape=(128, 128), pixel_size=5e-6, seed=1)
+    np.save("scan.npy", scan.heights * 1e6)
+    return tmp_path
+
+
+def test_python(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, object] = {}
+    for block in blocks("python"):
+        exec(block, names)
+    result = names["result"]
+    assert isinstance(result, asperity.Friction)
+    assert np.all(result.error_estimate < 1e-6 * result.mu)
+    fit = names["fit"]
+    assert isinstance(fit, asperity.SelfAffineFit)
+    assert 0.6 < fit.hurst < 1
+    assert capsys.readouterr().out
+
+
+def test_scene(folder: Path) -> None:
+    (scene,) = blocks("toml")
+    (folder / "scene.toml").write_text(scene, encoding="utf-8")
+    curves = load_scene(folder / "scene.toml").friction()
+    assert curves.mu.shape == (2, 60)
+    assert np.all(curves.mu > curves.hysteresis)
+
+
+@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])
+def test_verbs(verb: str) -> None:
+    assert f"asperity {verb}" in README
+    text = subprocess.run(
+        [sys.executable, "-m", "asperity", verb, "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    assert f"asperity {verb}" in text
+    assert "xample" in text
+
+
+def test_equations_named_in_the_readme_are_numbered_once() -> None:
+    numbers = [int(n) for n in re.findall(r"^- \((\d+)\)", README, re.MULTILINE)]
+    assert numbers == list(range(1, len(numbers) + 1))
