@@ -4,16 +4,54 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace asperity {
 
 using Grid = std::array<std::size_t, 2>;  // ny, nx
 
-/// sum over all points of h exp(-i (k_y y / ny + k_x x / nx) 2 pi), ny x (nx / 2 + 1). `heights` is overwritten.
-std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape);
+/// Memory for numbers that are written before they are read: not cleared, on large pages where the system has
+/// them (touching 4 KiB pages for the first time costs as much as a row's transform), aligned for SIMD.
+template <class T>
+class Scratch {
+ public:
+  explicit Scratch(std::size_t size);
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] T* data() const { return data_; }
+  /// Rows of this many entries keep the alignment of the first one.
+  static constexpr std::size_t aligned(std::size_t row) { return (row + 7) / 8 * 8; }
 
-/// The unnormalised inverse of the above. `modes` is overwritten.
+ private:
+  T* data_;
+};
+
+/// One-dimensional transforms of length n, planned once (FFTW_ESTIMATE), run from any thread. Every pointer must
+/// be aligned as Scratch is.
+template <class T>
+class RealTransform {  // n real numbers to n / 2 + 1 modes; the input is overwritten
+ public:
+  explicit RealTransform(std::size_t n);
+  void operator()(T* in, std::complex<T>* out) const;
+
+ private:
+  std::shared_ptr<void> plan_;
+};
+
+template <class T>
+class ComplexTransform {  // `count` transforms at once, one behind the other; the input is overwritten
+ public:
+  ComplexTransform(std::size_t n, std::size_t count);
+  void operator()(std::complex<T>* in, std::complex<T>* out) const;
+
+ private:
+  std::shared_ptr<void> plan_;
+};
+
+/// sum over all modes of m exp(i (k_y y / ny + k_x x / nx) 2 pi) of a real grid; modes ny x (nx / 2 + 1), which are
+/// overwritten.
 std::vector<double> backward_transform(std::vector<std::complex<double>>& modes, Grid shape);
 
 }  // namespace asperity

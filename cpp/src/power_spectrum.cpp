@@ -8,6 +8,8 @@
 #include "checks.hpp"
 #include "fourier.hpp"
 #include "surface_rows.hpp"
+#include "threads.hpp"
+#include "trend.hpp"
 
 namespace asperity {
 
@@ -33,14 +35,112 @@ double mean_square(const std::vector<double>& w) {
   return sum / static_cast<double>(w.size());
 }
 
-/// Signed index of the k-th mode of n.
-double mode(std::size_t k, std::size_t n) {
-  return k <= n / 2 ? static_cast<double>(k) : static_cast<double>(k) - static_cast<double>(n);
+/// Rings round(|q| / dq) of the mode plane, dq = 2 pi / longest side, out to the corner.
+class Rings {
+ public:
+  Rings(HeightMap::Shape shape, HeightMap::PixelSize pixel)
+      : shape_(shape), ly_(static_cast<double>(shape[0]) * pixel[0]), lx_(static_cast<double>(shape[1]) * pixel[1]) {
+    const double longest = std::max(ly_, lx_);
+    const double ny = static_cast<double>(shape[0]), nx = static_cast<double>(shape[1]);
+    per_y_ = longest / ly_;
+    per_x_ = longest / lx_;
+    count_ = static_cast<std::size_t>(std::hypot(per_y_ * std::floor(ny / 2), per_x_ * std::floor(nx / 2)) + 0.5) + 1;
+  }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
+  [[nodiscard]] double area() const { return ly_ * lx_; }
+
+  struct Sums {
+    std::vector<double> power, radius, modes;  // |h|^2, |q| / dq and the number of modes in each ring
+    explicit Sums(std::size_t rings) : power(rings), radius(rings), modes(rings) {}
+  };
+
+  /// Adds the modes of column k_x, all ny of them, k_y and -k_y together: they lie in one ring.
+  template <class T>
+  void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
+    const std::size_t ny = shape_[0];
+    const double x = per_x_ * static_cast<double>(kx), x2 = x * x;
+    // off the axes k_x = 0 and k_x = nx / 2 a mode stands for its mirror image too
+    const double mirrored = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
+    for (std::size_t ky = 0; 2 * ky <= ny; ++ky) {
+      const bool single = ky == 0 || 2 * ky == ny;
+      const double y = per_y_ * static_cast<double>(ky), radius = std::sqrt(x2 + y * y);
+      const double power = single ? norm(column[ky]) : norm(column[ky]) + norm(column[ny - ky]);
+      const double modes = single ? mirrored : 2 * mirrored;
+      const auto ring = static_cast<std::size_t>(radius + 0.5);
+      sums.power[ring] += mirrored * power;
+      sums.radius[ring] += modes * radius;
+      sums.modes[ring] += modes;
+    }
+  }
+
+ private:
+  template <class T>
+  static double norm(std::complex<T> z) {
+    return static_cast<double>(z.real()) * z.real() + static_cast<double>(z.imag()) * z.imag();
+  }
+
+  HeightMap::Shape shape_;
+  double ly_, lx_, per_y_, per_x_;
+  std::size_t count_;
+};
+
+/// Rows, then columns, a few at a time: what is read once from memory is detrended, weighed and transformed while
+/// it is in the cache, and a column's |.|^2 goes into its rings before it leaves it. The half plane of modes between
+/// the two is all the memory that is taken.
+template <class T>
+Rings::Sums ring_sums(const HeightMap& map, const Rings& rings, const std::vector<double>& wy,
+                      const std::vector<double>& wx, const std::optional<Trend>& trend, unsigned threads) {
+  const auto [ny, nx] = map.shape();
+  const std::size_t half = nx / 2 + 1;
+  // an odd number of cache lines a row: columns of a power of two would all fall into the same few cache sets
+  const std::size_t pitch = Scratch<std::complex<T>>::aligned(half) + ((half / 8) % 2 == 1 ? 8 : 0);
+  const Scratch<std::complex<T>> plane(ny * pitch);
+
+  const RealTransform<T> along_rows(nx);
+  in_parts(threads, ny, [&](unsigned, std::size_t begin, std::size_t end) {
+    const Scratch<T> row(nx);
+    RowReader<T> read(map);
+    for (std::size_t y = begin; y < end; ++y) {
+      const T* const heights = read(y);
+      if (trend)
+        trend->subtract_and_weigh(y, heights, wy[y], wx.data(), row.data());
+      else
+        for (std::size_t x = 0; x < nx; ++x) row.data()[x] = static_cast<T>(heights[x] * (wy[y] * wx[x]));
+      along_rows(row.data(), plane.data() + y * pitch);
+    }
+  });
+
+  constexpr std::size_t together = 64 / sizeof(std::complex<T>) * 2;  // two cache lines of each row
+  const std::size_t blocks = (half + together - 1) / together;
+  const ComplexTransform<T> along_columns(ny, together);
+  std::vector<Rings::Sums> sums(threads, Rings::Sums(rings.size()));
+  in_parts(threads, blocks, [&](unsigned part, std::size_t begin, std::size_t end) {
+    const std::size_t length = ny;
+    const Scratch<std::complex<T>> in(length * together), out(length * together);
+    for (std::size_t block = begin; block < end; ++block) {
+      const std::size_t first = block * together, columns = std::min(together, half - first);
+      for (std::size_t y = 0; y < ny; ++y)
+        for (std::size_t k = 0; k < columns; ++k) in.data()[k * length + y] = plane.data()[y * pitch + first + k];
+      for (std::size_t k = columns; k < together; ++k)
+        std::fill_n(in.data() + k * length, length, std::complex<T>());
+      along_columns(in.data(), out.data());
+      for (std::size_t k = 0; k < columns; ++k) rings.add_column(first + k, out.data() + k * length, sums[part]);
+    }
+  });
+  for (unsigned part = 1; part < threads; ++part)
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      sums[0].power[r] += sums[part].power[r];
+      sums[0].radius[r] += sums[part].radius[r];
+      sums[0].modes[r] += sums[part].modes[r];
+    }
+  return std::move(sums[0]);
 }
 
 }  // namespace
 
-TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend) {
+TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
+                                 unsigned threads) {
   if (map.dropout_fraction() > 0)
     throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
                        " %), fill_dropouts must come before power_spectrum");
@@ -48,48 +148,24 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   if (ny < 2 || nx < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
                        "): must be 2 x 2 or more for a two-dimensional spectrum");
+  if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
   const std::vector<double> wy = window_weights(window, ny), wx = window_weights(window, nx);
-  const std::optional<Trend> trend = detrend ? std::optional<Trend>(std::in_place, map, *detrend) : std::nullopt;
-
-  std::vector<double> heights(ny * nx);
-  for (std::size_t y = 0; y < ny; ++y) {
-    const std::span<double> row(heights.data() + y * nx, nx);
-    map.read_row(y, row.data());
-    if (trend) trend->subtract(y, row);
-    for (std::size_t x = 0; x < nx; ++x) row[x] *= wy[y] * wx[x];
-  }
-  const std::vector<std::complex<double>> modes = forward_transform(heights, {ny, nx});
-
-  // Rings round(|q| / dq), counted over the full plane: a mode off the axes k_x = 0 and k_x = nx / 2 stands for
-  // its mirror image too.
-  const auto [dy, dx] = map.pixel_size();
-  const double ly = static_cast<double>(ny) * dy, lx = static_cast<double>(nx) * dx;
-  const double dq = 2 * pi / std::max(ly, lx);
-  const double corner = std::hypot(pi / dy, pi / dx);
-  const auto rings = static_cast<std::size_t>(corner / dq + 0.5) + 1;
-  std::vector<double> sum(rings, 0), sum_q(rings, 0), count(rings, 0);
-  const std::size_t half = nx / 2 + 1;
-  for (std::size_t ky = 0; ky < ny; ++ky) {
-    const double qy = 2 * pi / ly * mode(ky, ny);
-    for (std::size_t kx = 0; kx < half; ++kx) {
-      const double q = std::hypot(qy, 2 * pi / lx * static_cast<double>(kx));
-      const double weight = kx == 0 || 2 * kx == nx ? 1 : 2;
-      const auto ring = std::min(rings - 1, static_cast<std::size_t>(q / dq + 0.5));
-      sum[ring] += weight * std::norm(modes[ky * half + kx]);
-      sum_q[ring] += weight * q;
-      count[ring] += weight;
-    }
-  }
+  std::optional<Trend> trend;
+  if (detrend) trend.emplace(map, *detrend, threads);
+  const Rings rings(map.shape(), map.pixel_size());
+  const Rings::Sums sums = std::holds_alternative<const float*>(map.data())
+                               ? ring_sums<float>(map, rings, wy, wx, trend, threads)
+                               : ring_sums<double>(map, rings, wy, wx, trend, threads);
 
   // Eqs 26-27 with n = nx ny points: C = A / ((2 pi)^2 n^2) |sum|^2, over the window's mean square.
   const double n = static_cast<double>(ny) * static_cast<double>(nx);
-  const double scale = ly * lx / (4 * pi * pi * n * n) / (mean_square(wy) * mean_square(wx));
+  const double scale = rings.area() / (4 * pi * pi * n * n) / (mean_square(wy) * mean_square(wx));
   std::vector<double> wavenumber, density, counts;
-  for (std::size_t ring = 1; ring < rings; ++ring) {  // ring 0 is the mean height
-    if (count[ring] == 0) continue;                   // non-square pixels leave rings empty near the corner
-    wavenumber.push_back(sum_q[ring] / count[ring]);
-    density.push_back(scale * sum[ring] / count[ring]);
-    counts.push_back(count[ring]);
+  for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
+    if (sums.modes[ring] == 0) continue;                     // non-square pixels leave rings empty near the corner
+    wavenumber.push_back(rings.dq() * sums.radius[ring] / sums.modes[ring]);
+    density.push_back(scale * sums.power[ring] / sums.modes[ring]);
+    counts.push_back(sums.modes[ring]);
   }
   return TabulatedSpectrum(std::move(wavenumber), std::move(density), std::move(counts));
 }

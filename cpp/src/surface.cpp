@@ -1,6 +1,5 @@
 #include "asperity/surface.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "checks.hpp"
 #include "surface_rows.hpp"
+#include "trend.hpp"
 
 namespace asperity {
 
@@ -136,11 +136,9 @@ double HeightMap::rms_slope() const {
   return std::sqrt(sum_x / count_x + sum_y / count_y);
 }
 
-// Least squares on coordinates in [-1, 1] and heights about the first one, so that neither a large offset nor
-// the unit of length costs digits.
 HeightMap HeightMap::detrend(Detrend order) const {
   const Trend trend(*this, order);
-  return map_rows(*this, [&](std::size_t y, std::span<double> row) { trend.subtract(y, row); });
+  return map_rows(*this, [&](std::size_t y, std::span<double> row) { trend.subtract(y, row.data(), row.data()); });
 }
 
 HeightMap HeightMap::affine_shift(double p) const {
@@ -149,60 +147,6 @@ HeightMap HeightMap::affine_shift(double p) const {
   return map_rows(*this, [&](std::size_t, std::span<double> row) {
     for (double& z : row) z = (z - s.mean - s.z_max) / p + s.z_max;
   });
-}
-
-namespace {
-
-constexpr std::size_t terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
-
-double coordinate(std::size_t i, std::size_t n) {
-  return n == 1 ? 0 : 2 * static_cast<double>(i) / static_cast<double>(n - 1) - 1;
-}
-
-}  // namespace
-
-Trend::Trend(const HeightMap& map, Detrend order) : shape_(map.shape()), anchor_(first_height(map)) {
-  const auto [ny, nx] = shape_;
-  const auto m = static_cast<Eigen::Index>(terms(order));
-  // Normal equations of at most six well-scaled terms; one row's share of them at a time.
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
-  for_each_row(map, [&](std::size_t y, std::span<const double> row) {
-    const double v = coordinate(y, ny);
-    double moment[5] = {}, height[3] = {};  // sum u^k, sum u^k z
-    for (std::size_t x = 0; x < nx; ++x) {
-      if (std::isnan(row[x])) continue;
-      const double u = coordinate(x, nx), z = row[x] - anchor_, u2 = u * u;
-      moment[0] += 1;
-      moment[1] += u;
-      moment[2] += u2;
-      moment[3] += u2 * u;
-      moment[4] += u2 * u2;
-      height[0] += z;
-      height[1] += u * z;
-      height[2] += u2 * z;
-    }
-    // terms: 1, u, v, u^2, u v, v^2 as powers of u times powers of v
-    constexpr int power_u[6] = {0, 1, 0, 2, 1, 0};
-    const double power_v[6] = {1, 1, v, 1, v, v * v};
-    for (Eigen::Index i = 0; i < m; ++i) {
-      right[i] += power_v[i] * height[power_u[i]];
-      for (Eigen::Index j = 0; j < m; ++j) normal(i, j) += power_v[i] * power_v[j] * moment[power_u[i] + power_u[j]];
-    }
-  });
-  // Rank-revealing: on one row, or one column, the terms that it cannot tell apart are shared, not invented.
-  const Eigen::VectorXd solution = normal.completeOrthogonalDecomposition().solve(right);
-  for (Eigen::Index i = 0; i < m; ++i) coefficient_[static_cast<std::size_t>(i)] = solution[i];
-}
-
-void Trend::subtract(std::size_t y, std::span<double> row) const {
-  const double v = coordinate(y, shape_[0]);
-  const auto& c = coefficient_;
-  const double constant = c[0] + v * (c[2] + v * c[5]), linear = c[1] + v * c[4];
-  for (std::size_t x = 0; x < row.size(); ++x) {
-    const double u = coordinate(x, shape_[1]);
-    row[x] = (row[x] - anchor_) - (constant + u * (linear + u * c[3]));
-  }
 }
 
 double first_height(const HeightMap& map) {

@@ -1,7 +1,6 @@
 // Working through a map row by row in double precision, whatever its type and strides.
 #pragma once
 
-#include <array>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -42,16 +41,23 @@ HeightMap map_rows(const HeightMap& map, Change change) {
 /// The first measured height: what large offsets are taken out against.
 double first_height(const HeightMap& map);
 
-/// Least-squares polynomial through the measured points of a map.
-class Trend {
+/// Rows of a map of known type, in place where they are contiguous, else gathered.
+template <class T>
+class RowReader {
  public:
-  Trend(const HeightMap& map, Detrend order);
-  void subtract(std::size_t y, std::span<double> row) const;
+  explicit RowReader(const HeightMap& map)
+      : data_(std::get<const T*>(map.data())), strides_(map.strides()), gathered_(strides_[1] == 1 ? 0 : map.shape()[1]) {}
+  const T* operator()(std::size_t y) {
+    const T* const row = data_ + static_cast<std::ptrdiff_t>(y) * strides_[0];
+    if (gathered_.empty()) return row;
+    for (std::size_t x = 0; x < gathered_.size(); ++x) gathered_[x] = row[static_cast<std::ptrdiff_t>(x) * strides_[1]];
+    return gathered_.data();
+  }
 
  private:
-  HeightMap::Shape shape_;
-  double anchor_;
-  std::array<double, 6> coefficient_{};  // of 1, u, v, u^2, u v, v^2
+  const T* data_;
+  HeightMap::Strides strides_;
+  std::vector<T> gathered_;
 };
 
 }  // namespace asperity

@@ -1,0 +1,48 @@
+// The least-squares offset, plane or quadratic surface of a map.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "asperity/surface.hpp"
+
+namespace asperity {
+
+class Trend {
+ public:
+  /// Through the measured points.
+  Trend(const HeightMap& map, Detrend order, unsigned threads = 1);
+
+  /// Row `y` without the trend; `row` and `result` may be the same.
+  template <class T, class R>
+  void subtract(std::size_t y, const T* row, R* result) const {
+    const Line line = line_at(y);
+    const double* const u = u_.data();
+    for (std::size_t x = 0; x < u_.size(); ++x) result[x] = static_cast<R>(line.residual(u[x], row[x]));
+  }
+  /// The same times a weight a point.
+  template <class T, class R>
+  void subtract_and_weigh(std::size_t y, const T* row, double weight, const double* weights, R* result) const {
+    const Line line = line_at(y);
+    const double* const u = u_.data();
+    for (std::size_t x = 0; x < u_.size(); ++x)
+      result[x] = static_cast<R>(line.residual(u[x], row[x]) * (weight * weights[x]));
+  }
+
+ private:
+  /// The surface along one row, in the coordinate u in [-1, 1].
+  struct Line {
+    double anchor, constant, linear, square;
+    [[nodiscard]] double residual(double u, double z) const {
+      return (z - anchor) - (constant + u * (linear + u * square));
+    }
+  };
+  [[nodiscard]] Line line_at(std::size_t y) const;
+
+  double anchor_;  // a height of the map: large offsets are taken out against it first
+  std::vector<double> u_, v_;
+  std::array<double, 6> coefficient_{};  // of 1, u, v, u^2, u v, v^2
+};
+
+}  // namespace asperity
