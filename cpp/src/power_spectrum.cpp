@@ -91,6 +91,9 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     density.push_back(scale * sum[ring] / count[ring]);
     counts.push_back(count[ring]);
   }
+  if (wavenumber.size() < 2)
+    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
+                       "): must have more points, these make one ring of wavenumbers only");
   return TabulatedSpectrum(std::move(wavenumber), std::move(density), std::move(counts));
 }
 

@@ -2,9 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "parts.hpp"
-#include "scene.hpp"
 #include "surface.hpp"
 #include "value.hpp"
 
@@ -160,6 +160,8 @@ InvalidInput
   py::classh<SelfAffineFit>(m, "SelfAffineFit", "A power law through a measured spectrum (fit_self_affine).")
       .def(py::init(
                [](const SelfAffineSpectrum& spectrum, const std::map<std::string, double>& errors, std::size_t rows) {
+                 if (errors.size() != 2 || !errors.contains("rms_height") || !errors.contains("hurst"))
+                   throw InvalidInput("standard_errors: must have rms_height and hurst, and nothing else");
                  return SelfAffineFit{spectrum, errors.at("rms_height"), errors.at("hurst"), rows};
                }),
            py::kw_only(), py::arg("spectrum"), py::arg("standard_errors"), py::arg("rows"))
@@ -183,7 +185,8 @@ InvalidInput
 
   m.def(
       "power_spectrum",
-      [](const HeightMap& surface, const std::string& window, const std::optional<std::string>& detrend) {
+      [](const py::object& scan, const std::string& window, const std::optional<std::string>& detrend) {
+        const auto& surface = object_of<HeightMap>(scan, "surface", "a HeightMap");
         const auto w = choice<Window>("window", window, windows);
         const auto d = detrend ? std::optional(detrend_of("detrend", *detrend)) : std::nullopt;
         const py::gil_scoped_release release;
@@ -216,7 +219,8 @@ InvalidInput
 )");
   m.def(
       "fit_self_affine",
-      [](const TabulatedSpectrum& spectrum, std::optional<double> q_min, std::optional<double> q_max) {
+      [](const py::object& measured, std::optional<double> q_min, std::optional<double> q_max) {
+        const auto& spectrum = object_of<TabulatedSpectrum>(measured, "spectrum", "a TabulatedSpectrum");
         const py::gil_scoped_release release;
         return fit_self_affine(spectrum, q_min, q_max);
       },

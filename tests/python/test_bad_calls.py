@@ -211,6 +211,11 @@ OUTSIDE = [
         r"^velocity = 1e-06: .*velocities from 0\.001 to 10 m/s are allowed$",
     ),
     (scenes(rubber=MEASURED, velocity=[1, 11]), "^velocity = 11: .* to 10 m/s are allowed$"),
+    (
+        [lambda: TABLE.truncated(q0=1), lambda: TABLE.truncated(q0=1e9)],
+        r"^q0 = (1|1000000000): must be in \[1000, 100000\], the spectrum's band \[1/m\]$",
+    ),
+    ([lambda: TABLE.truncated(q1=1e9)], r"^q1 = 1000000000: must be in \[1000, 100000\]"),
     # the user gave q0 and a velocity, no angular frequency
     (
         scenes(

@@ -124,9 +124,9 @@ SOLID = ([None, SURFACE, 5.0], " = .+: must be a PronySeries or a MasterCurve$")
 CORRECTION = (["s-factor", 5, SURFACE], " = .+: must be None, SFactor, AffineShift, LocalPeaks")
 FEW_PEAKS = ([[], [1, 2]], " has [02] entries: must be 3 or more$")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): must be finite$")
-OUTSIDE_BAND = ([1, 1e9, NAN], r" = .+: must be in \[1000, 100000\], the spectrum's band \[1/m\]$")
+OUTSIDE_BAND = ([1, 1e9], r" = .+: must be in \[1000, 100000\], the spectrum's band \[1/m\]$")
 LONG = ([1.0], r" = 1: must be below the longest wavelength of the spectrum, 0\.00628318530718 m$")
-NO_MAP = ([HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"], ": must be an array of real numbers$")
+NO_MAP = ([HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"], " = .+: must be an array of real numbers$")
 
 REFUSED = {  # several arguments of which the same is said stand in one key
     "SelfAffineSpectrum": {
@@ -146,7 +146,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
         for kind in ("self-affine", "tabulated")
         for method, groups in {
             "at": {"wavenumber": [POSITIVE, REAL]},
-            "truncated": {"q0 q1": [OUTSIDE_BAND]},
+            "truncated": {"q0 q1": [([NAN], FINITE[1])]},
             "cutoff_for_slope": {"slope": [POSITIVE]},
             "cutoff_for_contamination": {"size": [POSITIVE, LONG]},
             "scaled": {"factor": [POSITIVE]},
@@ -264,6 +264,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
         )
         for name in list(CALLS)[-6:-1]
     },
+    "self-affine truncated": {"q0 q1": [([NAN], FINITE[1]), OUTSIDE_BAND]},
     "Adhesion": {"shear_stress width": [NOT_NEGATIVE], "reference_velocity": [POSITIVE]},
 }
 CASES = [

@@ -48,9 +48,9 @@ TOPIC = {
     "prony": "rubber",
     "contact_checks": "contact",
     "persson": "contact",
-    "notes": "friction",
+    "notes": "contact",
 }
-SEAMS = {"checks", "integrate", "fourier", "interpolate", "roots"}
+SEAMS = {"checks", "integrate", "fourier", "interpolate", "overloaded", "roots"}
 # Modules of the Python package, from the lowest to the highest: an import points down.
 LAYERS = ["_core", "fields", "table", "read", "__init__", "demo", "parts", "scene", "plot"]
 LAYERS += ["commands", "cli", "__main__"]
