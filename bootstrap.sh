@@ -78,8 +78,7 @@ refuse() {
   {
     printf '\n%s These packages (by their names on Debian) are needed and were not found:\n\n' "$1"
     echo "$missing" | sed 's/^/  /'
-    # shellcheck disable=SC2086 # a list of words
-    printf '\nAsk an administrator for:\n\n  apt-get install %s\n\n' "$(echo $missing)"
+    printf '\nAsk an administrator for:\n\n  apt-get install %s\n\n' "$(echo "$missing" | paste -sd ' ' -)"
   } >&2
   exit 3
 }

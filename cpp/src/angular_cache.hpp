@@ -7,7 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <vector>
+
+#include "checks.hpp"
 
 namespace asperity {
 
@@ -21,7 +24,7 @@ class ChebyshevPieces {
   using Values = std::array<double, Outputs>;
 
   template <class F>
-  void build(F&& f, double lower, double upper, double tolerance) {
+  ChebyshevPieces(F&& f, double lower, double upper, double tolerance) {
     split(f, lower, upper, 0, 1, tolerance, 0);
   }
 
@@ -71,6 +74,10 @@ class ChebyshevPieces {
     for (std::size_t j = order - 3; j < order; ++j)
       for (std::size_t k = 0; k < Outputs; ++k) tail = std::fmax(tail, std::fabs(piece.coefficient[j][k]));
     constexpr int deepest = 12;
+    constexpr double rounding = 100;  // times the tolerance: what halving no longer mends
+    if (depth == deepest && !(tail <= rounding * tolerance))
+      throw NotConverged("angular integrals between w = " + show(std::exp(lower)) + " and " + show(std::exp(upper)) +
+                         " rad/s: error " + show(tail) + " where " + show(tolerance) + " was asked for");
     if (tail > tolerance && depth < deepest) {
       const double middle = (t0 + t1) / 2;
       split(f, lower, upper, t0, middle, tolerance, depth + 1);
@@ -88,17 +95,17 @@ template <std::size_t Outputs>
 class LazyPieces {
  public:
   explicit LazyPieces(std::size_t intervals)
-      : once_(std::make_unique<std::once_flag[]>(intervals)), pieces_(intervals) {}
+      : once_(std::make_unique<std::once_flag[]>(intervals)), pieces_(intervals) {}  // none made yet
 
   template <class F>
   const ChebyshevPieces<Outputs>& get(std::size_t interval, double lower, double upper, double tolerance, F&& f) const {
-    std::call_once(once_[interval], [&] { pieces_[interval].build(f, lower, upper, tolerance); });
-    return pieces_[interval];
+    std::call_once(once_[interval], [&] { pieces_[interval].emplace(f, lower, upper, tolerance); });
+    return *pieces_[interval];
   }
 
  private:
   std::unique_ptr<std::once_flag[]> once_;
-  mutable std::vector<ChebyshevPieces<Outputs>> pieces_;
+  mutable std::vector<std::optional<ChebyshevPieces<Outputs>>> pieces_;
 };
 
 }  // namespace asperity

@@ -19,8 +19,9 @@ double hertz_penetration(double force, double effective_modulus, double radius) 
   require_not_negative("force", force);
   require_positive("effective_modulus", effective_modulus);
   require_positive("radius", radius);
-  const double ratio = force / effective_modulus;
-  return std::cbrt(9.0 / 16 * ratio / radius * ratio);
+  // root by root, so that no product leaves the range of a double
+  const double ratio = std::cbrt(force) / std::cbrt(effective_modulus);
+  return std::cbrt(9.0 / 16) * ratio * ratio / std::cbrt(radius);
 }
 
 // With s = x - t the integrand is exp(g(s)), g = 1.5 ln s - (s + t)^2 / 2, largest at s* = (sqrt(t^2 + 6) - t) / 2.
@@ -63,7 +64,7 @@ double greenwood_williamson(const MacroAsperities& a, double log_moment) {
     // In units of h_rms. Jensen: <(x - t)_+^1.5> >= (-t)^1.5 gives the lower end.
     const double target = log_moment - 1.5 * std::log(a.rms_height);
     const auto excess = [&](double t) { return log_gaussian_moment(t) - target; };
-    const double lower = -std::exp(target * (2.0 / 3)) - 1e-3;
+    const double lower = -std::exp(target * (2.0 / 3)) * (1 + 1e-9) - 1e-3;
     double upper = 8;
     while (excess(upper) > 0) upper *= 2;
     return a.rms_height * bracketed_root(excess, lower, upper);
@@ -89,7 +90,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   require_positive("q0", a.q0);
   if (!a.peaks.empty() && a.peaks.size() < 3)
     throw InvalidInput("peaks has " + std::to_string(a.peaks.size()) + " entries: must be 3 or more");
-  for (const double z : a.peaks) require_finite("peaks", z);
+  for (std::size_t i = 0; i < a.peaks.size(); ++i) require_finite("peaks[" + std::to_string(i) + "]", a.peaks[i]);
   // (4/3) sqrt(R) n_a = 2 q0 / (3 pi^2 sqrt(3 sqrt2 h_rms))
   const double load = std::log(pressure) - std::log(effective_modulus);
   const double stiffness = 2 * a.q0 / (3 * pi * pi * std::sqrt(3 * sqrt2 * a.rms_height));

@@ -7,6 +7,7 @@
 
 #include "checks.hpp"
 #include "contact_checks.hpp"
+#include "notes.hpp"
 #include "persson.hpp"
 
 namespace asperity {
@@ -67,6 +68,16 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   return result;
 }
 
+std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                       std::span<const double> pressure, std::span<const double> velocity) {
+  check_contact(model, pressure, velocity);
+  Notes notes(spectrum, model.correction);
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    notes.add(affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio),
+              velocity[i], 0);
+  return notes.texts();
+}
+
 std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                   std::span<const double> pressure, std::span<const double> velocity,
                                   std::span<const double> wavenumber) {
@@ -90,7 +101,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
               factor = 0;
             } else if (s && s->applies_to != SFactor::AppliesTo::area) {
               const double share = contact_share(g, model.form);
-              factor = (s->gamma + (1 - s->gamma) * share * share) * share;
+              factor = s_factor(share, s->gamma) * share;
             } else {
               factor = contact_share(area_g(g, model), model.form) / (shift.p * shift.p);
             }

@@ -6,15 +6,11 @@
 #include <string>
 
 #include "checks.hpp"
+#include "overloaded.hpp"
 
 namespace asperity {
 
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 double highest_point(const LocalPeaks& peaks) { return peaks.z_max.value_or(std::ranges::max(peaks.heights)); }
 
@@ -42,6 +38,12 @@ void validate_peaks(const LocalPeaks& peaks) {
   for (const double z : peaks.heights) mean += z / static_cast<double>(peaks.heights.size());
   if (!(mean > 0)) refuse("heights: their mean", mean, "above the mean plane (positive)");
   if (!(mean < top)) refuse("heights: their mean", mean, "below z_max = " + show(top));
+}
+
+/// Of the macro-asperities where the caller names none: the roll-off, where there is one.
+double macro_wavenumber(const Spectrum& spectrum) {
+  const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum);
+  return s && s->rolloff ? *s->rolloff : band(spectrum)[0];
 }
 
 /// p_T2 and its state for a profile between z_min and z_max.
@@ -107,8 +109,15 @@ double shift_factor(const LocalPeaks& peaks) {
 Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber, double pressure,
                    double velocity, double poisson_ratio) {
   const auto gw = [&](const auto& s, double divisor, std::span<const double> peaks) {
-    const double q0 = s.q0 ? *s.q0 : band(spectrum)[0];
+    const double q0 = s.q0 ? *s.q0 : macro_wavenumber(spectrum);
     const double rms = s.rms_height ? *s.rms_height : rms_height(spectrum);
+    if (const auto* curve = std::get_if<MasterCurve>(&rubber); curve && s.q0) {
+      const double w = *s.q0 * velocity, lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
+      if (w < lowest || w > highest)
+        throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(*s.q0) +
+                         " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
+                         show(lowest) + ", " + show(highest) + "] rad/s");
+    }
     const double modulus = effective_modulus(std::abs(asperity::modulus(rubber, q0 * velocity)), poisson_ratio);
     return greenwood_williamson_shift({rms / divisor, q0, peaks}, s.z_max / divisor, s.z_min / divisor, s.reading,
                                       pressure, modulus);

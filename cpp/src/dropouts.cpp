@@ -1,6 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "asperity/surface.hpp"
@@ -11,15 +13,36 @@ namespace asperity {
 namespace {
 
 using Index = std::ptrdiff_t;
+using Point = std::array<Index, 2>;  // y, x
 
-/// Row and column interpolation of whatever is bracketed by measured points; true where anything was filled.
-/// A plane comes back as it was. Weights fall with the square of the gap: the nearer pair knows better.
+/// Which side of the line a -> b the point c is on: the sign, 0 on it. Exact.
+Index side(const Point& a, const Point& b, const Point& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Heights with drop-outs, filled in place; a plane comes back as it was.
 class Filler {
  public:
   Filler(std::vector<double>& z, HeightMap::Shape shape, HeightMap::PixelSize pixel)
       : z_(z), ny_(static_cast<Index>(shape[0])), nx_(static_cast<Index>(shape[1])), pixel_(pixel) {}
 
-  bool pass() {
+  void fill() {
+    const std::vector<Point> hull = measured_hull();
+    do {
+      while (pass_along_axes()) {
+      }
+    } while (pass_along_hull(hull));
+    nearest();
+  }
+
+ private:
+  [[nodiscard]] std::size_t at(Index y, Index x) const { return static_cast<std::size_t>(y * nx_ + x); }
+  [[nodiscard]] bool missing(Index y, Index x) const { return std::isnan(z_[at(y, x)]); }
+  [[nodiscard]] bool inside(Index y, Index x) const { return y >= 0 && y < ny_ && x >= 0 && x < nx_; }
+
+  /// Linear between the two known points that bracket a gap of a row or a column; where both do, weighted by the
+  /// inverse square of the gap: the nearer pair knows better. True where anything was filled.
+  bool pass_along_axes() {
     value_.assign(z_.size(), 0);
     weight_.assign(z_.size(), 0);
     for (Index y = 0; y < ny_; ++y) line(y * nx_, 1, nx_, pixel_[1]);
@@ -32,17 +55,6 @@ class Filler {
       }
     return filled;
   }
-
-  /// What no row and no column brackets takes the height of the nearest point that is known.
-  void nearest() {
-    const std::vector<double> known = z_;
-    for (Index y = 0; y < ny_; ++y)
-      for (Index x = 0; x < nx_; ++x)
-        if (std::isnan(known[at(y, x)])) z_[at(y, x)] = nearest_to(known, y, x);
-  }
-
- private:
-  [[nodiscard]] std::size_t at(Index y, Index x) const { return static_cast<std::size_t>(y * nx_ + x); }
 
   void line(Index start, Index stride, Index length, double spacing) {
     const auto point = [&](Index i) { return static_cast<std::size_t>(start + i * stride); };
@@ -61,6 +73,84 @@ class Filler {
     }
   }
 
+  /// Corners of the convex hull of the measured points, in order (Andrew's monotone chain; only the first and the
+  /// last measured point of a row can be on it).
+  [[nodiscard]] std::vector<Point> measured_hull() const {
+    std::vector<Point> ends;
+    for (Index y = 0; y < ny_; ++y) {
+      Index first = 0, last = nx_ - 1;
+      while (first < nx_ && missing(y, first)) ++first;
+      if (first == nx_) continue;
+      while (missing(y, last)) --last;
+      ends.push_back({y, first});
+      if (last != first) ends.push_back({y, last});
+    }
+    std::vector<Point> hull;
+    const auto chain = [&](auto begin, auto end) {
+      const std::size_t base = hull.size();
+      for (auto p = begin; p != end; ++p) {
+        while (hull.size() >= base + 2 && side(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
+        hull.push_back(*p);
+      }
+      hull.pop_back();
+    };
+    chain(ends.begin(), ends.end());
+    chain(ends.rbegin(), ends.rend());
+    return hull;
+  }
+
+  /// What no row and no column brackets lies in a pocket behind an edge of the hull, or outside of it. In a pocket
+  /// the two known points of a line parallel to that edge bracket it. True where anything was filled.
+  bool pass_along_hull(const std::vector<Point>& hull) {
+    std::vector<Point> steps;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Point a = hull[i], b = hull[(i + 1) % hull.size()];
+      const Index dy = b[0] - a[0], dx = b[1] - a[1], divisor = std::gcd(dy, dx);
+      if (dy != 0 && dx != 0) steps.push_back({dy / divisor, dx / divisor});
+    }
+    const auto in_hull = [&](const Point& p) {
+      for (std::size_t i = 0; i < hull.size(); ++i)
+        if (side(hull[i], hull[(i + 1) % hull.size()], p) < 0) return false;
+      return true;
+    };
+    std::vector<std::pair<std::size_t, double>> found;
+    for (Index y = 0; y < ny_; ++y)
+      for (Index x = 0; x < nx_; ++x) {
+        if (!missing(y, x) || steps.empty() || !in_hull({y, x})) continue;
+        double shortest = std::numeric_limits<double>::infinity(), height = 0;
+        for (const Point& step : steps) {
+          const Index back = reach(y, x, -step[0], -step[1]), ahead = reach(y, x, step[0], step[1]);
+          if (back == 0 || ahead == 0) continue;
+          const double length =
+              static_cast<double>(back + ahead) *
+              std::hypot(static_cast<double>(step[0]) * pixel_[0], static_cast<double>(step[1]) * pixel_[1]);
+          if (length >= shortest) continue;
+          shortest = length;
+          const double t = static_cast<double>(back) / static_cast<double>(back + ahead);
+          height = z_[at(y - back * step[0], x - back * step[1])] * (1 - t) +
+                   z_[at(y + ahead * step[0], x + ahead * step[1])] * t;
+        }
+        if (std::isfinite(shortest)) found.emplace_back(at(y, x), height);
+      }
+    for (const auto& [i, height] : found) z_[i] = height;
+    return !found.empty();
+  }
+
+  /// Steps from (y, x) to the next known point, 0 where there is none.
+  [[nodiscard]] Index reach(Index y, Index x, Index dy, Index dx) const {
+    for (Index n = 1; inside(y + n * dy, x + n * dx); ++n)
+      if (!missing(y + n * dy, x + n * dx)) return n;
+    return 0;
+  }
+
+  /// The rest, outside of the hull, takes the height of the nearest point that is known.
+  void nearest() {
+    const std::vector<double> known = z_;
+    for (Index y = 0; y < ny_; ++y)
+      for (Index x = 0; x < nx_; ++x)
+        if (std::isnan(known[at(y, x)])) z_[at(y, x)] = nearest_to(known, y, x);
+  }
+
   /// Rings of growing size about (y, x), until none further out can be nearer.
   [[nodiscard]] double nearest_to(const std::vector<double>& known, Index y, Index x) const {
     double best = std::numeric_limits<double>::infinity(), height = 0;
@@ -69,12 +159,11 @@ class Filler {
       for (Index dy = -r; dy <= r; ++dy) {
         const Index step = std::abs(dy) == r ? 1 : 2 * r;
         for (Index dx = -r; dx <= r; dx += step) {
-          const Index yy = y + dy, xx = x + dx;
-          if (yy < 0 || yy >= ny_ || xx < 0 || xx >= nx_ || std::isnan(known[at(yy, xx)])) continue;
+          if (!inside(y + dy, x + dx) || std::isnan(known[at(y + dy, x + dx)])) continue;
           const double distance = std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]);
           if (distance < best) {
             best = distance;
-            height = known[at(yy, xx)];
+            height = known[at(y + dy, x + dx)];
           }
         }
       }
@@ -98,10 +187,7 @@ HeightMap HeightMap::fill_dropouts(double max_fraction) const {
   if (dropouts_ == 0) return *this;
   std::vector<double> z(shape_[0] * shape_[1]);
   for (std::size_t y = 0; y < shape_[0]; ++y) read_row(y, z.data() + y * shape_[1]);
-  Filler filler(z, shape_, pixel_size_);
-  while (filler.pass()) {
-  }
-  filler.nearest();
+  Filler(z, shape_, pixel_size_).fill();
   if (std::holds_alternative<const float*>(data_))
     return HeightMap(std::vector<float>(z.begin(), z.end()), shape_, pixel_size_);
   return HeightMap(std::move(z), shape_, pixel_size_);

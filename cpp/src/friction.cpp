@@ -27,15 +27,17 @@ std::vector<double> decades(double lowest, double highest) {
   }
 }
 
-/// 32 wavenumbers a decade, both ends included.
-std::vector<double> contribution_wavenumbers(double q0, double q1) {
+/// 32 wavenumbers a decade, both ends included; nearer to q0 than that they follow the narrowest front, of width
+/// `front` in ln q, in steps that grow by a third.
+std::vector<double> contribution_wavenumbers(double q0, double q1, double front) {
   const double length = std::log(q1 / q0);
-  const auto steps = static_cast<std::size_t>(std::ceil(32 * length / std::log(10.0)));
-  std::vector<double> q(steps + 1);
-  for (std::size_t i = 0; i <= steps; ++i)
-    q[i] = q0 * std::exp(length * static_cast<double>(i) / static_cast<double>(steps));
-  q.back() = q1;
-  return q;
+  const double steps = std::ceil(32 * length / std::log(10.0)), regular = length / steps;
+  std::vector<double> s{0};
+  for (double at = front / 8; at < regular; at *= 4.0 / 3) s.push_back(at);
+  for (double i = 1; i <= steps; ++i) s.push_back(i * regular);
+  for (double& at : s) at = std::fmin(q0 * std::exp(at), q1);
+  s.back() = q1;
+  return s;
 }
 
 /// How an error of G passes on to P S: |d ln(P S) / d ln G| is 1/2 at most for P alone and 3/2 with S.
@@ -79,18 +81,26 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     column->assign(n, 0.0);
   if (contributions && n > 0) {
     const auto [slowest, fastest] = std::ranges::minmax(velocity);
-    f.contributions = Contributions{contribution_wavenumbers(q0, q1), {}, decades(slowest * q0, fastest * q1), {}};
+    double front = 1;
+    for (std::size_t i = 0; i < n; ++i)
+      front = std::fmin(front, front_width(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], 1}));
+    f.contributions =
+        Contributions{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
     f.contributions->dmu_dlnq.assign(n * f.contributions->wavenumber.size(), 0.0);
     f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
   }
 
-  Notes notes(rms_slope(spectrum));
+  Notes notes(spectrum, model.correction);
+  // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
+  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 5e-13 : 1e-15;
   std::vector<double> stops;
   for (std::size_t i = 0; i < n; ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
-    notes.add(shift, velocity[i]);
-    if (shift.state == ContactState::no_contact) continue;
+    if (shift.state == ContactState::no_contact) {
+      notes.add(shift, velocity[i], 0);
+      continue;
+    }
 
     stops.clear();
     if (f.contributions)
@@ -99,6 +109,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     const Path::Hysteresis hysteresis = path.hysteresis(model.form, gamma);
     f.hysteresis[i] = hysteresis.value;
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
+    notes.add(shift, velocity[i], f.extrapolated_share[i]);
 
     double g = path.g(q1);
     if (s_in_area) g = g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
@@ -106,11 +117,12 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
 
-    const double g_error = path.relative_error() + 2 * shift.relative_error;
+    const double g_error = path.relative_error() + 2 * shift.relative_error + angular_error;
     const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
-    f.error_estimate[i] = hysteresis.error +
-                          f.hysteresis[i] * (sensitivity(s_in_integrand) * g_error + 2 * shift.relative_error) +
-                          f.adhesion[i] * area_error;
+    f.error_estimate[i] =
+        hysteresis.error +
+        f.hysteresis[i] * (sensitivity(s_in_integrand) * g_error + 2 * shift.relative_error + angular_error) +
+        f.adhesion[i] * area_error;
     if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
       throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
                          " at pressure = " + show(pressure[i]) + ", velocity = " + show(velocity[i]) +

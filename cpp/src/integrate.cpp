@@ -6,22 +6,12 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <vector>
 
 #include "checks.hpp"
 
 namespace asperity {
-
-const GaussRule& gauss_rule() {
-  static const GaussRule rule = [] {
-    GaussRule r{};
-    gsl_integration_glfixed_table* const table = gsl_integration_glfixed_table_alloc(GaussRule::size);
-    for (std::size_t i = 0; i < GaussRule::size; ++i)
-      gsl_integration_glfixed_point(-1, 1, i, &r.node[i], &r.weight[i], table);
-    gsl_integration_glfixed_table_free(table);
-    return r;
-  }();
-  return rule;
-}
 
 namespace detail {
 
@@ -38,10 +28,31 @@ void silence_private_gsl() {
 
 using Workspace = std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)>;
 
-gsl_integration_workspace* workspace() {
-  thread_local const Workspace mine{gsl_integration_workspace_alloc(max_intervals), &gsl_integration_workspace_free};
-  return mine.get();
-}
+/// A workspace for the time of one integral. An integrand may itself integrate: each depth has a workspace of its
+/// own, kept by the thread for the next call.
+class Borrowed {
+ public:
+  Borrowed() {
+    if (depth_ == pool_.size())
+      pool_.emplace_back(gsl_integration_workspace_alloc(max_intervals), &gsl_integration_workspace_free);
+    if (!pool_[depth_]) {
+      pool_.pop_back();
+      throw std::bad_alloc();
+    }
+    mine_ = pool_[depth_++].get();
+  }
+  ~Borrowed() { --depth_; }
+  Borrowed(const Borrowed&) = delete;
+  Borrowed& operator=(const Borrowed&) = delete;
+  [[nodiscard]] gsl_integration_workspace* get() const { return mine_; }
+
+ private:
+  static thread_local std::vector<Workspace> pool_;
+  static thread_local std::size_t depth_;
+  gsl_integration_workspace* mine_;
+};
+thread_local std::vector<Workspace> Borrowed::pool_;
+thread_local std::size_t Borrowed::depth_ = 0;
 
 }  // namespace
 
@@ -57,8 +68,9 @@ Integral adaptive(const Callback& f, double lower, double upper, double atol, do
   silence_private_gsl();
   gsl_function function{f.call, f.self};
   Integral result{};
+  const Borrowed workspace;
   const int status = gsl_integration_qag(&function, lower, upper, atol, rtol, max_intervals, GSL_INTEG_GAUSS21,
-                                         workspace(), &result.value, &result.error);
+                                         workspace.get(), &result.value, &result.error);
   const double allowed = std::fmax(atol, rtol * std::fabs(result.value));
   if (status != GSL_SUCCESS && !(result.error <= allowed))
     throw NotConverged("integral over [" + show(lower) + ", " + show(upper) + "] = " + show(result.value) +
@@ -68,4 +80,19 @@ Integral adaptive(const Callback& f, double lower, double upper, double atol, do
 }
 
 }  // namespace detail
+
+const GaussRule& gauss_rule() {
+  static const GaussRule rule = [] {
+    detail::silence_private_gsl();
+    GaussRule r{};
+    gsl_integration_glfixed_table* const table = gsl_integration_glfixed_table_alloc(GaussRule::size);
+    if (!table) throw std::bad_alloc();
+    for (std::size_t i = 0; i < GaussRule::size; ++i)
+      gsl_integration_glfixed_point(-1, 1, i, &r.node[i], &r.weight[i], table);
+    gsl_integration_glfixed_table_free(table);
+    return r;
+  }();
+  return rule;
+}
+
 }  // namespace asperity

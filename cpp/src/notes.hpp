@@ -10,13 +10,13 @@ namespace asperity {
 
 class Notes {
  public:
-  explicit Notes(double rms_slope) : rms_slope_(rms_slope) {}
-  void add(const Shift& shift, double velocity);
+  Notes(const Spectrum& spectrum, const Correction& correction);
+  void add(const Shift& shift, double velocity, double extrapolated_share);
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
   double rms_slope_;
-  bool fast_ = false, full_ = false, no_contact_ = false, far_ = false;
+  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false;
 };
 
 }  // namespace asperity

@@ -85,47 +85,60 @@ class MaximumFinder {
   std::vector<bool> seen_;
 };
 
-/// Accepted peaks in square cells of the minimum distance, so that only nine cells need a look.
+/// Accepted peaks in cells no smaller than the minimum distance, so that only nine of them need a look. Distances
+/// are taken between indices, so that they do not depend on where two peaks lie.
 class Neighbourhood {
  public:
   Neighbourhood(HeightMap::Shape shape, HeightMap::PixelSize pixel, double min_distance, bool periodic)
-      : ly_(static_cast<double>(shape[0]) * pixel[0]),
-        lx_(static_cast<double>(shape[1]) * pixel[1]),
+      : ny_(static_cast<Index>(shape[0])),
+        nx_(static_cast<Index>(shape[1])),
         pixel_(pixel),
         distance_(min_distance),
         periodic_(periodic),
-        cells_y_(std::max<Index>(1, static_cast<Index>(ly_ / min_distance))),
-        cells_x_(std::max<Index>(1, static_cast<Index>(lx_ / min_distance))) {}
+        cells_y_(cells(ny_, pixel[0])),
+        cells_x_(cells(nx_, pixel[1])) {}
 
   bool accept(const Peak& peak) {
-    const double y = static_cast<double>(peak.y) * pixel_[0], x = static_cast<double>(peak.x) * pixel_[1];
-    const Index cy = std::min(cells_y_ - 1, static_cast<Index>(y / ly_ * static_cast<double>(cells_y_)));
-    const Index cx = std::min(cells_x_ - 1, static_cast<Index>(x / lx_ * static_cast<double>(cells_x_)));
+    const Index cy = peak.y * cells_y_ / ny_, cx = peak.x * cells_x_ / nx_;
     for (Index dy = -1; dy <= 1; ++dy)
       for (Index dx = -1; dx <= 1; ++dx) {
-        Index ny = cy + dy, nx = cx + dx;
+        Index y = cy + dy, x = cx + dx;
         if (periodic_) {
-          ny = (ny + cells_y_) % cells_y_;
-          nx = (nx + cells_x_) % cells_x_;
+          y = (y + cells_y_) % cells_y_;
+          x = (x + cells_x_) % cells_x_;
         }
-        const auto cell = cells_.find(ny * cells_x_ + nx);
-        if (ny < 0 || nx < 0 || ny >= cells_y_ || nx >= cells_x_ || cell == cells_.end()) continue;
+        if (y < 0 || x < 0 || y >= cells_y_ || x >= cells_x_) continue;
+        const auto cell = cells_.find(y * cells_x_ + x);
+        if (cell == cells_.end()) continue;
         for (const auto& [oy, ox] : cell->second)
-          if (std::hypot(apart(y - oy, ly_), apart(x - ox, lx_)) < distance_) return false;
+          if (too_near(peak.y - oy, peak.x - ox)) return false;
       }
-    cells_[cy * cells_x_ + cx].push_back({y, x});
+    cells_[cy * cells_x_ + cx].push_back({peak.y, peak.x});
     return true;
   }
 
  private:
-  [[nodiscard]] double apart(double d, double length) const { return periodic_ ? std::remainder(d, length) : d; }
+  /// How many cells of at least the minimum distance fit into n points.
+  [[nodiscard]] Index cells(Index n, double pixel) const {
+    const double fit = static_cast<double>(n) * pixel / distance_;
+    return std::max<Index>(1, static_cast<Index>(std::fmin(fit, static_cast<double>(n))));
+  }
+  [[nodiscard]] bool too_near(Index dy, Index dx) const {
+    if (periodic_) {
+      dy = std::min(std::abs(dy), ny_ - std::abs(dy));
+      dx = std::min(std::abs(dx), nx_ - std::abs(dx));
+    }
+    constexpr double rounding = 1e-12;  // peaks n pixels apart are not nearer than n times the pixel size
+    return std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]) <
+           distance_ * (1 - rounding);
+  }
 
-  double ly_, lx_;
+  Index ny_, nx_;
   HeightMap::PixelSize pixel_;
   double distance_;
   bool periodic_;
   Index cells_y_, cells_x_;
-  std::unordered_map<Index, std::vector<std::array<double, 2>>> cells_;
+  std::unordered_map<Index, std::vector<std::array<Index, 2>>> cells_;
 };
 
 }  // namespace

@@ -16,12 +16,6 @@ double contact_share(double g, Form form) {
   return 1 / std::cbrt(1 + std::pow(pi * g, 1.5));
 }
 
-namespace {
-
-double s_factor(double share, double gamma) { return gamma + (1 - gamma) * share * share; }
-
-}  // namespace
-
 // Phi(G) = int_0^G dg / S is close to a power of G between 1 and 2, so that Newton's steps in ln Phi over ln G
 // converge from anywhere. Below `low` S is 1 to rounding.
 double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol) {
@@ -64,9 +58,11 @@ Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& 
   if (const auto* curve = std::get_if<MasterCurve>(&rubber))
     for (const double w : curve->knots()) add(std::log(w / (point.velocity * q0_)));
   if (resolve_front) {
-    const double rate = g_rate({0, 0, &surface.front(), 0}, 0);
-    if (rate > 1)
-      for (double s = 1 / rate; s < std::fmin(1, end); s *= 4) add(s);
+    const double width = front_width(surface, rubber, point);
+    if (!(width > 0))
+      throw NotConverged("G grows by " + show(1 / width) + " at q0 for pressure = " + show(point.pressure) +
+                         ", velocity = " + show(point.velocity) + ": beyond what a double holds");
+    for (double s = width; s < std::fmin(1, end); s *= 4) add(s);
   }
   std::ranges::sort(edges);
   const auto repeated = std::ranges::unique(edges);
@@ -85,6 +81,14 @@ Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& 
     error += step.error;
     if (g_end_ > 0) relative_error_ = std::fmax(relative_error_, error / g_end_);
   }
+}
+
+double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point) {
+  const Segment& first = surface.front();
+  const double stiffness = (1 - point.poisson_ratio * point.poisson_ratio) * point.pressure * point.shift;
+  const double rate = std::pow(first.a, 4) * first.at_a * angular_integrals(rubber, point.velocity * first.a).i2 /
+                      (8 * stiffness * stiffness);
+  return 1 / rate;
 }
 
 double Path::g_rate(const Panel& panel, double s) const {
@@ -129,6 +133,16 @@ double Path::hysteresis_rate(const Panel& panel, double s, Form form, std::optio
   return weight * angular.i1;
 }
 
+/// Whether any of I1 worth telling comes from outside of the measured frequencies at either end of a panel.
+bool Path::reaches_outside(const Panel& panel) const {
+  constexpr double worth_telling = 1e-7;
+  for (const double s : {panel.lower, panel.upper}) {
+    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q0_ * std::exp(s));
+    if (angular.i1_outside > worth_telling * angular.i1) return true;
+  }
+  return false;
+}
+
 Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const {
   Hysteresis result;
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
@@ -138,7 +152,7 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
     result.value += part.value;
     result.error += part.error;
     result.by_panel.push_back(part.value);
-    if (!measured) continue;
+    if (!measured || !reaches_outside(panel)) continue;
     const auto outside = [&](double s) {
       double rate = 0;
       (void)hysteresis_rate(panel, s, form, gamma, &rate);

@@ -12,6 +12,9 @@ namespace asperity {
 /// P(G), the share of the nominal area in contact.
 double contact_share(double g, Form form);
 
+/// S = gamma + (1 - gamma) P^2 (Eq. 8).
+inline double s_factor(double share, double gamma) { return gamma + (1 - gamma) * share * share; }
+
 /// G with S = gamma + (1 - gamma) P^2 inside it: int_0^G dg / S(P(g)) = `uncorrected`.
 double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol);
 
@@ -57,6 +60,7 @@ class Path {
   [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
                                        double* outside) const;
   [[nodiscard]] const Panel& panel_at(double s) const;
+  [[nodiscard]] bool reaches_outside(const Panel& panel) const;
 
   const Rubber& rubber_;
   Point point_;
@@ -65,5 +69,8 @@ class Path {
   std::vector<Panel> panels_;
   double g_end_ = 0;
 };
+
+/// 1 / G'(0): how far in ln q the contact takes to break up from q0 on.
+double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point);
 
 }  // namespace asperity

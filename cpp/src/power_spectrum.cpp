@@ -122,8 +122,7 @@ Rings::Sums ring_sums(const HeightMap& map, const Rings& rings, const std::vecto
       const std::size_t first = block * together, columns = std::min(together, half - first);
       for (std::size_t y = 0; y < ny; ++y)
         for (std::size_t k = 0; k < columns; ++k) in.data()[k * length + y] = plane.data()[y * pitch + first + k];
-      for (std::size_t k = columns; k < together; ++k)
-        std::fill_n(in.data() + k * length, length, std::complex<T>());
+      for (std::size_t k = columns; k < together; ++k) std::fill_n(in.data() + k * length, length, std::complex<T>());
       along_columns(in.data(), out.data());
       for (std::size_t k = 0; k < columns; ++k) rings.add_column(first + k, out.data() + k * length, sums[part]);
     }
@@ -167,6 +166,9 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     density.push_back(scale * sums.power[ring] / sums.modes[ring]);
     counts.push_back(sums.modes[ring]);
   }
+  if (wavenumber.size() < 2)
+    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
+                       "): must have more points, these make one ring of wavenumbers only");
   return TabulatedSpectrum(std::move(wavenumber), std::move(density), std::move(counts));
 }
 

@@ -49,7 +49,7 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
   double i1 = 0, i2 = equilibrium_ * equilibrium_;
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     const double t = w * times_[k];
-    const double r = std::sqrt(1 + t * t);
+    const double r = t < 1e150 ? std::sqrt(1 + t * t) : t;
     const double s_over_t = (t / r) / (r + 1);
     i1 += moduli_[k] * s_over_t;
     i2 += weights_[k] * t * s_over_t;

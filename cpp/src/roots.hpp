@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "checks.hpp"
+
 namespace asperity {
 
 /// Root of f between `a` and `b`, whose signs there differ, to rounding: the Illinois form of the false position,
@@ -12,6 +14,9 @@ double bracketed_root(F&& f, double a, double b) {
   double fa = f(a), fb = f(b);
   if (fa == 0) return a;
   if (fb == 0) return b;
+  if (!(std::signbit(fa) != std::signbit(fb)) || std::isnan(fa) || std::isnan(fb))
+    throw NotConverged("no root between " + show(a) + " and " + show(b) + ", where the function is " + show(fa) +
+                       " and " + show(fb));
   for (int i = 0; i < 200; ++i) {
     const double width = std::fabs(b - a);
     if (width <= 4e-16 * std::fmax(std::fabs(a), std::fabs(b))) break;

@@ -9,6 +9,7 @@
 
 #include "checks.hpp"
 #include "integrate.hpp"
+#include "overloaded.hpp"
 #include "roots.hpp"
 #include "segments.hpp"
 
@@ -34,11 +35,6 @@ double height_per_density(const SelfAffineSpectrum& s) {
 double density_at_rolloff(const SelfAffineSpectrum& s) {
   return s.rms_height * s.rms_height / (2 * pi) / height_per_density(s);
 }
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 /// 2 pi int q^n C dq
 double total_moment(const Spectrum& spectrum, int n) {
@@ -199,8 +195,15 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
   const auto [old_q0, old_q1] = band(spectrum);
   const double q0 = new_q0.value_or(old_q0), q1 = new_q1.value_or(old_q1);
   const std::string inside = "in [" + show(old_q0) + ", " + show(old_q1) + "], the spectrum's band [1/m]";
-  if (!(q0 >= old_q0 && q0 < old_q1)) refuse("q0", q0, inside);
-  if (!(q1 > old_q0 && q1 <= old_q1)) refuse("q1", q1, inside);
+  require_finite("q0", q0);
+  require_finite("q1", q1);
+  const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
+  const auto outside = [&](std::string_view name, double q) {
+    if (measured) throw OutOfRange(std::string(name) + " = " + show(q) + ": must be " + inside);
+    refuse(name, q, inside);
+  };
+  if (!(q0 >= old_q0 && q0 < old_q1)) outside("q0", q0);
+  if (!(q1 > old_q0 && q1 <= old_q1)) outside("q1", q1);
   if (!(q1 > q0)) refuse("q1", q1, "above q0 = " + show(q0));
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
     const double q_r = s->rolloff.value_or(s->q0);
@@ -223,6 +226,11 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
     c.push_back(value);
     if (counted) n.push_back(count);
   };
+  // Between a cut and a zero the straight line would turn into a power law: it cannot be cut there.
+  for (const Segment& s : segments(spectrum))
+    for (const auto& [name, cut] : {std::pair{"q0", q0}, std::pair{"q1", q1}})
+      if (s.straight && s.a < cut && cut < s.b && s.at_a != s.at_b)
+        refuse(name, cut, "at a row where the density beside it is 0, " + show(s.a) + " or " + show(s.b));
   // A row put in at a cut is no measurement of its own: its count is 0.
   if (!std::ranges::binary_search(table.wavenumber(), q0)) add(q0, density(spectrum, q0), 0);
   for (std::size_t i = 0; i < table.wavenumber().size(); ++i)
@@ -250,7 +258,7 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
 // as soon as what remains cannot matter: by parts |int_Q q C J0| <= 2 C(Q) sqrt(2 Q / (pi r^3)).
 std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const double> distance) {
   const std::vector<Segment> pieces = segments(spectrum);
-  const double at_zero = total_moment(spectrum, 1);
+  const double at_zero = total_moment(spectrum, 1) / (2 * pi);
   constexpr double negligible = 1e-10;
   std::vector<double> result;
   for (const double r : distance) {
@@ -259,12 +267,15 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
     for (const Segment& s : pieces) {
       for (double q = s.a; q < s.b;) {
         const bool falling = !s.straight && s.slope < 0 && &s == &pieces.back();
-        if (r > 0 && falling && 4 * pi * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero)
-          break;
+        if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero) break;
         double next = q * std::numbers::e;
         if (r > 0) next = std::min(next, q + 2 * pi / r);
         next = std::min(next, s.b);
-        sum += integrate_smooth([&](double k) { return k * s.density(k) * ::j0(k * r); }, q, next).value;
+        const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };
+        Integral piece = integrate_smooth(rate, q, next);
+        if (piece.error > negligible * at_zero / static_cast<double>(pieces.size()))
+          piece = integrate(rate, q, next, negligible, negligible * at_zero / static_cast<double>(pieces.size()));
+        sum += piece.value;
         q = next;
       }
     }

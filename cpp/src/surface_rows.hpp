@@ -46,7 +46,9 @@ template <class T>
 class RowReader {
  public:
   explicit RowReader(const HeightMap& map)
-      : data_(std::get<const T*>(map.data())), strides_(map.strides()), gathered_(strides_[1] == 1 ? 0 : map.shape()[1]) {}
+      : data_(std::get<const T*>(map.data())),
+        strides_(map.strides()),
+        gathered_(strides_[1] == 1 ? 0 : map.shape()[1]) {}
   const T* operator()(std::size_t y) {
     const T* const row = data_ + static_cast<std::ptrdiff_t>(y) * strides_[0];
     if (gathered_.empty()) return row;

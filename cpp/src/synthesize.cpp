@@ -48,6 +48,8 @@ HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap
   const double ly = static_cast<double>(ny) * pixel_size[0], lx = static_cast<double>(nx) * pixel_size[1];
   constexpr double rounding = 1e-9;  // a band that starts at 2 pi / side holds the mode 2 pi / side
   Random random(seed);
+  if (rms_height(spectrum) == 0)
+    throw InvalidInput("spectrum: its density is 0 everywhere, must be positive somewhere");
   bool any = false;
 
   const std::size_t half = nx / 2 + 1;
@@ -61,7 +63,7 @@ HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap
       const double inside = std::clamp(q, q0, q1);
       const double c = std::ranges::lower_bound(pieces, inside, {}, &Segment::b)->density(inside);
       const double amplitude = std::sqrt(c * 4 * pi * pi / (lx * ly));
-      any = any || c > 0;
+      any = true;
       const bool own_column = kx == 0 || 2 * kx == nx;
       const std::size_t mirror = (ny - ky) % ny;
       if (own_column && mirror == ky)

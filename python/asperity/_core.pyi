@@ -136,6 +136,7 @@ def power_spectrum(
     *,
     window: _Window = "split-cosine-bell",
     detrend: _Detrend | None = "plane",
+    threads: int = 1,
 ) -> TabulatedSpectrum: ...
 def fit_self_affine(
     spectrum: TabulatedSpectrum,
@@ -195,11 +196,11 @@ class MasterCurve:
 
 def effective_modulus(
     *,
-    modulus: float,
-    poisson_ratio: float,
-    modulus_2: float = ...,
-    poisson_ratio_2: float = 0.0,
-) -> float: ...
+    modulus: ArrayLike,
+    poisson_ratio: ArrayLike,
+    modulus_2: ArrayLike = ...,
+    poisson_ratio_2: ArrayLike = 0.0,
+) -> _Result: ...
 def hertz_penetration(*, force: float, effective_modulus: float, radius: float) -> float: ...
 
 @final
@@ -329,6 +330,15 @@ def contact_area(
     wavenumber: ArrayLike | None = None,
     rtol: float = 1e-6,
 ) -> _Result: ...
+def contact_notes(
+    spectrum: _Spectrum,
+    rubber: _Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: _Correction = None,
+) -> tuple[str, ...]: ...
 def mean_pressure(
     spectrum: _Spectrum,
     rubber: _Rubber,
@@ -401,13 +411,13 @@ class Friction:
     @property
     def notes(self) -> tuple[str, ...]: ...
     @property
-    def wavenumber(self) -> _Array: ...
+    def wavenumber(self) -> _Array | None: ...
     @property
-    def dmu_dlnq(self) -> _Array: ...
+    def dmu_dlnq(self) -> _Array | None: ...
     @property
-    def decade_edges(self) -> _Array: ...
+    def decade_edges(self) -> _Array | None: ...
     @property
-    def decade_share(self) -> _Array: ...
+    def decade_share(self) -> _Array | None: ...
 
 def friction(
     spectrum: _Spectrum,

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,13 @@ namespace py = pybind11;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Shape = std::vector<py::ssize_t>;
 
+/// What was found, in one short line.
+inline std::string brief(const py::handle& found) {
+  std::string text = py::repr(found).cast<std::string>().substr(0, 60);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 /// Any real array-like as float64, or InvalidInput in the name of the argument.
 inline Array real_array(const py::handle& values, const std::string& name) {
   if (PyFloat_Check(values.ptr())) {  // the common scalar, without asking NumPy
@@ -27,8 +35,7 @@ inline Array real_array(const py::handle& values, const std::string& name) {
   const py::array any = py::array::ensure(values);
   if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos) {
     PyErr_Clear();
-    throw InvalidInput(name + " = " + py::repr(values).cast<std::string>().substr(0, 60) +
-                       ": must be a number or an array of real numbers");
+    throw InvalidInput(name + " = " + brief(values) + ": must be a number or an array of real numbers");
   }
   return Array::ensure(any);
 }
@@ -97,10 +104,16 @@ py::object shaped(std::vector<T> values, const Shape& shape) {
   return py::array_t<T>(shape, owned->data(), keeper);
 }
 
-/// The vector as a one-dimensional array that owns it.
+/// What an attribute gives: arrays that cannot be written to.
+inline py::object frozen(py::object value) {
+  if (py::isinstance<py::array>(value)) value.attr("setflags")(py::arg("write") = false);
+  return value;
+}
+
+/// The vector as a one-dimensional array that owns it, for an attribute.
 inline py::object flat(std::vector<double> values) {
   const Shape shape{static_cast<py::ssize_t>(values.size())};
-  return shaped(std::move(values), shape);
+  return frozen(shaped(std::move(values), shape));
 }
 
 /// f over every entry, in the shape of the argument.

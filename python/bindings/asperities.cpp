@@ -64,10 +64,12 @@ Record<SeparationTag> separations(const py::object& pressure, const py::object& 
 }  // namespace
 
 void bind_asperities(py::module_& m) {
-  m.def("hertz_penetration", &hertz_penetration, py::kw_only(), py::arg("force"), py::arg("effective_modulus"),
-        py::arg("radius"),
-        "delta = (9 F^2 / (16 E*^2 R))^(1/3) [m] of a sphere of `radius` [m] under `force` [N], `effective_modulus` "
-        "[Pa]: Hertz, Eq. 14 with the square of F that it lost in print. InvalidInput where one is not positive.");
+  m.def(
+      "hertz_penetration", &hertz_penetration, py::kw_only(), py::arg("force"), py::arg("effective_modulus"),
+      py::arg("radius"),
+      "delta = (9 F^2 / (16 E*^2 R))^(1/3) [m] of a sphere of `radius` [m] under `force` [N], `effective_modulus` "
+      "[Pa]: Hertz, Eq. 14 with the square of F that it lost in print. InvalidInput where the force is negative or one "
+      "of the others not positive.");
 
   bind_record<SeparationTag>(m, "Separation", R"(What `separation` returns; scalars for scalar arguments.
 

@@ -2,10 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "contact.hpp"
 #include "parts.hpp"
-#include "scene.hpp"
 
 namespace asperity::python {
 
@@ -58,7 +58,7 @@ ContactModel contact_model(double poisson_ratio, const py::object& correction, c
 }
 
 void bind_contact(py::module_& m) {
-  bind_over_wavenumber<&contact_area>(m, "contact_area", false, R"(Real over nominal contact area A/A0.
+  bind_over_wavenumber<&contact_area>(m, "contact_area", false, R"(Real over nominal contact area A/A0 [-].
 
 A/A0 = erf(1 / (2 sqrt G)), G(q) = (1/8) int_q0^q k^3 C(k) I2(v k) dk / ((1 - nu^2) sigma0)^2 (Persson 2001; the
 article's Eq. 7 is its interpolation).
@@ -92,10 +92,26 @@ OutOfRange
     v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
 NotConverged
 )");
+  m.def(
+      "contact_notes",
+      [](const py::object& spectrum, const py::object& rubber, const py::object& pressure, const py::object& velocity,
+         double poisson_ratio, const py::object& correction) {
+        const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
+        return py::tuple(py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
+                                                contact_model(poisson_ratio, correction, "exact", 1e-6), b.columns[0],
+                                                b.columns[1])));
+      },
+      py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
+      py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(),
+      R"(Where the theory or its input leaves its range at these pressures [Pa] and velocities [m/s], in sentences.
+
+What `friction` returns as notes, for those who ask for the contact area alone. Arguments as for `contact_area`; a tuple
+of str.
+)");
   bind_over_wavenumber<&mean_pressure>(m, "mean_pressure", false, R"(Mean contact pressure <sigma> = sigma0 A0 / A [Pa]
 (Eq. 1) at a magnification; infinite where there is no contact. Arguments, shape and errors as for `contact_area`.
 )");
-  bind_over_wavenumber<&correction_factor>(m, "correction_factor", true, R"(The correction factor CF of Section 6.1.
+  bind_over_wavenumber<&correction_factor>(m, "correction_factor", true, R"(The correction factor CF of Section 6.1 [-].
 
 A_m C_m / (A0 C) = (A_m / A0) / p_T^2 with the corrected area A_m; for the S factor on the friction PF-CF = S A / A0 with
 the uncorrected A. It is what the integrand of Eq. 22 is weighted with, 1 in full contact. Arguments, shape and errors

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "parts.hpp"
-#include "scene.hpp"
 #include "value.hpp"
 
 namespace asperity::python {
@@ -21,19 +21,34 @@ struct Profile {
   std::optional<double> z_min;
 };
 
+/// As given, where nobody can change it: a map, or a copy of the heights.
+py::object kept(const py::object& source) {
+  return py::isinstance<HeightMap>(source) ? source : flat(vector_of(source, "heights_or_map"));
+}
+
 /// Peak heights as given, or found on a map; z_max and z_min from the map where it is one.
 Profile profile_of(const py::object& source, std::optional<double> min_distance, std::optional<double> z_max) {
   Profile profile;
   if (py::isinstance<HeightMap>(source)) {
     const auto& map = source.cast<const HeightMap&>();
     if (!min_distance) throw InvalidInput("min_distance: must be given with a HeightMap, for instance 2 pi / q0 [m]");
-    const HeightStatistics statistics = map.statistics();
-    profile.peaks = {map.local_peaks(*min_distance), z_max.value_or(statistics.z_max)};
-    profile.z_min = statistics.z_min;
+    {
+      const py::gil_scoped_release release;
+      const HeightStatistics statistics = map.statistics();
+      profile.peaks = {map.local_peaks(*min_distance), z_max.value_or(statistics.z_max)};
+      profile.z_min = statistics.z_min;
+    }
+    const std::size_t found = profile.peaks.heights.size();
+    if (found < 3)
+      throw InvalidInput("min_distance = " + py::str(py::cast(*min_distance)).cast<std::string>() + ": leaves " +
+                         std::to_string(found) + " peaks on this map, must leave 3 or more");
   } else {
     if (min_distance) throw InvalidInput("min_distance: only goes with a HeightMap, these are the peaks' heights");
     profile.peaks.heights = vector_of(source, "heights_or_map");
     profile.peaks.z_max = z_max;
+    if (profile.peaks.heights.size() < 3)
+      throw InvalidInput("heights_or_map has " + std::to_string(profile.peaks.heights.size()) +
+                         " entries: must be 3 or more");
   }
   validate(Correction(profile.peaks));
   if (!profile.peaks.z_max) profile.peaks.z_max = std::ranges::max(profile.peaks.heights);
@@ -137,7 +152,7 @@ InvalidInput
 )");
   peaks
       .def(py::init([](const py::object& source, std::optional<double> min_distance, std::optional<double> z_max) {
-             return BoundLocalPeaks{profile_of(source, min_distance, z_max).peaks, source, min_distance};
+             return BoundLocalPeaks{profile_of(source, min_distance, z_max).peaks, kept(source), min_distance};
            }),
            py::arg("heights_or_map"), py::kw_only(), py::arg("min_distance") = py::none(),
            py::arg("z_max") = py::none())
@@ -165,9 +180,9 @@ peaks : array_like, shape (n,), optional
 reading : {"implicit", "added"}
     Of Eqs 19-20, see `separation`.
 rms_height, q0 : float, optional
-    Of the macro-asperities [m], [1/m]; by default the spectrum's. They set R = 1 / (q0^2 sqrt 2 h_rms) and
-    n_a = q0^2 / (2 pi^2 sqrt 3), with `peaks` too. Of a rolled-off spectrum give the roll-off as q0; of a measured one
-    do not take the lowest bin, which is one scan length.
+    Of the macro-asperities [m], [1/m]; by default the spectrum's, q0 its roll-off where it has one. They set R = 1 / (q0^2 sqrt 2 h_rms) and
+    n_a = q0^2 / (2 pi^2 sqrt 3), with `peaks` too. Of a measured spectrum give q0: its lowest bin is one scan length,
+    and results that had to take it carry a note.
 
 Notes
 -----
@@ -221,7 +236,7 @@ reading, rms_height, q0
              if (!z_min) z_min = profile.z_min;
              if (!z_min) throw InvalidInput("z_min: must be given where heights_or_map is no HeightMap");
              Both s{{profile.peaks, *profile.peaks.z_max, *z_min, reading_of(reading), rms_height, q0},
-                    source,
+                    kept(source),
                     min_distance};
              validate(Correction(s));
              return s;

@@ -2,10 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "contact.hpp"
 #include "parts.hpp"
-#include "scene.hpp"
 #include "value.hpp"
 
 namespace asperity::python {
@@ -21,16 +21,17 @@ struct FrictionTag {
 
 Record<FrictionTag> compute(const py::object& spectrum, const py::object& rubber, const py::object& pressure,
                             const py::object& velocity, double poisson_ratio, const py::object& correction,
-                            const std::optional<Adhesion>& adhesion, const std::string& form, double rtol,
-                            bool contributions) {
+                            const py::object& adhesion, const std::string& form, double rtol, bool contributions) {
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
   const ContactModel model = contact_model(poisson_ratio, correction, form, rtol);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
+  std::optional<Adhesion> sticking;
+  if (!adhesion.is_none()) sticking = object_of<Adhesion>(adhesion, "adhesion", "an Adhesion or None");
   Friction f;
   {
     const py::gil_scoped_release release;
-    f = friction(surface, material, model, adhesion, b.columns[0], b.columns[1], contributions);
+    f = friction(surface, material, model, sticking, b.columns[0], b.columns[1], contributions);
   }
   Record<FrictionTag> record;
   py::dict& values = record.values;
@@ -100,7 +101,7 @@ contact_area : A/A0 at q1 [-].
 shift_factor : p_T [-]; 1 where nothing is shifted, infinite without contact.
 pressure, velocity : as given, broadcast [Pa], [m/s].
 error_estimate : absolute error of mu [-].
-extrapolated_share : share of the hysteresis whose modulus lies outside of the measured frequencies [-].
+extrapolated_share : share of the hysteresis whose modulus lies outside of the measured frequencies [-], to 1e-4.
 notes : where the theory or its input leaves its range, a tuple of sentences.
 
 With contributions=True, otherwise None:

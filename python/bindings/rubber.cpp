@@ -147,11 +147,24 @@ OutOfRange
   bind_common(curve);
   value_semantics(curve, {"angular_frequency", "storage_modulus", "loss_modulus", "extrapolation"});
 
-  m.def("effective_modulus", &effective_modulus, py::kw_only(), py::arg("modulus"), py::arg("poisson_ratio"),
-        py::arg("modulus_2") = std::numeric_limits<double>::infinity(), py::arg("poisson_ratio_2") = 0.0,
-        R"(E* [Pa] of 1 / E* = (1 - nu^2) / E + (1 - nu_2^2) / E_2 (Eq. 15); the second body is rigid by default.
+  m.def(
+      "effective_modulus",
+      [](const py::object& modulus, const py::object& poisson_ratio, const py::object& modulus_2,
+         const py::object& poisson_ratio_2) {
+        const Broadcast b = broadcast({{"modulus", modulus},
+                                       {"poisson_ratio", poisson_ratio},
+                                       {"modulus_2", modulus_2},
+                                       {"poisson_ratio_2", poisson_ratio_2}});
+        std::vector<double> result;
+        for (std::size_t i = 0; i < b.columns[0].size(); ++i)
+          result.push_back(effective_modulus(b.columns[0][i], b.columns[1][i], b.columns[2][i], b.columns[3][i]));
+        return shaped(std::move(result), b.shape);
+      },
+      py::kw_only(), py::arg("modulus"), py::arg("poisson_ratio"),
+      py::arg("modulus_2") = std::numeric_limits<double>::infinity(), py::arg("poisson_ratio_2") = 0.0,
+      R"(E* [Pa] of 1 / E* = (1 - nu^2) / E + (1 - nu_2^2) / E_2 (Eq. 15); the second body is rigid by default.
 
-Moduli [Pa] positive, Poisson ratios in [0, 0.5], else InvalidInput.
+Moduli [Pa] positive, Poisson ratios in [0, 0.5], else InvalidInput. Arguments broadcast.
 )");
 }
 

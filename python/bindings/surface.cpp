@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "parts.hpp"
 #include "surface.hpp"
@@ -11,6 +12,15 @@ namespace asperity::python {
 
 namespace {
 
+/// One of the statistics, computed without the GIL.
+template <class F>
+auto statistic(F f) {
+  return [f](const HeightMap& map) {
+    const py::gil_scoped_release release;
+    return f(map);
+  };
+}
+
 /// Keeps a NumPy array alive from inside the core; letting go of it takes the GIL.
 std::shared_ptr<const void> keep_alive(py::array array) {
   return {new py::array(std::move(array)), [](const void* p) {
@@ -19,22 +29,30 @@ std::shared_ptr<const void> keep_alive(py::array array) {
           }};
 }
 
+/// float32 stays what it is, in whatever byte order it came; other real types become float64.
+py::dtype float_type(const py::dtype& found) {
+  return py::dtype(found.kind() == 'f' && found.itemsize() == 4 ? "f4" : "f8");
+}
+
 HeightMap make_map(const py::object& heights, const PixelSizeArgument& pixel_size) {
   const py::module_ numpy = py::module_::import("numpy");
   py::object values = heights;
   if (py::isinstance(values, numpy.attr("ma").attr("MaskedArray")))  // masked points are drop-outs
-    values = values.attr("astype")("float64").attr("filled")(numpy.attr("nan"));
+    values =
+        numpy.attr("ma").attr("filled")(values.attr("astype")(float_type(values.attr("dtype"))), numpy.attr("nan"));
   py::array array = py::array::ensure(values);
   if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos) {
     PyErr_Clear();
-    throw InvalidInput("heights: must be an array of real numbers");
+    throw InvalidInput("heights = " + brief(heights) + ": must be an array of real numbers");
   }
-  const bool single = py::isinstance<py::array_t<float>>(array);
-  if (!single && !py::isinstance<py::array_t<double>>(array)) array = Array::ensure(array);
+  const py::dtype type = float_type(array.dtype());
+  if (!array.dtype().equal(type)) array = array.attr("astype")(type);
+  const bool single = type.itemsize() == 4;
   if (array.ndim() != 2)
     throw InvalidInput("heights has " + std::to_string(array.ndim()) + " dimensions: must have 2, (ny, nx)");
   const py::ssize_t item = array.itemsize();
-  if (array.strides(0) % item != 0 || array.strides(1) % item != 0) array = array.attr("copy")();  // packed records
+  const bool packed = array.strides(0) % item != 0 || array.strides(1) % item != 0;  // fields of packed records
+  if (packed || !array.attr("flags").attr("aligned").cast<bool>()) array = array.attr("copy")();
   const HeightMap::Data data = single ? HeightMap::Data(static_cast<const float*>(array.data()))
                                       : HeightMap::Data(static_cast<const double*>(array.data()));
   const HeightMap::Strides strides{array.strides(0) / item, array.strides(1) / item};
@@ -104,19 +122,18 @@ Examples
           "pixel_size", [](const HeightMap& s) { return py::make_tuple(s.pixel_size()[0], s.pixel_size()[1]); },
           "(dy, dx) [m].")
       .def_property_readonly("dropout_fraction", &HeightMap::dropout_fraction, "Share of points not measured.")
-      .def_property_readonly(
-          "rms_height", [](const HeightMap& s) { return s.statistics().rms_height; }, "Root mean square height [m].")
-      .def_property_readonly("rms_slope", &HeightMap::rms_slope,
+      .def_property_readonly("rms_height", statistic([](const HeightMap& s) { return s.statistics().rms_height; }),
+                             "Root mean square height [m].")
+      .def_property_readonly("rms_slope", statistic([](const HeightMap& s) { return s.rms_slope(); }),
                              "sqrt(<(dh/dx)^2> + <(dh/dy)^2>) [-], central differences at inner points.")
-      .def_property_readonly(
-          "skewness", [](const HeightMap& s) { return s.statistics().skewness; }, "<z^3> / rms^3 [-].")
-      .def_property_readonly(
-          "kurtosis", [](const HeightMap& s) { return s.statistics().kurtosis; },
-          "<z^4> / rms^4 [-]; 3 for Gaussian heights.")
-      .def_property_readonly(
-          "z_max", [](const HeightMap& s) { return s.statistics().z_max; }, "Highest point above the mean plane [m].")
-      .def_property_readonly(
-          "z_min", [](const HeightMap& s) { return s.statistics().z_min; }, "Lowest point, negative [m].")
+      .def_property_readonly("skewness", statistic([](const HeightMap& s) { return s.statistics().skewness; }),
+                             "<z^3> / rms^3 [-].")
+      .def_property_readonly("kurtosis", statistic([](const HeightMap& s) { return s.statistics().kurtosis; }),
+                             "<z^4> / rms^4 [-]; 3 for Gaussian heights.")
+      .def_property_readonly("z_max", statistic([](const HeightMap& s) { return s.statistics().z_max; }),
+                             "Highest point above the mean plane [m].")
+      .def_property_readonly("z_min", statistic([](const HeightMap& s) { return s.statistics().z_min; }),
+                             "Lowest point, negative [m].")
       .def("fill_dropouts", &HeightMap::fill_dropouts, py::kw_only(), py::arg("max_fraction") = 0.10,
            py::call_guard<py::gil_scoped_release>(),
            R"(Drop-outs replaced by linear interpolation; a new map.
@@ -160,7 +177,7 @@ Its mean is z_max (1 - 1/p), its highest point stays, its spectrum is C / p^2. `
               const py::gil_scoped_release release;
               peaks = s.local_peaks(min_distance, periodic);
             }
-            return flat(std::move(peaks));
+            return shaped(std::move(peaks), {static_cast<py::ssize_t>(peaks.size())});
           },
           py::kw_only(), py::arg("min_distance"), py::arg("periodic") = false,
           R"(Heights [m] above the mean plane of the local peaks, highest first (Section 3.1, for Eq. 13).

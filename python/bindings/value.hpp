@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "arrays.hpp"
 #include "asperity/errors.hpp"
 
 namespace asperity::python {
@@ -32,6 +33,8 @@ inline void value_semantics(py::handle cls, std::vector<std::string> fields) {
     const py::object same = py::module_::import("numpy").attr("array_equal");
     for (const auto& field : fields) {
       const py::object a = self.attr(field.c_str()), b = other.attr(field.c_str());
+      if (py::isinstance<py::array>(a) != py::isinstance<py::array>(b)) return py::bool_(false);
+      if (py::isinstance<py::array>(a) != py::isinstance<py::array>(b)) return py::bool_(false);
       const bool numeric = py::isinstance<py::array>(a) && a.attr("dtype").attr("kind").cast<std::string>() != "U";
       const bool equal =
           py::isinstance<py::array>(a) ? same(a, b, py::arg("equal_nan") = numeric).cast<bool>() : a.equal(b);
@@ -57,7 +60,7 @@ struct Record {
 template <class Tag>
 py::classh<Record<Tag>> bind_record(py::module_& m, const char* name, const char* doc) {
   py::classh<Record<Tag>> cls(m, name, doc);
-  cls.def(py::init([](const py::kwargs& given) {
+  cls.def(py::init([](const py::kwargs& given) {  // for pickle
     Record<Tag> record;
     for (const char* field : Tag::names) {
       if (!given.contains(field)) throw InvalidInput(std::string(field) + ": is missing");
@@ -68,7 +71,7 @@ py::classh<Record<Tag>> bind_record(py::module_& m, const char* name, const char
     return record;
   }));
   for (const char* field : Tag::names)
-    cls.def_property_readonly(field, [field](const Record<Tag>& r) { return py::object(r.values[field]); });
+    cls.def_property_readonly(field, [field](const Record<Tag>& r) { return frozen(r.values[field]); });
   value_semantics(cls, {std::begin(Tag::names), std::end(Tag::names)});
   return cls;
 }

@@ -1,8 +1,9 @@
-// A host program with its own GSL error handler and its own FFTW, which must both stay as they are.
+// A host program with its own GSL error handler, FFTW and Eigen, all of which must stay as they are.
 #include <fftw3.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
+#include <Eigen/Dense>
 #include <asperity/friction.hpp>
 #include <asperity/version.hpp>
 #include <cmath>
@@ -56,5 +57,12 @@ int main() {
   fftw_execute(plan);
   fftw_destroy_plan(plan);
   fine &= check(mode[0] == 10.0, "the host's FFTW works beside ours");
+
+  // The solver that our detrending uses too, instantiated here with this host's flags.
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(3, 3) * 2;
+  const Eigen::VectorXd solution = matrix.completeOrthogonalDecomposition().solve(Eigen::VectorXd::Ones(3));
+  const asperity::HeightMap tilted(std::vector<double>{0, 1, 2, 1, 2, 3, 2, 3, 4.5}, {3, 3}, {1, 1});
+  fine &= check(solution[0] == 0.5 && tilted.detrend(asperity::Detrend::plane).statistics().rms_height < 0.2,
+                "the host's Eigen works beside ours");
   return fine ? 0 : 1;
 }

@@ -1,11 +1,23 @@
 """Reference tables, read where they lie; every row brings its own tolerance."""
 
 import csv
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 REFERENCE = Path(__file__).parents[1] / "reference"
+LISTS = {
+    "moduli",
+    "relaxation_times",
+    "peaks",
+    "table_frequency",
+    "table_storage",
+    "table_loss",
+    "table_wavenumber",
+    "table_density",
+}
 
 
 def reference(name: str) -> list[dict[str, object]]:
@@ -23,13 +35,19 @@ def value_of(column: str, cell: str) -> object:
     return float(cell) if cell else None
 
 
-LISTS = {
-    "moduli",
-    "relaxation_times",
-    "peaks",
-    "table_frequency",
-    "table_storage",
-    "table_loss",
-    "table_wavenumber",
-    "table_density",
-}
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line(
+        "markers", "reference(name): the test runs once for each row of tests/reference/<name>.csv"
+    )
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    marker = metafunc.definition.get_closest_marker("reference")
+    if marker is not None:
+        rows = reference(marker.args[0])
+        metafunc.parametrize("row", rows, ids=[str(row["case"]) for row in rows])
+
+
+@pytest.fixture(scope="session")
+def reference_table() -> Callable[[str], list[dict[str, object]]]:
+    return reference

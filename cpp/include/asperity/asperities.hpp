@@ -1,7 +1,6 @@
 // Single-scale asperity contact: Hertz, Greenwood-Williamson and its improved form (Eqs 14, 16-20).
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "asperity/errors.hpp"

@@ -47,7 +47,7 @@ struct GreenwoodWilliamson {
   double z_max, z_min;             // [m] about the mean plane
   std::vector<double> peaks = {};  // [m]
   Reading reading = Reading::implicit;
-  std::optional<double> rms_height = {}, q0 = {};  // of the macro-asperities; unset: the spectrum's
+  std::optional<double> rms_height = {}, q0 = {};  // of the macro-asperities; unset: the spectrum's, q0 its roll-off
   bool operator==(const GreenwoodWilliamson&) const = default;
 };
 

@@ -1,7 +1,6 @@
 // Rubber friction: hysteresis (Eq. 22), adhesion (Eq. 23) and their sum (Eq. 24).
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>

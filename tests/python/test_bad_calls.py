@@ -1,0 +1,302 @@
+"""Foolish combinations of arguments, and arguments of another kind (see test_bad_input)."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import InvalidInput, OutOfRange
+
+SURFACE = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
+ROLLED = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=1e4)
+TABLE = asperity.TabulatedSpectrum(wavenumber=[1e3, 1e4, 1e5], density=[1e-12, 1e-16, 1e-20])
+RUBBER = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
+MEASURED = asperity.MasterCurve(
+    angular_frequency=[1.0, 1e3, 1e6],
+    storage_modulus=[1e6, 1e7, 1e8],
+    loss_modulus=[1e5, 1e6, 1e7],
+)
+HEIGHTS = np.random.default_rng(0).normal(size=(8, 9))
+MAP = asperity.HeightMap(HEIGHTS, pixel_size=1e-6)
+HOLED = np.where(np.arange(72).reshape(8, 9) == 10, np.nan, HEIGHTS)
+HOLED_MAP = asperity.HeightMap(HOLED, pixel_size=1e-6)
+PEAKS = [1e-4, 2e-4, 3e-4]
+ASPERITIES = {"pressure": 1e5, "effective_modulus": 1e7, "rms_height": 1e-4, "q0": 1e3}
+SCENE = {"pressure": 1e5, "velocity": 0.01}
+WAVES = (asperity.contact_area, asperity.mean_pressure, asperity.correction_factor)
+
+
+def waves(**changed):
+    """One call for each function over wavenumbers."""
+    arguments = {**SCENE, "wavenumber": 1e4} | changed
+    return [lambda f=f: f(SURFACE, RUBBER, **arguments) for f in WAVES]
+
+
+def scenes(surface=SURFACE, rubber=RUBBER, **changed):
+    """One call for each function of a whole scene."""
+    arguments = SCENE | changed
+    calls = [lambda f=f: f(surface, rubber, **arguments) for f in (asperity.friction, *WAVES[:2])]
+    calls.append(lambda: asperity.correction_factor(surface, rubber, **arguments, wavenumber=1e4))
+    calls.append(lambda: asperity.pressure_distribution(1e5, surface, rubber, **arguments))
+    return calls
+
+
+REFUSED = [
+    ([lambda: TABLE.truncated(q0=1e4, q1=5e3)], "^q1 = 5000: must be above q0 = 10000$"),
+    ([lambda: ROLLED.truncated(q1=5e3)], "^q1 = 5000: must be above the roll-off, 10000"),
+    (
+        [lambda: asperity.SelfAffineSpectrum(rms_height=1, hurst=1, q0=2, q1=1)],
+        "^q1 = 1: must be above q0 = 2$",
+    ),
+    (
+        [lambda: asperity.TabulatedSpectrum(wavenumber=[], density=[])],
+        "^wavenumber has 0 entries: must be 2 or more$",
+    ),
+    (
+        [lambda: asperity.PronySeries(equilibrium_modulus=1, moduli=[1, 2], relaxation_times=[1])],
+        "^moduli has 2 entries, relaxation_times has 1: must be as many$",
+    ),
+    (
+        [lambda: asperity.PronySeries(equilibrium_modulus=0, moduli=[], relaxation_times=[])],
+        "^equilibrium_modulus = 0: must be positive where there are no moduli$",
+    ),
+    (
+        [lambda: HOLED_MAP.fill_dropouts(max_fraction=0.01)],
+        r"1\.389 % .* at most 1 % \(max_fraction",
+    ),
+    (
+        [lambda: HOLED_MAP.local_peaks(min_distance=1)],
+        "^heights: has drop-outs, fill_dropouts must",
+    ),
+    (
+        [lambda: asperity.HeightMap(HEIGHTS[:1], pixel_size=1).rms_slope],
+        r"^heights has shape \(1, 9\)",
+    ),
+    (
+        [lambda: asperity.power_spectrum(asperity.HeightMap(HEIGHTS[:1], pixel_size=1))],
+        r"^surface has shape \(1, 9\): must be",
+    ),
+    (
+        [lambda: asperity.fit_self_affine(TABLE, q_min=1e4, q_max=1e3)],
+        "^q_max = 1000: must be above q_min = 10000$",
+    ),
+    (
+        [lambda: asperity.synthesize(SURFACE, shape=(8, 8), pixel_size=1.0, seed=1)],
+        r"^spectrum: its band \[1000, 100000\] 1/m holds no mode of this grid",
+    ),
+    (
+        [lambda: asperity.separation(**ASPERITIES, z_max=1e-4)],
+        "^z_min: must be given with the other of z_max, z_min$",
+    ),
+    (
+        [lambda: asperity.separation(**ASPERITIES, z_max=-1e-4, z_min=1e-4)],
+        r"^z_max = -0\.0001: must be above z_min = 0\.0001$",
+    ),
+    (
+        [
+            lambda: asperity.separation(
+                **{**ASPERITIES, "pressure": [1, 2], "q0": 1}, z_max=np.nan, z_min=0
+            )
+        ],
+        "^z_max = nan: must be finite$",
+    ),
+    (
+        [
+            lambda: asperity.separation(
+                **{**ASPERITIES, "pressure": [1, 2, 3], "effective_modulus": [1, 2]}
+            )
+        ],
+        r"^shapes pressure \(3,\), effective_modulus \(2,\): must broadcast together$",
+    ),
+    (
+        [lambda: asperity.LocalPeaks([-1, -2, -3])],
+        "^heights: their mean = -2: must be above the mean",
+    ),
+    (
+        [lambda: asperity.LocalPeaks([1, 1, 1])],
+        "^heights: their mean = 1: must be below z_max = 1$",
+    ),
+    ([lambda: asperity.LocalPeaks(MAP)], "^min_distance: must be given with a HeightMap"),
+    (
+        [lambda: asperity.PeaksThenGreenwoodWilliamson(PEAKS)],
+        "^z_min: must be given where heights_or_map is no HeightMap$",
+    ),
+    (
+        [lambda: asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-3e-4, peaks=[1, 2, 3])],
+        r"^z_max = 0\.0003: must be no lower than the highest peak, 3$",
+    ),
+    (
+        scenes(pressure=[1, 2, 3], velocity=[1, 2]),
+        r"pressure \(3,\), velocity \(2,\): must broadcast together$",
+    ),
+    (scenes(pressure=[]), r"\bpressure\b.* 0 entries.*must have 1 or more"),
+    (scenes(velocity=np.empty((3, 0))), r"\bvelocity\b.* 0 entries.*must have 1 or more"),
+    (waves(wavenumber=[]), "^wavenumber has 0 entries: must be 1 or more$"),
+    (waves(wavenumber=[[1e4]]), "^wavenumber has 2 dimensions: must have 0 or 1$"),
+    (waves(wavenumber=[1e4, np.nan]), "^wavenumber = nan: must be positive and finite$"),
+    (waves(wavenumber="x"), "^wavenumber = 'x': must be a number or an array of real numbers$"),
+    (
+        [lambda: asperity.pressure_distribution(1e5, SURFACE, RUBBER, **SCENE, wavenumber=1e3)],
+        "^wavenumber = 1000: must be above q0",
+    ),
+    # an argument that the user gave must be named, not an inner one
+    (
+        [lambda: asperity.power_spectrum(asperity.HeightMap(HEIGHTS[:2, :2], pixel_size=1))],
+        "^surface has shape",
+    ),
+    ([lambda: asperity.LocalPeaks(MAP, min_distance=1.0)], "min_distance = 1"),
+    ([lambda: asperity.LocalPeaks([1e-4, 2e-4])], "^heights_or_map has 2 "),
+    (
+        [lambda: asperity.SelfAffineFit(spectrum=SURFACE, standard_errors={}, rows=3)],
+        "^standard_errors",
+    ),
+    (
+        [
+            lambda: asperity.synthesize(
+                asperity.TabulatedSpectrum(wavenumber=[1e3, 1e6], density=[0, 0]),
+                shape=(8, 8),
+                pixel_size=1e-4,
+                seed=1,
+            )
+        ],
+        "^spectrum: .*(zero|0)",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        pytest.param(call, said, id=f"{said}{i or ''}")
+        for calls, said in REFUSED
+        for i, call in enumerate(calls)
+    ],
+)
+def test_foolish_combination_is_refused_by_name(call, message):
+    with pytest.raises(InvalidInput) as caught:
+        call()
+    assert re.search(message, str(caught.value))
+
+
+TALL = {"z_max": 3e-4, "z_min": -3e-4}
+OUTSIDE = [
+    (
+        [lambda: TABLE.at(1e9)],
+        r"^wavenumber = 1000000000: the spectrum is known in \[1000, 100000\] 1/m$",
+    ),
+    (
+        [lambda: TABLE.at([1e4, 10])],
+        r"^wavenumber = 10: the spectrum is known in \[1000, 100000\] 1/m$",
+    ),
+    (
+        waves(wavenumber=1e9),
+        r"^wavenumber = 1000000000: the spectrum's band is \[1000, 100000\] 1/m$",
+    ),
+    (
+        waves(wavenumber=[1e4, 10]),
+        r"^wavenumber = 10: the spectrum's band is \[1000, 100000\] 1/m$",
+    ),
+    (
+        [
+            lambda f=f: f(1e-3)
+            for f in (MEASURED.modulus, MEASURED.angular_integrals, MEASURED.extrapolated_shares)
+        ],
+        r"^angular_frequency = 0\.001 rad/s: .* in \[1, 1000000\] rad/s$",
+    ),
+    (
+        scenes(rubber=MEASURED, velocity=1e-6),
+        r"^velocity = 1e-06: .*velocities from 0\.001 to 10 m/s are allowed$",
+    ),
+    (scenes(rubber=MEASURED, velocity=[1, 11]), "^velocity = 11: .* to 10 m/s are allowed$"),
+    (
+        [lambda: TABLE.truncated(q0=1), lambda: TABLE.truncated(q0=1e9)],
+        r"^q0 = (1|1000000000): must be in \[1000, 100000\], the spectrum's band \[1/m\]$",
+    ),
+    ([lambda: TABLE.truncated(q1=1e9)], r"^q1 = 1000000000: must be in \[1000, 100000\]"),
+    # the user gave q0 and a velocity, no angular frequency
+    (
+        scenes(
+            rubber=MEASURED, correction=asperity.GreenwoodWilliamson(**TALL, rms_height=1e-4, q0=1)
+        ),
+        r"velocity = 0\.01|q0 = 1\b",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        pytest.param(call, said, id=f"{said}{i or ''}")
+        for calls, said in OUTSIDE
+        for i, call in enumerate(calls)
+    ],
+)
+def test_asked_outside_measured_data(call, message):
+    with pytest.raises(OutOfRange) as caught:
+        call()
+    assert not isinstance(caught.value, ValueError)
+    assert re.search(message, str(caught.value))
+
+
+WRONG_KIND = [
+    ("rms_height", lambda v: asperity.SelfAffineSpectrum(rms_height=v, hurst=1, q0=1, q1=2), "x"),
+    (
+        "rms_height",
+        lambda v: asperity.SelfAffineSpectrum(rms_height=v, hurst=1, q0=1, q1=2),
+        [1, 2],
+    ),
+    ("pixel_size", lambda v: asperity.HeightMap(HEIGHTS, pixel_size=v), (1, 2, 3)),
+    ("pixel_size", lambda v: asperity.HeightMap(HEIGHTS, pixel_size=v), None),
+    ("order", lambda v: MAP.detrend(v), None),
+    ("min_distance", lambda v: MAP.local_peaks(min_distance=v), "x"),
+    ("surface", lambda v: asperity.power_spectrum(v), HEIGHTS),
+    ("window", lambda v: asperity.power_spectrum(MAP, window=v), None),
+    ("spectrum", lambda v: asperity.fit_self_affine(v), SURFACE),
+    ("shape", lambda v: asperity.synthesize(SURFACE, shape=v, pixel_size=1, seed=1), (8.5, 8)),
+    ("seed", lambda v: asperity.synthesize(SURFACE, shape=(8, 8), pixel_size=1, seed=v), 1.5),
+    ("a_T", lambda v: RUBBER.shifted(v), "x"),
+    ("gamma", lambda v: asperity.SFactor(gamma=v), None),
+    ("p", lambda v: asperity.AffineShift(v), "x"),
+    ("poisson_ratio", lambda v: asperity.friction(SURFACE, RUBBER, **SCENE, poisson_ratio=v), 1j),
+    ("adhesion", lambda v: asperity.friction(SURFACE, RUBBER, **SCENE, adhesion=v), 8e6),
+    ("shear_stress", lambda v: asperity.Adhesion(shear_stress=v), "x"),
+]
+
+
+@pytest.mark.parametrize(("argument", "call", "value"), WRONG_KIND)
+def test_argument_of_another_kind_is_a_type_error_that_names_it(argument, call, value):
+    with pytest.raises((TypeError, InvalidInput)) as caught:
+        call(value)
+    assert re.search(rf"\b{argument}\b", str(caught.value))
+
+
+def test_misspelt_missing_and_positional_arguments_are_type_errors():
+    with pytest.raises(TypeError, match="presure"):
+        asperity.friction(SURFACE, RUBBER, presure=1, velocity=1)
+    with pytest.raises(TypeError, match="velocity"):
+        asperity.friction(SURFACE, RUBBER, pressure=1)
+    with pytest.raises(TypeError, match="shear_stress"):
+        asperity.Adhesion(8e6)
+    with pytest.raises(TypeError, match="form"):
+        asperity.pressure_distribution(1, SURFACE, RUBBER, **SCENE, form="interpolated")
+
+
+@pytest.mark.parametrize(
+    ("rms_height", "pressure", "velocity"),
+    [(1e-4, 1e-160, 0.01), (1e200, 1e5, 0.01), (1e-4, 1e300, 0.01), (1e-160, 1e5, 0.01)],
+)
+def test_absurd_but_finite_numbers_end_in_a_number_or_an_error(rms_height, pressure, velocity):
+    code = f"""
+import math, asperity
+s = asperity.SelfAffineSpectrum(rms_height={rms_height}, hurst=0.8, q0=1e3, q1=1e5)
+r = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
+try:
+    f = asperity.friction(s, r, pressure={pressure}, velocity={velocity})
+    assert math.isfinite(f.mu) and 0 <= f.contact_area <= 1
+except asperity.Error:
+    pass
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=10)

@@ -1,0 +1,229 @@
+"""What the theory promises of spectra, contact area and pressure: closed forms and limits."""
+
+import math
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import AffineShift, HeightMap, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
+ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
+RUBBER = PronySeries(
+    equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
+)
+SCENE = {"velocity": 0.01, "pressure": 1e6}
+WAVENUMBERS = np.geomspace(2e3, 1e6, 9)[1:]
+
+
+def elastic(modulus):
+    return PronySeries(equilibrium_modulus=modulus, moduli=[], relaxation_times=[])
+
+
+def gauss(f, edges):
+    """Integral of f over panels, 20 Gauss points each."""
+    edges = np.asarray(edges)
+    half = np.diff(edges)[:, None] / 2
+    return float(np.sum(half * WEIGHTS * f(edges[:-1, None] + half * (1 + NODES))))
+
+
+def exact_area(g):
+    return math.erf(0.5 / math.sqrt(g))
+
+
+def g_of_area(area):
+    """The largest G at which erf(1 / (2 sqrt G)) = area, by bisection."""
+    low, high = -40.0, 40.0
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if exact_area(math.exp(middle)) >= area else (low, middle)
+    return math.exp(low)
+
+
+@pytest.mark.parametrize("rolloff", [None, 2e4])
+def test_a_spectrum_has_the_height_and_slope_that_it_claims(rolloff):
+    spectrum = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6, rolloff=rolloff)
+    edges = np.sort(np.append(np.linspace(np.log(2e3), np.log(1e6), 60), np.log(2e4)))
+    for power, expected in ((2, spectrum.rms_height), (4, spectrum.rms_slope)):
+        moment = gauss(lambda y, n=power: np.exp(n * y) * spectrum.at(np.exp(y)), edges)
+        assert math.sqrt(2 * math.pi * moment) == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_array_equal(spectrum.at([1e3, 1999.9, 1.0001e6, 1e9]), 0)
+
+
+def test_the_articles_spectrum_delivers_h0_over_root_two():
+    spectrum = SelfAffineSpectrum.from_article(h0=1e-4, hurst=0.8, q0=1e3, q1=1e8)
+    q = np.array([1e3, 3e4, 1e8])
+    printed = (1e-4 / 1e3) ** 2 * 0.8 / (2 * np.pi) * (q / 1e3) ** -3.6
+    np.testing.assert_allclose(spectrum.at(q), printed, rtol=1e-12)
+    assert spectrum.rms_height == pytest.approx(1e-4 / math.sqrt(2), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("rms_height", "hurst", "cutoff"), [(76.572e-6, 0.7, 320), (265.7e-6, 0.87, 11.7)]
+)
+def test_slope_rule_cuts_the_articles_surfaces(rms_height, hurst, cutoff):
+    spectrum = SelfAffineSpectrum(rms_height=rms_height, hurst=hurst, q0=2e3, q1=1e6)
+    q = spectrum.cutoff_for_slope()
+    assert q / 2e3 == pytest.approx(cutoff, rel=5e-3)
+    assert spectrum.truncated(q1=q).rms_slope == pytest.approx(1.3, rel=1e-12)
+    assert spectrum.cutoff_for_contamination(1e-4) == pytest.approx(2 * np.pi / 1e-4)
+    assert spectrum.cutoff_for_contamination(1e-9) == spectrum.q1
+
+
+@pytest.mark.parametrize("table", [False, True])
+def test_truncation_keeps_densities_and_scaling_multiplies_them(table):
+    spectrum = ROAD
+    if table:
+        q = np.geomspace(2e3, 1e6, 30)
+        spectrum = TabulatedSpectrum(wavenumber=q, density=ROAD.at(q))
+    inside = np.geomspace(5.1e3, 2.9e5, 40)
+    cut = spectrum.truncated(q0=5e3, q1=3e5)
+    assert (cut.q0, cut.q1) == (5e3, 3e5)
+    np.testing.assert_allclose(cut.at(inside), spectrum.at(inside), rtol=1e-12)
+    np.testing.assert_allclose(spectrum.scaled(7).at(inside), 7 * spectrum.at(inside), rtol=1e-12)
+    assert spectrum.scaled(4).rms_height == pytest.approx(2 * spectrum.rms_height, rel=1e-12)
+
+
+def test_a_spectrum_and_its_table_make_the_same_contact():
+    q = np.geomspace(2e3, 1e6, 200)
+    table = TabulatedSpectrum(wavenumber=q, density=ROAD.at(q))
+    for function in (asperity.contact_area, lambda *a, **k: asperity.friction(*a, **k).mu):
+        expected = function(ROAD, RUBBER, **SCENE)
+        assert function(table, RUBBER, **SCENE) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("pressure", [1e4, 1e6, 3e7])
+@pytest.mark.parametrize("correction", [None, AffineShift(2), asperity.SFactor(applies_to="area")])
+def test_pressure_distribution_integrates_to_area_and_load(pressure, correction):
+    options = {"pressure": pressure, "velocity": 0.01, "correction": correction, "rtol": 1e-10}
+    for q in WAVENUMBERS:
+        area = asperity.contact_area(ROAD, RUBBER, **options, wavenumber=q)
+        width = math.sqrt(2 * g_of_area(area)) * pressure
+        low, high = max(0, pressure - 12 * width), pressure + 12 * width
+        edges = np.linspace(low, high, 300)
+
+        def density(stress, q=q):
+            return asperity.pressure_distribution(stress, ROAD, RUBBER, **options, wavenumber=q)
+
+        assert gauss(density, edges) == pytest.approx(area, rel=1e-8)
+        load = gauss(lambda stress, density=density: stress * density(stress), edges)
+        assert load == pytest.approx(pressure, rel=1e-8)
+        assert density(np.float64(0)) == 0
+
+
+def test_mean_pressure_carries_the_load_at_every_magnification():
+    area = asperity.contact_area(ROAD, RUBBER, **SCENE, wavenumber=WAVENUMBERS)
+    mean = asperity.mean_pressure(ROAD, RUBBER, **SCENE, wavenumber=WAVENUMBERS)
+    np.testing.assert_allclose(mean * area, SCENE["pressure"], rtol=1e-14)
+
+
+@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.5])
+def test_small_loads_give_an_area_proportional_to_the_load(poisson_ratio):
+    modulus = asperity.effective_modulus(modulus=1e7, poisson_ratio=poisson_ratio)
+    for p_star in (1e-3, 1e-6):
+        pressure = p_star * modulus * ROAD.rms_slope
+        area = asperity.contact_area(
+            ROAD, elastic(1e7), pressure=pressure, velocity=1, poisson_ratio=poisson_ratio
+        )
+        assert area == pytest.approx(math.sqrt(8 / math.pi) * p_star, rel=max(p_star**2, 1e-7))
+
+
+def test_full_contact_under_a_crushing_load_and_at_q0():
+    assert asperity.contact_area(ROAD, RUBBER, pressure=1e12, velocity=0.01) == 1
+    assert asperity.contact_area(ROAD, RUBBER, **SCENE, wavenumber=2e3) == 1
+
+
+@pytest.mark.parametrize("form", ["exact", "interpolated"])
+def test_area_is_a_share_that_rises_with_load_and_falls_with_roughness_and_magnification(form):
+    pressure = np.geomspace(1e2, 1e9, 40)
+    options = {"velocity": 0.01, "form": form}
+    by_load = asperity.contact_area(ROAD, RUBBER, pressure=pressure, **options)
+    assert np.all((by_load > 0) & (by_load <= 1))
+    assert np.all(np.diff(by_load[by_load < 1]) > 0)
+    by_roughness = [
+        asperity.contact_area(ROAD.scaled(s), RUBBER, pressure=1e6, **options)
+        for s in np.geomspace(1e-3, 1e3, 9)
+    ]
+    assert np.all(np.diff(by_roughness) < 0)
+    by_magnification = asperity.contact_area(
+        ROAD, RUBBER, pressure=1e6, wavenumber=np.geomspace(2.01e3, 1e6, 30), **options
+    )
+    assert np.all(np.diff(by_magnification) < 0)
+    stiffer = asperity.contact_area(ROAD, RUBBER, pressure=1e6, velocity=10, form=form)
+    assert stiffer < asperity.contact_area(ROAD, RUBBER, pressure=1e6, velocity=0.01, form=form)
+
+
+def test_interpolation_of_the_area_is_as_far_off_as_stated():
+    g = np.geomspace(1e-4, 1e6, 400)
+    pressure = 1e7 * ROAD.rms_slope / np.sqrt(8 * g) / 0.75
+    exact, interpolated = (
+        asperity.contact_area(ROAD, elastic(1e7), pressure=pressure, velocity=1, form=form)
+        for form in ("exact", "interpolated")
+    )
+    np.testing.assert_allclose(exact, [exact_area(x) for x in g], rtol=1e-9)
+    np.testing.assert_allclose(interpolated, (1 + (np.pi * g) ** 1.5) ** (-1 / 3), rtol=1e-9)
+    error = interpolated / exact - 1
+    assert -0.029 < error.min() < -0.027
+    assert 0.025 < error.max() < 0.027
+    assert 0.08 < g[error.argmin()] < 0.12
+    assert 0.8 < g[error.argmax()] < 1.1
+
+
+@pytest.mark.parametrize("p", [1.0, 2.0, 3.7])
+def test_affine_shift_is_a_spectrum_divided_by_its_square(p):
+    shifted = asperity.friction(ROAD, RUBBER, **SCENE, correction=AffineShift(p))
+    scaled = asperity.friction(ROAD.scaled(1 / p**2), RUBBER, **SCENE)
+    assert shifted.mu == pytest.approx(scaled.mu, rel=1e-12)
+    assert shifted.contact_area == pytest.approx(scaled.contact_area, rel=1e-12)
+    assert (shifted.shift_factor, scaled.shift_factor) == (p, 1)
+
+
+@pytest.mark.parametrize("p", [1.0, 2.0, 3.7])
+def test_affine_shift_of_a_map(p):
+    heights = np.random.default_rng(3).gumbel(size=(40, 50)) * 1e-6
+    surface = HeightMap(heights, pixel_size=2e-6)
+    shifted = surface.affine_shift(p)
+    z_max, z_min = surface.z_max, surface.z_min
+    assert shifted.heights.mean() == pytest.approx(z_max * (1 - 1 / p), rel=1e-9, abs=1e-20)
+    assert shifted.heights.max() == pytest.approx(z_max, rel=1e-12)  # the highest point is kept
+    assert shifted.heights.min() == pytest.approx((z_min - z_max) / p + z_max, rel=1e-9)
+    assert shifted.rms_height == pytest.approx(surface.rms_height / p, rel=1e-12)
+    before, after = (asperity.power_spectrum(s).density for s in (surface, shifted))
+    np.testing.assert_allclose(after, before / p**2, rtol=1e-10)
+
+
+def test_autocorrelation_and_spectrum_are_a_pair_both_ways():
+    spectrum = SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=1e5, q1=6e5)
+    shape, pixel = (24, 30), (4e-6, 3e-6)
+    z = asperity.synthesize(spectrum, shape=shape, pixel_size=pixel, seed=1).heights
+    average = np.array(
+        [[np.mean(z * np.roll(z, (-y, -x), (0, 1))) for x in range(30)] for y in range(24)]
+    )
+    qy, qx = (2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, pixel, strict=True))
+    ry, rx = (d * np.arange(n) for n, d in zip(shape, pixel, strict=True))
+    wave_y, wave_x = np.exp(1j * np.outer(qy, ry)), np.exp(1j * np.outer(qx, rx))
+    # Eq. 6: C(q) = (2 pi)^-2 int <h(x) h(x + r)> exp(-i q r) d2r
+    c = (wave_y.conj() @ average @ wave_x.conj().T).real * pixel[0] * pixel[1] / (2 * np.pi) ** 2
+    q = np.hypot(qy[:, None], qx)
+    inside = (q >= spectrum.q0) & (q <= spectrum.q1)
+    expected = np.where(inside, spectrum.at(np.clip(q, spectrum.q0, spectrum.q1)), 0)
+    np.testing.assert_allclose(c, expected, atol=1e-12 * expected.max())
+    # Eq. 5 back: <h(x) h(x + r)> = int C(q) exp(i q r) d2q
+    cell = (2 * np.pi) ** 2 / (24 * 30 * pixel[0] * pixel[1])
+    back = (wave_y.T @ expected @ wave_x).real * cell
+    np.testing.assert_allclose(back, average, atol=1e-12 * average[0, 0])
+
+
+def test_isotropic_autocorrelation_is_that_of_a_large_map():
+    side, n = 2 * np.pi / 500, 512
+    spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=8e3, q1=4e4)
+    q = 500 * np.fft.fftfreq(n, 1 / n)
+    mode = np.hypot(q[:, None], q)
+    c = spectrum.at(np.clip(mode, 1, None))
+    r = np.arange(0, 60) * side / n
+    # along one axis, over all modes of the map
+    direct = [np.sum(c * np.cos(q * x)) * 500**2 for x in r]
+    found = spectrum.autocorrelation(r)
+    np.testing.assert_allclose(found, direct, atol=0.02 * spectrum.rms_height**2)
+    assert found[0] == pytest.approx(spectrum.rms_height**2, rel=1e-8)
