@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "checks.hpp"
@@ -16,7 +15,8 @@ namespace asperity {
 
 /// `Outputs` smooth functions on one interval [lower, upper], of which only the lower end may be a branch point
 /// of the kind (x - lower)^(n/2): in t = sqrt((x - lower) / (upper - lower)) they are analytic, and Chebyshev
-/// interpolation in t converges. Pieces are halved in t until the last coefficients are below `tolerance`.
+/// interpolation in t converges. Pieces are halved in t until the last coefficients are below `tolerance`, one an
+/// output.
 template <std::size_t Outputs>
 class ChebyshevPieces {
  public:
@@ -24,7 +24,7 @@ class ChebyshevPieces {
   using Values = std::array<double, Outputs>;
 
   template <class F>
-  ChebyshevPieces(F&& f, double lower, double upper, double tolerance) {
+  ChebyshevPieces(F&& f, double lower, double upper, const Values& tolerance) {
     split(f, lower, upper, 0, 1, tolerance, 0);
   }
 
@@ -55,7 +55,7 @@ class ChebyshevPieces {
   };
 
   template <class F>
-  void split(F& f, double lower, double upper, double t0, double t1, double tolerance, int depth) {
+  void split(F& f, double lower, double upper, double t0, double t1, const Values& tolerance, int depth) {
     using std::numbers::pi;
     Piece piece{t0, t1, {}};
     std::array<Values, order> sample;
@@ -70,15 +70,16 @@ class ChebyshevPieces {
                               std::cos(pi * static_cast<double>(j) * (static_cast<double>(i) + 0.5) / order);
         for (std::size_t k = 0; k < Outputs; ++k) piece.coefficient[j][k] += weight * sample[i][k];
       }
-    double tail = 0;
+    double tail = 0;  // the last coefficients in units of the tolerance
     for (std::size_t j = order - 3; j < order; ++j)
-      for (std::size_t k = 0; k < Outputs; ++k) tail = std::fmax(tail, std::fabs(piece.coefficient[j][k]));
-    constexpr int deepest = 12;
-    constexpr double rounding = 100;  // times the tolerance: what halving no longer mends
-    if (depth == deepest && !(tail <= rounding * tolerance))
+      for (std::size_t k = 0; k < Outputs; ++k)
+        tail = std::fmax(tail, std::fabs(piece.coefficient[j][k]) / tolerance[k]);
+    constexpr int deepest = 10;
+    constexpr double rounding = 100;  // what halving no longer mends
+    if (depth == deepest && !(tail <= rounding))
       throw NotConverged("angular integrals between w = " + show(std::exp(lower)) + " and " + show(std::exp(upper)) +
-                         " rad/s: error " + show(tail) + " where " + show(tolerance) + " was asked for");
-    if (tail > tolerance && depth < deepest) {
+                         " rad/s: " + show(tail) + " times the tolerance");
+    if (tail > 1 && depth < deepest) {
       const double middle = (t0 + t1) / 2;
       split(f, lower, upper, t0, middle, tolerance, depth + 1);
       split(f, lower, upper, middle, t1, tolerance, depth + 1);
@@ -95,17 +96,19 @@ template <std::size_t Outputs>
 class LazyPieces {
  public:
   explicit LazyPieces(std::size_t intervals)
-      : once_(std::make_unique<std::once_flag[]>(intervals)), pieces_(intervals) {}  // none made yet
+      : once_(std::make_unique<std::once_flag[]>(intervals)), pieces_(intervals) {}
 
   template <class F>
-  const ChebyshevPieces<Outputs>& get(std::size_t interval, double lower, double upper, double tolerance, F&& f) const {
-    std::call_once(once_[interval], [&] { pieces_[interval].emplace(f, lower, upper, tolerance); });
-    return *pieces_[interval];
+  const ChebyshevPieces<Outputs>& get(std::size_t interval, double lower, double upper,
+                                      const std::array<double, Outputs>& tolerance, F&& f) const {
+    auto& pieces = pieces_[interval];
+    std::call_once(once_[interval], [&] { pieces.emplace_back(f, lower, upper, tolerance); });
+    return pieces.front();
   }
 
  private:
   std::unique_ptr<std::once_flag[]> once_;
-  mutable std::vector<std::optional<ChebyshevPieces<Outputs>>> pieces_;
+  mutable std::vector<std::vector<ChebyshevPieces<Outputs>>> pieces_;  // none or one each
 };
 
 }  // namespace asperity

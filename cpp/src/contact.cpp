@@ -49,9 +49,11 @@ void visit_g(const Spectrum& spectrum, const Rubber& rubber, const ContactModel&
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
       continue;
     }
-    const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, wavenumber, false,
-                    model.rtol);
-    for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, path.g(wavenumber[j]), shift);
+    at_point(pressure[i], velocity[i], [&] {
+      const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, wavenumber, false,
+                      model.rtol);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, path.g(wavenumber[j]), shift);
+    });
   }
 }
 
@@ -121,11 +123,12 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
           [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
             if (uncorrected < 0) return;
             const double g = area_g(uncorrected, model), x = stress[i] / pressure[i];
+            const double from_nominal = (stress[i] - pressure[i]) / pressure[i];
             if (g == 0)
               throw InvalidInput("wavenumber = " + show(wavenumber) +
                                  ": must be above q0, where the pressure is a delta at its nominal value");
             // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
-            const double bell = std::exp(-(x - 1) * (x - 1) / (4 * g)) / std::sqrt(4 * pi * g);
+            const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
             result[i] = -bell * std::expm1(-x / g) / pressure[i];
           });
   return result;

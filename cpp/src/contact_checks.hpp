@@ -19,6 +19,16 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   for (const double v : velocity) require_positive("velocity", v);
 }
 
+/// work(), with the point added to what a NotConverged says.
+template <class Work>
+void at_point(double pressure, double velocity, Work work) {
+  try {
+    work();
+  } catch (const NotConverged& error) {
+    throw NotConverged("pressure = " + show(pressure) + ", velocity = " + show(velocity) + ": " + error.what());
+  }
+}
+
 /// OutOfRange with the velocity in it where v q0 or v q1 leaves a measured master curve.
 inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
   const auto* curve = std::get_if<MasterCurve>(&rubber);

@@ -86,7 +86,7 @@ class Filler {
       if (last != first) ends.push_back({y, last});
     }
     std::vector<Point> hull;
-    const auto chain = [&](auto begin, auto end) {
+    const auto chain = [&](const auto& begin, const auto& end) {
       const std::size_t base = hull.size();
       for (auto p = begin; p != end; ++p) {
         while (hull.size() >= base + 2 && side(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
@@ -143,31 +143,57 @@ class Filler {
     return 0;
   }
 
-  /// The rest, outside of the hull, takes the height of the nearest point that is known.
+  /// The rest, outside of the hull, takes the height of the nearest point that is known, by an exact distance
+  /// transform (P. Felzenszwalb, D. Huttenlocher, Theory of Computing 8, 415 (2012)): the nearest known point of
+  /// each column first, then in each row the lower envelope of the parabolas that the columns stand for.
   void nearest() {
+    if (std::ranges::none_of(z_, [](double z) { return std::isnan(z); })) return;
+    std::vector<Index> row_of(z_.size(), -1);  // of the nearest known point in the same column
+    for (Index x = 0; x < nx_; ++x) {
+      Index last = -1;
+      for (Index y = 0; y < ny_; ++y) {
+        if (!missing(y, x)) last = y;
+        row_of[at(y, x)] = last;
+      }
+      last = -1;
+      for (Index y = ny_; y-- > 0;) {
+        if (!missing(y, x)) last = y;
+        Index& best = row_of[at(y, x)];
+        if (last >= 0 && (best < 0 || last - y < y - best)) best = last;
+      }
+    }
     const std::vector<double> known = z_;
-    for (Index y = 0; y < ny_; ++y)
-      for (Index x = 0; x < nx_; ++x)
-        if (std::isnan(known[at(y, x)])) z_[at(y, x)] = nearest_to(known, y, x);
+    for (Index y = 0; y < ny_; ++y) nearest_in_row(y, row_of, known);
   }
 
-  /// Rings of growing size about (y, x), until none further out can be nearer.
-  [[nodiscard]] double nearest_to(const std::vector<double>& known, Index y, Index x) const {
-    double best = std::numeric_limits<double>::infinity(), height = 0;
-    const double finest = std::fmin(pixel_[0], pixel_[1]);
-    for (Index r = 1; r < std::max(nx_, ny_) && static_cast<double>(r) * finest <= best; ++r)
-      for (Index dy = -r; dy <= r; ++dy) {
-        const Index step = std::abs(dy) == r ? 1 : 2 * r;
-        for (Index dx = -r; dx <= r; dx += step) {
-          if (!inside(y + dy, x + dx) || std::isnan(known[at(y + dy, x + dx)])) continue;
-          const double distance = std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]);
-          if (distance < best) {
-            best = distance;
-            height = known[at(y + dy, x + dx)];
-          }
-        }
+  void nearest_in_row(Index y, const std::vector<Index>& row_of, const std::vector<double>& known) {
+    const double aspect = pixel_[0] / pixel_[1];
+    const auto height = [&](Index x) {  // squared distance to the column's point, in units of dx
+      const double d = static_cast<double>(row_of[at(y, x)] - y) * aspect;
+      return d * d;
+    };
+    std::vector<Index> column;  // whose parabola is lowest from `start` on
+    std::vector<double> start;
+    for (Index x = 0; x < nx_; ++x) {
+      if (row_of[at(y, x)] < 0) continue;
+      double from = -std::numeric_limits<double>::infinity();
+      while (!column.empty()) {
+        const Index other = column.back();
+        const double a = static_cast<double>(x), b = static_cast<double>(other);
+        from = ((height(x) + a * a) - (height(other) + b * b)) / (2 * (a - b));
+        if (from > start.back()) break;
+        column.pop_back();
+        start.pop_back();
+        from = -std::numeric_limits<double>::infinity();
       }
-    return height;
+      column.push_back(x);
+      start.push_back(from);
+    }
+    std::size_t i = 0;
+    for (Index x = 0; x < nx_; ++x) {
+      while (i + 1 < column.size() && start[i + 1] <= static_cast<double>(x)) ++i;
+      if (missing(y, x)) z_[at(y, x)] = known[at(row_of[at(y, column[i])], column[i])];
+    }
   }
 
   std::vector<double>& z_;
@@ -188,9 +214,8 @@ HeightMap HeightMap::fill_dropouts(double max_fraction) const {
   std::vector<double> z(shape_[0] * shape_[1]);
   for (std::size_t y = 0; y < shape_[0]; ++y) read_row(y, z.data() + y * shape_[1]);
   Filler(z, shape_, pixel_size_).fill();
-  if (std::holds_alternative<const float*>(data_))
-    return HeightMap(std::vector<float>(z.begin(), z.end()), shape_, pixel_size_);
-  return HeightMap(std::move(z), shape_, pixel_size_);
+  if (std::holds_alternative<const float*>(data_)) return {std::vector<float>(z.begin(), z.end()), shape_, pixel_size_};
+  return {std::move(z), shape_, pixel_size_};
 }
 
 }  // namespace asperity

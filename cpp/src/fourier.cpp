@@ -6,7 +6,7 @@
 #include <mutex>
 #include <new>
 #include <string>
-#if defined(__linux__)
+#ifdef __linux__
 #include <sys/mman.h>
 #endif
 
@@ -54,7 +54,7 @@ struct Fftw<float> {
 };
 
 int side(std::size_t n) {
-  if (n > 1u << 30) throw InvalidInput("shape: a side of " + std::to_string(n) + " points: must be at most 2^30");
+  if (n > 1U << 30) throw InvalidInput("shape: a side of " + std::to_string(n) + " points: must be at most 2^30");
   return static_cast<int>(n);
 }
 
@@ -68,12 +68,12 @@ template <class F, class Make>
 std::shared_ptr<void> planned(Make make) {
   typename F::Plan plan;
   {
-    const std::lock_guard lock(planner());
+    const std::scoped_lock lock(planner());
     plan = make();
   }
   if (!plan) throw Error("FFTW could not plan this transform");
   return {plan, [](void* p) {
-            const std::lock_guard lock(planner());
+            const std::scoped_lock lock(planner());
             F::destroy(static_cast<typename F::Plan>(p));
           }};
 }
@@ -88,7 +88,7 @@ Scratch<T>::Scratch(std::size_t size) {
   const std::size_t bytes = (wanted + unit - 1) / unit * unit;
   data_ = static_cast<T*>(std::aligned_alloc(unit, bytes));
   if (!data_) throw std::bad_alloc();
-#if defined(__linux__)
+#ifdef __linux__
   if (unit == large_page) madvise(data_, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
 #endif
 }
@@ -108,7 +108,7 @@ RealTransform<T>::RealTransform(std::size_t n) {
 
 template <class T>
 void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
-  Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), in, raw(out));
+  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), in, raw(out));
 }
 
 template <class T>
@@ -121,7 +121,7 @@ ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count) {
 
 template <class T>
 void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
-  Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
+  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
 }
 
 template class Scratch<float>;

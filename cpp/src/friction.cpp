@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "checks.hpp"
 #include "contact_checks.hpp"
@@ -31,7 +32,7 @@ std::vector<double> decades(double lowest, double highest) {
 /// `front` in ln q, in steps that grow by a third.
 std::vector<double> contribution_wavenumbers(double q0, double q1, double front) {
   const double length = std::log(q1 / q0);
-  const double steps = std::ceil(32 * length / std::log(10.0)), regular = length / steps;
+  const double steps = std::ceil(32 * length / std::numbers::ln10), regular = length / steps;
   std::vector<double> s{0};
   for (double at = front / 8; at < regular; at *= 4.0 / 3) s.push_back(at);
   for (double i = 1; i <= steps; ++i) s.push_back(i * regular);
@@ -42,6 +43,20 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 
 /// How an error of G passes on to P S: |d ln(P S) / d ln G| is 1/2 at most for P alone and 3/2 with S.
 double sensitivity(bool with_s) { return with_s ? 1.5 : 0.5; }
+
+/// Row i of the tables of contributions, from the panels that `hysteresis` was summed over.
+void add_contributions(Contributions& c, std::size_t i, const Path& path, const Path::Hysteresis& hysteresis,
+                       double velocity, Form form, std::optional<double> gamma) {
+  const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
+  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = path.hysteresis_density(c.wavenumber[j], form, gamma);
+  const auto panels = path.panels();
+  for (std::size_t j = 0; j < panels.size() && hysteresis.value > 0; ++j) {
+    const double w = velocity * std::sqrt(panels[j][0] * panels[j][1]);
+    const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
+    const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
+    c.decade_share[i * m + decade] += hysteresis.by_panel[j] / hysteresis.value;
+  }
+}
 
 }  // namespace
 
@@ -68,8 +83,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
 
   const auto* s = std::get_if<SFactor>(&model.correction);
-  const bool s_in_area = s && s->applies_to != SFactor::AppliesTo::friction;
-  const bool s_in_integrand = s && s->applies_to != SFactor::AppliesTo::area;
+  const bool s_in_area = s != nullptr && s->applies_to != SFactor::AppliesTo::friction;
+  const bool s_in_integrand = s != nullptr && s->applies_to != SFactor::AppliesTo::area;
   const std::optional<double> gamma = s_in_integrand ? std::optional(s->gamma) : std::nullopt;
 
   const std::size_t n = velocity.size();
@@ -92,16 +107,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
 
   Notes notes(spectrum, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
-  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 5e-13 : 1e-15;
+  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 2e-12 : 1e-15;
   std::vector<double> stops;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
-    f.shift_factor[i] = shift.p;
-    if (shift.state == ContactState::no_contact) {
-      notes.add(shift, velocity[i], 0);
-      continue;
-    }
-
+  const auto compute = [&](std::size_t i, const Shift& shift) {
     stops.clear();
     if (f.contributions)
       for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
@@ -109,7 +117,6 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     const Path::Hysteresis hysteresis = path.hysteresis(model.form, gamma);
     f.hysteresis[i] = hysteresis.value;
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
-    notes.add(shift, velocity[i], f.extrapolated_share[i]);
 
     double g = path.g(q1);
     if (s_in_area) g = g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
@@ -125,21 +132,14 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
         f.adhesion[i] * area_error;
     if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
       throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
-                         " at pressure = " + show(pressure[i]) + ", velocity = " + show(velocity[i]) +
-                         ", where rtol = " + show(model.rtol) + " was asked for");
-
-    if (!f.contributions) continue;
-    Contributions& c = *f.contributions;
-    for (std::size_t j = 0; j < c.wavenumber.size(); ++j)
-      c.dmu_dlnq[i * c.wavenumber.size() + j] = path.hysteresis_density(c.wavenumber[j], model.form, gamma);
-    const auto panels = path.panels();
-    for (std::size_t j = 0; j < panels.size() && hysteresis.value > 0; ++j) {
-      const double w = velocity[i] * std::sqrt(panels[j][0] * panels[j][1]);
-      const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
-      const auto m = c.decade_edges.size() - 1;
-      const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
-      c.decade_share[i * m + decade] += hysteresis.by_panel[j] / hysteresis.value;
-    }
+                         " where rtol = " + show(model.rtol) + " was asked for");
+    if (f.contributions) add_contributions(*f.contributions, i, path, hysteresis, velocity[i], model.form, gamma);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    f.shift_factor[i] = shift.p;
+    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift); });
+    notes.add(shift, velocity[i], f.extrapolated_share[i]);
   }
   f.notes = notes.texts();
   return f;

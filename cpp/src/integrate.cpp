@@ -44,6 +44,8 @@ class Borrowed {
   ~Borrowed() { --depth_; }
   Borrowed(const Borrowed&) = delete;
   Borrowed& operator=(const Borrowed&) = delete;
+  Borrowed(Borrowed&&) = delete;
+  Borrowed& operator=(Borrowed&&) = delete;
   [[nodiscard]] gsl_integration_workspace* get() const { return mine_; }
 
  private:

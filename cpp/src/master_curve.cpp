@@ -12,7 +12,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double decade = std::numbers::ln10;
 constexpr double rounding = 1e-12;  // how far v q0 may miss the end of a table by its own rounding
 
 std::vector<double> logarithms(const std::vector<double>& values) {
@@ -142,6 +141,10 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
   require_each_positive("storage_modulus", storage_modulus);
   require_each_positive("loss_modulus", loss_modulus);
   require_rising("angular_frequency", angular_frequency);
+  for (std::size_t i = 1; i < angular_frequency.size(); ++i)
+    if (!(std::log(angular_frequency[i]) > std::log(angular_frequency[i - 1])))
+      refuse("angular_frequency[" + std::to_string(i) + "]", angular_frequency[i],
+             "further from the entry before it: their logarithms are the same number");
   table_ = std::make_shared<const Table>(std::move(angular_frequency), std::move(storage_modulus),
                                          std::move(loss_modulus), extrapolation);
 }
@@ -164,7 +167,8 @@ AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const 
   const auto above = std::upper_bound(table.log_knots.begin() + 1, table.log_knots.end() - 1, x);
   const auto interval = static_cast<std::size_t>(above - table.log_knots.begin()) - 1;
   const double lower = table.log_knots[interval], upper = table.log_knots[interval + 1];
-  constexpr double tolerance = 1e-13;
+  // of ln I1 and ln I2, and of the shares, which are told to a few digits only
+  constexpr std::array tolerance{1e-12, 1e-12, 1e-7, 1e-7};
   const auto& pieces = table.cache.get(interval, lower, upper, tolerance, [&](double at) {
     const AngularIntegrals exact = table.integrate_angle(at);
     return std::array{std::log(exact.i1), std::log(exact.i2), exact.i1_outside / exact.i1, exact.i2_outside / exact.i2};

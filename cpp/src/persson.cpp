@@ -1,6 +1,7 @@
 #include "persson.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -41,90 +42,93 @@ double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol)
 
 Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
            bool resolve_front, double rtol)
-    : rubber_(rubber), point_(point), q0_(surface.front().a), rtol_(rtol) {
+    : rubber_(rubber), point_(point), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
   const double stiffening = 1 / (1 - point.poisson_ratio * point.poisson_ratio);
   const double ratio = stiffening / point.pressure / point.shift;
   g_factor_ = ratio * ratio / 8;
   mu_factor_ = stiffening / point.pressure / (2 * point.shift * point.shift);
-
-  const double end = std::log(surface.back().b / q0_);
-  std::vector<double> edges{0, end};
-  const auto add = [&](double s) {
-    if (s > 0 && s < end) edges.push_back(s);
-  };
-  for (const Segment& segment : surface) add(std::log(segment.a / q0_));
-  for (double s = 1; s < end; s += 1) add(s);
-  for (const double q : stops) add(std::log(q / q0_));
-  if (const auto* curve = std::get_if<MasterCurve>(&rubber))
-    for (const double w : curve->knots()) add(std::log(w / (point.velocity * q0_)));
-  if (resolve_front) {
-    const double width = front_width(surface, rubber, point);
-    if (!(width > 0))
-      throw NotConverged("G grows by " + show(1 / width) + " at q0 for pressure = " + show(point.pressure) +
-                         ", velocity = " + show(point.velocity) + ": beyond what a double holds");
-    for (double s = width; s < std::fmin(1, end); s *= 4) add(s);
+  for (const Segment& segment : surface) {
+    const double end = segment.length();
+    std::vector<double> edges{0, end};
+    const auto add = [&](double s) {
+      if (s > 0 && s < end) edges.push_back(s);
+    };
+    for (int i = 1; i < end; ++i) add(i);
+    for (const double q : stops)
+      if (q > segment.a && q < segment.b) add(segment.offset(q));
+    if (const auto* curve = std::get_if<MasterCurve>(&rubber))
+      for (const double w : curve->knots()) add(std::log(w / (point.velocity * segment.a)));
+    if (resolve_front && g_end_ < 1) {  // later on it is behind us
+      const double width = front(segment);
+      if (!(width > 0))
+        throw NotConverged("G grows faster than a double can tell from q = " + show(segment.a) + " 1/m on");
+      for (double s = width; s < std::fmin(1, end); s *= 4) add(s);
+    }
+    add_segment(segment, std::move(edges));
   }
+}
+
+/// Adds the panels between `edges` of a segment, with G at each of them.
+void Path::add_segment(const Segment& segment, std::vector<double> edges) {
   std::ranges::sort(edges);
   const auto repeated = std::ranges::unique(edges);
   edges.erase(repeated.begin(), repeated.end());
-
-  const double g_rtol = std::fmax(rtol_ / 100, 1e-13);
-  double error = 0;
-  auto segment = surface.begin();
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double middle = q0_ * std::exp((edges[i] + edges[i + 1]) / 2);
-    while (segment + 1 != surface.end() && middle > segment->b) ++segment;
-    const Panel panel{edges[i], edges[i + 1], &*segment, g_end_};
-    const Integral step = integrate([&](double s) { return g_rate(panel, s); }, panel.lower, panel.upper, g_rtol);
-    panels_.push_back(panel);
+    panels_.push_back({&segment, edges[i], edges[i + 1], g_end_});
+    const Integral step =
+        integrate([&](double s) { return g_rate(segment, s); }, edges[i], edges[i + 1], g_rtol_, g_rtol_ * g_end_);
     g_end_ += step.value;
-    error += step.error;
-    if (g_end_ > 0) relative_error_ = std::fmax(relative_error_, error / g_end_);
+    g_error_ += step.error;
+    if (g_end_ > 0) relative_error_ = std::fmax(relative_error_, g_error_ / g_end_);
   }
 }
 
-double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point) {
-  const Segment& first = surface.front();
-  const double stiffness = (1 - point.poisson_ratio * point.poisson_ratio) * point.pressure * point.shift;
-  const double rate = std::pow(first.a, 4) * first.at_a * angular_integrals(rubber, point.velocity * first.a).i2 /
-                      (8 * stiffness * stiffness);
-  return 1 / rate;
+double Path::front(const Segment& segment) const {
+  if (!segment.straight || segment.at_a > 0) return 1 / g_rate(segment, 0);
+  const double q = segment.a, ramp = segment.at_b * (q / (segment.b - q));  // dC / ds at the start
+  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_.velocity * q).i2;
+  return std::sqrt(2 / curvature);
 }
 
-double Path::g_rate(const Panel& panel, double s) const {
-  const double q = q0_ * std::exp(s);
-  const double c = panel.segment->density(q);
+double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point) {
+  return Path(surface.first(1), rubber, point, {}, false, 0.1).front(surface.front());
+}
+
+double Path::g_rate(const Segment& segment, double s) const {
+  const double c = segment.density_at(s);
   if (c == 0) return 0;
+  const double q = segment.a * std::exp(s);
   return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_.velocity * q).i2;
 }
 
-const Path::Panel& Path::panel_at(double s) const {
-  const auto after = std::ranges::upper_bound(panels_, s, {}, &Panel::lower);
+const Path::Panel& Path::panel_at(double wavenumber) const {
+  const auto after = std::ranges::partition_point(
+      panels_, [&](const Panel& p) { return p.segment->a <= wavenumber && p.lower <= p.segment->offset(wavenumber); });
   return after == panels_.begin() ? *after : *(after - 1);
 }
 
 /// Panels are short enough for one rule; where it says otherwise the adaptive one takes over.
 double Path::g_inside(const Panel& panel, double s) const {
   if (s <= panel.lower) return panel.g_lower;
-  const auto rate = [&](double at) { return g_rate(panel, at); };
-  const double g_rtol = std::fmax(rtol_ / 100, 1e-13);
+  const auto rate = [&](double at) { return g_rate(*panel.segment, at); };
   Integral step = integrate_smooth(rate, panel.lower, s);
-  if (step.error > g_rtol * (panel.g_lower + step.value)) step = integrate(rate, panel.lower, s, g_rtol);
+  if (step.error > g_rtol_ * (panel.g_lower + step.value))
+    step = integrate(rate, panel.lower, s, g_rtol_, g_rtol_ * panel.g_lower);
   return panel.g_lower + step.value;
 }
 
 double Path::g(double wavenumber) const {
-  const double s = std::log(wavenumber / q0_);
-  if (s >= panels_.back().upper) return g_end_;
-  return g_inside(panel_at(s), s);
+  const Panel& panel = panel_at(wavenumber);
+  if (&panel == &panels_.back() && wavenumber >= panel.segment->b) return g_end_;
+  return g_inside(panel, panel.segment->offset(wavenumber));
 }
 
 double Path::hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
                              double* outside) const {
-  const double q = q0_ * std::exp(s);
-  const double c = panel.segment->density(q);
   if (outside) *outside = 0;
+  const double c = panel.segment->density_at(s);
   if (c == 0) return 0;
+  const double q = panel.segment->a * std::exp(s);
   const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q);
   if (angular.i1 == 0) return 0;
   const double share = contact_share(g_inside(panel, s), form);
@@ -136,11 +140,10 @@ double Path::hysteresis_rate(const Panel& panel, double s, Form form, std::optio
 /// Whether any of I1 worth telling comes from outside of the measured frequencies at either end of a panel.
 bool Path::reaches_outside(const Panel& panel) const {
   constexpr double worth_telling = 1e-7;
-  for (const double s : {panel.lower, panel.upper}) {
-    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q0_ * std::exp(s));
-    if (angular.i1_outside > worth_telling * angular.i1) return true;
-  }
-  return false;
+  return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
+    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * panel.segment->a * std::exp(s));
+    return angular.i1_outside > worth_telling * angular.i1;
+  });
 }
 
 Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const {
@@ -148,7 +151,7 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
   for (const Panel& panel : panels_) {
     const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, gamma, nullptr); },
-                                    panel.lower, panel.upper, rtol_ / 4);
+                                    panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value);
     result.value += part.value;
     result.error += part.error;
     result.by_panel.push_back(part.value);
@@ -165,13 +168,14 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
 }
 
 double Path::hysteresis_density(double wavenumber, Form form, std::optional<double> gamma) const {
-  const double s = std::clamp(std::log(wavenumber / q0_), 0.0, panels_.back().upper);
-  return hysteresis_rate(panel_at(s), s, form, gamma, nullptr);
+  const Panel& panel = panel_at(wavenumber);
+  return hysteresis_rate(panel, std::fmin(panel.segment->offset(wavenumber), panel.upper), form, gamma, nullptr);
 }
 
 std::vector<std::array<double, 2>> Path::panels() const {
   std::vector<std::array<double, 2>> result;
-  for (const Panel& panel : panels_) result.push_back({q0_ * std::exp(panel.lower), q0_ * std::exp(panel.upper)});
+  result.reserve(panels_.size());
+  for (const Panel& p : panels_) result.push_back({p.segment->a * std::exp(p.lower), p.segment->a * std::exp(p.upper)});
   return result;
 }
 

@@ -18,11 +18,11 @@ inline double s_factor(double share, double gamma) { return gamma + (1 - gamma) 
 /// G with S = gamma + (1 - gamma) P^2 inside it: int_0^G dg / S(P(g)) = `uncorrected`.
 double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol);
 
-/// One velocity and one pressure on one surface, with s = ln(q / q0):
+/// One velocity and one pressure on one surface, with s = ln(q / a) on each segment of it that starts at a:
 ///   dG/ds   = q^4 C I2(v q) / (8 ((1 - nu^2) sigma0 p_T)^2)                     (Eq. 7)
 ///   dmu_H/ds = q^4 C I1(v q) / (2 (1 - nu^2) sigma0 p_T^2) P(G) [S(P(G))]       (Eq. 22)
-/// Panels end wherever the spectrum or the rubber changes its formula, are no longer than 1, and grow by
-/// factors of 4 from the front, of width 1 / G'(0), in which the contact breaks up.
+/// Panels end wherever the spectrum or the rubber changes its formula, are no longer than 1, and grow by factors of 4
+/// from the front in which the contact breaks up: of width 1 / G'(0), or sqrt(2 / G''(0)) on a ramp from zero.
 class Path {
  public:
   struct Point {
@@ -46,31 +46,34 @@ class Path {
   [[nodiscard]] Hysteresis hysteresis(Form form, std::optional<double> gamma) const;
   /// dmu_H / dln q.
   [[nodiscard]] double hysteresis_density(double wavenumber, Form form, std::optional<double> gamma) const;
+  /// How far in s the contact takes to break up from the start of a segment on.
+  [[nodiscard]] double front(const Segment& segment) const;
   /// Lower and upper wavenumber of each panel.
   [[nodiscard]] std::vector<std::array<double, 2>> panels() const;
 
  private:
   struct Panel {
-    double lower, upper;  // in s
     const Segment* segment;
+    double lower, upper;  // in s
     double g_lower;
   };
-  [[nodiscard]] double g_rate(const Panel& panel, double s) const;
+  [[nodiscard]] double g_rate(const Segment& segment, double s) const;
+  void add_segment(const Segment& segment, std::vector<double> edges);
   [[nodiscard]] double g_inside(const Panel& panel, double s) const;
   [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
                                        double* outside) const;
-  [[nodiscard]] const Panel& panel_at(double s) const;
+  [[nodiscard]] const Panel& panel_at(double wavenumber) const;
   [[nodiscard]] bool reaches_outside(const Panel& panel) const;
 
   const Rubber& rubber_;
   Point point_;
-  double q0_, rtol_, relative_error_ = 0;
-  double g_factor_, mu_factor_;
+  double rtol_, g_rtol_, g_factor_, mu_factor_;
+  double g_error_ = 0, relative_error_ = 0;
   std::vector<Panel> panels_;
   double g_end_ = 0;
 };
 
-/// 1 / G'(0): how far in ln q the contact takes to break up from q0 on.
+/// How far in ln q the contact takes to break up from q0 on.
 double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point);
 
 }  // namespace asperity

@@ -40,11 +40,11 @@ class Rings {
  public:
   Rings(HeightMap::Shape shape, HeightMap::PixelSize pixel)
       : shape_(shape), ly_(static_cast<double>(shape[0]) * pixel[0]), lx_(static_cast<double>(shape[1]) * pixel[1]) {
-    const double longest = std::max(ly_, lx_);
-    const double ny = static_cast<double>(shape[0]), nx = static_cast<double>(shape[1]);
-    per_y_ = longest / ly_;
-    per_x_ = longest / lx_;
-    count_ = static_cast<std::size_t>(std::hypot(per_y_ * std::floor(ny / 2), per_x_ * std::floor(nx / 2)) + 0.5) + 1;
+    // sides in units of dx, so that the rings do not depend on the unit of length: exact for square pixels
+    side_y_ = static_cast<double>(shape[0]) * (pixel[0] / pixel[1]);
+    side_x_ = static_cast<double>(shape[1]);
+    longest_ = std::max(side_y_, side_x_);
+    count_ = ring_of(std::hypot(radius(shape[0] / 2, side_y_), radius(shape[1] / 2, side_x_))) + 1;
   }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
@@ -59,17 +59,17 @@ class Rings {
   template <class T>
   void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
     const std::size_t ny = shape_[0];
-    const double x = per_x_ * static_cast<double>(kx), x2 = x * x;
+    const double x = radius(kx, side_x_), x2 = x * x;
     // off the axes k_x = 0 and k_x = nx / 2 a mode stands for its mirror image too
     const double mirrored = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
     for (std::size_t ky = 0; 2 * ky <= ny; ++ky) {
       const bool single = ky == 0 || 2 * ky == ny;
-      const double y = per_y_ * static_cast<double>(ky), radius = std::sqrt(x2 + y * y);
+      const double y = radius(ky, side_y_), length = std::sqrt(x2 + y * y);
       const double power = single ? norm(column[ky]) : norm(column[ky]) + norm(column[ny - ky]);
       const double modes = single ? mirrored : 2 * mirrored;
-      const auto ring = static_cast<std::size_t>(radius + 0.5);
+      const std::size_t ring = ring_of(length);
       sums.power[ring] += mirrored * power;
-      sums.radius[ring] += modes * radius;
+      sums.radius[ring] += modes * length;
       sums.modes[ring] += modes;
     }
   }
@@ -80,8 +80,12 @@ class Rings {
     return static_cast<double>(z.real()) * z.real() + static_cast<double>(z.imag()) * z.imag();
   }
 
+  /// |q| / dq of the k-th mode along a side.
+  [[nodiscard]] double radius(std::size_t k, double side) const { return static_cast<double>(k) * longest_ / side; }
+  static std::size_t ring_of(double radius) { return static_cast<std::size_t>(std::floor(radius + 0.5)); }
+
   HeightMap::Shape shape_;
-  double ly_, lx_, per_y_, per_x_;
+  double ly_, lx_, side_y_, side_x_, longest_;
   std::size_t count_;
 };
 
@@ -169,7 +173,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   if (wavenumber.size() < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
                        "): must have more points, these make one ring of wavenumbers only");
-  return TabulatedSpectrum(std::move(wavenumber), std::move(density), std::move(counts));
+  return {std::move(wavenumber), std::move(density), std::move(counts)};
 }
 
 }  // namespace asperity

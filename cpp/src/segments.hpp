@@ -14,6 +14,10 @@ struct Segment {
   double slope;   // of ln C in ln q, where it is a power law
   bool straight;  // linear in q: a zero at either end has no logarithm
 
+  /// ln(q / a): the coordinate on a segment, which keeps its digits however narrow it is.
+  [[nodiscard]] double offset(double q) const;
+  [[nodiscard]] double length() const { return offset(b); }
+  [[nodiscard]] double density_at(double offset) const;
   [[nodiscard]] double density(double q) const;
   /// int_a^q k^n C(k) dk for n = 1 and 3, without cancellation on narrow segments.
   [[nodiscard]] double moment(int n, double q) const;

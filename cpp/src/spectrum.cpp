@@ -22,14 +22,17 @@ namespace {
 /// int_0^L exp(e x) dx, for any e including 0.
 double exponential_integral(double e, double length) { return e == 0 ? length : std::expm1(e * length) / e; }
 
+/// ln(to / from), good for neighbours too.
+double log_ratio(double from, double to) { return std::log1p((to - from) / from); }
+
 /// The slope of ln C in ln q above the roll-off.
 double fall(const SelfAffineSpectrum& s) { return -2 * (s.hurst + 1); }
 
 /// h_rms^2 / (2 pi C_r), C_r the density at the roll-off.
 double height_per_density(const SelfAffineSpectrum& s) {
   const double q_r = s.rolloff.value_or(s.q0);
-  const double flat = s.q0 * s.q0 * exponential_integral(2, std::log(q_r / s.q0));
-  return flat + q_r * q_r * exponential_integral(-2 * s.hurst, std::log(s.q1 / q_r));
+  const double flat = s.q0 * s.q0 * exponential_integral(2, log_ratio(s.q0, q_r));
+  return flat + q_r * q_r * exponential_integral(-2 * s.hurst, log_ratio(q_r, s.q1));
 }
 
 double density_at_rolloff(const SelfAffineSpectrum& s) {
@@ -45,13 +48,19 @@ double total_moment(const Spectrum& spectrum, int n) {
 
 }  // namespace
 
+double Segment::offset(double q) const { return std::log1p((q - a) / a); }
+
 double Segment::density(double q) const {
-  if (straight) return at_a + (at_b - at_a) * ((q - a) / (b - a));
-  return at_a * std::exp(slope * std::log(q / a));
+  return straight ? at_a + (at_b - at_a) * ((q - a) / (b - a)) : density_at(offset(q));
+}
+
+double Segment::density_at(double offset) const {
+  if (straight) return std::fmax(0, at_a + (at_b - at_a) * (a * std::expm1(offset) / (b - a)));
+  return at_a * std::exp(slope * offset);
 }
 
 double Segment::moment(int n, double q) const {
-  if (!straight) return at_a * std::pow(a, n + 1) * exponential_integral(n + 1 + slope, std::log(q / a));
+  if (!straight) return at_a * std::pow(a, n + 1) * exponential_integral(n + 1 + slope, offset(q));
   // a polynomial of degree 4 at most: the Gauss rule of three points is exact
   const double node = std::sqrt(0.6), middle = a + (q - a) / 2, half = (q - a) / 2;
   const auto f = [&](double at) { return std::pow(at, n) * density(at); };
@@ -72,8 +81,9 @@ std::vector<Segment> segments(const Spectrum& spectrum) {
   const auto& c = table.density();
   for (std::size_t i = 0; i + 1 < q.size(); ++i) {
     const bool straight = c[i] == 0 || c[i + 1] == 0;
-    const double slope = straight ? 0 : std::log(c[i + 1] / c[i]) / std::log(q[i + 1] / q[i]);
-    result.push_back({q[i], q[i + 1], c[i], c[i + 1], slope, straight});
+    Segment segment{q[i], q[i + 1], c[i], c[i + 1], 0, straight};
+    if (!straight) segment.slope = std::log(c[i + 1] / c[i]) / segment.length();
+    result.push_back(segment);
   }
   return result;
 }
@@ -82,7 +92,7 @@ SelfAffineSpectrum SelfAffineSpectrum::from_article(double h0, double hurst, dou
   require_positive("h0", h0);
   SelfAffineSpectrum s{.rms_height = h0, .hurst = hurst, .q0 = q0, .q1 = q1};
   validate(s);
-  s.rms_height = h0 * std::sqrt(-std::expm1(-2 * hurst * std::log(q1 / q0)) / 2);
+  s.rms_height = h0 * std::sqrt(-std::expm1(-2 * hurst * log_ratio(q0, q1)) / 2);
   return s;
 }
 
@@ -264,12 +274,16 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
   for (const double r : distance) {
     require_not_negative("distance", r);
     double sum = 0;
+    std::size_t steps = 0;
     for (const Segment& s : pieces) {
       for (double q = s.a; q < s.b;) {
         const bool falling = !s.straight && s.slope < 0 && &s == &pieces.back();
         if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero) break;
         double next = q * std::numbers::e;
         if (r > 0) next = std::min(next, q + 2 * pi / r);
+        if (++steps > 1'000'000)
+          throw NotConverged("distance = " + show(r) + ": the spectrum up to " + show(s.b) +
+                             " 1/m makes more than 10^6 oscillations, of which the sum is below rounding");
         next = std::min(next, s.b);
         const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };
         Integral piece = integrate_smooth(rate, q, next);

@@ -101,7 +101,7 @@ contact_area : A/A0 at q1 [-].
 shift_factor : p_T [-]; 1 where nothing is shifted, infinite without contact.
 pressure, velocity : as given, broadcast [Pa], [m/s].
 error_estimate : absolute error of mu [-].
-extrapolated_share : share of the hysteresis whose modulus lies outside of the measured frequencies [-], to 1e-4.
+extrapolated_share : share of the hysteresis, as it is weighted, whose modulus lies outside of the measured frequencies [-], to 1e-4.
 notes : where the theory or its input leaves its range, a tuple of sentences.
 
 With contributions=True, otherwise None:

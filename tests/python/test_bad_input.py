@@ -126,7 +126,10 @@ FEW_PEAKS = ([[], [1, 2]], " has [02] entries: must be 3 or more$")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): must be finite$")
 OUTSIDE_BAND = ([1, 1e9], r" = .+: must be in \[1000, 100000\], the spectrum's band \[1/m\]$")
 LONG = ([1.0], r" = 1: must be below the longest wavelength of the spectrum, 0\.00628318530718 m$")
-NO_MAP = ([HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"], " = .+: must be an array of real numbers$")
+NO_MAP = (
+    [HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"],
+    " = .+: must be an array of real numbers$",
+)
 
 REFUSED = {  # several arguments of which the same is said stand in one key
     "SelfAffineSpectrum": {

@@ -120,7 +120,9 @@ def test_a_prony_series_extrapolates_nothing_and_a_table_says_how_much():
         outside = rubber.extrapolated_shares(0.005 * found.wavenumber)[0]
         part = np.trapezoid(found.dmu_dlnq * outside, np.log(found.wavenumber))
         shares.append(found.extrapolated_share)
-        assert found.extrapolated_share == pytest.approx(part / found.hysteresis, rel=5e-2, abs=1e-6)
+        assert found.extrapolated_share == pytest.approx(
+            part / found.hysteresis, rel=5e-2, abs=1e-6
+        )
     assert np.all(np.diff(shares) < 0)
     assert shares[0] > 0.01
     assert shares[-1] < 1e-3

@@ -30,9 +30,9 @@ class ASPERITY_EXPORT PronySeries {
   [[nodiscard]] double equilibrium_modulus() const { return equilibrium_; }
   [[nodiscard]] const std::vector<double>& moduli() const { return moduli_; }
   [[nodiscard]] const std::vector<double>& relaxation_times() const { return times_; }
-  /// At angular frequency w [rad/s].
-  [[nodiscard]] std::complex<double> modulus(double angular_frequency) const;
-  [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
+  /// At angular frequency w [rad/s], 0 or more.
+  [[nodiscard]] std::complex<double> modulus(double w) const;
+  [[nodiscard]] AngularIntegrals angular_integrals(double w) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w).
   [[nodiscard]] PronySeries shifted(double a_T) const;
   bool operator==(const PronySeries&) const = default;

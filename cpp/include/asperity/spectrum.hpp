@@ -72,8 +72,7 @@ enum class Window { split_cosine_bell, hann, none };
 /// The radial spectrum of a map (Eqs 25-27): detrended, windowed, transformed, averaged over rings of width
 /// dq = 2 pi / longest side. The window's mean square is divided out. Drop-outs must have been filled.
 ASPERITY_EXPORT TabulatedSpectrum power_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
-                                                 std::optional<Detrend> detrend = Detrend::plane,
-                                                 unsigned threads = 1);
+                                                 std::optional<Detrend> detrend = Detrend::plane, unsigned threads = 1);
 
 /// A power law through a spectrum, with standard errors of rms_height, hurst.
 struct SelfAffineFit {
