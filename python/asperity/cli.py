@@ -1,33 +1,67 @@
 """The shell command `asperity`: its arguments and its exit status."""
 
 import argparse
+import codecs
+import io
+import json
+import math
 import os
 import sys
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import NoReturn
 
 from asperity import commands
 from asperity._core import Error, InvalidInput, OutOfRange, __version__
+from asperity.fields import MOST_POINTS
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the shell command; the exit status is 0, 2 for bad input, 1 for any other failure."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors=_ESCAPE)
     args = _parser().parse_args(arguments)
     try:
         args.run(args)
     except (InvalidInput, OutOfRange) as error:
         return _fail(error, 2)
-    except BrokenPipeError:  # the reader of our output has gone; nor may Python's exit write to it
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # the reader of our output has gone
+        _drop_stdout()
         return 1
-    except (Error, OSError) as error:
+    except OSError as error:
+        _drop_stdout()
+        named = "" if error.filename is None else f"{error.filename}: "
+        return _fail(f"{named}{error.strerror or error}", 1)
+    except MemoryError as error:
+        return _fail(f"out of memory: {error}" if str(error) else "out of memory", 1)
+    except Error as error:
         return _fail(error, 1)
+    except KeyboardInterrupt:
+        return _fail("interrupted", 130)
     return 0
 
 
-def _fail(error: Exception, status: int) -> int:
-    print("asperity:", " ".join(str(error).split()), file=sys.stderr)
+def _fail(problem: object, status: int) -> int:
+    print("asperity:", " ".join(str(problem).split()), file=sys.stderr)
     return status
+
+
+def _drop_stdout() -> None:
+    """Let what stdout still holds go nowhere, or Python's exit would try to write it again."""
+    with suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _escaped(error: UnicodeError) -> tuple[str, int]:
+    """What an output cannot encode, in file names say, as JSON writes it in ASCII."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    return json.dumps(error.object[error.start : error.end])[1:-1], error.end
+
+
+_ESCAPE = "asperity.escape"
+codecs.register_error(_ESCAPE, _escaped)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -35,17 +69,38 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
 
+def _number(text: str) -> float:
+    """A positive number: all that the options ask for are."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise ArgumentTypeError(f"{text!r}: must be a positive number")
+    return number
+
+
 def _pixel_size(text: str) -> float | tuple[float, float]:
-    sizes = [float(size) for size in text.split(",")]
-    if len(sizes) == 1:
-        return sizes[0]
-    dy, dx = sizes
+    try:
+        sizes = [_number(size) for size in text.split(",")]
+        if len(sizes) == 1:
+            return sizes[0]
+        dy, dx = sizes
+    except (ArgumentTypeError, ValueError):
+        raise ArgumentTypeError(f"{text!r}: must be a positive number [m], or two: DY,DX") from None
     return dy, dx
 
 
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r}: must be a whole number") from None
+
+
 def _points(text: str) -> int:
-    if (points := int(text)) < 2:
-        raise ValueError
+    if not 2 <= (points := _whole(text)) <= MOST_POINTS:
+        raise ArgumentTypeError(f"{text}: must be in 2..{MOST_POINTS}")
     return points
 
 
@@ -54,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="asperity", description="Rubber contact area and friction on rough surfaces."
     )
     parser.add_argument("--version", action="version", version=__version__)
-    verbs = parser.add_subparsers(required=True, metavar="demo | friction | area | spectrum")
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
 
     def verb(
         name: str, run: Callable[[argparse.Namespace], None], summary: str, example: str
@@ -121,7 +176,10 @@ def _parser() -> argparse.ArgumentParser:
         "--unit", choices=("m", "mm", "um", "nm"), help="of the heights, where the file states none"
     )
     spectrum.add_argument(
-        "--channel", type=int, default=0, help="of a file with several maps (default: %(default)s)"
+        "--channel",
+        type=_whole,
+        default=0,
+        help="of a file with several maps (default: %(default)s)",
     )
     spectrum.add_argument(
         "--window",
@@ -135,7 +193,11 @@ def _parser() -> argparse.ArgumentParser:
         default="plane",
         help="default: %(default)s",
     )
-    spectrum.add_argument("--q-min", type=float, metavar="Q", help="fit above [1/m] (default: all)")
-    spectrum.add_argument("--q-max", type=float, metavar="Q", help="fit below [1/m] (default: all)")
+    spectrum.add_argument(
+        "--q-min", type=_number, metavar="Q", help="fit above [1/m] (default: all)"
+    )
+    spectrum.add_argument(
+        "--q-max", type=_number, metavar="Q", help="fit below [1/m] (default: all)"
+    )
     outputs(spectrum)
     return parser

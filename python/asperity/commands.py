@@ -3,40 +3,59 @@
 import importlib.util
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from asperity import plot
-from asperity._core import InvalidInput, fit_self_affine, power_spectrum
-from asperity.demo import write_inputs
-from asperity.fields import named
+from asperity._core import (
+    InvalidInput,
+    NotConverged,
+    SelfAffineFit,
+    TabulatedSpectrum,
+    fit_self_affine,
+    power_spectrum,
+)
+from asperity.demo import check_directory, input_files, write_directory
+from asperity.fields import MOST_ROWS, named
 from asperity.read import read_filled
-from asperity.scene import COLUMNS, Curves, Scene, load_scene
+from asperity.scene import COLUMNS, Curves, Progress, Scene, load_scene
 from asperity.table import Table, check_output, terminal_table, write_files
 
 
 def demo(args: Namespace) -> None:
     """Write the shipped scan and scene, compute and draw them, show the curve."""
     directory = Path(args.output)
-    scene = load_scene(write_inputs(directory))
+    check_directory(directory)
+    files = input_files()
+    with TemporaryDirectory() as aside:
+        write_directory(Path(aside), files)
+        scene = load_scene(Path(aside) / "scene.toml")
+    scene = replace(scene, path=directory / "scene.toml")
     table, curves = _friction_table([scene])
-    files = {directory / "friction.csv": table.csv().encode()}
+    files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
-        files[picture] = plot.friction_figure([scene], curves, picture)
-    write_files(files)
+        files[picture.name] = plot.friction_figure([scene], curves, picture)
+    write_directory(directory, files)
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
-    print(terminal_table({name: table.columns[name] for name in shown}))
+    _print(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     _print_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
-    print(f"surface: {band}, as measured: nothing is extrapolated")
-    print(f"scene:   {scene.path}")
-    print(f"table:   {directory / 'friction.csv'}")
-    print("picture: " + ("none, pip install asperity[plot]" if missing else str(picture)))
+    drawn = "none, pip install asperity[plot]" if missing else str(picture)
+    _print(
+        f"surface: {band}, as measured: nothing is extrapolated\n"
+        f"scene:   {scene.path}\n"
+        f"table:   {directory / 'friction.csv'}\n"
+        f"picture: {drawn}\n"
+    )
 
 
 def friction(args: Namespace) -> None:
@@ -52,9 +71,9 @@ def _friction_table(scenes: Sequence[Scene]) -> tuple[Table, list[Curves]]:
     curves = [scene.friction(_progress(str(scene.path))) for scene in scenes]
     columns: dict[str, list[Any]] = {}
     for scene, result in zip(scenes, curves, strict=True):
-        pressure, velocity = np.meshgrid(scene.pressure, scene.velocity, indexing="ij")
+        pressure, velocity = scene.points
         names = {"scene": [str(scene.path)] * pressure.size} if len(scenes) > 1 else {}
-        points = {"pressure_pa": pressure.ravel(), "velocity_m_s": velocity.ravel()}
+        points = {"pressure_pa": pressure, "velocity_m_s": velocity}
         values = {name: getattr(result, name).ravel() for name in COLUMNS}
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
@@ -67,12 +86,13 @@ def _friction_table(scenes: Sequence[Scene]) -> tuple[Table, list[Curves]]:
     return Table("friction", [_inputs(scene) for scene in scenes], notes, columns), curves
 
 
-def _progress(title: str) -> Callable[[list[Any]], Iterable[Any]]:
+def _progress(title: str) -> Progress:
     """A bar on a terminal, after two seconds of work, where tqdm is installed."""
     if not sys.stderr.isatty() or importlib.util.find_spec("tqdm") is None:
-        return iter
-    tqdm = importlib.import_module("tqdm").tqdm
-    return lambda chunks: tqdm(chunks, desc=title, delay=2, leave=False)
+        return nullcontext
+    bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
+    shown = "{l_bar}{bar}| {elapsed}<{remaining}"
+    return lambda chunks: bar(chunks, desc=title, delay=2, leave=False, bar_format=shown)
 
 
 def area(args: Namespace) -> None:
@@ -80,12 +100,20 @@ def area(args: Namespace) -> None:
     outputs = _check_outputs(args)
     scene = load_scene(args.scene)
     _spare(outputs, scene.sources)
+    rows = scene.pressure.size * scene.velocity.size * args.points
+    if rows > MOST_ROWS:
+        problem = (
+            f"pressures, velocities and --points make {rows} rows: must be at most {MOST_ROWS}"
+        )
+        raise InvalidInput(f"{scene.path}: {problem}")
     wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
-    values = scene.contact_area(wavenumber)
+    values = scene.contact_area(wavenumber, _progress(str(scene.path)))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
     columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}
-    table = Table("area", [{**_inputs(scene), "points": args.points}], [], columns)
+    table = Table(
+        "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
+    )
     _deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
 
@@ -98,9 +126,9 @@ def spectrum(args: Namespace) -> None:
             path, channel=args.channel, pixel_size=args.pixel_size, unit=args.unit
         )
     detrend = None if args.detrend == "none" else args.detrend
-    with named(path, {"q_min": "--q-min", "q_max": "--q-max"}):
+    with named(path, {}):
         measured = power_spectrum(surface, window=args.window, detrend=detrend)
-        fit = fit_self_affine(measured, q_min=args.q_min, q_max=args.q_max)
+    fit, notes = _fit(measured, args.q_min, args.q_max)
     cutoff = measured.cutoff_for_slope(1.3)
     inputs: dict[str, Any] = {
         "file": str(path),
@@ -118,25 +146,40 @@ def spectrum(args: Namespace) -> None:
         "rms_height_m": measured.rms_height,
         "rms_slope": measured.rms_slope,
         "slope_cutoff_1.3_per_m": cutoff,
-        "fit_q0_per_m": fit.q0,
-        "fit_q1_per_m": fit.q1,
-        "fit_hurst": fit.hurst,
-        "fit_hurst_standard_error": fit.standard_errors["hurst"],
-        "fit_rms_height_m": fit.rms_height,
-        "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
     }
+    if fit is not None:
+        found |= {
+            "fit_q0_per_m": fit.q0,
+            "fit_q1_per_m": fit.q1,
+            "fit_hurst": fit.hurst,
+            "fit_hurst_standard_error": fit.standard_errors["hurst"],
+            "fit_rms_height_m": fit.rms_height,
+            "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
+        }
+    if cutoff >= measured.q1:
+        notes.append("the rms slope stays below 1.3 on the whole spectrum")
     count = np.zeros(0) if measured.count is None else measured.count
     columns = {
         "wavenumber_per_m": measured.wavenumber.tolist(),
         "density_m4": measured.density.tolist(),
         "count": [round(modes) for modes in count.tolist()],
     }
-    for name, value in found.items():
-        print(f"{name} = {value:.6g}", file=sys.stderr)
-    if cutoff >= measured.q1:
-        print("note: the rms slope stays below 1.3 on the whole spectrum", file=sys.stderr)
-    table = Table("spectrum", [{**inputs, "found": found}], [], columns)
-    _deliver(args, table, lambda picture: plot.spectrum_figure(measured, fit, cutoff, picture))
+    table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
+    draw = partial(plot.spectrum_figure, measured, fit, cutoff)
+    _deliver(args, table, draw, found)
+
+
+def _fit(
+    measured: TabulatedSpectrum, q_min: float | None, q_max: float | None
+) -> tuple[SelfAffineFit | None, list[str]]:
+    """The self-affine fit, or a note that says why there is none."""
+    if q_min is not None and q_max is not None and q_min >= q_max:
+        raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
+    try:
+        with named(None, {"q_min": "--q-min", "q_max": "--q-max"}):
+            return fit_self_affine(measured, q_min=q_min, q_max=q_max), []
+    except (InvalidInput, NotConverged) as error:
+        return None, [f"no self-affine fit: {error}"]
 
 
 def _inputs(scene: Scene) -> dict[str, Any]:
@@ -161,16 +204,36 @@ def _spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
             raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
-def _deliver(args: Namespace, table: Table, draw: Callable[[Path], bytes]) -> None:
+def _deliver(
+    args: Namespace,
+    table: Table,
+    draw: Callable[[Path], bytes],
+    found: Mapping[str, float] | None = None,
+) -> None:
+    """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
     files = {} if args.plot is None else {Path(args.plot): draw(Path(args.plot))}
     if args.output is not None:
-        files[Path(args.output)] = text.encode()
+        files[Path(args.output)] = _bytes(text)
     write_files(files)
+    for name, value in (found or {}).items():
+        print(f"{name} = {value:.6g}", file=sys.stderr)
     _print_notes(table.notes)
     if args.output is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
+        _print(text)
+
+
+def _print(text: str) -> None:
+    try:
+        print(text, end="", flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, "standard output") from error
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode(errors="backslashreplace")  # file names need not be UTF-8
 
 
 def _print_notes(notes: Sequence[str]) -> None:

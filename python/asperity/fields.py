@@ -1,5 +1,6 @@
 """Fields of a scene file: their types, and messages that name file, table and key."""
 
+import datetime
 import difflib
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -12,6 +13,10 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 
+MOST_POINTS = 100_000  # of a sweep
+MOST_ROWS = 1_000_000  # of a table
+_SWEEP = dict.fromkeys(("from", "to", "points"))
+
 
 @dataclass(frozen=True)
 class Field:
@@ -22,57 +27,57 @@ class Field:
 
 
 class _WrongValueError(Exception):
-    """Says what is allowed."""
+    """Says what is wrong with a value, or what it must be."""
 
 
 def number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise _WrongValueError("a number")
+        raise _WrongValueError("must be a number")
     try:
         return float(value)
     except OverflowError:
-        raise _WrongValueError("a finite number") from None
+        raise _WrongValueError("must be a finite number") from None
 
 
 def numbers(value: object) -> list[float]:
     try:
         return [number(entry) for entry in value]  # type: ignore[attr-defined]
     except (TypeError, _WrongValueError):
-        raise _WrongValueError("a list of numbers") from None
+        raise _WrongValueError("must be a list of numbers") from None
 
 
 def text(value: object) -> str:
     if not isinstance(value, str):
-        raise _WrongValueError("a text")
+        raise _WrongValueError("must be a text")
+    return value
+
+
+def file_name(value: object) -> str:
+    if not isinstance(value, str) or not value or "\0" in value:
+        raise _WrongValueError("must be the name of a file")
     return value
 
 
 def count(value: object) -> int:
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise _WrongValueError("a whole number")
+    if isinstance(value, bool) or not isinstance(value, int) or abs(value) >= 2**63:
+        raise _WrongValueError("must be a whole number")
     return value
 
 
 def pixel_size(value: object) -> float | tuple[float, float]:
-    if isinstance(value, list) and len(value) == 2:
-        return number(value[0]), number(value[1])
     try:
+        if isinstance(value, list) and len(value) == 2:
+            return number(value[0]), number(value[1])
         return number(value)
     except _WrongValueError:
-        raise _WrongValueError("a number or [dy, dx]") from None
+        raise _WrongValueError("must be a number or [dy, dx]") from None
 
 
 def sweep(value: object) -> Any:
     """Array of the values that a number, a list or a logarithmic sweep stands for."""
-    allowed = "a number, a list, or {from = 1e-6, to = 10, points = 60}"
+    allowed = "must be a number, a list, or {from = 1e-6, to = 10, points = 60}"
     if isinstance(value, dict):
-        if set(value) != {"from", "to", "points"}:
-            raise _WrongValueError(allowed)
-        low, high = number(value["from"]), number(value["to"])
-        points = count(value["points"])
-        if not (0 < low < np.inf and 0 < high < np.inf) or points < 2:
-            raise _WrongValueError("a sweep between two positive numbers in at least 2 points")
-        return np.geomspace(low, high, points)
+        return _logarithmic(value)
     if isinstance(value, list):
         if not value:
             raise _WrongValueError(f"{allowed}, and not empty")
@@ -81,6 +86,27 @@ def sweep(value: object) -> Any:
         return np.array([number(value)])
     except _WrongValueError:
         raise _WrongValueError(allowed) from None
+
+
+def _logarithmic(value: Mapping[str, object]) -> Any:
+    for key in value:
+        if key not in _SWEEP:
+            raise _WrongValueError(f"unknown key {key}, {nearest(key, _SWEEP)}")
+    readers: tuple[Callable[[object], Any], ...] = (number, number, count)
+    entries = []
+    for key, read in zip(_SWEEP, readers, strict=True):
+        if key not in value:
+            raise _WrongValueError(f"{key} is missing, as in {{from = 1e-6, to = 10, points = 60}}")
+        try:
+            entries.append(read(value[key]))
+        except _WrongValueError as wrong:
+            raise _WrongValueError(f"{key} {wrong}") from None
+    low, high, points = entries
+    if not (0 < low < np.inf and 0 < high < np.inf):
+        raise _WrongValueError("must be a sweep between two positive numbers")
+    if not 2 <= points <= MOST_POINTS:
+        raise _WrongValueError(f"points must be in 2..{MOST_POINTS}")
+    return np.geomspace(low, high, points)
 
 
 def anything(value: object) -> object:
@@ -122,8 +148,25 @@ def read_table(
         try:
             values[key] = fields[key].read(value)
         except _WrongValueError as wrong:
-            raise InvalidInput(f"{path}: [{section}] {key} = {value!r}: must be {wrong}") from None
+            raise InvalidInput(f"{path}: [{section}] {key} = {_shown(value)}: {wrong}") from None
     return values
+
+
+def _shown(value: object) -> str:
+    """A value as TOML writes it, cut where it is long."""
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, dict):
+        text = "{" + ", ".join(f"{key} = {_shown(entry)}" for key, entry in value.items()) + "}"
+    elif isinstance(value, list):
+        text = "[" + ", ".join(map(_shown, value[:20])) + (", ..." * (len(value) > 20)) + "]"
+    elif isinstance(value, int) and value.bit_length() > 1000:
+        text = hex(value)  # Python writes no integer of so many decimals
+    elif isinstance(value, datetime.date | datetime.time):
+        text = value.isoformat()
+    else:
+        text = repr(value)
+    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[str, Any]:
@@ -138,8 +181,10 @@ def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
         yield
     except (InvalidInput, OutOfRange, NotConverged) as error:
         message = " ".join(str(error).split())
-        for argument, field in names.items():
-            message = re.sub(rf"(^|: ){argument}(?!\w)", rf"\g<1>{field}", message)
+        if names:  # at the head of a clause, and wherever a value is told
+            name = f"({'|'.join(names)})"
+            pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = )"
+            message = re.sub(pattern, lambda found: names[found[1] or found[2]], message)
         raise type(error)(message if path is None else f"{path}: {message}") from error
 
 

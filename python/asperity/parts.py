@@ -23,6 +23,7 @@ from asperity.fields import (
     anything,
     arguments,
     count,
+    file_name,
     named,
     names_of,
     nearest,
@@ -57,7 +58,7 @@ _READ = {
     "unit": Field(text, "unit"),
 }
 _TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
-_SURFACE = {"file": Field(text), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
+_SURFACE = {"file": Field(file_name), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
 
 _PRONY = {
     "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
@@ -67,7 +68,7 @@ _PRONY = {
 _NOT_YET = dict.fromkeys(("isotherms", "temperature_k", "shift"), Field(anything))
 _RUBBER = {
     **_PRONY,
-    "master_curve": Field(text),
+    "master_curve": Field(file_name),
     "extrapolation": Field(text, "extrapolation"),
     **_NOT_YET,
 }
@@ -198,7 +199,11 @@ def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
 
 
 def build_correction(
-    path: Path, table: object, surface: HeightMap | None, surface_values: Mapping[str, Any]
+    path: Path,
+    table: object,
+    spectrum: Spectrum,
+    surface: HeightMap | None,
+    surface_values: Mapping[str, Any],
 ) -> tuple[Correction, Values]:
     """Correction of a scene; peaks and extremes not given come from the measured map."""
     if not isinstance(table, dict):
@@ -228,6 +233,10 @@ def build_correction(
             correction = part(settings.pop("heights_or_map"), **settings)
     if "min_distance_m" in values:
         values["peaks"] = len(values.pop("heights_m"))
+    if fields is _ASPERITIES:  # what the core takes from the spectrum
+        rolloff = spectrum.rolloff if isinstance(spectrum, SelfAffineSpectrum) else None
+        q0 = spectrum.q0 if rolloff is None else rolloff
+        values = {"rms_height_m": spectrum.rms_height, "q0_per_m": q0, **values}
     return correction, _with_defaults(values, fields, correction)
 
 
@@ -253,7 +262,9 @@ def _with_map(
         return values
     if not gaussian and "heights_m" not in values:
         require(path, "correction", values, ("min_distance_m",), "the least distance of two peaks")
-    if kind != "local-peaks" and "q0_per_m" not in surface_values:
+    if kind != "local-peaks":
+        if "q0_per_m" in surface_values:
+            values.setdefault("q0_per_m", surface_values["q0_per_m"])
         require(
             path,
             "correction",

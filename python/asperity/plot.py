@@ -1,6 +1,7 @@
 """Figures for a paper: friction over velocity, area over magnification, spectra (matplotlib)."""
 
 import io
+import warnings
 from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
@@ -51,7 +52,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
             values = [array.T for array in values]
             loads = [f"{float(scene.velocity[0]):.4g} m/s"]
         for row, load in enumerate(loads):
-            label = f"{name}, {load}" if len(scenes) > 1 else load
+            label = f"{_plain(name)}, {load}" if len(scenes) > 1 else load
             x = scene.pressure if over_pressure else scene.velocity
             curves.append((label, x, [array[row] for array in values]))
     for (label, x, lines), colour in zip(curves, _colours(len(curves)), strict=True):
@@ -144,24 +145,29 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
     axes.set_xlabel("Local pressure $\\sigma / \\sigma_0$ [-]")
     # per ln(sigma), so that the area under a curve is the share in contact
     axes.set_ylabel("Pressure distribution $\\sigma\\, P(\\sigma)$ [-]")
-    axes.set_title(f"{_pressure(nominal)}, {float(scene.velocity[0]):.3g} m/s", fontsize="medium")
+    title = f"{_pressure(nominal)}, {float(scene.velocity[0]):.3g} m/s"
+    if scene.options["form"] != "exact":
+        title += ", exact form"  # the other has no distribution
+    axes.set_title(title, fontsize="medium")
     axes.legend(loc="upper left", fontsize="small")
 
 
 def spectrum_figure(
-    spectrum: TabulatedSpectrum, fit: SelfAffineFit, cutoff: float, path: Path
+    spectrum: TabulatedSpectrum, fit: SelfAffineFit | None, cutoff: float, path: Path
 ) -> bytes:
-    """C(q) with its self-affine fit and the wavenumber at which the rms slope reaches 1.3."""
+    """C(q), its self-affine fit if there is one, and where the rms slope reaches 1.3."""
     figure, (axes,) = _figure(1)
     q, density = spectrum.wavenumber, spectrum.density
     axes.plot(q, density, ".", markersize=3, color=_COLOURS[0], label="measured")
-    fitted = np.geomspace(fit.q0, fit.q1, 200)
-    label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
-    axes.plot(fitted, fit.spectrum.at(fitted), color=_COLOURS[1], label=label)
+    if fit is not None:
+        fitted = np.geomspace(fit.q0, fit.q1, 200)
+        label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
+        axes.plot(fitted, fit.spectrum.at(fitted), color=_COLOURS[1], label=label)
     if cutoff < spectrum.q1:
         axes.axvline(cutoff, color="0.4", linestyle="--", label="rms slope 1.3")
     axes.set_xscale("log")
-    axes.set_yscale("log")
+    if density.any():
+        axes.set_yscale("log")
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
     figure.legend(loc="outside right upper")
@@ -180,8 +186,16 @@ def _figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
 
 def _picture(figure: "Figure", path: Path) -> bytes:
     out = io.BytesIO()
-    figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
+        figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
     return out.getvalue()
+
+
+def _plain(name: str) -> str:
+    """A file name as a legend shows it: no formula, not hidden, nothing that is no text."""
+    name = name.encode(errors="backslashreplace").decode().replace("$", r"\$")
+    return f"./{name}" if name.startswith("_") else name
 
 
 def _colours(count: int) -> Sequence[Any]:

@@ -1,6 +1,8 @@
 """Files in: height maps (matrices, instrument formats through SurfaceTopography), master curves."""
 
+import errno
 import os
+import stat
 import warnings
 import zipfile
 import zlib
@@ -68,13 +70,18 @@ def read_surface(
     if unit is not None and unit not in _METRES:
         raise InvalidInput(f"{path}: unit = {unit!r}: must be one of {', '.join(_METRES)}")
     try:
-        path.open("rb").close()
+        _check_file(path)
         loader = _LOADERS.get(path.suffix.lower())
         if loader is None:
             return _read_instrument(path, channel, pixel_size, unit)
         if pixel_size is None or unit is None:
-            missing = "pixel_size [m]" if pixel_size is None else "unit of the heights"
-            raise InvalidInput(f"{missing} is missing: a {path.suffix} file does not state it")
+            missing = "pixel_size is missing" if pixel_size is None else "unit is missing"
+            unstated = (
+                "the distance of its points [m]"
+                if pixel_size is None
+                else "the unit of its heights"
+            )
+            raise InvalidInput(f"{missing}: a {path.suffix} file does not state {unstated}")
         heights = loader(path, channel)
         if unit != "m":
             heights = heights * _METRES[unit]
@@ -92,6 +99,19 @@ def read_filled(path: Path, **settings: Any) -> tuple[HeightMap, HeightMap]:
         return surface, surface.fill_dropouts()
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
+
+
+def _check_file(path: Path) -> None:
+    """Refuse what cannot be opened, and what one might wait for or read without end."""
+    try:
+        mode = path.stat().st_mode
+    except ValueError as error:
+        raise InvalidInput(f"cannot be read: {error}") from error
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise InvalidInput("cannot be read: not a regular file")
+    path.open("rb").close()
 
 
 def _check_channel(channel: int, available: int) -> None:
@@ -179,9 +199,12 @@ def read_master_curve(
 ) -> MasterCurve:
     """Master curve from a CSV file with a header line that names its three columns."""
     try:
+        _check_file(path)
         lines = list(_lines(path))
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
     header = ",".join(_MASTER_CURVE)
     if not lines or [cell.strip() for cell in lines[0][1]] != _MASTER_CURVE:
         found = _brief(",".join(lines[0][1])) if lines else "nothing"

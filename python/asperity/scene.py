@@ -2,15 +2,26 @@
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Adhesion, Friction, contact_area, friction, pressure_distribution
+from asperity._core import (
+    Adhesion,
+    Friction,
+    InvalidInput,
+    contact_area,
+    contact_notes,
+    friction,
+    pressure_distribution,
+)
 from asperity.fields import (
+    MOST_ROWS,
     Field,
     arguments,
     named,
@@ -39,9 +50,10 @@ _SOLVER = {"rtol": Field(number, "rtol"), "form": Field(text, "form")}
 _NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
 _TABLES = dict.fromkeys(("surface", "rubber", "conditions", "correction", "adhesion", "solver"))
 
-
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
-_CHUNK = 4  # velocities between two steps of a progress bar
+_CHUNK = 4  # points between two steps of a progress bar, or two looks at Ctrl-C
+
+Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,39 +94,53 @@ class Scene:
         names = (self.inputs["surface"].get("file"), self.inputs["rubber"].get("master_curve"))
         return [self.path, *(self.path.parent / name for name in names if name is not None)]
 
-    def friction(self, progress: Callable[[list[Any]], Iterable[Any]] = iter) -> Curves:
-        """Friction at every pressure and velocity; `progress` sees the chunks of velocities."""
-        chunks = np.split(self.velocity, range(_CHUNK, self.velocity.size, _CHUNK))
-        parts = [self._friction(chunk) for chunk in progress(chunks)]
-        columns = {name: [getattr(part, name) for part in parts] for name in COLUMNS}
+    @property
+    def points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Every pressure with every velocity, flat; a pressure's velocities side by side."""
+        pressure, velocity = np.meshgrid(self.pressure, self.velocity, indexing="ij")
+        return pressure.ravel(), velocity.ravel()
+
+    def friction(self, progress: Progress = nullcontext) -> Curves:
+        """Friction at every pressure and velocity; `progress` sees the chunks of points."""
+        compute = partial(friction, adhesion=self.adhesion, **self.options)
+        parts: list[Friction] = self._at_points(compute, progress)
+        shape = (self.pressure.size, self.velocity.size)
         notes = dict.fromkeys(note for part in parts for note in part.notes)
-        return Curves(list(notes), **{name: np.hstack(column) for name, column in columns.items()})
+        columns = {
+            name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
+            for name in COLUMNS
+        }
+        return Curves(list(notes), **columns)
 
-    def _friction(self, velocity: NDArray[np.float64]) -> Friction:
-        with named(self.path, _NAMES):
-            return friction(
-                self.spectrum,
-                self.rubber,
-                pressure=self.pressure[:, None],
-                velocity=velocity,
-                correction=self.correction,
-                adhesion=self.adhesion,
-                **self.options,
-            )
+    def contact_area(
+        self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext
+    ) -> NDArray[np.float64]:
+        """A/A0 of shape (pressures, velocities, wavenumbers); `progress` as in `friction`."""
+        compute = partial(contact_area, wavenumber=wavenumber, **self.options)
+        parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
+        return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
 
-    def contact_area(self, wavenumber: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A/A0 of shape (pressures, velocities, wavenumbers)."""
-        with named(self.path, _NAMES):
-            area: NDArray[np.float64] = contact_area(
-                self.spectrum,
-                self.rubber,
-                pressure=self.pressure[:, None],
-                velocity=self.velocity,
-                correction=self.correction,
-                wavenumber=wavenumber,
-                **self.options,
-            )
-        return area
+    def contact_notes(self) -> list[str]:
+        """Where the theory leaves its range at some of the points."""
+        compute = partial(contact_notes, poisson_ratio=self.options["poisson_ratio"])
+        parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
+        return list(dict.fromkeys(note for part in parts for note in part))
+
+    def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
+        """What the core's `compute` gives for each chunk of the points."""
+        pressure, velocity = self.points
+        chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
+        with progress(chunks) as shown, named(self.path, _NAMES):
+            return [
+                compute(
+                    self.spectrum,
+                    self.rubber,
+                    pressure=pressure[chunk],
+                    velocity=velocity[chunk],
+                    correction=self.correction,
+                )
+                for chunk in shown
+            ]
 
     def pressure_distribution(
         self, stress: NDArray[np.float64], wavenumber: float
@@ -152,6 +178,11 @@ def load_scene(path: str | Path) -> Scene:
     conditions = {"poisson_ratio": 0.5, **conditions}
     solver = {"rtol": 1e-6, "form": "exact", **solver}
 
+    rows = points["pressure_pa"].size * points["velocity_m_s"].size
+    if rows > MOST_ROWS:
+        problem = f"pressure_pa times velocity_m_s are {rows} points: must be at most {MOST_ROWS}"
+        refuse(path, "[conditions]", problem)
+
     spectrum, surface, surface_values, derived = build_surface(path, tables["surface"])
     rubber, rubber_values = build_rubber(path, tables["rubber"])
     inputs = {
@@ -162,7 +193,7 @@ def load_scene(path: str | Path) -> Scene:
     correction = adhesion = None
     if "correction" in tables:
         correction, inputs["correction"] = build_correction(
-            path, tables["correction"], surface, surface_values
+            path, tables["correction"], spectrum, surface, surface_values
         )
     if "adhesion" in tables:
         adhesion, inputs["adhesion"] = build_adhesion(path, tables["adhesion"])
@@ -184,11 +215,17 @@ def load_scene(path: str | Path) -> Scene:
 def _read_toml(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
     try:
+        if path.is_char_device():  # may have no end
+            refuse(path, "cannot be read", "not a regular file")
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         refuse(path, "not a TOML file", str(error))
+    except InvalidInput:
+        raise
+    except (ValueError, RecursionError):  # Python's limits
+        refuse(path, "not a TOML file", "nested too deeply, or a number of thousands of digits")
     for name, table in tables.items():
         if name not in _TABLES:
             hint = nearest(name, _TABLES, "[{}]")

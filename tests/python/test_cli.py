@@ -2,6 +2,11 @@
 
 import csv
 import json
+import os
+import subprocess
+import sys
+import tomllib
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +35,6 @@ shear_stress_pa = 8.3e6
 FRICTION = (
     "pressure_pa,velocity_m_s,mu,hysteresis,adhesion,contact_area,shift_factor,error_estimate"
 )
-MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
 
 
 @pytest.fixture
@@ -49,10 +53,6 @@ def rows_of(text: str) -> tuple[list[str], list[dict[str, str]]]:
     lines = text.splitlines()
     comments = [line for line in lines if line.startswith("#")]
     return comments, list(csv.DictReader(lines[len(comments) :]))
-
-
-def names(folder: Path) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
 
 
 def expected() -> asperity.Friction:
@@ -115,7 +115,7 @@ def test_several_scenes_stand_under_one_another(
     assert [row["scene"] for row in rows] == ["scene.toml"] * 10 + ["half.toml"] * 10
     assert rows[0]["mu"] != rows[10]["mu"]
     assert "# surface.hurst = 0.5" in comments
-    assert (folder / "mu.png").read_bytes().startswith(MAGIC[".png"])
+    assert (folder / "mu.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -128,40 +128,6 @@ def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[s
     assert content["inputs"][0]["surface"]["hurst"] == 0.7
     assert content["units"]["pressure_pa"] == "Pa"
     assert content["notes"] == list(result.notes)
-
-
-@pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
-@pytest.mark.parametrize(
-    "verb",
-    [
-        ["friction", "scene.toml"],
-        ["area", "scene.toml", "--points", "9"],
-        ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"],
-    ],
-    ids=lambda verb: verb[0],
-)
-def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
-    pytest.importorskip("matplotlib")
-    picture = f"picture{ending}"
-    assert main([*verb, "--plot", picture, "--output", "table.csv"]) == 0
-    assert (folder / picture).read_bytes().startswith(MAGIC[ending])
-    assert names(folder) == sorted(["scan.npy", "scene.toml", picture, "table.csv"])
-
-
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
-        ("[81e3, 2e5]", "{from = 1e4, to = 1e6, points = 12}"),
-        ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
-    ],
-)
-@pytest.mark.parametrize("verb", ["friction", "area"])
-def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
-    pytest.importorskip("matplotlib")
-    (folder / "scene.toml").write_text(SCENE.replace(old, new))
-    assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0
-    assert (folder / "a.png").stat().st_size > 10000
 
 
 def test_area_over_wavenumber(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -200,22 +166,104 @@ def test_help_has_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> N
     assert f"example:\n  asperity {verb} " in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("verb", ["friction", "area"])
 def test_bar_only_on_a_terminal(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
 ) -> None:
     tqdm = pytest.importorskip("tqdm")
     bars: list[object] = []
 
-    def bar(chunks: list[object], **settings: object) -> list[object]:
-        bars.append(settings["delay"])
-        return chunks
+    def bar(chunks: list[object], **settings: object) -> nullcontext[list[object]]:
+        bars.append((settings["delay"], len(chunks)))
+        return nullcontext(chunks)
 
     monkeypatch.setattr(tqdm, "tqdm", bar)
-    main(["friction", "scene.toml"])
+    main([verb, "scene.toml"])
     assert bars == []
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    main(["friction", "scene.toml"])
-    assert bars == [2]
+    main([verb, "scene.toml"])
+    assert bars == [(2, 3)]  # two seconds, ten points
+
+
+def test_without_tqdm_there_is_no_bar(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert main(["friction", "scene.toml"]) == 0
+
+
+def test_extras_are_those_of_the_readme() -> None:
+    text = (Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8")
+    extras = tomllib.loads(text)["project"]["optional-dependencies"]
+    assert set(extras) == {"plot", "io", "all", "test"}
+    assert [name.partition(">")[0] for name in extras["all"]] == ["asperity[plot,io]", "tqdm"]
+
+
+def test_area_has_the_notes_of_the_contact(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["area", "scene.toml", "--points", "3"]) == 0
+    out, err = capsys.readouterr()
+    notes = asperity.contact_notes(
+        asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
+        asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[]),
+        pressure=81e3,
+        velocity=1.0,
+    )
+    assert notes
+    assert err.splitlines() == [f"note: {note}" for note in notes]
+    assert [line for line in out.splitlines() if line.startswith("# note: ")] == [
+        f"# note: {note}" for note in notes
+    ]
+
+
+FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
+
+
+@pytest.mark.parametrize(
+    ("heights", "arguments", "reason"),
+    [
+        (FLAT, [], "density[0] = 0: must be positive for a fit"),
+        (NOISE, [], "spectrum: falls as q^"),
+        (NOISE, ["--q-min", "1e9"], "--q-min, --q-max: 0 rows of the spectrum in [1000000000, "),
+    ],
+)
+def test_spectrum_without_a_fit(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    heights: np.ndarray,
+    arguments: list[str],
+    reason: str,
+) -> None:
+    pytest.importorskip("matplotlib")
+    np.save("scan.npy", heights)
+    arguments = [*arguments, "--pixel-size", "1e-6", "--unit", "um", "--plot", "c.png"]
+    assert main(["spectrum", "scan.npy", *arguments]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    assert rows
+    assert any(line.startswith(f"note: no self-affine fit: {reason}") for line in err.splitlines())
+    assert any(line.startswith(f"# note: no self-affine fit: {reason}") for line in comments)
+    assert "fit_hurst" not in out + err
+    assert (folder / "c.png").stat().st_size > 10000
+
+
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_names_that_the_terminal_cannot_show(folder: Path, form: list[str]) -> None:
+    (folder / "größe日.toml").write_text(SCENE)
+    done = subprocess.run(
+        [sys.executable, "-m", "asperity", "friction", "größe日.toml", *form],
+        capture_output=True,
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        check=True,
+    )
+    text = done.stdout.decode("ascii")
+    if form:
+        name = json.loads(text)["inputs"][0]["scene"]
+    else:
+        name = json.loads(text.splitlines()[1].removeprefix("# scene = "))
+    assert name == "größe日.toml"
 
 
 def test_infinite_numbers_survive_both_forms() -> None:

@@ -1,6 +1,8 @@
 """The shipped scene and `asperity demo`."""
 
 import importlib.util
+import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,10 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("demo") / "out"
     assert main(["demo", "--output", str(directory)]) == 0
     return directory
+
+
+def contents(directory: Path) -> dict[Path, bytes | None]:
+    return {path: path.read_bytes() if path.is_file() else None for path in directory.rglob("*")}
 
 
 def test_scan_is_what_the_issue_asks_for() -> None:
@@ -75,16 +81,77 @@ def test_demo_runs_twice_and_prints_where(
     assert (finished / "friction.csv").read_text() == before
 
 
-def test_demo_does_not_overwrite_an_edited_scene(
+@pytest.mark.parametrize("name", ["scan.npy", "scene.toml", "friction.csv", "friction.png"])
+def test_demo_does_not_overwrite_what_it_did_not_write(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    (tmp_path / name).write_text("mine\n")
+    assert main(["demo", "--output", str(tmp_path)]) == 2
+    out, err = capsys.readouterr()
+    message = f"holds {name}, not the demo's own: choose another --output"
+    assert (out, err) == ("", f"asperity: {tmp_path}: {message}\n")
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert (tmp_path / name).read_text() == "mine\n"
+
+
+def test_demo_does_not_overwrite_a_scan_put_beside_its_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "scene.toml").write_text("# mine\n")
+    (tmp_path / "scene.toml").write_text(demo.scene_text(), encoding="utf-8")
+    np.save(tmp_path / "scan.npy", np.ones((20, 30)))
     assert main(["demo", "--output", str(tmp_path)]) == 2
-    assert "is not the demo's own" in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
+    assert "holds scan.npy, not the demo's own" in capsys.readouterr().err
+    assert np.load(tmp_path / "scan.npy").shape == (20, 30)
 
 
-def test_demo_into_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("before", ["nothing", "an empty directory", "a finished demo"])
+def test_demo_that_fails_leaves_what_was_there(
+    finished: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    before: str,
+) -> None:
+    directory = tmp_path / "far" / "out"
+    if before == "a finished demo":
+        shutil.copytree(finished, directory)
+    elif before != "nothing":
+        directory.mkdir(parents=True)
+    held = contents(tmp_path)
+
+    def fail(*_: object, **__: object) -> None:
+        raise asperity.NotConverged("mu = 1 with error 2")
+
+    monkeypatch.setattr("asperity.scene.friction", fail)
+    assert main(["demo", "--output", str(directory)]) == 1
+    line = f"asperity: {directory / 'scene.toml'}: mu = 1 with error 2\n"
+    assert capsys.readouterr().err == line
+    assert contents(tmp_path) == held
+
+
+def test_demo_on_a_full_disk_leaves_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    directory = tmp_path / "far" / "out"
+    replace = os.replace
+
+    def full(part: Path, target: Path) -> None:
+        if directory in target.parents and target.name == "friction.csv":
+            raise OSError(28, "No space left on device")
+        replace(part, target)
+
+    monkeypatch.setattr("os.replace", full)
+    assert main(["demo", "--output", str(directory)]) == 1
+    line = f"asperity: {directory / 'friction.csv'}: cannot be written: No space left on device\n"
+    assert capsys.readouterr().err == line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["taken", "taken/below"])
+def test_demo_into_a_file_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
     (tmp_path / "taken").write_text("")
-    assert main(["demo", "--output", str(tmp_path / "taken")]) == 2
-    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert main(["demo", "--output", str(tmp_path / name)]) == 2
+    reason = f"cannot be written: {tmp_path / 'taken'} is not a directory"
+    assert capsys.readouterr().err == f"asperity: {tmp_path / name}: {reason}\n"

@@ -1,6 +1,7 @@
 """Files in: matrices, instrument formats, and what is refused in one line."""
 
 import io
+import os
 import sys
 import warnings
 from pathlib import Path
@@ -139,8 +140,13 @@ def _npy(array: object) -> bytes:
         ("a.npy", _npy(HEIGHTS), {"pixel_size": 0.0}, "pixel_size"),
         ("a.npy", _npy(HEIGHTS), {"pixel_size": (1.0, -1.0)}, "pixel_size"),
         ("a.npy", _npy(HEIGHTS), {"pixel_size": np.nan}, "pixel_size"),
-        ("a.npy", _npy(HEIGHTS), {"pixel_size": None}, "pixel_size [m] is missing"),
-        ("a.npy", _npy(HEIGHTS), {"unit": None}, "unit of the heights is missing"),
+        (
+            "a.npy",
+            _npy(HEIGHTS),
+            {"pixel_size": None},
+            "pixel_size is missing: a .npy file does not",
+        ),
+        ("a.npy", _npy(HEIGHTS), {"unit": None}, "unit is missing: a .npy file does not state"),
         ("a.npy", _npy(HEIGHTS), {"unit": "inch"}, "unit = 'inch': must be one of m, mm, um, nm"),
         ("a.npz", b"PK\x03\x04 and no more", {}, "not a sound .npz file"),
         ("a.npz", _npy(HEIGHTS), {}, "not a sound .npz file"),
@@ -181,6 +187,24 @@ def test_missing_file(tmp_path: Path, name: str) -> None:
 def test_directory(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="cannot be read: Is a directory"):
         read_surface(tmp_path, pixel_size=1.0, unit="m")
+
+
+@pytest.mark.parametrize("name", ["/dev/null", "/dev/zero"])
+def test_no_regular_file(name: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        read_surface(name, pixel_size=1.0, unit="m")
+    assert str(caught.value) == f"{name}: cannot be read: not a regular file"
+
+
+def test_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "scan.csv")
+    with pytest.raises(InvalidInput, match="not a regular file"):
+        read_surface(tmp_path / "scan.csv", pixel_size=1.0, unit="m")
+
+
+def test_no_name_of_a_file() -> None:
+    with pytest.raises(InvalidInput, match="cannot be read: embedded null"):
+        read_surface("a\0b.npy", pixel_size=1.0, unit="m")
 
 
 @pytest.mark.parametrize("content", [b"", b"\x00\x01\x02" * 100, b"a tale\nof two cities\n"])

@@ -1,6 +1,7 @@
 """Scene files: what they build."""
 
 import tomllib
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -200,6 +201,33 @@ def test_gaussian_asperities_have_no_peaks(folder: Path) -> None:
     assert scene.correction == asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-3e-4)
 
 
+ROLLED = SURFACE + "rolloff_per_m = 4000.0\n" + RUBBER + CONDITIONS
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "q0"),
+    [
+        (SURFACE + RUBBER + CONDITIONS, "greenwood-williamson", 2000.0),
+        (ROLLED, "greenwood-williamson", 4000.0),
+        (ROLLED, "peaks-then-greenwood-williamson", 4000.0),
+        (SCAN + MACRO + RUBBER + CONDITIONS, "greenwood-williamson", 2e4),
+    ],
+)
+def test_macro_asperities_are_recorded_as_the_core_took_them(
+    folder: Path, text: str, kind: str, q0: float
+) -> None:
+    table = f"[correction]\nkind = '{kind}'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
+    table += "heights_m = [1e-4, 2e-4, 1e-4]\n"
+    scene = load_scene(write(folder, text + table))
+    recorded = scene.inputs["correction"]
+    assert recorded["q0_per_m"] == q0
+    assert recorded["rms_height_m"] == scene.spectrum.rms_height
+    given = f"q0_per_m = {q0!r}\nrms_height_m = {scene.spectrum.rms_height!r}\n"
+    stated = load_scene(write(folder, text + table + given))
+    np.testing.assert_array_equal(scene.friction().mu, stated.friction().mu)
+    assert scene.friction().notes == stated.friction().notes
+
+
 def test_both_combined(folder: Path) -> None:
     table = (
         "[correction]\nkind = 'peaks-then-greenwood-williamson'\nheights_m = [1e-4, 2e-4, 1e-4]\n"
@@ -209,6 +237,44 @@ def test_both_combined(folder: Path) -> None:
     assert scene.correction == asperity.PeaksThenGreenwoodWilliamson(
         [1e-4, 2e-4, 1e-4], z_max=3e-4, z_min=-3e-4, reading="added", rms_height=7e-5, q0=2e3
     )
+
+
+@pytest.mark.parametrize("points", [1, 4, 11])
+def test_points_are_computed_in_chunks_that_change_nothing(folder: Path, points: int) -> None:
+    seen: list[slice] = []
+
+    def watch(chunks: list[slice]) -> nullcontext[list[slice]]:
+        seen.extend(chunks)
+        return nullcontext(chunks)
+
+    velocity = np.geomspace(1e-4, 1, points)
+    text = CONDITIONS.replace("{from = 1e-4, to = 1, points = 5}", str(velocity.tolist()))
+    scene = load_scene(write(folder, SURFACE + RUBBER + text))
+    pressure = np.array([[81e3], [2e5]])
+    expected = asperity.friction(SPECTRUM, PRONY, pressure=pressure, velocity=velocity)
+    np.testing.assert_array_equal(scene.friction(watch).mu, expected.mu)
+    assert len(seen) == -(-2 * points // 4)  # pressures and velocities flattened
+    q = np.array([2e3, 1e4, 1e5])
+    area = asperity.contact_area(
+        SPECTRUM, PRONY, pressure=pressure, velocity=velocity, wavenumber=q
+    )
+    seen.clear()
+    np.testing.assert_array_equal(scene.contact_area(q, watch), area)
+    assert len(seen) == -(-2 * points // 4)
+
+
+def test_contact_notes_are_the_cores(folder: Path) -> None:
+    table = "[correction]\nkind = 'greenwood-williamson'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
+    scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table))
+    expected = asperity.contact_notes(
+        SPECTRUM,
+        PRONY,
+        pressure=[[81e3], [2e5]],
+        velocity=scene.velocity,
+        correction=scene.correction,
+    )
+    assert set(scene.contact_notes()) == set(expected) == set(scene.friction().notes)
+    assert len(expected) > 1
 
 
 def test_shipped_scene_is_a_toml_file_with_matching_lists() -> None:

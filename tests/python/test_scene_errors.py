@@ -101,7 +101,7 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
         (SURFACE + RUBBER + "[conditions]\npressure_pa = 1", "[conditions] velocity_m_s: missing"),
         (BASE.replace("hurst = 0.7", ""), "[surface] hurst: missing; give file, or rms_height_m"),
         (BASE.replace("hurst = 0.7", "hurst = 'a'"), "[surface] hurst = 'a': must be a number"),
-        (BASE.replace("hurst = 0.7", "hurst = true"), "[surface] hurst = True: must be a number"),
+        (BASE.replace("hurst = 0.7", "hurst = true"), "[surface] hurst = true: must be a number"),
         (
             BASE.replace("[1e9, 1e8, 1e7]", "1e9"),
             "[rubber] moduli_pa = 1000000000.0: must be a list",
@@ -111,8 +111,34 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
             "[conditions] pressure_pa = []: must be a number, a list",
         ),
         (BASE.replace("[81e3, 2e5]", "['a']"), "[conditions] pressure_pa = ['a']: must be a list"),
-        (BASE.replace("points = 5", "pionts = 5"), "must be a number, a list, or {from = 1e-6"),
-        (BASE.replace("points = 5", "points = 1"), "in at least 2 points"),
+        (
+            BASE.replace("hurst = 0.7", "hurst = 1979-05-27"),
+            "[surface] hurst = 1979-05-27: must be a number",
+        ),
+        (BASE.replace("0.7", "0x" + "f" * 5000), "ff...: must be a finite number"),
+        (BASE.replace("0.7", "9" * 5000), "not a TOML file: nested too deeply, or a number of"),
+        ("a = " + "[" * 5000 + BASE, "not a TOML file: nested too deeply"),
+        (
+            BASE.replace("[81e3, 2e5]", "'1 bar'"),
+            "must be a number, a list, or {from = 1e-6, to = 10, points = 60}",
+        ),
+        (
+            BASE.replace("from =", "form ="),
+            "[conditions] velocity_m_s = {form = 0.0001, to = 1, points = 5}: "
+            "unknown key form, did you mean from?",
+        ),
+        (BASE.replace("points = 5", "pionts = 5"), "unknown key pionts, did you mean points?"),
+        (BASE.replace(", points = 5", ""), "points is missing, as in {from = 1e-6, to = 10, p"),
+        (BASE.replace("to = 1", "to = 'x'"), "points = 5}: to must be a number"),
+        (BASE.replace("points = 5", "points = 5.0"), "points must be a whole number"),
+        (BASE.replace("points = 5", "points = 1"), "points must be in 2..100000"),
+        (BASE.replace("points = 5", "points = 5000000000"), "points must be in 2..100000"),
+        (
+            BASE.replace("[81e3, 2e5]", "{from = 1, to = 2, points = 1001}").replace(
+                "points = 5", "points = 1000"
+            ),
+            "[conditions]: pressure_pa times velocity_m_s are 1001000 points: must be at most",
+        ),
         (BASE.replace("from = 1e-4", "from = 0"), "must be a sweep between two positive numbers"),
         (BASE.replace("to = 1", "to = inf"), "must be a sweep between two positive numbers"),
         (
@@ -150,6 +176,8 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
             BASE.replace("equilibrium", "extrapolation = 'clamp'\nequilibrium"),
             "[rubber] extrapolation",
         ),
+        (MASTER.replace("curve.csv", ""), "[rubber] master_curve = '': must be the name of a file"),
+        (MASTER.replace("curve.csv", "/dev/zero"), "/dev/zero: cannot be read: not a regular"),
         (MASTER.replace("curve.csv", "none.csv"), "none.csv: cannot be read: No such file"),
         (MASTER.replace("curve.csv", "scene.toml"), "scene.toml: header is '[surface]': must be"),
         (
@@ -181,6 +209,23 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
         (
             SCAN.replace("scan.npy", "no.npy") + RUBBER + CONDITIONS,
             "no.npy: cannot be read: No such",
+        ),
+        (
+            SCAN.replace("scan.npy", "") + RUBBER + CONDITIONS,
+            "[surface] file = '': must be the name",
+        ),
+        (SCAN.replace("scan.npy", "a\\u0000b") + RUBBER + CONDITIONS, "must be the name of a file"),
+        (
+            SCAN.replace("scan.npy", "/dev/null") + RUBBER + CONDITIONS,
+            "/dev/null: cannot be read: not a regular file",
+        ),
+        (
+            SCAN.replace('unit = "um"', "") + RUBBER + CONDITIONS,
+            "scan.npy: [surface] unit is missing: a .npy file does not state the unit of its",
+        ),
+        (
+            SCAN.replace("unit", "channel = 0x" + "f" * 5000 + "\nunit") + RUBBER + CONDITIONS,
+            "ff...: must be a whole number",
         ),
         (
             SCAN.replace("unit", "q0_per_m = 1\nunit") + RUBBER + CONDITIONS,
@@ -219,6 +264,11 @@ def test_foolish_master_curves(folder: Path, content: str, message: str) -> None
     text = refusal(folder, MASTER)
     assert "curve.csv: " in text
     assert message in text
+
+
+def test_endless_scene() -> None:
+    with pytest.raises(InvalidInput, match="/dev/zero: cannot be read: not a regular file"):
+        load_scene("/dev/zero")
 
 
 def test_missing_scene(tmp_path: Path) -> None:

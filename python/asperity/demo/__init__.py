@@ -1,5 +1,10 @@
 """The scene that ships with the package: rubber on a synthetic asphalt scan."""
 
+import io
+import os
+import tempfile
+from collections.abc import Mapping
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
@@ -7,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, SelfAffineSpectrum, synthesize
+from asperity.table import check_output, write_files
 
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)
+FILES = ("scan.npy", "scene.toml", "friction.csv", "friction.png")  # what `asperity demo` leaves
 
 
 def scan() -> NDArray[np.float32]:
@@ -31,21 +38,62 @@ def scene_text() -> str:
     return files(__package__).joinpath("scene.toml").read_text(encoding="utf-8")
 
 
-def write_inputs(directory: Path) -> Path:
-    """Write scan and scene into `directory` and return the path of the scene.
+def input_files() -> dict[str, bytes]:
+    """Content of the scan and of the scene, by file name."""
+    out = io.BytesIO()
+    np.save(out, scan())
+    return {"scan.npy": out.getvalue(), "scene.toml": scene_text().encode()}
+
+
+def check_directory(directory: Path) -> None:
+    """Refuse, before any work, a directory that the demo cannot or should not write into.
 
     Raises
     ------
     InvalidInput
-        If the directory cannot be written, or holds another scene (an edited one, say).
+        If it cannot be written, or holds files of the demo's names that the demo did not write.
     """
-    scene = directory / "scene.toml"
+    try:
+        existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
+        if not existing.is_dir():
+            raise InvalidInput(f"{directory}: cannot be written: {existing} is not a directory")
+        with tempfile.TemporaryFile(dir=existing):
+            pass
+        foreign = ", ".join(_foreign(directory))
+    except OSError as error:
+        raise InvalidInput(f"{directory}: cannot be written: {error.strerror or error}") from error
+    if foreign:
+        raise InvalidInput(
+            f"{directory}: holds {foreign}, not the demo's own: choose another --output"
+        )
+    if existing == directory:
+        for name in FILES:
+            check_output(directory / name)
+
+
+def write_directory(directory: Path, contents: Mapping[str, bytes]) -> None:
+    """Write all files or none, into a directory that is made where it is missing."""
+    made = [d for d in (directory, *directory.parents) if not d.exists()]
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        if scene.exists() and scene.read_text(encoding="utf-8") != scene_text():
-            raise InvalidInput(f"{scene}: is not the demo's own: choose another --output")
-        scene.write_text(scene_text(), encoding="utf-8")
-        np.save(directory / "scan.npy", scan())
-    except (OSError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{directory}: cannot be written: {error}") from error
-    return scene
+        write_files({directory / name: data for name, data in contents.items()})
+    except BaseException:
+        for empty in made:
+            with suppress(OSError):
+                empty.rmdir()
+        raise
+
+
+def _foreign(directory: Path) -> list[str]:
+    """Files that the demo would overwrite though another wrote them."""
+    taken = [name for name in FILES if os.path.lexists(directory / name)]
+    scene = directory / "scene.toml"
+    if not scene.is_file() or scene.read_bytes() != scene_text().encode():
+        return taken
+    try:
+        shipped = np.load(directory / "scan.npy", mmap_mode="r")
+        return [] if (shipped.shape, shipped.dtype) == (SHAPE, np.float32) else ["scan.npy"]
+    except FileNotFoundError:
+        return []
+    except (ValueError, EOFError):
+        return ["scan.npy"]
