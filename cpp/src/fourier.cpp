@@ -60,7 +60,7 @@ int side(std::size_t n) {
 
 template <class T>
 auto* raw(std::complex<T>* modes) {
-  return reinterpret_cast<typename Fftw<T>::Complex*>(modes);
+  return reinterpret_cast<Fftw<T>::Complex*>(modes);
 }
 
 /// Plans under the lock, and gives the plan back under the lock.
@@ -74,7 +74,7 @@ std::shared_ptr<void> planned(Make make) {
   if (!plan) throw Error("FFTW could not plan this transform");
   return {plan, [](void* p) {
             const std::scoped_lock lock(planner());
-            F::destroy(static_cast<typename F::Plan>(p));
+            F::destroy(static_cast<F::Plan>(p));
           }};
 }
 
