@@ -1,0 +1,97 @@
+"""Faults that an attack on the numerics found, each once more."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import HeightMap, InvalidInput, LocalPeaks, MasterCurve, TabulatedSpectrum
+
+
+@pytest.mark.parametrize("count", [3, 6, 10])
+def test_peaks_of_one_height_shift_nothing_to_infinity(count):
+    with pytest.raises(InvalidInput, match=r"their mean = 0\.1: must be below z_max = 0\.1"):
+        LocalPeaks([0.1] * count)
+
+
+def test_frequencies_with_one_logarithm_are_refused():
+    with pytest.raises(
+        InvalidInput, match=r"^angular_frequency\[1\] = 10{9}: must be further"
+    ):
+        MasterCurve(
+            angular_frequency=[1e9, np.nextafter(1e9, 2e9), 1e12],
+            storage_modulus=[1e6, 1e6, 1e7],
+            loss_modulus=[1e6, 1e6, 1e7],
+        )
+
+
+@pytest.mark.parametrize("shape", [(4, 7), (7, 4), (6, 9), (8, 15)])
+def test_rings_do_not_depend_on_the_unit_of_length(shape):
+    z = np.random.default_rng(1).normal(size=shape)
+    first = asperity.power_spectrum(HeightMap(z, pixel_size=1.0))
+    for pixel in (3.0, 0.7, 1e-6, 1e6 / 3):
+        other = asperity.power_spectrum(HeightMap(z, pixel_size=pixel))
+        np.testing.assert_array_equal(other.count, first.count)
+        np.testing.assert_allclose(other.wavenumber * pixel, first.wavenumber, rtol=1e-14)
+
+
+@pytest.mark.parametrize("cut", [{"q1": 3.0}, {"q0": 2.5}])
+def test_a_cut_beside_a_zero_is_refused_and_one_at_a_row_changes_nothing(cut):
+    table = TabulatedSpectrum(wavenumber=[1, 2, 4, 8], density=[1, 1, 0, 0])
+    with pytest.raises(InvalidInput, match=r"^q[01] = .*: must be at a row .*, 2 or 4$"):
+        table.truncated(**cut)
+    assert table.truncated(q1=4.0).at(2.5) == table.at(2.5) == 0.75
+
+
+def test_a_distance_of_too_many_oscillations_is_refused():
+    table = TabulatedSpectrum(wavenumber=[1e3, 1e4, 1e5], density=[1e-10, 1e-12, 1e-17])
+    with pytest.raises(asperity.NotConverged, match=r"^distance = 1e\+14: "):
+        table.autocorrelation(1e14)
+
+
+def test_a_rolled_off_spectrum_gives_its_rolloff_to_greenwood_williamson():
+    spectrum = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=200, q1=1e6, rolloff=2000)
+    rubber = asperity.PronySeries(equilibrium_modulus=3e7, moduli=[], relaxation_times=[])
+    scene = {"pressure": 2e5, "velocity": 0.001}
+    height = {"z_max": 4e-4, "z_min": -4e-4}
+    default, given, lowest = (
+        asperity.friction(
+            spectrum, rubber, correction=asperity.GreenwoodWilliamson(**height, **q0), **scene
+        ).shift_factor
+        for q0 in ({}, {"q0": 2000}, {"q0": 200})
+    )
+    assert default == given != lowest
+
+
+def test_a_measured_spectrum_that_had_to_give_its_lowest_bin_says_so():
+    table = TabulatedSpectrum(wavenumber=[1e3, 1e4, 1e5], density=[1e-14, 1e-18, 1e-22])
+    rubber = asperity.PronySeries(equilibrium_modulus=3e7, moduli=[], relaxation_times=[])
+    for q0, said in ((None, True), (2e3, False)):
+        correction = asperity.GreenwoodWilliamson(z_max=4e-4, z_min=-4e-4, q0=q0)
+        notes = asperity.contact_notes(
+            table, rubber, pressure=1e5, velocity=0.001, correction=correction
+        )
+        assert any("give q0" in note for note in notes) == said
+
+
+def test_what_comes_from_outside_of_the_measured_frequencies_is_said():
+    curve = {
+        "angular_frequency": [1.0, 10.0, 100.0],
+        "storage_modulus": [1e6, 2e6, 4e6],
+        "loss_modulus": [2e5, 4e5, 8e5],
+    }
+    spectrum = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=1e3, q1=4e3)
+    for extrapolation, velocity, said in ((None, 0.02, False), ("clamp", 0.2, True)):
+        rubber = MasterCurve(**curve, extrapolation=extrapolation)
+        found = asperity.friction(spectrum, rubber, pressure=1e6, velocity=velocity)
+        assert (found.extrapolated_share > 0.05) == said
+        assert any("extrapolated_share" in note for note in found.notes) == said
+
+
+def test_attributes_cannot_be_written_to_nor_changed_from_outside():
+    curve = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-3])
+    with pytest.raises(ValueError, match="read-only"):
+        curve.moduli[0] = 5
+    peaks = np.array([1e-4, 2e-4, 3e-4])
+    kept = LocalPeaks(peaks)
+    peaks[:] = 9
+    np.testing.assert_array_equal(kept.heights_or_map, [1e-4, 2e-4, 3e-4])
