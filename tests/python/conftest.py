@@ -1,4 +1,4 @@
-"""Reference tables, read where they lie; every row brings its own tolerance."""
+"""Reference tables, each row with its own tolerance, and a folder to run the shell command in."""
 
 import csv
 from collections.abc import Callable
@@ -6,6 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+import asperity
+import scenes
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 LISTS = {
@@ -51,3 +54,14 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 @pytest.fixture(scope="session")
 def reference_table() -> Callable[[str], list[dict[str, object]]]:
     return reference
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working directory, with a scene and a scan."""
+    (tmp_path / "scene.toml").write_text(scenes.SCENE)
+    spectrum = asperity.SelfAffineSpectrum(rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e6)
+    scan = asperity.synthesize(spectrum, shape=(60, 80), pixel_size=(2e-5, 1e-5), seed=1)
+    np.save(tmp_path / "scan.npy", scan.heights)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

@@ -2,42 +2,14 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-import asperity
 from asperity.cli import main
+from scenes import SCENE
 
 pytest.importorskip("matplotlib")
 
-SCENE = """
-[surface]
-rms_height_m = 76.572e-6
-hurst = 0.7
-q0_per_m = 2000.0
-q1_per_m = 1e5
-[rubber]
-equilibrium_modulus_pa = 2e6
-moduli_pa = [1e9, 1e8, 1e7]
-relaxation_times_s = [1e-8, 1e-6, 1e-4]
-[conditions]
-pressure_pa = [81e3, 2e5]
-velocity_m_s = {from = 1e-4, to = 1, points = 5}
-[adhesion]
-shear_stress_pa = 8.3e6
-"""
 MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
-
-
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The working directory, with a scene and a scan."""
-    (tmp_path / "scene.toml").write_text(SCENE)
-    spectrum = asperity.SelfAffineSpectrum(rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e6)
-    scan = asperity.synthesize(spectrum, shape=(60, 80), pixel_size=(2e-5, 1e-5), seed=1)
-    np.save(tmp_path / "scan.npy", scan.heights)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])

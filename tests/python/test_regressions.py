@@ -14,9 +14,7 @@ def test_peaks_of_one_height_shift_nothing_to_infinity(count):
 
 
 def test_frequencies_with_one_logarithm_are_refused():
-    with pytest.raises(
-        InvalidInput, match=r"^angular_frequency\[1\] = 10{9}: must be further"
-    ):
+    with pytest.raises(InvalidInput, match=r"^angular_frequency\[1\] = 10{9}: must be further"):
         MasterCurve(
             angular_frequency=[1e9, np.nextafter(1e9, 2e9), 1e12],
             storage_modulus=[1e6, 1e6, 1e7],

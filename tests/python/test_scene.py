@@ -10,35 +10,8 @@ import pytest
 
 import asperity
 from asperity.scene import COLUMNS, load_scene
+from scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
-SURFACE = """
-[surface]
-rms_height_m = 76.572e-6
-hurst = 0.7
-q0_per_m = 2000.0
-q1_per_m = 1e5
-"""
-SCAN = """
-[surface]
-file = "scan.npy"
-pixel_size_m = [2e-5, 1e-5]
-unit = "um"
-"""
-RUBBER = """
-[rubber]
-equilibrium_modulus_pa = 2e6
-moduli_pa = [1e9, 1e8, 1e7]
-relaxation_times_s = [1e-8, 1e-6, 1e-4]
-"""
-CURVE = """
-[rubber]
-master_curve = "curve.csv"
-"""
-CONDITIONS = """
-[conditions]
-pressure_pa = [81e3, 2e5]
-velocity_m_s = {from = 1e-4, to = 1, points = 5}
-"""
 PRONY = asperity.PronySeries(
     equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
 )
