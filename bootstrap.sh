@@ -133,6 +133,7 @@ demo() {
   install_package plot
   say "asperity demo"
   .venv/bin/asperity demo --output "$PWD/asperity-demo"
+  echo 'next:    .venv/bin/asperity friction asperity-demo/scene.toml --plot mine.png'
 }
 
 # --- the tests ---

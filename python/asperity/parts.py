@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from asperity._core import (
     Adhesion,
     AffineShift,
@@ -149,7 +151,9 @@ def _measure(path: Path, surface: HeightMap, values: Values) -> TabulatedSpectru
     band = arguments(values, _BAND)
     with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
         spectrum = power_spectrum(surface, **settings)
-        return spectrum.truncated(**band) if band else spectrum
+        # beyond the Nyquist wavenumber of the coarser side rings are incomplete
+        band.setdefault("q1", min(np.pi / max(surface.pixel_size), spectrum.q1))
+        return spectrum.truncated(**band)
 
 
 def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:

@@ -185,8 +185,11 @@ def _figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
 
 
 def _picture(figure: "Figure", path: Path) -> bytes:
+    from matplotlib import rc_context
+
     out = io.BytesIO()
-    with warnings.catch_warnings():
+    # text as text: Type 3 fonts and outlines are refused by many journals
+    with warnings.catch_warnings(), rc_context({"pdf.fonttype": 42, "svg.fonttype": "none"}):
         warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
         figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
     return out.getvalue()

@@ -105,7 +105,8 @@ class Scene:
         compute = partial(friction, adhesion=self.adhesion, **self.options)
         parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
-        notes = dict.fromkeys(note for part in parts for note in part.notes)
+        notes = dict.fromkeys(self._surface_notes())
+        notes |= dict.fromkeys(note for part in parts for note in part.notes)
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in COLUMNS
@@ -120,11 +121,22 @@ class Scene:
         parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
         return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
 
+    def _surface_notes(self) -> list[str]:
+        wanted = self.inputs["surface"].get("slope_cutoff")
+        found = self.derived["rms_slope"]
+        if wanted is None or "contamination_size_m" in self.inputs["surface"]:
+            return []
+        if found >= wanted * (1 - 1e-9):
+            return []
+        end = f"{self.derived['q1_per_m']:.4g} 1/m"
+        return [f"slope_cutoff = {wanted} is not reached: the rms slope up to {end} is {found:.3g}"]
+
     def contact_notes(self) -> list[str]:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, poisson_ratio=self.options["poisson_ratio"])
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        return list(dict.fromkeys(note for part in parts for note in part))
+        notes = dict.fromkeys(self._surface_notes())
+        return list(notes | dict.fromkeys(note for part in parts for note in part))
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

@@ -97,7 +97,7 @@ applies_to : {"friction", "area", "both"}
 
 Notes
 -----
-Against boundary elements at q1/q0 = 32 (THEORY section 6) the area is within 7 % for S inside G at gamma = 0.5 and
+Against boundary elements at q1/q0 = 32, random-phase maps, the area is within 7 % for S inside G at gamma = 0.5 and
 within 3 % at 5/9, where Persson's own is 26 % too small at low load.
 )");
   s_factor
@@ -121,7 +121,7 @@ p : float
 
 Notes
 -----
-Against boundary elements at q1/q0 = 32 (THEORY section 6) p = 2 makes the area 31 to 58 % too large for p* up to 0.5,
+Against boundary elements at q1/q0 = 32, random-phase maps, p = 2 makes the area 31 to 58 % too large for p* up to 0.5,
 p = 1.5 makes it 11 to 24 % too large: no single p serves every load.
 )");
   shift

@@ -56,7 +56,7 @@ void bind_common(py::classh<R>& cls) {
 void bind_rubber(py::module_& m) {
   py::classh<PronySeries> prony(m, "PronySeries", R"(E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k).
 
-The angular integrals are closed forms (THEORY section 2). Without terms the rubber is elastic.
+The angular integrals are closed forms, README (6). Without terms the rubber is elastic.
 
 Parameters
 ----------

@@ -218,7 +218,8 @@ Returns
 -------
 TabulatedSpectrum
     `wavenumber` the mean |q| of a ring's modes [1/m], `density` C [m^4], `count` the modes of the full plane in it:
-    sum(density * count) (2 pi)^2 / area is the mean square height (THEORY: Parseval).
+    sum(density * count) (2 pi)^2 / area is the mean square height (Parseval). Rings beyond the Nyquist
+    wavenumber pi / pixel are incomplete: cut there with `truncated` before taking moments or contact from it.
 
 Raises
 ------

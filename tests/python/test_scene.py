@@ -112,9 +112,19 @@ def test_scan_is_measured_as_by_hand(folder: Path) -> None:
 def test_scan_defaults_are_the_cores_and_are_recorded(folder: Path) -> None:
     scene = load_scene(write(folder, SCAN + RUBBER + CONDITIONS))
     surface = asperity.read_surface(folder / "scan.npy", pixel_size=(2e-5, 1e-5), unit="um")
-    assert scene.spectrum == asperity.power_spectrum(surface)
+    whole = asperity.power_spectrum(surface)
+    assert scene.spectrum == whole.truncated(q1=np.pi / 2e-5)  # the coarser side's Nyquist
     assert scene.inputs["surface"]["window"] == "split-cosine-bell"
     assert scene.inputs["surface"]["detrend"] == "plane"
+
+
+@pytest.mark.parametrize(("cutoff", "said"), [(0.05, False), (1e6, True)])
+def test_a_slope_cutoff_that_is_not_reached_is_said(
+    folder: Path, cutoff: float, said: bool
+) -> None:
+    scene = load_scene(write(folder, SCAN + f"slope_cutoff = {cutoff}\n" + RUBBER + CONDITIONS))
+    for notes in (scene.friction().notes, scene.contact_notes()):
+        assert any("is not reached" in note for note in notes) == said
 
 
 def test_smaller_cutoff_wins(folder: Path) -> None:
