@@ -51,7 +51,7 @@ def demo(args: Namespace) -> None:
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
     drawn = "none, pip install asperity[plot]" if missing else str(picture)
     _print(
-        f"surface: {band}, as measured: nothing is extrapolated\n"
+        f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"
         f"table:   {directory / 'friction.csv'}\n"
         f"picture: {drawn}\n"
