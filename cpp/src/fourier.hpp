@@ -28,6 +28,7 @@ class Scratch {
 
  private:
   T* data_;
+  std::size_t bytes_;
 };
 
 /// One-dimensional transforms of length n, planned once (FFTW_ESTIMATE), run from any thread. Every pointer must
@@ -39,13 +40,15 @@ class RealTransform {  // n real numbers to n / 2 + 1 modes; the input is overwr
   void operator()(T* in, std::complex<T>* out) const;
 
  private:
+  std::size_t n_;
   std::shared_ptr<void> plan_;
+  std::vector<std::complex<T>> twiddles_;  // where it goes by a complex transform of half the length
 };
 
 template <class T>
-class ComplexTransform {  // `count` transforms at once, one behind the other; the input is overwritten
+class ComplexTransform {  // `count` transforms at once, `distance` from one to the next; the input is overwritten
  public:
-  ComplexTransform(std::size_t n, std::size_t count);
+  ComplexTransform(std::size_t n, std::size_t count, std::size_t distance);
   void operator()(std::complex<T>* in, std::complex<T>* out) const;
 
  private:

@@ -48,7 +48,12 @@ class RowReader {
   explicit RowReader(const HeightMap& map)
       : data_(std::get<const T*>(map.data())),
         strides_(map.strides()),
+        columns_(map.shape()[1]),
         gathered_(strides_[1] == 1 ? 0 : map.shape()[1]) {}
+  void fetch(std::size_t y) const {
+    const T* const row = data_ + static_cast<std::ptrdiff_t>(y) * strides_[0];
+    for (std::size_t x = 0; x < columns_ && gathered_.empty(); x += 64 / sizeof(T)) __builtin_prefetch(row + x, 0, 2);
+  }
   const T* operator()(std::size_t y) {
     const T* const row = data_ + static_cast<std::ptrdiff_t>(y) * strides_[0];
     if (gathered_.empty()) return row;
@@ -59,6 +64,7 @@ class RowReader {
  private:
   const T* data_;
   HeightMap::Strides strides_;
+  std::size_t columns_;
   std::vector<T> gathered_;
 };
 

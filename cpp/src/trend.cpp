@@ -1,8 +1,10 @@
 #include "trend.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
+#include "pair.hpp"
 #include "surface_rows.hpp"
 #include "threads.hpp"
 
@@ -24,20 +26,31 @@ struct RowSums {
   double power[5] = {}, height[3] = {};
 };
 
-/// Where every point is measured; the powers are the same in all rows.
-template <class T>
+/// Where every point is measured; the powers are the same in all rows. Every eighth point has sums of its own: a
+/// single one would wait for each addition to end.
+template <bool curved, class T>
 void add_heights(RowSums& sums, const T* row, const double* u, std::size_t n, double anchor) {
-  double z0 = 0, z1 = 0, z2 = 0;
-#pragma omp simd reduction(+ : z0, z1, z2)
-  for (std::size_t x = 0; x < n; ++x) {
-    const double z = row[x] - anchor;
-    z0 += z;
-    z1 += u[x] * z;
-    z2 += u[x] * u[x] * z;
-  }
-  sums.height[0] = z0;
-  sums.height[1] = z1;
-  sums.height[2] = z2;
+  constexpr std::size_t lanes = 4;
+  Pair z0[lanes] = {}, z1[lanes] = {}, z2[lanes] = {};
+  const auto add = [&](std::size_t lane, Pair z, Pair at) {
+    z0[lane] += z;
+    z1[lane] += at * z;
+    if constexpr (curved) z2[lane] += at * at * z;
+  };
+  const std::size_t whole = n / (2 * lanes) * (2 * lanes);
+  for (std::size_t x = 0; x < whole; x += 2 * lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t i = x + 2 * lane;
+      add(lane, Pair{row[i] - anchor, row[i + 1] - anchor}, Pair{u[i], u[i + 1]});
+    }
+  for (std::size_t x = whole; x < n; ++x) add(0, Pair{row[x] - anchor, 0}, Pair{u[x], 0});
+  const auto total = [](const Pair* z) {
+    const Pair sum = (z[0] + z[1]) + (z[2] + z[3]);
+    return sum[0] + sum[1];
+  };
+  sums.height[0] = total(z0);
+  sums.height[1] = total(z1);
+  sums.height[2] = total(z2);
 }
 
 template <class T>
@@ -77,11 +90,19 @@ struct Normal {
 // Normal equations in coordinates from -1 to 1 and heights about one of them: neither a large offset nor the unit
 // of length costs digits.
 Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
-    : anchor_(first_height(map)), u_(coordinates(map.shape()[1])), v_(coordinates(map.shape()[0])) {
-  const bool complete = map.dropout_fraction() == 0;
+    : anchor_(first_height(map)),
+      u_(coordinates(map.shape()[1])),
+      v_(coordinates(map.shape()[0])),
+      single_u_(u_.begin(), u_.end()) {
+  const bool complete = map.dropout_fraction() == 0, curved = order == Detrend::quadratic;
   RowSums full;
-  for (const double u : u_)
-    for (int k = 0; k < 5; ++k) full.power[k] += std::pow(u, k);
+  for (const double u : u_) {
+    double power = 1;
+    for (double& sum : full.power) {
+      sum += power;
+      power *= u;
+    }
+  }
   std::vector<Normal> parts(threads, Normal(terms(order)));
   std::visit(
       [&](const auto* data) {
@@ -91,7 +112,8 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
           RowSums sums = full;
           for (std::size_t y = begin; y < end; ++y) {
             if (complete)
-              add_heights(sums, read(y), u_.data(), u_.size(), anchor_);
+              curved ? add_heights<true>(sums, read(y), u_.data(), u_.size(), anchor_)
+                     : add_heights<false>(sums, read(y), u_.data(), u_.size(), anchor_);
             else
               sums = measured_sums(read(y), u_, anchor_);
             parts[part].add(sums, v_[y]);

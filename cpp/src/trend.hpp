@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "asperity/surface.hpp"
@@ -21,13 +22,21 @@ class Trend {
     const double* const u = u_.data();
     for (std::size_t x = 0; x < u_.size(); ++x) result[x] = static_cast<R>(line.residual(u[x], row[x]));
   }
-  /// The same times a weight a point.
-  template <class T, class R>
-  void subtract_and_weigh(std::size_t y, const T* row, double weight, const double* weights, R* result) const {
+  /// The same times a weight a point, in the precision of the heights: the anchor is one of them, so that the first
+  /// difference is as exact as they are.
+  template <class T>
+  void subtract_and_weigh(std::size_t y, const T* row, double weight, const T* weights, T* result) const {
     const Line line = line_at(y);
-    const double* const u = u_.data();
+    const auto anchor = static_cast<T>(line.anchor), constant = static_cast<T>(line.constant),
+               linear = static_cast<T>(line.linear), square = static_cast<T>(line.square);
+    const T scale = static_cast<T>(weight);
+    const T* u;
+    if constexpr (std::is_same_v<T, float>)
+      u = single_u_.data();
+    else
+      u = u_.data();
     for (std::size_t x = 0; x < u_.size(); ++x)
-      result[x] = static_cast<R>(line.residual(u[x], row[x]) * (weight * weights[x]));
+      result[x] = ((row[x] - anchor) - (constant + u[x] * (linear + u[x] * square))) * (scale * weights[x]);
   }
 
  private:
@@ -42,6 +51,7 @@ class Trend {
 
   double anchor_;  // a height of the map: large offsets are taken out against it first
   std::vector<double> u_, v_;
+  std::vector<float> single_u_;
   std::array<double, 6> coefficient_{};  // of 1, u, v, u^2, u v, v^2
 };
 

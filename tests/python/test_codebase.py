@@ -41,9 +41,11 @@ TOPIC = {
     "trend": "surface",
     "surface_rows": "surface",
     "fit_self_affine": "spectrum",
+    "mode_columns": "spectrum",
     "power_spectrum": "spectrum",
     "segments": "spectrum",
     "synthesize": "spectrum",
+    "window": "spectrum",
     "angular_cache": "rubber",
     "master_curve": "rubber",
     "prony": "rubber",
@@ -51,7 +53,7 @@ TOPIC = {
     "persson": "contact",
     "notes": "contact",
 }
-SEAMS = {"checks", "integrate", "fourier", "interpolate", "overloaded", "roots", "threads"}
+SEAMS = {"checks", "integrate", "fourier", "interpolate", "overloaded", "pair", "roots", "threads"}
 # Modules of the Python package, from the lowest to the highest: an import points down.
 LAYERS = ["_core", "fields", "table", "read", "__init__", "demo", "parts", "scene", "plot"]
 LAYERS += ["commands", "cli", "__main__"]
