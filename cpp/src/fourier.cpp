@@ -247,4 +247,13 @@ std::vector<double> backward_transform(std::vector<std::complex<double>>& modes,
   return heights;
 }
 
+std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape) {
+  std::vector<std::complex<double>> modes(shape[0] * (shape[1] / 2 + 1));
+  const auto plan = planned<Fftw<double>>([&] {
+    return fftw_plan_dft_r2c_2d(side(shape[0]), side(shape[1]), heights.data(), raw(modes.data()), FFTW_ESTIMATE);
+  });
+  fftw_execute(static_cast<fftw_plan>(plan.get()));
+  return modes;
+}
+
 }  // namespace asperity

@@ -59,4 +59,7 @@ class ComplexTransform {  // `count` transforms at once, `distance` from one to 
 /// overwritten.
 std::vector<double> backward_transform(std::vector<std::complex<double>>& modes, Grid shape);
 
+/// The ny x (nx / 2 + 1) modes sum h exp(-i (..)) of a real grid, which is overwritten.
+std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape);
+
 }  // namespace asperity

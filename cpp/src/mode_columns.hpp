@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <complex>
 #include <cstring>
-#include <optional>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #ifdef __SSE2__
@@ -12,17 +13,11 @@
 #endif
 
 #include "fourier.hpp"
+#include "preparation.hpp"
 #include "surface_rows.hpp"
 #include "threads.hpp"
-#include "trend.hpp"
 
 namespace asperity {
-
-/// What is done to a map before its transform.
-struct Preparation {
-  std::vector<double> wy, wx;  // window weights
-  std::optional<Trend> trend;  // taken out
-};
 
 /// Copies without reading the target's cache lines first, where the processor can: right for what is next read when
 /// it has left the cache anyway.
@@ -96,6 +91,17 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
       for (std::size_t k = 0; k < columns; ++k) take(part, first + k, out.data() + k * length);
     }
   });
+}
+
+/// The same for heights of either type: take(part, k_x, column) with columns of complex floats or doubles.
+template <class Take>
+void for_each_mode_column(const HeightMap& map, const Preparation& prepared, unsigned threads, Take take) {
+  std::visit(
+      [&](const auto* data) {
+        using T = std::remove_cvref_t<decltype(*data)>;
+        for_each_column<T>(map, prepared, threads, take);
+      },
+      map.data());
 }
 
 }  // namespace asperity

@@ -40,7 +40,8 @@ class MaximumFinder {
   [[nodiscard]] std::size_t at(Index y, Index x) const { return static_cast<std::size_t>(y * nx_ + x); }
 
   [[nodiscard]] bool on_edge(Index y, Index x) const {
-    return !periodic_ && (y == 0 || x == 0 || y == ny_ - 1 || x == nx_ - 1);
+    // the one row of a line scan has no edge across
+    return !periodic_ && ((ny_ > 1 && (y == 0 || y == ny_ - 1)) || (nx_ > 1 && (x == 0 || x == nx_ - 1)));
   }
 
   /// False where a neighbour is higher or one side is unseen; equal neighbours go to `equal` in any case.

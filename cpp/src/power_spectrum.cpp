@@ -8,7 +8,8 @@
 #include "checks.hpp"
 #include "mode_columns.hpp"
 #include "pair.hpp"
-#include "window.hpp"
+#include "reliability.hpp"
+#include "tabulated_spectrum.hpp"
 
 namespace asperity {
 
@@ -37,7 +38,6 @@ class Rings {
   }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
-  [[nodiscard]] double area() const { return ly_ * lx_; }
 
   /// Rings that are being summed, and room for half a column, k_y = 0 .. ny / 2.
   struct Sums {
@@ -101,10 +101,9 @@ class Rings {
   std::vector<double> squared_radius_;  // of k_y = 0 .. ny / 2
 };
 
-template <class T>
 std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads) {
   std::vector<Rings::Sums> sums(threads, Rings::Sums(rings));
-  for_each_column<T>(map, prepared, threads, [&](unsigned part, std::size_t kx, const std::complex<T>* column) {
+  for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
     rings.add_column(kx, column, sums[part]);
   });
   std::vector<Ring> total(rings.size());
@@ -116,42 +115,59 @@ std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Prep
   return total;
 }
 
+/// The heights above (or below) the mean plane, the others set to it, and the share of the points that they are.
+std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detrend> detrend, Part part) {
+  const HeightMap flat = detrend ? map.detrend(*detrend) : map;
+  const double mean = flat.statistics().mean;
+  double points = 0;
+  HeightMap side = map_rows(flat, [&](std::size_t, std::span<double> row) {
+    for (double& z : row) {
+      const bool mine = part == Part::top ? z > mean : z < mean;
+      z = mine ? z - mean : 0;
+      points += mine;
+    }
+  });
+  const auto [ny, nx] = map.shape();
+  return {std::move(side), points / (static_cast<double>(ny) * static_cast<double>(nx))};
+}
+
 }  // namespace
 
-TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
-                                 unsigned threads) {
-  if (map.dropout_fraction() > 0)
-    throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
-                       " %), fill_dropouts must come before power_spectrum");
-  const auto [ny, nx] = map.shape();
-  if (ny < 2 || nx < 2)
-    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must be 2 x 2 or more for a two-dimensional spectrum");
+// |h|^2 of a mode is spread like its own mean (exponentially, for a Gaussian surface), so that its square, whose mean
+// is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike.
+TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
+                                 Part part) {
   if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
-  Preparation prepared{window_weights(window, ny), window_weights(window, nx), {}};
-  if (detrend) prepared.trend.emplace(map, *detrend, threads);
+  if (part != Part::all) {
+    static_cast<void>(prepare(map, window, {}, 1));  // refuses in the name of the map itself
+    const auto [side, share] = one_side(map, detrend, part);
+    const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
+    return share > 0 ? scaled_table(spectrum, 1 / share) : spectrum;  // a constant map has no side
+  }
+  const Preparation prepared = prepare(map, window, detrend, threads);
+  const auto [ny, nx] = map.shape();
+  const auto [dy, dx] = map.pixel_size();
   const Rings rings(map.shape(), map.pixel_size());
-  const std::vector<Ring> sums = std::holds_alternative<const float*>(map.data())
-                                     ? ring_sums<float>(map, rings, prepared, threads)
-                                     : ring_sums<double>(map, rings, prepared, threads);
-
-  // Eqs 26-27 with n = nx ny points: C = A / ((2 pi)^2 n^2) |sum|^2, over the window's mean square.
-  const double n = static_cast<double>(ny) * static_cast<double>(nx);
-  const double scale = rings.area() / (4 * pi * pi * n * n) /
-                       (WindowMoments(prepared.wy).mean_square * WindowMoments(prepared.wx).mean_square);
-  std::vector<double> wavenumber, density, counts;
+  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads);
+  const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
+  const Reliability reliable(window, shorter, std::max(dy, dx), prepared.ring_variance_factor);
+  std::vector<double> wavenumber, density;
+  RowQuality quality;
   for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
     const Ring& sum = sums[ring];
     const double modes = 2 * sum.modes[1];  // k_y and -k_y were counted as one
     if (modes == 0) continue;               // non-square pixels leave rings empty near the corner
     wavenumber.push_back(rings.dq() * 2 * sum.modes[0] / modes);
-    density.push_back(scale * sum.power[0] / modes);
-    counts.push_back(modes);
+    density.push_back(prepared.scale * sum.power[0] / modes);
+    quality.count.push_back(modes);
+    quality.standard_error.push_back(prepared.scale * std::sqrt(prepared.ring_variance_factor * sum.power[1] / 2) /
+                                     modes);
+    quality.flag.push_back(reliable.flag(wavenumber.back(), modes));
   }
   if (wavenumber.size() < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
                        "): must have more points, these make one ring of wavenumbers only");
-  return {std::move(wavenumber), std::move(density), std::move(counts)};
+  return {std::move(wavenumber), std::move(density), std::move(quality)};
 }
 
 }  // namespace asperity

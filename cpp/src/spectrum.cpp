@@ -1,17 +1,15 @@
 #include "asperity/spectrum.hpp"
 
-#include <math.h>  // j0
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "checks.hpp"
-#include "integrate.hpp"
 #include "overloaded.hpp"
 #include "roots.hpp"
 #include "segments.hpp"
+#include "tabulated_spectrum.hpp"
 
 namespace asperity {
 
@@ -94,25 +92,6 @@ SelfAffineSpectrum SelfAffineSpectrum::from_article(double h0, double hurst, dou
   validate(s);
   s.rms_height = h0 * std::sqrt(-std::expm1(-2 * hurst * log_ratio(q0, q1)) / 2);
   return s;
-}
-
-TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density,
-                                     std::vector<double> count)
-    : wavenumber_(std::move(wavenumber)), density_(std::move(density)), count_(std::move(count)) {
-  require_same_size("density", density_.size(), "wavenumber", wavenumber_.size());
-  if (wavenumber_.size() < 2)
-    throw InvalidInput("wavenumber has " + std::to_string(wavenumber_.size()) + " entries: must be 2 or more");
-  require_each_positive("wavenumber", wavenumber_);
-  require_rising("wavenumber", wavenumber_);
-  const auto not_negative = [](std::string_view name, const std::vector<double>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      require_not_negative(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
-  };
-  not_negative("density", density_);
-  if (!count_.empty()) {
-    require_same_size("count", count_.size(), "wavenumber", wavenumber_.size());
-    not_negative("count", count_);
-  }
 }
 
 void validate(const Spectrum& spectrum) {
@@ -228,26 +207,7 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
     cut.rms_height = std::sqrt(2 * pi * top * height_per_density(cut));
     return cut;
   }
-  const auto& table = std::get<TabulatedSpectrum>(spectrum);
-  const bool counted = !table.count().empty();
-  std::vector<double> q, c, n;
-  const auto add = [&](double wavenumber, double value, double count) {
-    q.push_back(wavenumber);
-    c.push_back(value);
-    if (counted) n.push_back(count);
-  };
-  // Between a cut and a zero the straight line would turn into a power law: it cannot be cut there.
-  for (const Segment& s : segments(spectrum))
-    for (const auto& [name, cut] : {std::pair{"q0", q0}, std::pair{"q1", q1}})
-      if (s.straight && s.a < cut && cut < s.b && s.at_a != s.at_b)
-        refuse(name, cut, "at a row where the density beside it is 0, " + show(s.a) + " or " + show(s.b));
-  // A row put in at a cut is no measurement of its own: its count is 0.
-  if (!std::ranges::binary_search(table.wavenumber(), q0)) add(q0, density(spectrum, q0), 0);
-  for (std::size_t i = 0; i < table.wavenumber().size(); ++i)
-    if (table.wavenumber()[i] >= q0 && table.wavenumber()[i] <= q1)
-      add(table.wavenumber()[i], table.density()[i], counted ? table.count()[i] : 0);
-  if (!std::ranges::binary_search(table.wavenumber(), q1)) add(q1, density(spectrum, q1), 0);
-  return TabulatedSpectrum(std::move(q), std::move(c), std::move(n));
+  return truncated_table(std::get<TabulatedSpectrum>(spectrum), q0, q1);
 }
 
 Spectrum scaled(const Spectrum& spectrum, double factor) {
@@ -258,44 +218,7 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
     result.rms_height *= std::sqrt(factor);
     return result;
   }
-  const auto& table = std::get<TabulatedSpectrum>(spectrum);
-  std::vector<double> values = table.density();
-  for (double& value : values) value *= factor;
-  return TabulatedSpectrum(table.wavenumber(), std::move(values), table.count());
-}
-
-// A rule a piece: no piece is longer than a period of J0 or than a factor e in q. A falling power law is left
-// as soon as what remains cannot matter: by parts |int_Q q C J0| <= 2 C(Q) sqrt(2 Q / (pi r^3)).
-std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const double> distance) {
-  const std::vector<Segment> pieces = segments(spectrum);
-  const double at_zero = total_moment(spectrum, 1) / (2 * pi);
-  constexpr double negligible = 1e-10;
-  std::vector<double> result;
-  for (const double r : distance) {
-    require_not_negative("distance", r);
-    double sum = 0;
-    std::size_t steps = 0;
-    for (const Segment& s : pieces) {
-      for (double q = s.a; q < s.b;) {
-        const bool falling = !s.straight && s.slope < 0 && &s == &pieces.back();
-        if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero) break;
-        double next = q * std::numbers::e;
-        if (r > 0) next = std::min(next, q + 2 * pi / r);
-        if (++steps > 1'000'000)
-          throw NotConverged("distance = " + show(r) + ": the spectrum up to " + show(s.b) +
-                             " 1/m makes more than 10^6 oscillations, of which the sum is below rounding");
-        next = std::min(next, s.b);
-        const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };
-        Integral piece = integrate_smooth(rate, q, next);
-        if (piece.error > negligible * at_zero / static_cast<double>(pieces.size()))
-          piece = integrate(rate, q, next, negligible, negligible * at_zero / static_cast<double>(pieces.size()));
-        sum += piece.value;
-        q = next;
-      }
-    }
-    result.push_back(2 * pi * sum);
-  }
-  return result;
+  return scaled_table(std::get<TabulatedSpectrum>(spectrum), factor);
 }
 
 }  // namespace asperity

@@ -101,6 +101,27 @@ HeightStatistics HeightMap::statistics() const {
   return s;
 }
 
+HeightHistogram HeightMap::height_histogram(std::size_t bins) const {
+  if (bins < 1 || bins > 1'000'000) refuse("bins", static_cast<double>(bins), "from 1 to 10^6");
+  const HeightStatistics s = statistics();
+  const double lower = s.z_min, upper = s.z_max, width = (upper - lower) / static_cast<double>(bins);
+  if (!(width > 0)) throw InvalidInput("heights: are all the same, must differ for a histogram");
+  HeightHistogram histogram{std::vector<double>(bins + 1), std::vector<double>(bins, 0.0)};
+  for (std::size_t i = 0; i <= bins; ++i) histogram.edges[i] = lower + width * static_cast<double>(i);
+  histogram.edges.back() = upper;
+  double points = 0;
+  for_each_row(*this, [&](std::size_t, std::span<const double> row) {
+    for (const double height : row) {
+      if (std::isnan(height)) continue;
+      const auto bin = static_cast<std::size_t>(std::fmax(0, (height - s.mean - lower) / width));
+      ++histogram.density[std::min(bin, bins - 1)];
+      ++points;
+    }
+  });
+  for (double& density : histogram.density) density /= points * width;
+  return histogram;
+}
+
 double HeightMap::rms_slope() const {
   const auto [ny, nx] = shape_;
   if (ny < 3 || nx < 3)

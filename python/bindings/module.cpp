@@ -13,6 +13,8 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_errors(m);
   bind_surface(m);
   bind_spectrum(m);
+  bind_scan_spectrum(m);
+  bind_self_affine(m);
   bind_rubber(m);
   bind_asperities(m);
   bind_correction(m);

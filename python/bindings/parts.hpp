@@ -1,4 +1,4 @@
-// The parts of the module, each binding one header of the core.
+// The parts of the module, each binding one topic of the core.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,6 +8,8 @@ namespace asperity::python {
 void bind_errors(pybind11::module_& m);
 void bind_surface(pybind11::module_& m);
 void bind_spectrum(pybind11::module_& m);
+void bind_scan_spectrum(pybind11::module_& m);
+void bind_self_affine(pybind11::module_& m);
 void bind_rubber(pybind11::module_& m);
 void bind_asperities(pybind11::module_& m);
 void bind_correction(pybind11::module_& m);

@@ -5,15 +5,12 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "parts.hpp"
-#include "surface.hpp"
+#include "rows.hpp"
 #include "value.hpp"
 
 namespace asperity::python {
 
 namespace {
-
-const auto windows = {std::pair{"split-cosine-bell", Window::split_cosine_bell}, std::pair{"hann", Window::hann},
-                      std::pair{"none", Window::none}};
 
 /// What both spectra can do.
 template <class S>
@@ -37,6 +34,17 @@ void bind_common(py::classh<S>& cls) {
           },
           py::kw_only(), py::arg("q0") = py::none(), py::arg("q1") = py::none(),
           "The same densities on a narrower band [1/m]; a new spectrum. InvalidInput where it would be wider.")
+      .def(
+          "line_density",
+          [](const S& s, const py::object& q) {
+            const Array array = real_array(q, "wavenumber");
+            auto values = line_density(s, std::span(array.data(), static_cast<std::size_t>(array.size())));
+            return shaped(std::move(values), Shape(array.shape(), array.shape() + array.ndim()));
+          },
+          py::arg("wavenumber"),
+          "C1D(q) = int C(sqrt(q^2 + k^2)) dk over all k [m^3] at `wavenumber` [1/m], any shape: the two-sided "
+          "spectrum "
+          "of a profile of this surface.")
       .def(
           "cutoff_for_slope", [](const S& s, double slope) { return cutoff_for_slope(s, slope); },
           py::arg("slope") = 1.3,
@@ -129,25 +137,20 @@ density : array_like, shape (n,)
     C(q) [m^4], not negative.
 count : array_like, shape (n,), optional
     Modes averaged in each row: the weights of a fit.
+standard_error : array_like, shape (n,), optional
+    Of the density [m^4].
+flag : array_like of int, shape (n,), optional
+    Why a row is not to be trusted, a sum of 1: fewer than 16 (split cosine bell) or 10 (Hann) periods on the scan;
+    2: above half of pi / pixel, where what is finer than the pixels is folded back; 4: so few modes that their mean
+    is uncertain by more than a quarter. 0: reliable.
 
 Raises
 ------
 InvalidInput
 )");
   table
-      .def(py::init([](const py::object& q, const py::object& c, const py::object& n) {
-             return TabulatedSpectrum(vector_of(q, "wavenumber"), vector_of(c, "density"),
-                                      n.is_none() ? std::vector<double>{} : vector_of(n, "count"));
-           }),
-           py::kw_only(), py::arg("wavenumber"), py::arg("density"), py::arg("count") = py::none())
-      .def_property_readonly(
-          "wavenumber", [](const TabulatedSpectrum& s) { return flat(s.wavenumber()); }, "q [1/m], shape (n,).")
-      .def_property_readonly(
-          "density", [](const TabulatedSpectrum& s) { return flat(s.density()); }, "C [m^4], shape (n,).")
-      .def_property_readonly(
-          "count",
-          [](const TabulatedSpectrum& s) { return s.count().empty() ? py::object(py::none()) : flat(s.count()); },
-          "Modes in each row, shape (n,), or None.")
+      .def(py::init(&make_rows<TabulatedSpectrum>), py::kw_only(), py::arg("wavenumber"), py::arg("density"),
+           py::arg("count") = py::none(), py::arg("standard_error") = py::none(), py::arg("flag") = py::none())
       .def_property_readonly(
           "rms_height", [](const TabulatedSpectrum& s) { return rms_height(s); }, "sqrt(2 pi int q C dq) [m].")
       .def_property_readonly(
@@ -155,140 +158,7 @@ InvalidInput
       .def_property_readonly(
           "q1", [](const TabulatedSpectrum& s) { return band(s)[1]; }, "Last row [1/m].");
   bind_common(table);
-  value_semantics(table, {"wavenumber", "density", "count"});
-
-  py::classh<SelfAffineFit>(m, "SelfAffineFit", "A power law through a measured spectrum (fit_self_affine).")
-      .def(py::init(
-               [](const SelfAffineSpectrum& spectrum, const std::map<std::string, double>& errors, std::size_t rows) {
-                 if (errors.size() != 2 || !errors.contains("rms_height") || !errors.contains("hurst"))
-                   throw InvalidInput("standard_errors: must have rms_height and hurst, and nothing else");
-                 return SelfAffineFit{spectrum, errors.at("rms_height"), errors.at("hurst"), rows};
-               }),
-           py::kw_only(), py::arg("spectrum"), py::arg("standard_errors"), py::arg("rows"))
-      .def_property_readonly(
-          "rms_height", [](const SelfAffineFit& f) { return f.spectrum.rms_height; }, "h_rms on [q0, q1] [m].")
-      .def_property_readonly(
-          "hurst", [](const SelfAffineFit& f) { return f.spectrum.hurst; }, "H [-].")
-      .def_property_readonly(
-          "q0", [](const SelfAffineFit& f) { return f.spectrum.q0; }, "First row used [1/m].")
-      .def_property_readonly(
-          "q1", [](const SelfAffineFit& f) { return f.spectrum.q1; }, "Last row used [1/m].")
-      .def_readonly("spectrum", &SelfAffineFit::spectrum, "The fit as a SelfAffineSpectrum.")
-      .def_readonly("rows", &SelfAffineFit::rows, "Rows of the spectrum that were used.")
-      .def_property_readonly(
-          "standard_errors",
-          [](const SelfAffineFit& f) {
-            return std::map<std::string, double>{{"rms_height", f.rms_height_error}, {"hurst", f.hurst_error}};
-          },
-          "{'rms_height': [m], 'hurst': [-]}, from the scatter of the rows about the line.");
-  value_semantics(m.attr("SelfAffineFit"), {"spectrum", "standard_errors", "rows"});
-
-  m.def(
-      "power_spectrum",
-      [](const py::object& scan, const std::string& window, const std::optional<std::string>& detrend,
-         long long threads) {
-        if (threads < 1 || threads > 1024)
-          throw InvalidInput("threads = " + std::to_string(threads) + ": must be from 1 to 1024");
-        const auto& surface = object_of<HeightMap>(scan, "surface", "a HeightMap");
-        const auto w = choice<Window>("window", window, windows);
-        const auto d = detrend ? std::optional(detrend_of("detrend", *detrend)) : std::nullopt;
-        const py::gil_scoped_release release;
-        return power_spectrum(surface, w, d, static_cast<unsigned>(threads));
-      },
-      py::arg("surface"), py::kw_only(), py::arg("window") = "split-cosine-bell", py::arg("detrend") = "plane",
-      py::arg("threads") = 1,
-      R"(Radially averaged roughness spectrum of a map (Eqs 25-27).
-
-Detrended, windowed, transformed; |h(q)|^2 averaged over rings round(|q| / dq), dq = 2 pi / longest side, out to the
-corner of the plane. The mean square of the window is divided out.
-
-Parameters
-----------
-surface : HeightMap
-    Without drop-outs.
-window : {"split-cosine-bell", "hann", "none"}
-    "none" is right for periodic maps only.
-detrend : {"plane", "quadratic", "offset", None}
-threads : int
-    Threads of its own that the call may use. The sums then differ in rounding.
-
-float32 maps are transformed in single precision, whose noise lies some 14 decades below the highest density.
-
-Returns
--------
-TabulatedSpectrum
-    `wavenumber` the mean |q| of a ring's modes [1/m], `density` C [m^4], `count` the modes of the full plane in it:
-    sum(density * count) (2 pi)^2 / area is the mean square height (Parseval). Rings beyond the Nyquist
-    wavenumber pi / pixel are incomplete: cut there with `truncated` before taking moments or contact from it.
-
-Raises
-------
-InvalidInput
-    Drop-outs, fewer than 2 x 2 points.
-)");
-  m.def(
-      "fit_self_affine",
-      [](const py::object& measured, std::optional<double> q_min, std::optional<double> q_max) {
-        const auto& spectrum = object_of<TabulatedSpectrum>(measured, "spectrum", "a TabulatedSpectrum");
-        const py::gil_scoped_release release;
-        return fit_self_affine(spectrum, q_min, q_max);
-      },
-      py::arg("spectrum"), py::kw_only(), py::arg("q_min") = py::none(), py::arg("q_max") = py::none(),
-      R"(A self-affine power law through a spectrum: H = |slope| / 2 - 1 (Eq. 28) and the rms height on the band.
-
-Least squares in ln C over ln q, each row weighted by its count where it has one.
-
-Parameters
-----------
-spectrum : TabulatedSpectrum
-q_min, q_max : float, optional
-    Rows used [1/m]. Under a window the rows below some 16 periods a side read high: leave them out.
-
-Returns
--------
-SelfAffineFit
-
-Raises
-------
-InvalidInput
-    Fewer than 3 rows, a density of zero among them, a slope that gives no H in (0, 1].
-)");
-  m.def(
-      "synthesize",
-      [](const py::object& spectrum, const std::array<long long, 2>& shape, const PixelSizeArgument& pixel_size,
-         long long seed) {
-        if (shape[0] < 0 || shape[1] < 0)
-          throw InvalidInput("shape = (" + std::to_string(shape[0]) + ", " + std::to_string(shape[1]) +
-                             "): must be 2 x 2 or more");
-        if (seed < 0) throw InvalidInput("seed = " + std::to_string(seed) + ": must not be negative");
-        const HeightMap::Shape grid{static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1])};
-        const Spectrum target = spectrum_of(spectrum);
-        const py::gil_scoped_release release;
-        return synthesize(target, grid, pixel_size_of(pixel_size), static_cast<std::uint64_t>(seed));
-      },
-      py::arg("spectrum"), py::kw_only(), py::arg("shape"), py::arg("pixel_size"), py::arg("seed"),
-      R"(A periodic map with random phases whose modes have exactly the densities of the spectrum.
-
-Parameters
-----------
-spectrum : SelfAffineSpectrum or TabulatedSpectrum
-    What of its band the grid's modes, from 2 pi / side to the Nyquist corner, do not hold is left out.
-shape : (int, int)
-    (ny, nx), 2 or more each.
-pixel_size : float or (float, float)
-    [m], or (dy, dx).
-seed : int
-    The same map for the same seed on every machine (splitmix64), to rounding.
-
-Returns
--------
-HeightMap
-
-Raises
-------
-InvalidInput
-    The band holds no mode of the grid at all.
-)");
+  bind_rows(table, "C [m^4]");
 }
 
 }  // namespace asperity::python

@@ -2,8 +2,10 @@
 
 #include <pybind11/stl.h>
 
-#include "arguments.hpp"
+#include <cmath>
+
 #include "arrays.hpp"
+#include "heights.hpp"
 #include "parts.hpp"
 #include "surface.hpp"
 #include "value.hpp"
@@ -12,67 +14,111 @@ namespace asperity::python {
 
 namespace {
 
-/// One of the statistics, computed without the GIL.
-template <class F>
-auto statistic(F f) {
-  return [f](const HeightMap& map) {
-    const py::gil_scoped_release release;
-    return f(map);
-  };
-}
+/// What maps and line scans can do alike.
+template <class S>
+void bind_heights(py::classh<S>& cls) {
+  cls.def_property_readonly("dropout_fraction", &S::dropout_fraction, "Share of points not measured.")
+      .def_property_readonly("rms_height", statistic<S>([](const S& s) { return s.statistics().rms_height; }),
+                             "Root mean square height [m].")
+      .def_property_readonly("rms_slope", statistic<S>([](const S& s) { return s.rms_slope(); }),
+                             "sqrt(<(dh/dx)^2> + <(dh/dy)^2>) [-], central differences at inner points.")
+      .def_property_readonly("skewness", statistic<S>([](const S& s) { return s.statistics().skewness; }),
+                             "<z^3> / rms^3 [-].")
+      .def_property_readonly("kurtosis", statistic<S>([](const S& s) { return s.statistics().kurtosis; }),
+                             "<z^4> / rms^4 [-]; 3 for Gaussian heights.")
+      .def_property_readonly("z_max", statistic<S>([](const S& s) { return s.statistics().z_max; }),
+                             "Highest point above the mean plane [m].")
+      .def_property_readonly("z_min", statistic<S>([](const S& s) { return s.statistics().z_min; }),
+                             "Lowest point, negative [m].")
+      .def(
+          "height_histogram",
+          [](const S& s, long long bins) {
+            if (bins < 1) throw InvalidInput("bins = " + std::to_string(bins) + ": must be from 1 to 10^6");
+            HeightHistogram histogram;
+            {
+              const py::gil_scoped_release release;
+              histogram = s.height_histogram(static_cast<std::size_t>(bins));
+            }
+            return py::make_tuple(flat(std::move(histogram.edges)), flat(std::move(histogram.density)));
+          },
+          py::kw_only(), py::arg("bins") = 100,
+          "(edges, density) of the heights about their mean in equal `bins`: [m], shape (bins + 1,), and [1/m], shape "
+          "(bins,), whose integral is 1. InvalidInput where all heights are the same.")
+      .def("fill_dropouts", &S::fill_dropouts, py::kw_only(), py::arg("max_fraction") = 0.10,
+           py::call_guard<py::gil_scoped_release>(),
+           R"(Drop-outs replaced by linear interpolation; a new object.
 
-/// Keeps a NumPy array alive from inside the core; letting go of it takes the GIL.
-std::shared_ptr<const void> keep_alive(py::array array) {
-  return {new py::array(std::move(array)), [](const void* p) {
-            const py::gil_scoped_acquire gil;
-            delete static_cast<const py::array*>(p);
-          }};
-}
+On a map between measured points along the row and along the column, the two weighted by the inverse square of their
+gaps, so that a plane comes back exactly; on a line scan between the neighbours. What lies outside of the measured hull
+takes the height of the nearest known point. Measured points stay as they are.
 
-/// float32 stays what it is, in whatever byte order it came; other real types become float64.
-py::dtype float_type(const py::dtype& found) {
-  return py::dtype(found.kind() == 'f' && found.itemsize() == 4 ? "f4" : "f8");
+Parameters
+----------
+max_fraction : float
+    Largest share of drop-outs that is accepted; 0.10 after the article's Section 5.2.
+
+Raises
+------
+InvalidInput
+    More drop-outs than that.
+)")
+      .def(
+          "detrend",
+          [](const S& s, const std::string& order) {
+            const Detrend d = detrend_of("order", order);
+            const py::gil_scoped_release release;
+            return s.detrend(d);
+          },
+          py::arg("order"),
+          R"(The heights without its least-squares "offset", "plane" or "quadratic" surface; a new object.
+
+Of a line scan: offset, straight line, parabola.
+
+Fitted to the measured points; drop-outs stay drop-outs.
+)")
+      .def("affine_shift", &S::affine_shift, py::arg("p"), py::call_guard<py::gil_scoped_release>(),
+           R"(h_T = (h - z_max) / p + z_max (the article's Eq. 9) of heights above the mean plane; a new object.
+
+Its mean is z_max (1 - 1/p), its highest point stays, its spectrum is C / p^2. `p` >= 1 [-].
+)")
+      .def(
+          "local_peaks",
+          [](const S& s, double min_distance, bool periodic) {
+            std::vector<double> peaks;
+            {
+              const py::gil_scoped_release release;
+              peaks = s.local_peaks(min_distance, periodic);
+            }
+            return shaped(std::move(peaks), {static_cast<py::ssize_t>(peaks.size())});
+          },
+          py::kw_only(), py::arg("min_distance"), py::arg("periodic") = false,
+          R"(Heights [m] above the mean plane of the local peaks, highest first (Section 3.1, for Eq. 13).
+
+Maxima among their eight neighbours, taken from the highest down, each no closer than `min_distance` [m] to one
+taken before. On a map that is not periodic, points on the edge are no peaks. A plateau counts once.
+
+Raises
+------
+InvalidInput
+    `min_distance` not positive, drop-outs not filled.
+)");
 }
 
 HeightMap make_map(const py::object& heights, const PixelSizeArgument& pixel_size) {
-  const py::module_ numpy = py::module_::import("numpy");
-  py::object values = heights;
-  if (py::isinstance(values, numpy.attr("ma").attr("MaskedArray")))  // masked points are drop-outs
-    values =
-        numpy.attr("ma").attr("filled")(values.attr("astype")(float_type(values.attr("dtype"))), numpy.attr("nan"));
-  py::array array = py::array::ensure(values);
-  if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos) {
-    PyErr_Clear();
-    throw InvalidInput("heights = " + brief(heights) + ": must be an array of real numbers");
-  }
-  const py::dtype type = float_type(array.dtype());
-  if (!array.dtype().equal(type)) array = array.attr("astype")(type);
-  const bool single = type.itemsize() == 4;
-  if (array.ndim() != 2)
-    throw InvalidInput("heights has " + std::to_string(array.ndim()) + " dimensions: must have 2, (ny, nx)");
-  const py::ssize_t item = array.itemsize();
-  const bool packed = array.strides(0) % item != 0 || array.strides(1) % item != 0;  // fields of packed records
-  if (packed || !array.attr("flags").attr("aligned").cast<bool>()) array = array.attr("copy")();
-  const HeightMap::Data data = single ? HeightMap::Data(static_cast<const float*>(array.data()))
-                                      : HeightMap::Data(static_cast<const double*>(array.data()));
-  const HeightMap::Strides strides{array.strides(0) / item, array.strides(1) / item};
-  const HeightMap::Shape shape{static_cast<std::size_t>(array.shape(0)), static_cast<std::size_t>(array.shape(1))};
-  return {data, strides, keep_alive(array), shape, pixel_size_of(pixel_size)};
+  const HeightArray h = height_array(heights, 2, "(ny, nx)");
+  return {h.data, {h.strides[0], h.strides[1]}, h.owner, {h.shape[0], h.shape[1]}, pixel_size_of(pixel_size)};
 }
 
 /// A read-only view of the map's own numbers.
 py::array heights_view(const py::object& self) {
   const auto& map = self.cast<const HeightMap&>();
-  return std::visit(
-      [&](const auto* data) {
-        using T = std::remove_cvref_t<decltype(*data)>;
-        const auto item = static_cast<py::ssize_t>(sizeof(T));
-        py::array_t<T> view({static_cast<py::ssize_t>(map.shape()[0]), static_cast<py::ssize_t>(map.shape()[1])},
-                            {map.strides()[0] * item, map.strides()[1] * item}, data, self);
-        view.attr("setflags")(py::arg("write") = false);
-        return py::array(view);
-      },
-      map.data());
+  return view_of(map.data(), {map.shape()[0], map.shape()[1]}, {map.strides()[0], map.strides()[1]}, self);
+}
+
+void require_spacing(double spacing) {
+  if (!(spacing > 0) || !std::isfinite(spacing))
+    throw InvalidInput("spacing = " + py::repr(py::cast(spacing)).cast<std::string>() +
+                       ": must be positive and finite");
 }
 
 const auto detrends = {std::pair{"offset", Detrend::offset}, std::pair{"plane", Detrend::plane},
@@ -120,77 +166,43 @@ Examples
       .def_property_readonly("heights", &heights_view, "Heights [m], shape (ny, nx); a read-only view.")
       .def_property_readonly(
           "pixel_size", [](const HeightMap& s) { return py::make_tuple(s.pixel_size()[0], s.pixel_size()[1]); },
-          "(dy, dx) [m].")
-      .def_property_readonly("dropout_fraction", &HeightMap::dropout_fraction, "Share of points not measured.")
-      .def_property_readonly("rms_height", statistic([](const HeightMap& s) { return s.statistics().rms_height; }),
-                             "Root mean square height [m].")
-      .def_property_readonly("rms_slope", statistic([](const HeightMap& s) { return s.rms_slope(); }),
-                             "sqrt(<(dh/dx)^2> + <(dh/dy)^2>) [-], central differences at inner points.")
-      .def_property_readonly("skewness", statistic([](const HeightMap& s) { return s.statistics().skewness; }),
-                             "<z^3> / rms^3 [-].")
-      .def_property_readonly("kurtosis", statistic([](const HeightMap& s) { return s.statistics().kurtosis; }),
-                             "<z^4> / rms^4 [-]; 3 for Gaussian heights.")
-      .def_property_readonly("z_max", statistic([](const HeightMap& s) { return s.statistics().z_max; }),
-                             "Highest point above the mean plane [m].")
-      .def_property_readonly("z_min", statistic([](const HeightMap& s) { return s.statistics().z_min; }),
-                             "Lowest point, negative [m].")
-      .def("fill_dropouts", &HeightMap::fill_dropouts, py::kw_only(), py::arg("max_fraction") = 0.10,
-           py::call_guard<py::gil_scoped_release>(),
-           R"(Drop-outs replaced by linear interpolation; a new map.
+          "(dy, dx) [m].");
+  bind_heights(map);
+  value_semantics(map, {"heights", "pixel_size"});
 
-Between measured points along the row and along the column, the two weighted by the inverse square of their gaps;
-repeated until every bracketed point is filled, so that a plane comes back exactly. What lies outside of the
-measured hull takes the height of the nearest known point. Measured points stay as they are.
+  py::classh<LineScan> line(m, "LineScan",
+                            R"(Heights of a surface along a line, at equal distances; constant after construction.
 
 Parameters
 ----------
-max_fraction : float
-    Largest share of drop-outs that is accepted; 0.10 after the article's Section 5.2.
+heights : array_like, shape (n,)
+    Heights [m]; NaN (or a masked entry) marks a drop-out. Shared, not copied, as those of a HeightMap.
+spacing : float
+    Distance of the points [m].
+
+Statistics refer to the mean height of the measured points.
 
 Raises
 ------
 InvalidInput
-    More drop-outs than that.
-)")
-      .def(
-          "detrend",
-          [](const HeightMap& s, const std::string& order) {
-            const Detrend d = detrend_of("order", order);
-            const py::gil_scoped_release release;
-            return s.detrend(d);
-          },
-          py::arg("order"),
-          R"(The map without its least-squares "offset", "plane" or "quadratic" surface; a new map.
-
-Fitted to the measured points; drop-outs stay drop-outs.
-)")
-      .def("affine_shift", &HeightMap::affine_shift, py::arg("p"), py::call_guard<py::gil_scoped_release>(),
-           R"(h_T = (h - z_max) / p + z_max (the article's Eq. 9) of heights above the mean plane; a new map.
-
-Its mean is z_max (1 - 1/p), its highest point stays, its spectrum is C / p^2. `p` >= 1 [-].
-)")
-      .def(
-          "local_peaks",
-          [](const HeightMap& s, double min_distance, bool periodic) {
-            std::vector<double> peaks;
-            {
-              const py::gil_scoped_release release;
-              peaks = s.local_peaks(min_distance, periodic);
-            }
-            return shaped(std::move(peaks), {static_cast<py::ssize_t>(peaks.size())});
-          },
-          py::kw_only(), py::arg("min_distance"), py::arg("periodic") = false,
-          R"(Heights [m] above the mean plane of the local peaks, highest first (Section 3.1, for Eq. 13).
-
-Maxima among their eight neighbours, taken from the highest down, each no closer than `min_distance` [m] to one
-taken before. On a map that is not periodic, points on the edge are no peaks. A plateau counts once.
-
-Raises
-------
-InvalidInput
-    `min_distance` not positive, drop-outs not filled.
+    Not one-dimensional, empty, infinite heights, every point a drop-out, spacing not positive.
 )");
-  value_semantics(map, {"heights", "pixel_size"});
+  line.def(py::init([](const py::object& heights, double spacing) {
+             const HeightArray h = height_array(heights, 1, "(n,)");
+             require_spacing(spacing);
+             return LineScan(h.data, h.strides[0], h.owner, h.shape[0], spacing);
+           }),
+           py::arg("heights"), py::kw_only(), py::arg("spacing"))
+      .def_property_readonly(
+          "heights",
+          [](const py::object& self) {
+            const HeightMap& row = self.cast<const LineScan&>().row();
+            return view_of(row.data(), {row.shape()[1]}, {row.strides()[1]}, self);
+          },
+          "Heights [m], shape (n,); a read-only view.")
+      .def_property_readonly("spacing", &LineScan::spacing, "[m].");
+  bind_heights(line);
+  value_semantics(line, {"heights", "spacing"});
 }
 
 }  // namespace asperity::python

@@ -69,14 +69,14 @@ TEST_CASE("a periodic map carries exactly its spectrum, and a transform gives it
   const HeightMap map = synthesize(s, {96, 128}, {1e-6, 1.5e-6}, 7);
   const TabulatedSpectrum found = power_spectrum(map, Window::none, std::nullopt);
   double sum = 0;
-  for (std::size_t i = 0; i < found.count().size(); ++i) sum += found.density()[i] * found.count()[i];
+  for (std::size_t i = 0; i < found.quality().count.size(); ++i) sum += found.density()[i] * found.quality().count[i];
   const double area = 96e-6 * 192e-6;
   CHECK_NEAR(sum * 4 * pi * pi / area, std::pow(map.statistics().rms_height, 2), 1e-12, 0);
   // a ring far inside the band averages the power law over its width only
-  for (std::size_t i = 0; i < found.count().size(); ++i)
+  for (std::size_t i = 0; i < found.quality().count.size(); ++i)
     if (found.wavenumber()[i] > 1.5 * s.q0 && found.wavenumber()[i] < s.q1 / 1.2)
       CHECK(found.density()[i] == doctest::Approx(density(s, found.wavenumber()[i])).epsilon(0.1));
-  const SelfAffineFit fit = fit_self_affine(found, 1.5 * s.q0, s.q1 / 1.2);
+  const SelfAffineFit fit = fit_self_affine(found, {.q_min = 1.5 * s.q0, .q_max = s.q1 / 1.2});
   CHECK(fit.spectrum.hurst == doctest::Approx(0.7).epsilon(0.02));
 }
 

@@ -198,8 +198,9 @@ FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
 @pytest.mark.parametrize(
     ("heights", "arguments", "reason"),
     [
-        (FLAT, [], "density[0] = 0: must be positive for a fit"),
-        (NOISE, [], "spectrum: falls as q^"),
+        (FLAT, [], "spectrum: 0 reliable rows, must be 3 or more for a fit"),
+        (FLAT, ["--q-min", "1"], "density[0] = 0: must be positive for a fit"),
+        (NOISE, ["--q-min", "5e5"], "spectrum: falls as q^"),
         (NOISE, ["--q-min", "1e9"], "--q-min, --q-max: 0 rows of the spectrum in [1000000000, "),
     ],
 )

@@ -27,18 +27,33 @@ struct ASPERITY_EXPORT SelfAffineSpectrum {
   static SelfAffineSpectrum from_article(double h0, double hurst, double q0, double q1);
 };
 
+/// Why a row of a measured spectrum is not to be trusted: bits of RowQuality::flag.
+enum RowFlag : std::uint8_t {
+  few_periods = 1,   // fewer than 16 (split cosine bell) or 10 (Hann) periods on the scan: the window smears them
+  near_nyquist = 2,  // beyond half of pi / pixel: what lies beyond pi / pixel is folded back, 5 % at H = 0.8
+  few_modes = 4      // so few that their mean is uncertain by more than a quarter
+};
+
+/// What a measurement says of each row of a spectrum; a vector is empty or has an entry a row.
+struct RowQuality {
+  std::vector<double> count;           // modes averaged: the weights of a fit
+  std::vector<double> standard_error;  // of the density, in its unit
+  std::vector<std::uint8_t> flag;      // RowFlag bits, 0: reliable
+  bool operator==(const RowQuality&) const = default;
+};
+
 /// Densities at given wavenumbers, log-log linear between rows (linear in q beside a zero).
 class ASPERITY_EXPORT TabulatedSpectrum {
  public:
-  /// `count` (optional): modes averaged in each row, the weights of a fit.
-  TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, std::vector<double> count = {});
+  TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality = {});
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
   [[nodiscard]] const std::vector<double>& density() const { return density_; }
-  [[nodiscard]] const std::vector<double>& count() const { return count_; }
+  [[nodiscard]] const RowQuality& quality() const { return quality_; }
   bool operator==(const TabulatedSpectrum&) const = default;
 
  private:
-  std::vector<double> wavenumber_, density_, count_;
+  std::vector<double> wavenumber_, density_;
+  RowQuality quality_;
 };
 
 using Spectrum = std::variant<SelfAffineSpectrum, TabulatedSpectrum>;
@@ -67,26 +82,91 @@ ASPERITY_EXPORT Spectrum scaled(const Spectrum& spectrum, double factor);
 /// <h(x) h(0)> = 2 pi int q C(q) J0(q |x|) dq [m^2], the inverse of Eq. 6, at each distance [m].
 ASPERITY_EXPORT std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const double> distance);
 
+/// C1D(q) = int C(sqrt(q^2 + k^2)) dk over all k [m^3]: the two-sided spectrum of a line across the surface, whose
+/// integral over positive and negative q is h_rms^2.
+ASPERITY_EXPORT std::vector<double> line_density(const Spectrum& spectrum, std::span<const double> wavenumber);
+
 enum class Window { split_cosine_bell, hann, none };
+/// Which heights count: those above the mean plane alone make the top spectrum, those below it the bottom one.
+enum class Part { all, top, bottom };
 
 /// The radial spectrum of a map (Eqs 25-27): detrended, windowed, transformed, averaged over rings of width
 /// dq = 2 pi / longest side. The window's mean square is divided out. Drop-outs must have been filled.
 ASPERITY_EXPORT TabulatedSpectrum power_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
-                                                 std::optional<Detrend> detrend = Detrend::plane, unsigned threads = 1);
+                                                 std::optional<Detrend> detrend = Detrend::plane, unsigned threads = 1,
+                                                 Part part = Part::all);
 
-/// A power law through a spectrum, with standard errors of rms_height, hurst.
+/// C over the whole plane of wavevectors, both rising: wavenumber_y (ny), wavenumber_x (nx) [1/m], density
+/// row by row [m^4].
+struct SpectralDensity {
+  std::vector<double> wavenumber_y, wavenumber_x, density;
+};
+ASPERITY_EXPORT SpectralDensity spectral_density(const HeightMap& map, Window window = Window::split_cosine_bell,
+                                                 std::optional<Detrend> detrend = Detrend::plane);
+
+/// Principal axes of the mean square slopes <dh/dx_i dh/dx_j> of a band (M. S. Longuet-Higgins, Phil. Trans. R. Soc.
+/// Lond. A 249, 321 (1957)).
+struct Anisotropy {
+  double across, along;  // rms slopes [-], across >= along
+  double direction;      // of the lay, along which the slope is least: angle from x towards y in (-pi/2, pi/2] [rad]
+};
+/// Over wavenumbers in [q_min, q_max]; by default those whose rows are reliable in `power_spectrum`.
+ASPERITY_EXPORT Anisotropy anisotropy(const HeightMap& map, Window window = Window::split_cosine_bell,
+                                      std::optional<Detrend> detrend = Detrend::plane,
+                                      std::optional<double> q_min = std::nullopt,
+                                      std::optional<double> q_max = std::nullopt);
+
+/// The two-sided spectrum C1D of profiles [m^3] at positive wavenumbers.
+class ASPERITY_EXPORT LineSpectrum {
+ public:
+  LineSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality = {});
+  [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
+  [[nodiscard]] const std::vector<double>& density() const { return density_; }
+  [[nodiscard]] const RowQuality& quality() const { return quality_; }
+  bool operator==(const LineSpectrum&) const = default;
+
+ private:
+  std::vector<double> wavenumber_, density_;
+  RowQuality quality_;
+};
+ASPERITY_EXPORT LineSpectrum line_spectrum(const LineScan& scan, Window window = Window::split_cosine_bell,
+                                           std::optional<Detrend> detrend = Detrend::plane);
+/// Averaged over the rows of a map, each detrended and windowed as a scan of its own.
+ASPERITY_EXPORT LineSpectrum line_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
+                                           std::optional<Detrend> detrend = Detrend::plane);
+/// C of the isotropic surface whose profiles have this spectrum, C(q) = -(1 / pi) int_q dC1D/dk dk / sqrt(k^2 - q^2),
+/// exact for the power laws between the rows; beyond the last one the slope of the last factor of 2 goes on.
+ASPERITY_EXPORT TabulatedSpectrum isotropic(const LineSpectrum& spectrum);
+
+/// Count-weighted means over bins of equal width in ln q, `per_decade` of them in a factor 10 from the lowest row on.
+ASPERITY_EXPORT TabulatedSpectrum log_binned(const TabulatedSpectrum& spectrum, double per_decade);
+ASPERITY_EXPORT LineSpectrum log_binned(const LineSpectrum& spectrum, double per_decade);
+/// One spectrum of several scans: row by row where all have the same wavenumbers, else their reliable rows together
+/// in logarithmic bins.
+ASPERITY_EXPORT TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra,
+                                                std::optional<double> per_decade = std::nullopt);
+
+enum class FitMethod { least_squares, slope };
+enum class Rolloff { find, require, none };
+struct FitOptions {
+  std::optional<double> q_min = std::nullopt, q_max = std::nullopt;  // rows used [1/m]; default: the reliable ones
+  FitMethod method = FitMethod::least_squares;  // slope: Eq. 28, a straight line without weights and roll-off
+  Rolloff rolloff = Rolloff::find;
+};
+/// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it.
 struct SelfAffineFit {
   SelfAffineSpectrum spectrum;
-  double rms_height_error;  // [m]
-  double hurst_error;       // [-]
-  std::size_t rows;         // rows used
+  double rms_height_error;              // [m]
+  double hurst_error;                   // [-]
+  std::optional<double> rolloff_error;  // [1/m]
+  double residual;                      // weighted rms of ln(C / fit)
+  std::size_t rows;                     // rows used
 };
-/// Least squares in ln C against ln q over [q_min, q_max], each row weighted by its count where it has one.
-ASPERITY_EXPORT SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, std::optional<double> q_min,
-                                              std::optional<double> q_max);
+ASPERITY_EXPORT SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOptions& options = {});
 
-/// A periodic map with |h(q)|^2 exactly that of the spectrum at every mode the grid holds, phases random.
+/// A periodic map with |h(q)|^2 exactly that of the spectrum at every mode the grid holds. Phases are random, or,
+/// for a `skewness` other than 0, such that the heights have it, to 1e-3.
 ASPERITY_EXPORT HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap::PixelSize pixel_size,
-                                     std::uint64_t seed);
+                                     std::uint64_t seed, double skewness = 0);
 
 }  // namespace asperity

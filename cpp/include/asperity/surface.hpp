@@ -24,6 +24,12 @@ struct HeightStatistics {
   double z_min;       // lowest point above the mean plane [m], negative
 };
 
+/// How often heights occur, as a density over equal bins.
+struct HeightHistogram {
+  std::vector<double> edges;    // heights about the mean [m], one more than bins
+  std::vector<double> density;  // [1/m]: its integral is 1
+};
+
 /// A map of heights [m], row by row; NaN marks a drop-out. Constant after construction.
 /// float and double maps keep their type. The heights are shared, never copied with the map.
 class ASPERITY_EXPORT HeightMap {
@@ -49,6 +55,7 @@ class ASPERITY_EXPORT HeightMap {
 
   [[nodiscard]] double dropout_fraction() const;
   [[nodiscard]] HeightStatistics statistics() const;
+  [[nodiscard]] HeightHistogram height_histogram(std::size_t bins) const;
   /// sqrt(<(dh/dx)^2> + <(dh/dy)^2>) by central differences where both neighbours are measured.
   [[nodiscard]] double rms_slope() const;
 
@@ -70,6 +77,37 @@ class ASPERITY_EXPORT HeightMap {
   Shape shape_;
   PixelSize pixel_size_;
   std::size_t dropouts_ = 0;
+};
+
+/// Heights [m] along a line at equal distances; NaN marks a drop-out. Constant after construction.
+class ASPERITY_EXPORT LineScan {
+ public:
+  LineScan(std::vector<double> heights, double spacing);
+  LineScan(std::vector<float> heights, double spacing);
+  /// Heights that somebody else owns, `stride` elements apart.
+  LineScan(HeightMap::Data data, std::ptrdiff_t stride, std::shared_ptr<const void> owner, std::size_t size,
+           double spacing);
+
+  [[nodiscard]] std::size_t size() const { return row_.shape()[1]; }
+  [[nodiscard]] double spacing() const { return row_.pixel_size()[1]; }
+  /// The scan as a map of one row.
+  [[nodiscard]] const HeightMap& row() const { return row_; }
+
+  [[nodiscard]] double dropout_fraction() const { return row_.dropout_fraction(); }
+  [[nodiscard]] HeightStatistics statistics() const { return row_.statistics(); }
+  [[nodiscard]] HeightHistogram height_histogram(std::size_t bins) const { return row_.height_histogram(bins); }
+  /// sqrt(<(dh/dx)^2>) by central differences where both neighbours are measured.
+  [[nodiscard]] double rms_slope() const;
+  /// Linear between the neighbours, nearest beyond the first and the last measured point.
+  [[nodiscard]] LineScan fill_dropouts(double max_fraction = 0.10) const;
+  /// Least-squares offset, straight line ("plane") or parabola of the measured points removed.
+  [[nodiscard]] LineScan detrend(Detrend order) const;
+  [[nodiscard]] LineScan affine_shift(double p) const;
+  [[nodiscard]] std::vector<double> local_peaks(double min_distance, bool periodic = false) const;
+
+ private:
+  explicit LineScan(HeightMap row);
+  HeightMap row_;
 };
 
 }  // namespace asperity
