@@ -98,31 +98,40 @@ std::vector<double> isotropic_densities(const LineSpectrum& spectrum) {
 }  // namespace
 
 // Standard errors go through the derivative of each result after each row, taken by a step of 1e-4 in its logarithm.
+// Rows that were flagged already and come out negative are left out: they were not to be trusted.
 TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const std::size_t n = spectrum.wavenumber().size();
   if (n > 1000)
     throw InvalidInput("spectrum has " + std::to_string(n) +
                        " rows: must have 1000 or fewer for the surface behind a profile, log_binned makes them fewer");
-  std::vector<double> c = isotropic_densities(spectrum);
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(c[i] >= 0))
-      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i]) +
-                         " 1/m that no isotropic surface has such profiles; rows that scatter must be averaged first "
-                         "(log_binned)");
-  RowQuality quality = spectrum.quality();
-  if (!quality.standard_error.empty()) {
-    std::vector<double> variance(n);
-    constexpr double step = 1e-4;
-    for (std::size_t j = 0; j < n; ++j) {
-      std::vector<double> moved = spectrum.density();
-      const double relative = quality.standard_error[j] / moved[j];
-      moved[j] *= 1 + step;
-      const auto changed = isotropic_densities(LineSpectrum(spectrum.wavenumber(), std::move(moved)));
-      for (std::size_t i = 0; i < n; ++i) variance[i] += std::pow((changed[i] - c[i]) / step * relative, 2);
-    }
-    for (std::size_t i = 0; i < n; ++i) quality.standard_error[i] = std::sqrt(variance[i]);
+  const RowQuality& old = spectrum.quality();
+  const std::vector<double> all = isotropic_densities(spectrum);
+  std::vector<double> variance(n);
+  constexpr double step = 1e-4;
+  for (std::size_t j = 0; j < n && !old.standard_error.empty(); ++j) {
+    std::vector<double> moved = spectrum.density();
+    const double relative = old.standard_error[j] / moved[j];
+    moved[j] *= 1 + step;
+    const auto changed = isotropic_densities(LineSpectrum(spectrum.wavenumber(), std::move(moved)));
+    for (std::size_t i = 0; i < n; ++i) variance[i] += std::pow((changed[i] - all[i]) / step * relative, 2);
   }
-  return {spectrum.wavenumber(), std::move(c), std::move(quality)};
+
+  std::vector<double> q, c;
+  RowQuality quality;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool flagged = !old.flag.empty() && old.flag[i] != 0;
+    if (!(all[i] >= 0) && flagged) continue;
+    if (!(all[i] >= 0))
+      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i]) +
+                         " 1/m that no isotropic surface has such profiles; rows that scatter must be averaged over "
+                         "wider bins (per_decade)");
+    q.push_back(spectrum.wavenumber()[i]);
+    c.push_back(all[i]);
+    if (!old.count.empty()) quality.count.push_back(old.count[i]);
+    if (!old.standard_error.empty()) quality.standard_error.push_back(std::sqrt(variance[i]));
+    if (!old.flag.empty()) quality.flag.push_back(old.flag[i]);
+  }
+  return {std::move(q), std::move(c), std::move(quality)};
 }
 
 }  // namespace asperity

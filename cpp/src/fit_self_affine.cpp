@@ -113,10 +113,19 @@ std::optional<Broken> best_break(const Rows& rows) {
   return Broken(rows, (a + b) / 2);
 }
 
-/// Whether the roll-off is more than chance: by Schwarz's criterion (Ann. Stat. 6, 461 (1978)), with some to spare.
-bool convincing(const Broken& line, const Broken& broken, Eigen::Index rows) {
-  const auto n = static_cast<double>(rows);
-  return n * std::log(line.sum_of_squares / broken.sum_of_squares) > std::log(n) + 10;
+/// The slope of the rows below x_r by themselves.
+double slope_below(const Rows& rows, double x_r) {
+  const Eigen::ArrayXd w = (rows.x < x_r).select(rows.w, 0.0);
+  const double mean_x = (w * rows.x).sum() / w.sum(), mean_y = (w * rows.y).sum() / w.sum();
+  return (w * (rows.x - mean_x) * (rows.y - mean_y)).sum() / (w * (rows.x - mean_x).square()).sum();
+}
+
+/// Whether the roll-off is more than chance, by Schwarz's criterion (Ann. Stat. 6, 461 (1978)) with some to spare, and
+/// more than a bend: what lies below it is flat, or falls less than a quarter as steeply as what lies above.
+bool convincing(const Rows& rows, const Broken& line, const Broken& broken) {
+  const auto n = static_cast<double>(rows.size());
+  return broken.slope < 0 && n * std::log(line.sum_of_squares / broken.sum_of_squares) > std::log(n) + 10 &&
+         slope_below(rows, broken.x_r) > broken.slope / 4;
 }
 
 /// s^2 (J^T W J)^-1 of level, slope and, as the third, x_r: W of trace 1, s^2 what is left over the degrees of freedom.
@@ -168,7 +177,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   bool broken = false;
   if (options.rolloff != Rolloff::none && options.method == FitMethod::least_squares) {
     const std::optional<Broken> found = best_break(rows);
-    broken = found && found->slope < 0 && convincing(fit, *found, n);
+    broken = found && convincing(rows, fit, *found);
     if (broken) fit = *found;
     if (!broken && options.rolloff == Rolloff::require)
       throw InvalidInput("spectrum: has no roll-off between " + show(q[chosen.front()]) + " and " +

@@ -118,14 +118,14 @@ class Reserve {
 };
 
 Block allocate(std::size_t wanted) {
-  const std::size_t unit = wanted < large_page ? 64 : large_page;
-  const std::size_t bytes = (wanted + unit - 1) / unit * unit;
-  if (unit == large_page)
+  const bool large = wanted >= large_page;
+  const std::size_t bytes = (wanted + 63) / 64 * 64;
+  if (large)
     if (const Block kept = Reserve::get().take(bytes); kept.data) return kept;
-  const Block fresh{std::aligned_alloc(unit, bytes), bytes};
-  if (!fresh.data) throw std::bad_alloc();
+  Block fresh{nullptr, bytes};
+  if (posix_memalign(&fresh.data, large ? large_page : 64, bytes) != 0) throw std::bad_alloc();
 #ifdef __linux__
-  if (unit == large_page) madvise(fresh.data, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
+  if (large) madvise(fresh.data, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
 #endif
   return fresh;
 }

@@ -58,9 +58,12 @@ class Mean {
 Rows means(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins) {
   Rows result;
   const auto n = bins.size();
+  // the means need the slopes and the slopes the means: in turn, until neither changes
   std::vector<double> slope(n);
-  for (int pass = 0; pass < 2; ++pass) {
+  double change = 1;
+  for (int pass = 0; pass < 50 && change > 1e-10; ++pass) {
     result = {};
+    change = 0;
     for (std::size_t b = 0; b < n; ++b) {
       const Mean mean(rows, bins[b], slope[b]);
       result.wavenumber.push_back(mean.wavenumber);
@@ -73,7 +76,9 @@ Rows means(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins) 
       const std::size_t below = b > 0 ? b - 1 : b, above = b + 1 < n ? b + 1 : b;
       const double s = std::log(result.density[above] / result.density[below]) /
                        std::log(result.wavenumber[above] / result.wavenumber[below]);
-      slope[b] = std::isfinite(s) ? std::clamp(s, -8.0, 8.0) : 0;  // none beside a zero
+      const double bounded = std::isfinite(s) ? std::clamp(s, -8.0, 8.0) : 0;  // none beside a zero
+      change = std::max(change, std::fabs(bounded - slope[b]));
+      slope[b] = bounded;
     }
   }
   return result;

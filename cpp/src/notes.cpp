@@ -1,5 +1,10 @@
 #include "notes.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
 #include "checks.hpp"
 
 namespace asperity {
@@ -20,10 +25,25 @@ bool lacks_q0(const Correction& correction) {
   return c && !c->q0;
 }
 
+/// Wavenumbers of a measured spectrum that are flagged for the window (up to the first) or for Nyquist (from the second
+/// on); 0 and infinity where none is.
+std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
+  std::array<double, 2> ends{0, std::numeric_limits<double>::infinity()};
+  const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
+  if (!table) return ends;
+  const auto& flag = table->quality().flag;
+  for (std::size_t i = 0; i < flag.size(); ++i) {
+    if (flag[i] & few_periods) ends[0] = table->wavenumber()[i];
+    if (flag[i] & near_nyquist) ends[1] = std::min(ends[1], table->wavenumber()[i]);
+  }
+  return ends;
+}
+
 }  // namespace
 
 Notes::Notes(const Spectrum& spectrum, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
+      flagged_ends_(flagged_ends(spectrum)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
@@ -42,6 +62,12 @@ std::vector<std::string> Notes::texts() const {
   if (rms_slope_ > slope_limit * (1 + 1e-9))
     result.push_back("the rms slope is " + show(rms_slope_, 4) + ", above " + show(slope_limit) +
                      ", where the cut-off rule ends the spectrum: see cutoff_for_slope");
+  if (flagged_ends_[0] > 0)
+    result.push_back("the measured spectrum is uncertain up to " + show(flagged_ends_[0], 4) +
+                     " 1/m, where the scan holds too few periods: see its flag");
+  if (std::isfinite(flagged_ends_[1]))
+    result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
+                     " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
   if (fast_)
     result.push_back("above " + show(flash_velocity) +
                      " m/s flash heating, which is not modelled, lowers the friction (Persson 2006, J. Phys.: Condens. "

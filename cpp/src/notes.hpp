@@ -1,6 +1,7 @@
 // What a friction result says about the limits of the theory it comes from.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ class Notes {
 
  private:
   double rms_slope_;
+  std::array<double, 2> flagged_ends_;  // [1/m]: unreliable up to the first and from the second on
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false;
 };
 

@@ -173,7 +173,9 @@ def _parser() -> argparse.ArgumentParser:
         "--pixel-size", type=_pixel_size, metavar="DY,DX", help="[m], where the file states none"
     )
     spectrum.add_argument(
-        "--unit", choices=("m", "mm", "um", "nm"), help="of the heights, where the file states none"
+        "--unit",
+        metavar="UNIT",
+        help="of the heights (m, mm, um, nm, pm), where the file states none",
     )
     spectrum.add_argument(
         "--channel",
@@ -194,10 +196,24 @@ def _parser() -> argparse.ArgumentParser:
         help="default: %(default)s",
     )
     spectrum.add_argument(
-        "--q-min", type=_number, metavar="Q", help="fit above [1/m] (default: all)"
+        "--max-dropouts",
+        type=_number,
+        default=0.10,
+        metavar="SHARE",
+        help="refuse a scan with more of its points missing (default: %(default)s)",
     )
     spectrum.add_argument(
-        "--q-max", type=_number, metavar="Q", help="fit below [1/m] (default: all)"
+        "--q-min", type=_number, metavar="Q", help="fit above [1/m] (default: what is reliable)"
+    )
+    spectrum.add_argument(
+        "--q-max", type=_number, metavar="Q", help="fit below [1/m] (default: what is reliable)"
+    )
+    spectrum.add_argument(
+        "--method",
+        choices=("least-squares", "slope"),
+        default="least-squares",
+        help="of the fit: weighted, with a roll-off where there is one, or Eq. 28 alone "
+        "(default: %(default)s)",
     )
     outputs(spectrum)
     return parser

@@ -13,18 +13,18 @@ from typing import Any
 
 import numpy as np
 
-from asperity import plot
+from asperity import plot, plot_surface, scan
 from asperity._core import (
+    HeightMap,
     InvalidInput,
     NotConverged,
     SelfAffineFit,
     TabulatedSpectrum,
     fit_self_affine,
-    power_spectrum,
 )
 from asperity.demo import check_directory, input_files, write_directory
 from asperity.fields import MOST_ROWS, named
-from asperity.read import read_filled
+from asperity.scan import read_filled, surface_spectrum
 from asperity.scene import COLUMNS, Curves, Progress, Scene, load_scene
 from asperity.table import Table, check_output, terminal_table, write_files
 
@@ -121,20 +121,28 @@ def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
     path = Path(args.file)
     _spare(_check_outputs(args), [path])
-    with named(None, {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}):
-        raw, surface = read_filled(
-            path, channel=args.channel, pixel_size=args.pixel_size, unit=args.unit
+    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
+    with named(None, {**flags, "max_fraction": "--max-dropouts"}):
+        raw, filled = read_filled(
+            path,
+            max_fraction=args.max_dropouts,
+            channel=args.channel,
+            pixel_size=args.pixel_size,
+            unit=args.unit,
         )
-    detrend = None if args.detrend == "none" else args.detrend
+    how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
     with named(path, {}):
-        measured = power_spectrum(surface, window=args.window, detrend=detrend)
-    fit, notes = _fit(measured, args.q_min, args.q_max)
-    cutoff = measured.cutoff_for_slope(1.3)
+        measured = surface_spectrum(filled, **how)
+    flat = scan.flat(filled, how["detrend"])
+    ratio = scan.lay(filled, **how)
+    fit, notes = _fit(measured, args)
+    whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
+    cutoff = whole.cutoff_for_slope(1.3)
     inputs: dict[str, Any] = {
         "file": str(path),
         "channel": args.channel,
         "shape": list(raw.heights.shape),
-        "pixel_size_m": list(raw.pixel_size),
+        "pixel_size_m": list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing,
         "dropout_fraction": raw.dropout_fraction,
         "window": args.window,
         "detrend": args.detrend,
@@ -143,41 +151,68 @@ def spectrum(args: Namespace) -> None:
         if given is not None:
             inputs[key] = given
     found = {
-        "rms_height_m": measured.rms_height,
-        "rms_slope": measured.rms_slope,
+        "rms_height_m": whole.rms_height,
+        "rms_slope": whole.rms_slope,
+        "rms_slope_by_differences": flat.rms_slope,
+        "skewness": flat.skewness,
+        "kurtosis": flat.kurtosis,
+        "z_max_m": flat.z_max,
+        "z_min_m": flat.z_min,
         "slope_cutoff_1.3_per_m": cutoff,
     }
+    if ratio is not None:
+        found["slope_anisotropy"] = ratio
+    if (band := scan.trusted(measured)) is not None:
+        found |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
     if fit is not None:
-        found |= {
-            "fit_q0_per_m": fit.q0,
-            "fit_q1_per_m": fit.q1,
-            "fit_hurst": fit.hurst,
-            "fit_hurst_standard_error": fit.standard_errors["hurst"],
-            "fit_rms_height_m": fit.rms_height,
-            "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
-        }
-    if cutoff >= measured.q1:
-        notes.append("the rms slope stays below 1.3 on the whole spectrum")
-    count = np.zeros(0) if measured.count is None else measured.count
-    columns = {
-        "wavenumber_per_m": measured.wavenumber.tolist(),
-        "density_m4": measured.density.tolist(),
-        "count": [round(modes) for modes in count.tolist()],
-    }
+        found |= _fitted(fit)
+    notes += scan.scan_notes(filled, ratio)
+    if cutoff >= whole.q1:
+        notes.append("the rms slope stays below 1.3 up to pi / pixel")
+    columns = _rows(measured)
     table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
-    draw = partial(plot.spectrum_figure, measured, fit, cutoff)
+    drawn = cutoff if cutoff < whole.q1 else None
+    draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
     _deliver(args, table, draw, found)
 
 
-def _fit(
-    measured: TabulatedSpectrum, q_min: float | None, q_max: float | None
-) -> tuple[SelfAffineFit | None, list[str]]:
+def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
+    columns: dict[str, list[Any]] = {
+        "wavenumber_per_m": measured.wavenumber.tolist(),
+        "density_m4": measured.density.tolist(),
+    }
+    if measured.count is not None and measured.standard_error is not None:
+        columns["standard_error_m4"] = measured.standard_error.tolist()
+        columns["count"] = [round(modes) for modes in measured.count.tolist()]
+    if measured.flag is not None:
+        columns["flag"] = measured.flag.tolist()
+    return columns
+
+
+def _fitted(fit: SelfAffineFit) -> dict[str, float]:
+    found = {
+        "fit_q0_per_m": fit.q0,
+        "fit_q1_per_m": fit.q1,
+        "fit_hurst": fit.hurst,
+        "fit_hurst_standard_error": fit.standard_errors["hurst"],
+        "fit_rms_height_m": fit.rms_height,
+        "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
+        "fit_residual": fit.residual,
+    }
+    if fit.rolloff is not None:
+        found["fit_rolloff_per_m"] = fit.rolloff
+        found["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
+    return found
+
+
+def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[str]]:
     """The self-affine fit, or a note that says why there is none."""
+    q_min, q_max = args.q_min, args.q_max
     if q_min is not None and q_max is not None and q_min >= q_max:
         raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
     try:
         with named(None, {"q_min": "--q-min", "q_max": "--q-max"}):
-            return fit_self_affine(measured, q_min=q_min, q_max=q_max), []
+            return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
     except (InvalidInput, NotConverged) as error:
         return None, [f"no self-affine fit: {error}"]
 

@@ -4,13 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from asperity._core import (
     Adhesion,
     AffineShift,
     GreenwoodWilliamson,
     HeightMap,
+    LineScan,
     LocalPeaks,
     MasterCurve,
     PeaksThenGreenwoodWilliamson,
@@ -18,7 +17,6 @@ from asperity._core import (
     SelfAffineSpectrum,
     SFactor,
     TabulatedSpectrum,
-    power_spectrum,
 )
 from asperity.fields import (
     Field,
@@ -37,7 +35,8 @@ from asperity.fields import (
     require,
     text,
 )
-from asperity.read import read_filled, read_master_curve
+from asperity.read_rubber import read_master_curve
+from asperity.scan import Scan, nyquist, read_filled, surface_spectrum
 
 Values = dict[str, Any]
 Spectrum = SelfAffineSpectrum | TabulatedSpectrum
@@ -58,6 +57,7 @@ _READ = {
     "channel": Field(count, "channel"),
     "pixel_size_m": Field(pixel_size, "pixel_size"),
     "unit": Field(text, "unit"),
+    "max_dropouts": Field(number, "max_fraction"),
 }
 _TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
 _SURFACE = {"file": Field(file_name), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
@@ -103,16 +103,22 @@ _ADHESION = {
 }
 
 
-def build_surface(path: Path, table: object) -> tuple[Spectrum, HeightMap | None, Values, Values]:
-    """Spectrum, the map it was measured on, the table with its defaults, and what came out."""
+def build_surface(path: Path, table: object) -> tuple[Spectrum, Scan | None, Values, Values]:
+    """Spectrum, the scan it was measured on, the table with its defaults, and what came out."""
     values = read_table(path, "surface", table, _SURFACE)
     derived: Values = {}
     if "file" in values:
         for key in _SELF_AFFINE:
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
-        values = {"channel": 0, "window": "split-cosine-bell", "detrend": "plane", **values}
-        surface = _read_map(path, values, derived)
+        values = {
+            "channel": 0,
+            "max_dropouts": 0.10,
+            "window": "split-cosine-bell",
+            "detrend": "plane",
+            **values,
+        }
+        surface = _read_scan(path, values, derived)
         spectrum: Spectrum = _measure(path, surface, values)
     else:
         for key in (*_READ, *_TRANSFORM):
@@ -134,25 +140,24 @@ def build_surface(path: Path, table: object) -> tuple[Spectrum, HeightMap | None
     return spectrum, surface, values, derived
 
 
-def _read_map(path: Path, values: Values, derived: Values) -> HeightMap:
-    """The map without drop-outs; trends are still in it."""
+def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
+    """The scan without drop-outs; trends are still in it."""
     with named(path, names_of("surface", _READ)):
         raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
     derived["shape"] = list(raw.heights.shape)
-    derived["pixel_size_m"] = list(raw.pixel_size)
+    derived["pixel_size_m"] = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
     derived["dropout_fraction"] = raw.dropout_fraction
     return filled
 
 
-def _measure(path: Path, surface: HeightMap, values: Values) -> TabulatedSpectrum:
+def _measure(path: Path, surface: Scan, values: Values) -> TabulatedSpectrum:
     settings = arguments(values, _TRANSFORM)
     if settings["detrend"] == "none":
         settings["detrend"] = None
     band = arguments(values, _BAND)
     with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
-        spectrum = power_spectrum(surface, **settings)
-        # beyond the Nyquist wavenumber of the coarser side rings are incomplete
-        band.setdefault("q1", min(np.pi / max(surface.pixel_size), spectrum.q1))
+        spectrum = surface_spectrum(surface, **settings)
+        band.setdefault("q1", min(nyquist(surface), spectrum.q1))  # beyond it rings are incomplete
         return spectrum.truncated(**band)
 
 
@@ -206,7 +211,7 @@ def build_correction(
     path: Path,
     table: object,
     spectrum: Spectrum,
-    surface: HeightMap | None,
+    surface: Scan | None,
     surface_values: Mapping[str, Any],
 ) -> tuple[Correction, Values]:
     """Correction of a scene; peaks and extremes not given come from the measured map."""
@@ -248,7 +253,7 @@ def _with_map(
     path: Path,
     kind: str,
     values: Values,
-    surface: HeightMap | None,
+    surface: Scan | None,
     surface_values: Mapping[str, Any],
 ) -> Values:
     """`values` with what the map can tell of peaks and extremes."""
@@ -259,6 +264,9 @@ def _with_map(
             refuse(path, "[correction] min_distance_m", "must be left out where heights_m is given")
         if surface is None:
             refuse(path, "[correction] min_distance_m", "needs a surface file; give heights_m")
+        if isinstance(surface, LineScan):
+            problem = "needs a map, whose peaks a line scan misses; give heights_m"
+            refuse(path, "[correction] min_distance_m", problem)
     extremes = ("z_max_m",) if kind == "local-peaks" else ("z_max_m", "z_min_m")
     if surface is None:
         needed = extremes if gaussian else ("heights_m", *extremes)

@@ -1,4 +1,4 @@
-"""Figures for a paper: friction over velocity, area over magnification, spectra (matplotlib)."""
+"""Figures for a paper: friction over velocity, area over magnification (matplotlib)."""
 
 import io
 import warnings
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, SelfAffineFit, TabulatedSpectrum
+from asperity._core import InvalidInput
 from asperity.scene import Curves, Scene
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 FORMATS = (".png", ".svg", ".pdf")
 # Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 
 
 def check_plot(path: Path) -> None:
@@ -37,7 +37,7 @@ def check_plot(path: Path) -> None:
 
 def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
     """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
-    figure, (axes,) = _figure(1)
+    figure, (axes,) = new_figure(1)
     over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
     adhesive = any(scene.adhesion is not None for scene in scenes)
     kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
@@ -77,7 +77,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     )
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
     figure.legend(loc="outside right upper")
-    return _picture(figure, path)
+    return picture(figure, path)
 
 
 def area_figure(
@@ -86,7 +86,7 @@ def area_figure(
     """A/A0 over magnification, colours for the velocities and line styles for the pressures, or the
     other way where there are more pressures; beside it the distribution of the pressure at three
     magnifications, as in the article's Fig. 1."""
-    figure, (axes, right) = _figure(2)
+    figure, (axes, right) = new_figure(2)
     sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, _pressure)]
     title = "Sliding velocity $v$ [m/s]"
     if scene.pressure.size > scene.velocity.size:
@@ -94,8 +94,8 @@ def area_figure(
         area = area.swapaxes(0, 1)
         title = "Nominal pressure $\\sigma_0$ [Pa]"
     (coloured, colour_name), (dashed, dash_name) = sweeps
-    many = coloured.size > len(_COLOURS)
-    colours = _shaded(figure, axes, coloured, title) if many else _COLOURS
+    many = coloured.size > len(COLOURS)
+    colours = _shaded(figure, axes, coloured, title) if many else COLOURS
     dashes = dict(zip(dashed, cycle(("-", "--", ":", "-.")), strict=False))
     for dash, rows in zip(dashes.values(), area, strict=True):
         for colour, row in zip(colours, rows, strict=False):
@@ -113,7 +113,7 @@ def area_figure(
     axes.set_xlabel("Magnification $q / q_0$ [-]")
     axes.set_ylabel("Relative contact area $A / A_0$ [-]")
     _draw_distributions(right, scene, float(area[0, 0, -1]))
-    return _picture(figure, path)
+    return picture(figure, path)
 
 
 def _shaded(
@@ -134,7 +134,7 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
     nominal = float(scene.pressure[0])
     highest = 10 / max(smallest_area, 1e-12)  # mean pressure is 1 / area
     stress = np.geomspace(1e-2, highest, 900) * nominal
-    for share, colour in zip((1 / 3, 2 / 3, 1.0), _COLOURS, strict=False):
+    for share, colour in zip((1 / 3, 2 / 3, 1.0), COLOURS, strict=False):
         q = q0 * (q1 / q0) ** share if share < 1 else q1
         density = scene.pressure_distribution(stress, q) * stress
         axes.plot(stress / nominal, density, color=colour, label=f"$q/q_0$ = {q / q0:.3g}")
@@ -152,39 +152,20 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
     axes.legend(loc="upper left", fontsize="small")
 
 
-def spectrum_figure(
-    spectrum: TabulatedSpectrum, fit: SelfAffineFit | None, cutoff: float, path: Path
-) -> bytes:
-    """C(q), its self-affine fit if there is one, and where the rms slope reaches 1.3."""
-    figure, (axes,) = _figure(1)
-    q, density = spectrum.wavenumber, spectrum.density
-    axes.plot(q, density, ".", markersize=3, color=_COLOURS[0], label="measured")
-    if fit is not None:
-        fitted = np.geomspace(fit.q0, fit.q1, 200)
-        label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
-        axes.plot(fitted, fit.spectrum.at(fitted), color=_COLOURS[1], label=label)
-    if cutoff < spectrum.q1:
-        axes.axvline(cutoff, color="0.4", linestyle="--", label="rms slope 1.3")
-    axes.set_xscale("log")
-    if density.any():
-        axes.set_yscale("log")
-    axes.set_xlabel("Wavenumber $q$ [1/m]")
-    axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
-    figure.legend(loc="outside right upper")
-    return _picture(figure, path)
-
-
-def _figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
+def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
+    """A figure of one to three panels in a row."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(6.6 if panels == 1 else 9.0, 3.5), layout="constrained")
+    width = {1: 6.6, 2: 9.0, 3: 13.0}[panels]
+    figure = Figure(figsize=(width, 3.5), layout="constrained")
     drawn = [figure.add_subplot(1, panels, i + 1) for i in range(panels)]
     for axes in drawn:
         axes.tick_params(which="both", direction="in", top=True, right=True)
     return figure, drawn
 
 
-def _picture(figure: "Figure", path: Path) -> bytes:
+def picture(figure: "Figure", path: Path) -> bytes:
+    """The figure as the bytes of a file of that ending."""
     from matplotlib import rc_context
 
     out = io.BytesIO()
@@ -202,8 +183,8 @@ def _plain(name: str) -> str:
 
 
 def _colours(count: int) -> Sequence[Any]:
-    if count <= len(_COLOURS):
-        return _COLOURS[:count]
+    if count <= len(COLOURS):
+        return COLOURS[:count]
     return list(_shades()(np.linspace(0, 1, count)))
 
 

@@ -1,26 +1,29 @@
-"""Files in: height maps (matrices, instrument formats through SurfaceTopography), master curves."""
+"""Maps and line scans from files: matrices here, any other format in `instrument`."""
 
 import errno
 import os
+import re
 import stat
 import warnings
-import zipfile
-import zlib
+from array import array
 from collections.abc import Iterator
-from importlib import import_module
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, InvalidInput, MasterCurve
-
-_METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-
-_MASTER_CURVE = ["angular_frequency_rad_s", "storage_modulus_pa", "loss_modulus_pa"]
-
-PixelSize = float | tuple[float, float]
+from asperity._core import HeightMap, InvalidInput, LineScan
+from asperity.instrument import (
+    METRES,
+    PixelSize,
+    UnrecognisedError,
+    brief,
+    check_channel,
+    read_instrument,
+    surface_of,
+)
 
 
 def read_surface(
@@ -29,37 +32,45 @@ def read_surface(
     channel: int = 0,
     pixel_size: PixelSize | None = None,
     unit: str | None = None,
-) -> HeightMap:
-    """Height map h(y, x) [m] from a file.
+) -> HeightMap | LineScan:
+    """Height map h(y, x) or line scan h(x) [m] from a file.
 
-    Matrices in .npy, .npz, .csv and .txt are read directly: one line (or row) per y, cells parted
-    by commas, semicolons, tabs or blanks, NaN and empty cells are drop-outs (a separator that ends
-    every line is no cell), lines beginning with ``#`` are comments. Such files state neither pixel
-    size nor unit, so both are required. Any other format is read through SurfaceTopography
-    (``pip install asperity[io]``).
+    Matrices in .npy, .npz, .csv and .txt are read directly. Such files state neither pixel size
+    nor unit, so both are required. An array of one dimension and a text of one column or one line
+    are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to HeightMap,
+    which shares it; nobody may then write to the file.
+
+    Text has one line per y, cells parted by commas, semicolons, tabs or blanks; NaN and empty
+    cells are drop-outs (a separator that ends every line is no cell), blank lines and those that
+    begin with ``#`` are passed over. A text that is no matrix but begins with a header, and one
+    for which neither `pixel_size` nor `unit` is given, is taken where SurfaceTopography knows it
+    and finds its unit stated.
+
+    Any other format is read through SurfaceTopography (``pip install asperity[io]``). Of a line
+    scan with positions they must be equally spaced, to within their last printed digit.
 
     Parameters
     ----------
     path : path-like
         File to read.
     channel : int
-        Index of the map in a file that holds several.
+        Index of the map or line scan in a file that holds several.
     pixel_size : float or (float, float), optional
-        Distance of neighbouring points [m], one number or (dy, dx). Only where the file states
-        none.
-    unit : {"m", "mm", "um", "nm"}, optional
-        Unit of the heights (and of the lengths of an instrument file that names no unit). Only
-        where the file states none.
+        Distance of neighbouring points [m], one number or (dy, dx); one number for a line scan.
+        Only where the file states none.
+    unit : {"m", "mm", "um", "nm", "pm"}, optional
+        Unit of the heights (and of the lengths of an instrument file that names no unit); "µm" is
+        "um". Only where the file states none.
 
     Returns
     -------
-    HeightMap
-        Of shape (ny, nx), drop-outs as NaN; float32 in a .npy or .npz file stays float32.
+    HeightMap or LineScan
+        Of shape (ny, nx) or (n,), drop-outs as NaN; float32 in a .npy or .npz file stays float32.
 
     Raises
     ------
     InvalidInput
-        If the file cannot be read, is damaged or is no map, or if `channel`, `pixel_size` or
+        If the file cannot be read, is damaged or is no surface, or if `channel`, `pixel_size` or
         `unit` do not fit to it. The message names the file.
 
     Examples
@@ -67,41 +78,50 @@ def read_surface(
     >>> surface = read_surface("scan.npy", pixel_size=(2e-6, 1e-6), unit="um")  # doctest: +SKIP
     """
     path = Path(path)
-    if unit is not None and unit not in _METRES:
-        raise InvalidInput(f"{path}: unit = {unit!r}: must be one of {', '.join(_METRES)}")
     try:
-        _check_file(path)
-        loader = _LOADERS.get(path.suffix.lower())
-        if loader is None:
-            return _read_instrument(path, channel, pixel_size, unit)
-        if pixel_size is None or unit is None:
-            missing = "pixel_size is missing" if pixel_size is None else "unit is missing"
-            unstated = (
-                "the distance of its points [m]"
-                if pixel_size is None
-                else "the unit of its heights"
+        if unit is not None:
+            unit = _checked_unit(unit)
+        check_file(path)
+        suffix = path.suffix.lower()
+        if suffix == ".toml":
+            raise InvalidInput(
+                "is a scene, not a surface: must be a scan (.npy, .npz, .csv, .txt or the file of "
+                "an instrument)"
             )
-            raise InvalidInput(f"{missing}: a {path.suffix} file does not state {unstated}")
-        heights = loader(path, channel)
-        if unit != "m":
-            heights = heights * _METRES[unit]
-        return HeightMap(heights, pixel_size=pixel_size)
+        if suffix in (".csv", ".txt"):
+            return _read_text(path, channel, pixel_size, unit)
+        if suffix not in _LOADERS:
+            return read_instrument(path, channel, pixel_size, unit)
+        given = _required(path, pixel_size, unit)
+        return surface_of(_LOADERS[suffix](path, channel), *given)
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
 
 
-def read_filled(path: Path, **settings: Any) -> tuple[HeightMap, HeightMap]:
-    """A map as `read_surface` reads it, and the same without drop-outs."""
-    surface = read_surface(path, **settings)
-    try:
-        return surface, surface.fill_dropouts()
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+def _checked_unit(unit: str) -> str:
+    """The unit, micro signs (there are two) written as u."""
+    plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
+    if plain not in METRES:
+        raise InvalidInput(f"unit = {unit!r}: must be one of {', '.join(METRES)}")
+    return plain
 
 
-def _check_file(path: Path) -> None:
+def _required(
+    path: Path, pixel_size: PixelSize | None, unit: str | None
+) -> tuple[float, PixelSize]:
+    """Metres per unit and pixel size, which files of numbers alone do not state."""
+    if pixel_size is None:
+        problem = f"a {path.suffix} file does not state the distance of its points [m]"
+        raise InvalidInput(f"pixel_size is missing: {problem}")
+    if unit is None:
+        problem = f"a {path.suffix} file does not state the unit of its heights"
+        raise InvalidInput(f"unit is missing: {problem}")
+    return METRES[unit], pixel_size
+
+
+def check_file(path: Path) -> None:
     """Refuse what cannot be opened, and what one might wait for or read without end."""
     try:
         mode = path.stat().st_mode
@@ -114,76 +134,115 @@ def _check_file(path: Path) -> None:
     path.open("rb").close()
 
 
-def _check_channel(channel: int, available: int) -> None:
-    if not 0 <= channel < available:
-        allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
-        raise InvalidInput(f"channel = {channel}: must be {allowed}")
+@contextmanager
+def _sound(kind: str) -> Iterator[None]:
+    """One error for all the ways in which NumPy finds a file damaged."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            yield
+        except (InvalidInput, OSError):
+            raise
+        except Exception as error:
+            raise InvalidInput(f"not a sound {kind} file: {brief(error)}") from error
 
 
-def _real(array: NDArray[Any]) -> NDArray[Any]:
-    if array.dtype.kind not in "fiu":
-        raise InvalidInput(f"holds {array.dtype} values: must be real numbers")
-    return array
+def _real(values: object) -> NDArray[Any]:
+    if not isinstance(values, np.ndarray):
+        raise InvalidInput("holds something else: must be an array of real numbers")
+    if values.dtype.kind not in "fiu":
+        raise InvalidInput(f"holds {values.dtype} values: must be real numbers")
+    return np.asarray(values)
 
 
 def _load_npy(path: Path, channel: int) -> NDArray[Any]:
-    _check_channel(channel, 1)
-    with path.open("rb") as file:
-        try:
-            array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
-        except (ValueError, EOFError, MemoryError) as error:
-            raise InvalidInput(f"not a sound .npy file: {_brief(error)}") from error
-    return _real(array)
+    check_channel(channel, 1)
+    with _sound(".npy"), path.open("rb") as file:
+        return _real(np.lib.format.read_array(file, allow_pickle=False))
 
 
 def _load_npz(path: Path, channel: int) -> NDArray[Any]:
+    with _sound(".npz"), path.open("rb") as file, np.lib.npyio.NpzFile(file) as archive:
+        if not archive.files:
+            raise InvalidInput("holds no arrays")
+        check_channel(channel, len(archive.files))
+        return _real(archive[archive.files[channel]])
+
+
+_LOADERS = {".npy": _load_npy, ".npz": _load_npz}
+
+
+def _read_text(
+    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
+) -> HeightMap | LineScan:
+    """A matrix of numbers, or what SurfaceTopography knows and finds the unit of."""
     try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-            _check_channel(channel, len(archive.files))
-            array: NDArray[Any] = archive[archive.files[channel]]
-    except InvalidInput:
-        raise
-    except (ValueError, EOFError, TypeError, MemoryError, zipfile.BadZipFile, zlib.error) as error:
-        raise InvalidInput(f"not a sound .npz file: {_brief(error)}") from error
-    return _real(array)
-
-
-def _load_text(path: Path, channel: int) -> NDArray[Any]:
-    _check_channel(channel, 1)
-    rows: list[NDArray[Any]] = []
-    trailing = True
-    for number, cells in _lines(path):
+        heights, no_matrix = _load_text(path), None
+    except UnrecognisedError as error:
+        heights, no_matrix = np.empty(0), error
+    if no_matrix is not None or (pixel_size is None and unit is None):
         try:
-            rows.append(np.array([_cell(cell) for cell in cells]))
+            return read_instrument(path, channel, pixel_size, unit, must_state_unit=True)
+        except UnrecognisedError as error:
+            if no_matrix is not None:
+                message = f"{no_matrix} (and as the file of an instrument: {error})"
+                raise InvalidInput(message) from error
+    check_channel(channel, 1)
+    return surface_of(heights, *_required(path, pixel_size, unit))
+
+
+def _load_text(path: Path) -> NDArray[Any]:
+    """Matrix, or the vector of one line or column; UnrecognisedError where a header begins it."""
+    values = array("d")
+    width = blank = gap = 0  # numbers of cells, of the first blank line, of one between numbers
+    trailing = True
+    for number, cells in lines(path):
+        if not cells:
+            blank = blank or (number if values else 0)
+            continue
+        try:
+            row = [cell(text) for text in cells]
         except ValueError as error:
-            raise InvalidInput(f"line {number}: {error}") from error
-        if len(cells) != rows[0].size:
+            header = number == 1 and re.search(r"[^\W\d_]{2}", cells[0]) is not None
+            kind = UnrecognisedError if header else InvalidInput
+            raise kind(f"line {number}: {error}") from error
+        width = width or len(row)
+        if len(row) != width:
             raise InvalidInput(
-                f"line {number} has {len(cells)} cells, those before it {rows[0].size}: "
-                "must be as many"
+                f"line {number} has {len(row)} cells, those before it {width}: must be as many"
             )
-        trailing = trailing and len(cells) > 1 and not cells[-1].strip()
-    if not rows:
+        trailing = trailing and width > 1 and not cells[-1].strip()
+        gap = blank
+        values.extend(row)
+    if not values:
         raise InvalidInput("holds no numbers")
-    matrix = np.array(rows)
-    return matrix[:, :-1] if trailing else matrix  # every line ends in a separator
+    matrix = np.frombuffer(values).reshape(-1, width)
+    if trailing:  # every line ends in a separator
+        matrix = matrix[:, :-1]
+    if matrix.shape[1] == 1 and gap:
+        raise InvalidInput(f"line {gap} is blank: a drop-out of a line scan must be nan")
+    return matrix.reshape(-1) if 1 in matrix.shape else matrix
 
 
-def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Numbers and cells of the lines that are neither blank nor comments."""
+def lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Numbers and cells of the lines that are no comments; a blank line has no cells."""
     separator: str | None = ""
     with path.open(encoding="utf-8-sig", errors="replace") as file:
         for number, line in enumerate(file, start=1):
             text = line.rstrip("\r\n")
-            if not text.strip() or text.lstrip().startswith("#"):
+            if text.lstrip().startswith("#"):
+                continue
+            if not text.strip(" " if separator == "\t" else None):
+                yield number, []
                 continue
             if separator == "":
                 separator = next((mark for mark in ";,\t" if mark in text), None)
             yield number, text.split(separator)
 
 
-def _cell(cell: str) -> float:
-    text = cell.strip()
+def cell(text: str) -> float:
+    """The number in a cell of a table; NaN in an empty one."""
+    text = text.strip()
     if not text:
         return np.nan
     try:
@@ -191,109 +250,4 @@ def _cell(cell: str) -> float:
             raise ValueError
         return float(text)
     except ValueError:
-        raise ValueError(f"{_brief(text)!r} is not a number") from None
-
-
-def read_master_curve(
-    path: Path, extrapolation: Literal["power-law", "clamp"] | None
-) -> MasterCurve:
-    """Master curve from a CSV file with a header line that names its three columns."""
-    try:
-        _check_file(path)
-        lines = list(_lines(path))
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
-    header = ",".join(_MASTER_CURVE)
-    if not lines or [cell.strip() for cell in lines[0][1]] != _MASTER_CURVE:
-        found = _brief(",".join(lines[0][1])) if lines else "nothing"
-        raise InvalidInput(f"{path}: header is {found!r}: must be {header!r}")
-    rows = []
-    for number, cells in lines[1:]:
-        if len(cells) != len(_MASTER_CURVE):
-            raise InvalidInput(
-                f"{path}: line {number} has {len(cells)} cells: must be 3 ({header})"
-            )
-        try:
-            rows.append([_cell(cell) for cell in cells])
-        except ValueError as error:
-            raise InvalidInput(f"{path}: line {number}: {error}") from error
-    columns = np.array(rows).reshape(-1, 3).T
-    try:
-        return MasterCurve(
-            angular_frequency=columns[0],
-            storage_modulus=columns[1],
-            loss_modulus=columns[2],
-            extrapolation=extrapolation,
-        )
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
-
-
-def _read_instrument(
-    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
-) -> HeightMap:
-    try:
-        open_topography = import_module("SurfaceTopography.IO").open_topography
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "SurfaceTopography":
-            raise
-        raise InvalidInput(
-            f"{path.suffix or 'this'} files are read by SurfaceTopography: pip install asperity[io]"
-        ) from error
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            with open_topography(str(path)) as reader:
-                return _read_channel(reader, channel, pixel_size, unit)
-        except InvalidInput:
-            raise
-        except Exception as error:  # some forty parsers, each with its own ways to fail
-            if type(error).__name__ in ("CannotDetectFileFormat", "UnknownFileFormat"):
-                raise InvalidInput("of no known format, or damaged") from error
-            raise InvalidInput(f"damaged or not supported: {_brief(error)}") from error
-
-
-def _read_channel(
-    reader: Any, channel: int, pixel_size: PixelSize | None, unit: str | None
-) -> HeightMap:
-    _check_channel(channel, len(reader.channels))
-    info = reader.channels[channel]
-    if not info.is_height_channel:
-        kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
-        raise InvalidInput(f"channel = {channel}: must be one of heights ({kinds})")
-    if info.dim != 2:
-        raise InvalidInput("holds a line scan: must be a map")
-    for name, given, stated in (
-        ("unit", unit, info.unit),
-        ("pixel_size", pixel_size, info.physical_sizes),
-    ):
-        if given is None and stated is None:
-            raise InvalidInput(f"{name} is missing: the file does not state it")
-        if given is not None and stated is not None:
-            raise InvalidInput(f"{name} = {given!r}: must be left out, the file states its own")
-
-    sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
-    topography = reader.topography(channel_index=channel, **sizes)
-    factor = 1.0
-    if unit is None:
-        topography = topography.to_unit("m")
-    else:
-        factor = _METRES[unit]
-    masked: np.ma.MaskedArray[Any, Any] = np.ma.asarray(topography.heights(), dtype=np.float64)
-    heights = masked.filled(np.nan).T
-    if pixel_size is None:  # SurfaceTopography counts (x, y), we count (y, x)
-        dx, dy = (float(d) * factor for d in topography.pixel_size)
-        pixel_size = (dy, dx)
-    return HeightMap(heights * factor, pixel_size=pixel_size)
-
-
-def _brief(message: object) -> str:
-    """First line of a foreign message, without what a terminal cannot show."""
-    lines = str(message).strip().splitlines() or [type(message).__name__]
-    text = "".join(c for c in lines[0] if c.isprintable())
-    return text if len(text) <= 120 else text[:117] + "..."
-
-
-_LOADERS = {".npy": _load_npy, ".npz": _load_npz, ".csv": _load_text, ".txt": _load_text}
+        raise ValueError(f"{brief(text)!r} is not a number") from None

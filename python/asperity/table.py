@@ -23,6 +23,7 @@ UNITS = {
     "velocity_m_s": "m/s",
     "wavenumber_per_m": "1/m",
     "density_m4": "m^4",
+    "standard_error_m4": "m^4",
 }  # all other columns are pure numbers
 
 

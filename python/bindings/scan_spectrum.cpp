@@ -211,7 +211,8 @@ InvalidInput
 
 C(q) = -(1/pi) int_q^inf dC1D/dk dk / sqrt(k^2 - q^2) (the inverse Abel transform), exact for the power laws between
 the rows. Beyond the last row the slope of the last factor of 2 goes on. Rows of one profile scatter as much as their
-mean: they are averaged over `per_decade` logarithmic bins first; None takes them as they are.
+mean: they are averaged over `per_decade` logarithmic bins first; None takes them as they are. Flagged rows that come out
+negative are left out.
 
 Raises
 ------

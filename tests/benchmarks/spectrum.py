@@ -10,8 +10,11 @@ the heights: plane, split cosine bell, transform, rings. All runs alternate; med
 import argparse
 import ctypes
 import ctypes.util
+import subprocess
+import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -129,12 +132,94 @@ def measure(side: int, dtype: Any, runs: int) -> dict[str, float]:
     return result
 
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
+def extra_maps(side: int) -> float:
+    """Peak memory above that of the map itself, in maps, of one call in a process of its own."""
+    child = f"""
+import re
+from pathlib import Path
+import numpy as np, asperity
+def kilobytes(key):
+    return int(re.search(key + r":\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+z = np.random.default_rng(1).standard_normal(({side}, {side}))
+scan = asperity.HeightMap(z, pixel_size=1e-6)
+asperity.power_spectrum(asperity.HeightMap(z[:64, :64], pixel_size=1e-6))  # its code is in memory
+Path("/proc/self/clear_refs").write_text("5")  # forget the highest mark so far
+before = kilobytes("VmRSS")
+asperity.power_spectrum(scan)
+print((kilobytes("VmHWM") - before) * 1024 / z.nbytes)
+"""
+    done = subprocess.run([sys.executable, "-c", child], capture_output=True, text=True, check=True)
+    return float(done.stdout)
+
+
+def table(results: dict[tuple[int, str], dict[str, float]], memory: dict[int, float]) -> str:
+    """Markdown, a row a map."""
+    names = ["ours", "ours, 2 threads", "numpy", "SurfaceTopography"]
+    lines = ["| map | bare transform [ms] | " + " | ".join(names) + " | extra memory [maps] |"]
+    lines.append("| --- |" + " --- |" * (len(names) + 2))
+    for (side, kind), r in results.items():
+        cells = [f"{r[name]:.2f}" if name in r else "-" for name in names]
+        extra = f"{memory[side]:.2f}" if kind == "float64" else "-"
+        bare = f"{r['bare [ms]']:.3g}"
+        lines.append(f"| {side}^2, {kind} | {bare} | " + " | ".join(cells) + f" | {extra} |")
+    return "\n".join(lines) + "\n"
+
+
+def draw(results: dict[tuple[int, str], dict[str, float]], path: Path) -> None:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.6, 3.6), layout="constrained")
+    axes = figure.add_subplot()
+    lines = {
+        "SurfaceTopography": ("float64", "s-", "#CC79A7"),
+        "numpy": ("float64", "^-", "#E69F00"),
+        "ours": ("float64", "o-", "#0072B2"),
+        "ours, 2 threads": ("float64", "o--", "#56B4E9"),
+    }
+    for name, (kind, style, colour) in lines.items():
+        points = [(side, r[name]) for (side, k), r in results.items() if k == kind and name in r]
+        if points:
+            axes.plot(*zip(*points, strict=True), style, color=colour, label=name, markersize=4)
+    points = [(side, r["ours"]) for (side, k), r in results.items() if k == "float32"]
+    axes.plot(
+        *zip(*points, strict=True), "o:", color="#009E73", label="ours, float32", markersize=4
+    )
+    axes.axhline(1, color="0.4", linewidth=0.8)
+    axes.annotate("a bare FFTW transform", (1000, 1.06), fontsize="small", color="0.3")
+    axes.set_xscale("log", base=2)
+    axes.set_yscale("log")
+    sides = sorted({side for side, _ in results})
+    ticks = [side for side in sides if side != 1000]
+    axes.set_xticks(ticks, [str(side) for side in ticks])
+    axes.set_yticks(
+        [0.3, 0.5, 1, 2, 5, 10, 20, 40], ["0.3", "0.5", "1", "2", "5", "10", "20", "40"]
+    )
+    axes.set_xlabel("Points a side of the map")
+    axes.set_ylabel("Time / bare transform [-]")
+    axes.tick_params(which="both", direction="in", top=True, right=True)
+    figure.legend(loc="outside right upper")
+    figure.savefig(path, dpi=150)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sides", default=",".join(map(str, SIDES)))
-    parser.add_argument("--runs", type=int, default=7)
+    parser.add_argument("--runs", type=int, default=9)
+    parser.add_argument("--output", type=Path, help="folder for spectrum.md and spectrum.png")
     arguments = parser.parse_args()
+    results: dict[tuple[int, str], dict[str, float]] = {}
+    memory: dict[int, float] = {}
     for side in map(int, arguments.sides.split(",")):
         for dtype in (np.float64, np.float32):
-            r = measure(side, dtype, arguments.runs)
-            print(side, np.dtype(dtype).name, {k: round(v, 3) for k, v in r.items()}, flush=True)
+            results[side, np.dtype(dtype).name] = measure(side, dtype, arguments.runs)
+        memory[side] = extra_maps(side)
+        print(side, "done", file=sys.stderr, flush=True)
+    print(table(results, memory), end="")
+    if arguments.output is not None:
+        arguments.output.mkdir(parents=True, exist_ok=True)
+        (arguments.output / "spectrum.md").write_text(table(results, memory))
+        draw(results, arguments.output / "spectrum.png")
+
+
+if __name__ == "__main__":
+    main()

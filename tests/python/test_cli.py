@@ -121,14 +121,16 @@ def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture
     assert main([*arguments, "--window", "none", "--q-min", "2.5e4", "--q-max", "1.5e5"]) == 0
     out, err = capsys.readouterr()
     comments, rows = rows_of(out)
-    assert list(rows[0]) == ["wavenumber_per_m", "density_m4", "count"]
+    names = ["wavenumber_per_m", "density_m4", "standard_error_m4", "count", "flag"]
+    assert list(rows[0]) == names
     assert sum(int(row["count"]) for row in rows) == 60 * 80 - 1
     for line in ("# pixel_size_m = [2e-05, 1e-05]", '# unit = "m"', "# q_min = 25000.0"):
         assert line in comments
     found = dict(line.split(" = ") for line in err.splitlines() if " = " in line)
     assert float(found["fit_hurst"]) == pytest.approx(0.8, abs=0.1)
     assert 0 < float(found["fit_hurst_standard_error"]) < 0.1
-    assert {"rms_height_m", "rms_slope", "slope_cutoff_1.3_per_m"} < set(found)
+    assert {"rms_height_m", "rms_slope", "rms_slope_by_differences", "skewness"} < set(found)
+    assert {"slope_cutoff_1.3_per_m", "reliable_to_per_m", "fit_residual"} < set(found)
     assert any(line.startswith("# found.fit_hurst = 0.") for line in comments)
 
 

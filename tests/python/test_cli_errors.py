@@ -96,7 +96,7 @@ SIZE = "must be a positive number [m], or two: DY,DX"
         (["area", "scene.toml", "--points", "1"], "--points: 1: must be in 2..100000"),
         (["area", "scene.toml", "--points", "1000000"], "--points: 1000000: must be in 2..100000"),
         (["area", "scene.toml", "--points", "few"], "--points: 'few': must be a whole number"),
-        ([*SPECTRUM, "--unit", "inch"], "argument --unit: invalid choice: 'inch'"),
+        ([*SPECTRUM, "--method", "inch"], "argument --method: invalid choice: 'inch'"),
         ([*SPECTRUM, "--pixel-size", "abc"], f"argument --pixel-size: 'abc': {SIZE}"),
         ([*SPECTRUM, "--pixel-size", "1,2,3"], f"argument --pixel-size: '1,2,3': {SIZE}"),
         ([*SPECTRUM, "--pixel-size", "1,-2"], f"argument --pixel-size: '1,-2': {SIZE}"),

@@ -29,6 +29,7 @@ MAY_INCLUDE = {
     "asperities": {"errors"},
 }
 MAY_INCLUDE["spectrum"] = {"errors", "surface"}
+MAY_INCLUDE["dma"] = {"errors", "rubber"}
 MAY_INCLUDE["correction"] = {*MAY_INCLUDE}
 MAY_INCLUDE["contact"] = {*MAY_INCLUDE}
 MAY_INCLUDE["friction"] = {*MAY_INCLUDE}
@@ -57,15 +58,31 @@ TOPIC = {
     "window": "spectrum",
     "angular_cache": "rubber",
     "master_curve": "rubber",
+    "at_strain": "dma",
+    "build_master_curve": "dma",
+    "fit_prony": "dma",
+    "isotherm": "dma",
+    "master_spline": "dma",
+    "shift_table": "dma",
     "prony": "rubber",
     "contact_checks": "contact",
     "persson": "contact",
     "notes": "contact",
 }
-SEAMS = {"checks", "integrate", "fourier", "interpolate", "overloaded", "pair", "roots", "threads"}
+SEAMS = {
+    "checks",
+    "integrate",
+    "fourier",
+    "interpolate",
+    "nnls",
+    "overloaded",
+    "pair",
+    "roots",
+    "threads",
+}
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "read", "__init__", "demo", "parts", "scene", "plot"]
-LAYERS += ["commands", "cli", "__main__"]
+LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "scan", "__init__"]
+LAYERS += ["demo", "parts", "scene", "plot", "plot_surface", "commands", "cli", "__main__"]
 
 
 def includes(path):

@@ -4,6 +4,7 @@ import io
 import os
 import sys
 import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +42,18 @@ def test_float32_stays_float32_when_scaled(tmp_path: Path) -> None:
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-6)
 
 
-@pytest.mark.parametrize(("unit", "metres"), [("m", 1), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)])
+@pytest.mark.parametrize(
+    ("unit", "metres"),
+    [
+        ("m", 1),
+        ("mm", 1e-3),
+        ("um", 1e-6),
+        ("\u00b5m", 1e-6),
+        ("\u03bcm", 1e-6),
+        ("nm", 1e-9),
+        ("pm", 1e-12),
+    ],
+)
 def test_unit_is_that_of_the_heights_alone(tmp_path: Path, unit: str, metres: float) -> None:
     path = tmp_path / "scan.csv"
     path.write_text("1,2\n3,4\n")
@@ -123,6 +135,19 @@ def _npy(array: object) -> bytes:
     return out.getvalue()
 
 
+def _huge(content: bytes) -> bytes:
+    """A header that promises 2^64 numbers."""
+    return content.replace(b"(2, 3), }" + b" " * 19, b"(4294967296, 4294967296), } ", 1)
+
+
+def _zip(name: str | None, content: bytes) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        if name is not None:
+            archive.writestr(name, content)
+    return out.getvalue()
+
+
 @pytest.mark.parametrize(
     ("name", "content", "given", "message"),
     [
@@ -132,10 +157,12 @@ def _npy(array: object) -> bytes:
         ("a.npy", _npy([["a"]]), {}, "must be real numbers"),
         ("a.npy", _npy(HEIGHTS * 1j), {}, "must be real numbers"),
         ("a.npy", _npy([[None]]), {}, "not a sound .npy file"),
-        ("a.npy", _npy([1.0, 2.0]), {}, "heights"),
-        ("a.npy", _npy(np.zeros((2, 3, 4))), {}, "heights"),
+        ("a.npy", _npy(1.0), {}, "heights has 0 dimensions: must have 2 (a map) or 1"),
+        ("a.npy", _npy(np.zeros((2, 3, 4))), {}, "heights has 3 dimensions: must have 2"),
+        ("a.npy", _huge(_npy(HEIGHTS)), {}, "not a sound .npy file"),
         ("a.npy", _npy(np.zeros((0, 4))), {}, "heights"),
         ("a.npy", _npy([[1.0, np.inf], [2.0, 3.0]]), {}, "heights"),
+        ("a.npy", _npy(HEIGHTS), {"channel": "0"}, "channel = '0': must be 0, the only one"),
         ("a.npy", _npy(HEIGHTS), {"channel": 1}, "channel = 1: must be 0, the only one"),
         ("a.npy", _npy(HEIGHTS), {"pixel_size": 0.0}, "pixel_size"),
         ("a.npy", _npy(HEIGHTS), {"pixel_size": (1.0, -1.0)}, "pixel_size"),
@@ -148,6 +175,11 @@ def _npy(array: object) -> bytes:
         ),
         ("a.npy", _npy(HEIGHTS), {"unit": None}, "unit is missing: a .npy file does not state"),
         ("a.npy", _npy(HEIGHTS), {"unit": "inch"}, "unit = 'inch': must be one of m, mm, um, nm"),
+        ("a.npy", _npy(HEIGHTS), {"unit": 1}, "unit = 1: must be one of m, mm, um, nm, pm"),
+        ("a.toml", b"[surface]\n", {}, "is a scene, not a surface: must be a scan"),
+        ("a.npz", _zip("note.txt", b"hello"), {}, "must be an array of real numbers"),
+        ("a.npz", _zip(None, b""), {}, "holds no arrays"),
+        ("a.npz", _zip("a.npy", _npy(HEIGHTS)[:-8]), {}, "not a sound .npz file"),
         ("a.npz", b"PK\x03\x04 and no more", {}, "not a sound .npz file"),
         ("a.npz", _npy(HEIGHTS), {}, "not a sound .npz file"),
         ("a.csv", b"", {}, "holds no numbers"),

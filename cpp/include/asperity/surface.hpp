@@ -59,8 +59,9 @@ class ASPERITY_EXPORT HeightMap {
   /// sqrt(<(dh/dx)^2> + <(dh/dy)^2>) by central differences where both neighbours are measured.
   [[nodiscard]] double rms_slope() const;
 
-  /// Linear interpolation across drop-outs, along rows and columns, weighted by the inverse square of the gap;
-  /// nearest measured point where neither brackets. Throws where more than `max_fraction` is missing.
+  /// Linear interpolation across drop-outs, along rows and columns (diagonals where neither has both neighbours), the
+  /// nearer pair weighing more; nearest measured point of the hull outside of it. Throws where more than `max_fraction`
+  /// is missing.
   [[nodiscard]] HeightMap fill_dropouts(double max_fraction = 0.10) const;
   /// Least-squares offset, plane or quadratic surface of the measured points removed.
   [[nodiscard]] HeightMap detrend(Detrend order) const;
