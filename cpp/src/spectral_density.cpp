@@ -55,6 +55,10 @@ Anisotropy anisotropy(const HeightMap& map, Window window, std::optional<Detrend
   const double ly = static_cast<double>(ny) * dy, lx = static_cast<double>(nx) * dx;
   const Reliability reliable(window, std::min(ly, lx), std::max(dy, dx), prepared.ring_variance_factor);
   const double lowest = q_min.value_or(reliable.lowest), highest = q_max.value_or(reliable.highest);
+  if (!(highest > lowest))
+    throw InvalidInput("surface: has no band between " + show(lowest) +
+                       " 1/m, the longest waves that the window leaves, and " + show(highest) +
+                       ", half of pi / pixel: is too small for its anisotropy; q_min and q_max choose one");
   double xx = 0, xy = 0, yy = 0;
   std::size_t modes = 0;
   for_each_mode_column(map, prepared, 1, [&](unsigned, std::size_t kx, const auto* column) {

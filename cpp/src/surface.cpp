@@ -47,8 +47,9 @@ HeightMap::HeightMap(Data data, Strides strides, std::shared_ptr<const void> own
     for (std::size_t x = 0; x < row.size(); ++x) {
       if (std::isnan(row[x])) ++dropouts_;
       if (std::isinf(row[x]))
-        refuse("heights[" + std::to_string(y) + ", " + std::to_string(x) + "]", row[x],
-               "finite, or NaN for a drop-out");
+        refuse(
+            "heights[" + (strides_[0] == 0 && shape_[0] == 1 ? "" : std::to_string(y) + ", ") + std::to_string(x) + "]",
+            row[x], "finite, or NaN for a drop-out");
     }
   });
   if (dropouts_ == shape_[0] * shape_[1]) throw InvalidInput("heights: every point is a drop-out (NaN)");

@@ -64,7 +64,8 @@ Parameters
 surface : HeightMap
     Without drop-outs.
 window : {"split-cosine-bell", "hann", "none"}
-    "none" is right for periodic maps only.
+    "none" is right for periodic maps only, and then with detrend=None: a plane taken out of a periodic map leaves a
+    saw-tooth.
 detrend : {"plane", "quadratic", "offset", None}
 threads : int
     Threads of its own that the call may use. The sums then differ in rounding.

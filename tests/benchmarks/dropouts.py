@@ -19,7 +19,7 @@ from scipy.ndimage import binary_dilation
 
 import asperity
 
-MEASURED = Path("/work/shared/data/topography")
+MEASURED = Path(__file__).parents[3] / "shared/data/topography"
 SCANS = ("opd-1.opd", "al3d-1.al3d")
 PIXEL = 1e-6
 

@@ -65,7 +65,7 @@ REFUSED = [
     ),
     (
         [lambda: HOLED_MAP.fill_dropouts(max_fraction=0.01)],
-        r"1\.389 % .* at most 1 % \(max_fraction",
+        r"1\.389 % .* at most 1 %, max_fraction = 0.01",
     ),
     (
         [lambda: HOLED_MAP.local_peaks(min_distance=1)],
