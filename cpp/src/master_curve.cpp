@@ -178,6 +178,12 @@ AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const 
   return {i1, i2, i1 * std::clamp(share1, 0.0, 1.0), i2 * std::clamp(share2, 0.0, 1.0)};
 }
 
+MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {
+  MasterCurve result = *this;
+  result.shifts_ = std::move(shifts);
+  return result;
+}
+
 MasterCurve MasterCurve::shifted(double a_T) const {
   require_positive("a_T", a_T);
   std::vector<double> frequency = table_->frequency;

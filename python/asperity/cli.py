@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from asperity import commands
+from asperity import commands, rubber_command
 from asperity._core import Error, InvalidInput, OutOfRange, __version__
 from asperity.fields import MOST_POINTS
 
@@ -67,6 +67,13 @@ codecs.register_error(_ESCAPE, _escaped)
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def _pairs(text: str) -> dict[str, str]:
+    pairs = [entry.partition("=") for entry in text.split(",")]
+    if not all(name and mark and value for name, mark, value in pairs):
+        raise ArgumentTypeError(f"{text!r}: must be NAME=VALUE,NAME=VALUE")
+    return {name.strip(): value.strip() for name, _, value in pairs}
 
 
 def _number(text: str) -> float:
@@ -216,4 +223,50 @@ def _parser() -> argparse.ArgumentParser:
         "(default: %(default)s)",
     )
     outputs(spectrum)
+
+    rubber = verb(
+        "rubber",
+        rubber_command.rubber,
+        "master curve, shift factors and Prony series of DMA isotherms",
+        "dma.csv --columns frequency=f,temperature=T,storage=G1,loss=G2 "
+        "--units frequency=Hz,temperature=C,modulus=MPa --modulus G --plot rubber.png",
+    )
+    rubber.add_argument("file", metavar="FILE", nargs="+")
+    rubber.add_argument(
+        "--columns",
+        type=_pairs,
+        required=True,
+        metavar="NAME=COLUMN,...",
+        help="names in the files of frequency, temperature, storage, loss",
+    )
+    rubber.add_argument(
+        "--units",
+        type=_pairs,
+        required=True,
+        metavar="NAME=UNIT,...",
+        help="frequency=Hz or rad/s, temperature=K or C, modulus=Pa, kPa, MPa or GPa",
+    )
+    rubber.add_argument(
+        "--modulus", choices=("E", "G"), required=True, help="Young's or shear moduli"
+    )
+    rubber.add_argument(
+        "--poisson-ratio",
+        type=_number,
+        default=0.5,
+        metavar="NU",
+        help="for E = 2 (1 + nu) G (default: %(default)s)",
+    )
+    rubber.add_argument(
+        "--reference-temperature",
+        type=_number,
+        metavar="T",
+        help="[K] (default: that of the middle isotherm)",
+    )
+    rubber.add_argument(
+        "--vertical-shift", choices=("T/T_ref",), help="divide moduli by b_T (default: none)"
+    )
+    rubber.add_argument(
+        "--shift", metavar="FILE", help="take a_T from a table, temperature_k,log10_a_t"
+    )
+    outputs(rubber)
     return parser

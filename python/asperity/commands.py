@@ -60,11 +60,11 @@ def demo(args: Namespace) -> None:
 
 def friction(args: Namespace) -> None:
     """Friction of one scene, or of several under one another."""
-    outputs = _check_outputs(args)
+    outputs = check_outputs(args)
     scenes = [load_scene(name) for name in args.scene]
-    _spare(outputs, [source for scene in scenes for source in scene.sources])
+    spare(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes)
-    _deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+    deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
 
 
 def _friction_table(scenes: Sequence[Scene]) -> tuple[Table, list[Curves]]:
@@ -97,9 +97,9 @@ def _progress(title: str) -> Progress:
 
 def area(args: Namespace) -> None:
     """A/A0 of a scene at every pressure, velocity and wavenumber."""
-    outputs = _check_outputs(args)
+    outputs = check_outputs(args)
     scene = load_scene(args.scene)
-    _spare(outputs, scene.sources)
+    spare(outputs, scene.sources)
     rows = scene.pressure.size * scene.velocity.size * args.points
     if rows > MOST_ROWS:
         problem = (
@@ -114,13 +114,13 @@ def area(args: Namespace) -> None:
     table = Table(
         "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
-    _deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
+    deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
 
 def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
     path = Path(args.file)
-    _spare(_check_outputs(args), [path])
+    spare(check_outputs(args), [path])
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with named(None, {**flags, "max_fraction": "--max-dropouts"}):
         raw, filled = read_filled(
@@ -173,7 +173,7 @@ def spectrum(args: Namespace) -> None:
     table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
     drawn = cutoff if cutoff < whole.q1 else None
     draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
-    _deliver(args, table, draw, found)
+    deliver(args, table, draw, found)
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
@@ -221,7 +221,8 @@ def _inputs(scene: Scene) -> dict[str, Any]:
     return {"scene": str(scene.path), **scene.inputs, "derived": scene.derived}
 
 
-def _check_outputs(args: Namespace) -> list[Path]:
+def check_outputs(args: Namespace) -> list[Path]:
+    """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
         plot.check_plot(Path(args.plot))
     outputs = [Path(name) for name in (args.output, args.plot) if name is not None]
@@ -232,14 +233,15 @@ def _check_outputs(args: Namespace) -> list[Path]:
     return outputs
 
 
-def _spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+def spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+    """Refuse to write over what is read."""
     taken = {path.resolve() for path in inputs}
     for path in outputs:
         if path.resolve() in taken:
             raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
-def _deliver(
+def deliver(
     args: Namespace,
     table: Table,
     draw: Callable[[Path], bytes],

@@ -58,6 +58,18 @@ def file_name(value: object) -> str:
     return value
 
 
+def file_names(value: object) -> list[str]:
+    if not isinstance(value, list) or not value:
+        raise _WrongValueError("must be a list of names of files")
+    return [file_name(entry) for entry in value]
+
+
+def texts(value: object) -> dict[str, str]:
+    if not isinstance(value, dict) or not all(isinstance(entry, str) for entry in value.values()):
+        raise _WrongValueError('must be a table of texts, as in {frequency = "Hz"}')
+    return dict(value)
+
+
 def count(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or abs(value) >= 2**63:
         raise _WrongValueError("must be a whole number")
@@ -107,10 +119,6 @@ def _logarithmic(value: Mapping[str, object]) -> Any:
     if not 2 <= points <= MOST_POINTS:
         raise _WrongValueError(f"points must be in 2..{MOST_POINTS}")
     return np.geomspace(low, high, points)
-
-
-def anything(value: object) -> object:
-    return value
 
 
 def refuse(path: Path, field: str, problem: str) -> NoReturn:

@@ -1,4 +1,4 @@
-"""Surface, rubber, correction and adhesion of a scene, each built from its table."""
+"""Surface, correction and adhesion of a scene, each built from its table."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,16 +11,13 @@ from asperity._core import (
     HeightMap,
     LineScan,
     LocalPeaks,
-    MasterCurve,
     PeaksThenGreenwoodWilliamson,
-    PronySeries,
     SelfAffineSpectrum,
     SFactor,
     TabulatedSpectrum,
 )
 from asperity.fields import (
     Field,
-    anything,
     arguments,
     count,
     file_name,
@@ -35,12 +32,10 @@ from asperity.fields import (
     require,
     text,
 )
-from asperity.read_rubber import read_master_curve
 from asperity.scan import Scan, nyquist, read_filled, surface_spectrum
 
 Values = dict[str, Any]
 Spectrum = SelfAffineSpectrum | TabulatedSpectrum
-Rubber = PronySeries | MasterCurve
 Correction = SFactor | AffineShift | LocalPeaks | GreenwoodWilliamson | PeaksThenGreenwoodWilliamson
 
 _SELF_AFFINE = {
@@ -61,19 +56,6 @@ _READ = {
 }
 _TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
 _SURFACE = {"file": Field(file_name), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
-
-_PRONY = {
-    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
-    "moduli_pa": Field(numbers, "moduli"),
-    "relaxation_times_s": Field(numbers, "relaxation_times"),
-}
-_NOT_YET = dict.fromkeys(("isotherms", "temperature_k", "shift"), Field(anything))
-_RUBBER = {
-    **_PRONY,
-    "master_curve": Field(file_name),
-    "extrapolation": Field(text, "extrapolation"),
-    **_NOT_YET,
-}
 
 _KIND = {"kind": Field(text)}
 _PEAKS = {
@@ -175,28 +157,6 @@ def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
     key = min(cutoffs, key=cutoffs.__getitem__)
     with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])
-
-
-def build_rubber(path: Path, table: object) -> tuple[Rubber, Values]:
-    values = read_table(path, "rubber", table, _RUBBER)
-    alternatives = "give master_curve, or equilibrium_modulus_pa, moduli_pa and relaxation_times_s"
-    for key in _NOT_YET:
-        if key in values:
-            refuse(path, f"[rubber] {key}", f"isotherms are not read yet: {alternatives}")
-    if "master_curve" not in values:
-        if "extrapolation" in values:
-            refuse(
-                path, "[rubber] extrapolation", "must be left out where no master_curve is given"
-            )
-        require(path, "rubber", values, tuple(_PRONY), alternatives)
-        with named(path, names_of("rubber", _PRONY)):
-            return PronySeries(**arguments(values, _PRONY)), values
-    for key in _PRONY:
-        if key in values:
-            refuse(path, f"[rubber] {key}", "must be left out where master_curve is given")
-    file = path.parent / values["master_curve"]
-    with named(path, {"extrapolation": "[rubber] extrapolation"}):
-        return read_master_curve(file, values.get("extrapolation")), values
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:

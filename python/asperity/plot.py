@@ -124,8 +124,8 @@ def _shaded(
     from matplotlib.colors import LogNorm
 
     norm = LogNorm(float(values.min()), float(values.max()))
-    figure.colorbar(ScalarMappable(norm, _shades()), ax=axes, label=title)
-    return np.asarray(_shades()(norm(values)))
+    figure.colorbar(ScalarMappable(norm, shades()), ax=axes, label=title)
+    return np.asarray(shades()(norm(values)))
 
 
 def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> None:
@@ -153,12 +153,13 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
 
 
 def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
-    """A figure of one to three panels in a row."""
+    """A figure of one to three panels in a row, or of two by two."""
     from matplotlib.figure import Figure
 
-    width = {1: 6.6, 2: 9.0, 3: 13.0}[panels]
-    figure = Figure(figsize=(width, 3.5), layout="constrained")
-    drawn = [figure.add_subplot(1, panels, i + 1) for i in range(panels)]
+    width, height = {1: (6.6, 3.5), 2: (9.0, 3.5), 3: (13.0, 3.5), 4: (10.0, 7.2)}[panels]
+    figure = Figure(figsize=(width, height), layout="constrained")
+    rows, columns = (2, 2) if panels == 4 else (1, panels)
+    drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
     for axes in drawn:
         axes.tick_params(which="both", direction="in", top=True, right=True)
     return figure, drawn
@@ -185,10 +186,11 @@ def _plain(name: str) -> str:
 def _colours(count: int) -> Sequence[Any]:
     if count <= len(COLOURS):
         return COLOURS[:count]
-    return list(_shades()(np.linspace(0, 1, count)))
+    return list(shades()(np.linspace(0, 1, count)))
 
 
-def _shades() -> "Colormap":
+def shades() -> "Colormap":
+    """Colours from dark to light, the lightest left out: it would not show on white."""
     from matplotlib import colormaps
     from matplotlib.colors import ListedColormap
 

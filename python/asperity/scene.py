@@ -1,7 +1,7 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
@@ -36,13 +36,12 @@ from asperity.fields import (
 )
 from asperity.parts import (
     Correction,
-    Rubber,
     Spectrum,
     build_adhesion,
     build_correction,
-    build_rubber,
     build_surface,
 )
+from asperity.rubber import Rubber, build_rubber
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
@@ -87,11 +86,14 @@ class Scene:
     options: Mapping[str, Any]  # poisson_ratio, rtol, form
     inputs: Mapping[str, Mapping[str, Any]]
     derived: Mapping[str, Any]
+    rubber_notes: Sequence[str]  # of the isotherms
 
     @property
     def sources(self) -> list[Path]:
         """The scene file and the files that it names."""
-        names = (self.inputs["surface"].get("file"), self.inputs["rubber"].get("master_curve"))
+        rubber = self.inputs["rubber"]
+        names = [self.inputs["surface"].get("file"), rubber.get("master_curve")]
+        names += [rubber.get("shift"), *rubber.get("isotherms", [])]
         return [self.path, *(self.path.parent / name for name in names if name is not None)]
 
     @property
@@ -105,7 +107,7 @@ class Scene:
         compute = partial(friction, adhesion=self.adhesion, **self.options)
         parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
-        notes = dict.fromkeys(self._surface_notes())
+        notes = dict.fromkeys([*self._surface_notes(), *self.rubber_notes])
         notes |= dict.fromkeys(note for part in parts for note in part.notes)
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
@@ -135,7 +137,7 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, poisson_ratio=self.options["poisson_ratio"])
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        notes = dict.fromkeys(self._surface_notes())
+        notes = dict.fromkeys([*self._surface_notes(), *self.rubber_notes])
         return list(notes | dict.fromkeys(note for part in parts for note in part))
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
@@ -196,7 +198,7 @@ def load_scene(path: str | Path) -> Scene:
         refuse(path, "[conditions]", problem)
 
     spectrum, surface, surface_values, derived = build_surface(path, tables["surface"])
-    rubber, rubber_values = build_rubber(path, tables["rubber"])
+    rubber, rubber_values, rubber_notes = build_rubber(path, tables["rubber"])
     inputs = {
         "surface": surface_values,
         "rubber": rubber_values,
@@ -221,6 +223,7 @@ def load_scene(path: str | Path) -> Scene:
         options={**arguments(conditions, _CONDITIONS), **arguments(solver, _SOLVER)},
         inputs=inputs,
         derived=derived,
+        rubber_notes=rubber_notes,
     )
 
 

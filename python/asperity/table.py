@@ -24,6 +24,9 @@ UNITS = {
     "wavenumber_per_m": "1/m",
     "density_m4": "m^4",
     "standard_error_m4": "m^4",
+    "angular_frequency_rad_s": "rad/s",
+    "storage_modulus_pa": "Pa",
+    "loss_modulus_pa": "Pa",
 }  # all other columns are pure numbers
 
 

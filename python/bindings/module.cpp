@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_scan_spectrum(m);
   bind_self_affine(m);
   bind_rubber(m);
+  bind_dma(m);
   bind_asperities(m);
   bind_correction(m);
   bind_contact(m);

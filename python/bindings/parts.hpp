@@ -11,6 +11,7 @@ void bind_spectrum(pybind11::module_& m);
 void bind_scan_spectrum(pybind11::module_& m);
 void bind_self_affine(pybind11::module_& m);
 void bind_rubber(pybind11::module_& m);
+void bind_dma(pybind11::module_& m);
 void bind_asperities(pybind11::module_& m);
 void bind_correction(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);

@@ -4,15 +4,13 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "dma.hpp"
 #include "parts.hpp"
 #include "value.hpp"
 
 namespace asperity::python {
 
 namespace {
-
-const auto extrapolations = {std::pair{"power-law", Extrapolation::power_law},
-                             std::pair{"clamp", Extrapolation::clamp}};
 
 /// f(AngularIntegrals) over every frequency, the GIL released.
 template <class R, class F>
@@ -104,6 +102,8 @@ storage_modulus, loss_modulus : array_like, shape (n,)
     E', E'' [Pa], positive.
 extrapolation : {None, "power-law", "clamp"}
     Over at most one decade at either end: none, with the slope that ln E', ln E'' have at the end, or constant.
+shift_factors : ShiftFactors, optional
+    Of the isotherms behind the curve; at_strain places its sweeps by them.
 
 Raises
 ------
@@ -113,15 +113,14 @@ OutOfRange
 )");
   curve
       .def(py::init([](const py::object& w, const py::object& storage, const py::object& loss,
-                       const std::optional<std::string>& extrapolation) {
-             return MasterCurve(
-                 vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
-                 vector_of(loss, "loss_modulus"),
-                 extrapolation ? std::optional(choice<Extrapolation>("extrapolation", *extrapolation, extrapolations))
-                               : std::nullopt);
+                       const std::optional<std::string>& extrapolation, const py::object& shifts) {
+             MasterCurve curve(vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
+                               vector_of(loss, "loss_modulus"), extrapolation_of(extrapolation));
+             if (shifts.is_none()) return curve;
+             return curve.with_shifts(std::make_shared<const ShiftTable>(shifts_of(shifts)));
            }),
            py::kw_only(), py::arg("angular_frequency"), py::arg("storage_modulus"), py::arg("loss_modulus"),
-           py::arg("extrapolation") = py::none())
+           py::arg("extrapolation") = py::none(), py::arg("shift_factors") = py::none())
       .def_property_readonly(
           "angular_frequency", [](const MasterCurve& s) { return flat(s.angular_frequency()); }, "w [rad/s].")
       .def_property_readonly(
@@ -135,6 +134,31 @@ OutOfRange
                                      : py::object(py::none());
           },
           "None, \"power-law\" or \"clamp\".")
+      .def_property_readonly(
+          "shift_factors",
+          [](const MasterCurve& s) { return s.shifts() ? py::cast(ShiftTable(*s.shifts())) : py::object(py::none()); },
+          "ShiftFactors of the isotherms that the curve was made from, or None.")
+      .def("at_strain", &large_strain, py::arg("strain"), py::arg("sweeps"), py::kw_only(),
+           py::arg("shift_factors") = py::none(),
+           R"(The master curve at a large strain (the article's Section 5.1), a MasterCurve.
+
+E' and E'' each times its own ratio E(strain) / E(0.5 %), which every sweep gives at its place a_T(T) w on the curve;
+between sweeps the logarithm of the ratio is interpolated (Steffen), beyond the first and the last it is held, with a
+warning.
+
+Parameters
+----------
+strain : float
+    Amplitude [-], 0.5 is 50 %.
+sweeps : iterable of StrainSweep
+shift_factors : ShiftFactors, optional
+    Of the small strain; by default those the curve was built with.
+
+Raises
+------
+InvalidInput, OutOfRange
+    No shift factors, a temperature outside of theirs, a strain outside of a sweep's.
+)")
       .def(
           "extrapolated_shares",
           [](const MasterCurve& r, const py::object& w) {
@@ -145,7 +169,7 @@ OutOfRange
           "Shares of I1 and I2 that come from outside of the measured frequencies: w cos(phi) always runs to zero, "
           "and below the lowest frequency E' is taken constant and E'' proportional to w.");
   bind_common(curve);
-  value_semantics(curve, {"angular_frequency", "storage_modulus", "loss_modulus", "extrapolation"});
+  value_semantics(curve, {"angular_frequency", "storage_modulus", "loss_modulus", "extrapolation", "shift_factors"});
 
   m.def(
       "effective_modulus",

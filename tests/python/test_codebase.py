@@ -62,6 +62,7 @@ TOPIC = {
     "build_master_curve": "dma",
     "fit_prony": "dma",
     "isotherm": "dma",
+    "isotherm_shifts": "dma",
     "master_spline": "dma",
     "shift_table": "dma",
     "prony": "rubber",
@@ -81,8 +82,9 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "scan", "__init__"]
-LAYERS += ["demo", "parts", "scene", "plot", "plot_surface", "commands", "cli", "__main__"]
+LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma", "scan"]
+LAYERS += ["__init__", "demo", "parts", "rubber", "scene", "plot", "plot_surface", "plot_rubber"]
+LAYERS += ["commands", "rubber_command", "cli", "__main__"]
 
 
 def includes(path):

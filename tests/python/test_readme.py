@@ -14,6 +14,13 @@ from asperity.scene import load_scene
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 
 
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=10 ** np.linspace(6, 9, 16),
+    relaxation_times=10 ** np.linspace(2, -8, 16),
+)
+
+
 def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
 
@@ -25,6 +32,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     spectrum = asperity.SelfAffineSpectrum(rms_height=20e-6, hurst=0.8, q0=1e4, q1=1e6)
     scan = asperity.synthesize(spectrum, shape=(128, 128), pixel_size=5e-6, seed=1)
     np.save("scan.npy", scan.heights * 1e6)
+    lines = ["f,T,G1,G2"]
+    for celsius in range(0, 61, 10):
+        for hertz in np.geomspace(0.1, 30, 12):
+            e = RUBBER.modulus(2 * np.pi * hertz * 10 ** (-0.1 * (celsius - 20)))
+            lines.append(f"{hertz},{celsius},{e.real / 3e6},{e.imag / 3e6}")
+    (tmp_path / "dma.csv").write_text("\n".join(lines))
     return tmp_path
 
 
@@ -38,6 +51,10 @@ def test_python(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     fit = names["fit"]
     assert isinstance(fit, asperity.SelfAffineFit)
     assert 0.6 < fit.hurst < 1
+    warm = names["warm"]
+    assert isinstance(warm, asperity.PronySeries)
+    exact = RUBBER.modulus(10 ** (-0.1 * 20) * 10.0)
+    assert warm.modulus(10.0) == pytest.approx(exact, rel=0.02)
     assert capsys.readouterr().out
 
 
@@ -49,7 +66,7 @@ def test_scene(folder: Path) -> None:
     assert np.all(curves.mu > curves.hysteresis)
 
 
-@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])
+@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum", "rubber"])
 def test_verbs(verb: str) -> None:
     assert f"asperity {verb}" in README
     text = subprocess.run(

@@ -160,7 +160,7 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
         (MASTER.replace("to = 1,", "to = 1e6,"), "[conditions] velocity_m_s = "),
         (
             MASTER.replace("[rubber]", "[rubber]\nisotherms = ['a.csv']"),
-            "isotherms are not read yet",
+            "[rubber] master_curve: must be left out where isotherms is given",
         ),
         (BASE + "[adhesion]\nshear_stress_pa = -1\n", "[adhesion] shear_stress_pa = -1"),
         (BASE + "[correction]\n", "[correction] kind: missing"),

@@ -170,7 +170,7 @@ FUNCTIONS = [
     if callable(getattr(asperity, name)) and not inspect.isclass(getattr(asperity, name))
 ]
 UNITLESS = {"SFactor", "SelfAffineFit", "Error", "InvalidInput", "OutOfRange", "NotConverged"}
-UNIT = r"\[(m|1/m|m\^4|m\^2|Pa|Pa\^2|1/Pa|rad/s|s|m/s|N|-)\]"
+UNIT = r"\[(K|m|1/m|m\^4|m\^2|Pa|Pa\^2|1/Pa|rad/s|s|m/s|N|-)\]"
 
 
 @pytest.mark.parametrize("thing", [*CLASSES, *FUNCTIONS], ids=lambda t: t.__name__)

@@ -45,6 +45,8 @@ class ASPERITY_EXPORT PronySeries {
 
 enum class Extrapolation { power_law, clamp };
 
+class ShiftTable;  // asperity/dma.hpp
+
 /// A measured modulus: Steffen's monotone interpolant of ln E' and ln E'' in ln w. Outside the table nothing
 /// is known: OutOfRange, unless an extrapolation over at most one decade at either end is asked for by name.
 class ASPERITY_EXPORT MasterCurve {
@@ -63,12 +65,16 @@ class ASPERITY_EXPORT MasterCurve {
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;
   [[nodiscard]] double highest_frequency() const;
+  /// Shift factors of the measurement that the curve came from, where it knows them.
+  [[nodiscard]] const std::shared_ptr<const ShiftTable>& shifts() const { return shifts_; }
+  [[nodiscard]] MasterCurve with_shifts(std::shared_ptr<const ShiftTable> shifts) const;
   /// Where the interpolant changes its formula [rad/s], in rising order.
   [[nodiscard]] std::span<const double> knots() const;
 
  private:
   struct Table;
   std::shared_ptr<const Table> table_;
+  std::shared_ptr<const ShiftTable> shifts_;
 };
 
 using Rubber = std::variant<PronySeries, MasterCurve>;

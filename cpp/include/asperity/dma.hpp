@@ -1,0 +1,145 @@
+// From dynamic mechanical analysis to a modulus at any frequency: isotherms, shift factors, Prony fit, large strain.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asperity/export.hpp"
+#include "asperity/rubber.hpp"
+
+namespace asperity {
+
+/// A frequency sweep at one temperature, small strain. Frequencies rise; points within 1 % of each other were averaged
+/// in the logarithm, which `notes` says.
+class ASPERITY_EXPORT Isotherm {
+ public:
+  /// temperature [K], angular frequency [rad/s] in any order, storage and loss modulus [Pa].
+  Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+           std::vector<double> loss_modulus);
+  [[nodiscard]] double temperature() const { return temperature_; }
+  [[nodiscard]] const std::vector<double>& angular_frequency() const { return frequency_; }
+  [[nodiscard]] const std::vector<double>& storage_modulus() const { return storage_; }
+  [[nodiscard]] const std::vector<double>& loss_modulus() const { return loss_; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  double temperature_;
+  std::vector<double> frequency_, storage_, loss_;
+  std::vector<std::string> notes_;
+};
+
+/// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), with standard errors.
+struct WlfFit {
+  double c1, c2;              // [-], [K]
+  double reference;           // T_ref [K]
+  double c1_error, c2_error;  // [-], [K]
+  double residual;            // rms of log10 a_T about the fit [-]
+};
+
+/// ln a_T = (E_a / R) (1 / T - 1 / T_ref), with its standard error.
+struct ArrheniusFit {
+  double activation_energy;        // E_a [J/mol]
+  double reference;                // T_ref [K]
+  double activation_energy_error;  // [J/mol]
+  double residual;                 // rms of log10 a_T about the fit [-]
+};
+
+/// Shift factors over temperature, measured or read from outside.
+class ASPERITY_EXPORT ShiftTable {
+ public:
+  /// Temperatures [K] rising; `standard_deviation` of log10 a_T (optional).
+  ShiftTable(double reference, std::vector<double> temperature, std::vector<double> log10_a_T,
+             std::vector<double> standard_deviation = {});
+  [[nodiscard]] double reference() const { return reference_; }
+  [[nodiscard]] const std::vector<double>& temperature() const { return temperature_; }
+  [[nodiscard]] const std::vector<double>& log10_a_T() const { return log10_a_T_; }
+  [[nodiscard]] const std::vector<double>& standard_deviation() const { return deviation_; }
+  /// a_T at a temperature [K]: Steffen's interpolant of log10 a_T; OutOfRange outside of the table.
+  [[nodiscard]] double shift_factor(double temperature) const;
+  [[nodiscard]] WlfFit fit_wlf() const;
+  [[nodiscard]] ArrheniusFit fit_arrhenius() const;
+
+ private:
+  double reference_;
+  std::vector<double> temperature_, log10_a_T_, deviation_;
+};
+
+enum class VerticalShift { none, temperature_ratio, table };
+
+struct MasterCurveOptions {
+  double reference_temperature;                          // [K]
+  VerticalShift vertical_shift = VerticalShift::none;    // b_T = 1; T_ref / T; or as given
+  std::vector<double> b_T = {};                          // an entry an isotherm in rising temperature, for `table`
+  std::optional<ShiftTable> shift_table = std::nullopt;  // a_T from outside instead of a fit
+  bool smooth = false;                                   // the master spline instead of the merged points
+  std::optional<Extrapolation> extrapolation = std::nullopt;
+};
+
+/// A measured point on the master curve.
+struct MasterPoint {
+  double angular_frequency;              // reduced, a_T w [rad/s]
+  double storage_modulus, loss_modulus;  // reduced, E / b_T [Pa]
+  std::size_t isotherm;                  // of origin: index in rising temperature
+};
+
+struct MasterCurveBuild {
+  MasterCurve master_curve;
+  ShiftTable shifts;
+  std::vector<double> b_T;
+  std::vector<MasterPoint> points;  // in rising frequency
+  double residual;                  // rms of ln E', ln E'' about the master spline
+  std::vector<std::string> notes;
+};
+
+/// Horizontal shifts on E' and E'' together: pairwise for a start, then all at once about one master spline.
+ASPERITY_EXPORT MasterCurveBuild build_master_curve(std::span<const Isotherm> isotherms,
+                                                    const MasterCurveOptions& options);
+
+struct PronyFitOptions {
+  std::optional<double> modes_per_decade = std::nullopt;  // default: the fewest modes that reach the noise
+  std::optional<double> residual = std::nullopt;          // ... or that reach this relative rms residual
+};
+
+/// A Prony series through a measured modulus.
+struct PronyFit {
+  PronySeries series;
+  double storage_residual, loss_residual;  // relative rms of E' and E'' [-]
+  /// Prony series are causal: what no series can follow, noise apart, violates the Kramers-Kronig relations.
+  bool causal;
+  std::vector<std::string> notes;
+};
+/// Non-negative least squares with relative weights over relaxation times from one decade below to one above those of
+/// the measured range.
+ASPERITY_EXPORT PronyFit fit_prony(std::span<const double> angular_frequency, std::span<const double> storage_modulus,
+                                   std::span<const double> loss_modulus, const PronyFitOptions& options = {});
+
+/// A strain sweep at one temperature and one frequency.
+class ASPERITY_EXPORT StrainSweep {
+ public:
+  /// temperature [K], angular frequency [rad/s], strain amplitude [-] rising, moduli [Pa].
+  StrainSweep(double temperature, double angular_frequency, std::vector<double> strain,
+              std::vector<double> storage_modulus, std::vector<double> loss_modulus);
+  [[nodiscard]] double temperature() const { return temperature_; }
+  [[nodiscard]] double angular_frequency() const { return frequency_; }
+  [[nodiscard]] const std::vector<double>& strain() const { return strain_; }
+  [[nodiscard]] const std::vector<double>& storage_modulus() const { return storage_; }
+  [[nodiscard]] const std::vector<double>& loss_modulus() const { return loss_; }
+
+ private:
+  double temperature_, frequency_;
+  std::vector<double> strain_, storage_, loss_;
+};
+
+struct LargeStrain {
+  MasterCurve master_curve;
+  std::vector<std::string> notes;
+};
+/// The master curve at a large strain: E' and E'' times their own ratios to 0.5 % strain, each sweep placed at
+/// a_T(T) w, interpolated in ln w, held beyond the first and the last sweep.
+ASPERITY_EXPORT LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts, double strain,
+                                      std::span<const StrainSweep> sweeps);
+
+}  // namespace asperity

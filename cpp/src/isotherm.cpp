@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "asperity/dma.hpp"
+#include "checks.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double coldest = 100;          // [K]: no rubber is measured below, and Celsius given for kelvin shows
+constexpr double same_frequency = 0.01;  // relative: points no farther apart are one
+
+void require_kelvin(double temperature) {
+  if (!(temperature >= coldest) || !std::isfinite(temperature))
+    refuse("temperature", temperature, "in kelvin, " + show(coldest) + " or more (Celsius + 273.15)");
+}
+
+}  // namespace
+
+Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+                   std::vector<double> loss_modulus)
+    : temperature_(temperature) {
+  require_kelvin(temperature);
+  const std::size_t n = angular_frequency.size();
+  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", n);
+  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", n);
+  require_each_positive("angular_frequency", angular_frequency);
+  require_each_positive("storage_modulus", storage_modulus);
+  require_each_positive("loss_modulus", loss_modulus);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return angular_frequency[i]; });
+
+  const auto mean = [](const std::vector<double>& values, std::span<const std::size_t> rows) {
+    double sum = 0;
+    for (const std::size_t i : rows) sum += std::log(values[i]);
+    return rows.size() == 1 ? values[rows.front()] : std::exp(sum / static_cast<double>(rows.size()));
+  };
+  for (std::size_t first = 0; first < n;) {
+    std::size_t last = first + 1;
+    while (last < n && angular_frequency[order[last]] <= angular_frequency[order[first]] * (1 + same_frequency)) ++last;
+    const std::span rows(order.begin() + static_cast<std::ptrdiff_t>(first), last - first);
+    frequency_.push_back(mean(angular_frequency, rows));
+    storage_.push_back(mean(storage_modulus, rows));
+    loss_.push_back(mean(loss_modulus, rows));
+    if (rows.size() > 1) {
+      std::string list;
+      for (const std::size_t i : rows) list += (list.empty() ? "" : ", ") + std::to_string(i);
+      notes_.push_back("isotherm at " + show(temperature, 6) + " K: rows " + list + " lie within 1 % of " +
+                       show(frequency_.back(), 4) + " rad/s and were averaged");
+    }
+    first = last;
+  }
+  if (frequency_.size() < 4)
+    throw InvalidInput("angular_frequency has " + std::to_string(frequency_.size()) +
+                       " different entries at temperature = " + show(temperature, 6) +
+                       ": must have 4 or more for an isotherm");
+}
+
+StrainSweep::StrainSweep(double temperature, double angular_frequency, std::vector<double> strain,
+                         std::vector<double> storage_modulus, std::vector<double> loss_modulus)
+    : temperature_(temperature),
+      frequency_(angular_frequency),
+      strain_(std::move(strain)),
+      storage_(std::move(storage_modulus)),
+      loss_(std::move(loss_modulus)) {
+  require_kelvin(temperature);
+  require_positive("angular_frequency", angular_frequency);
+  require_same_size("storage_modulus", storage_.size(), "strain", strain_.size());
+  require_same_size("loss_modulus", loss_.size(), "strain", strain_.size());
+  if (strain_.size() < 2)
+    throw InvalidInput("strain has " + std::to_string(strain_.size()) + " entries: must be 2 or more");
+  require_each_positive("strain", strain_);
+  require_rising("strain", strain_);
+  require_each_positive("storage_modulus", storage_);
+  require_each_positive("loss_modulus", loss_);
+}
+
+}  // namespace asperity

@@ -1,0 +1,198 @@
+#include "master_spline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asperity {
+
+namespace {
+
+/// The four cubic B-splines that are not zero at t in [0, 1] of an interval, or their slopes in t.
+std::array<double, 4> basis(double t) {
+  const double s = 1 - t;
+  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
+}
+std::array<double, 4> basis_slope(double t) {
+  const double s = 1 - t;
+  return {-s * s / 2, (3 * t * t - 4 * t) / 2, -(3 * s * s - 4 * s) / 2, t * t / 2};
+}
+
+/// Knots over a range, with room for shifts to move points.
+struct Knots {
+  double lower, spacing;
+  Eigen::Index intervals;
+
+  Knots(double lowest, double highest, double wanted) {
+    intervals = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil((highest - lowest) / wanted)));
+    spacing = (highest - lowest) / static_cast<double>(intervals);
+    lower = lowest;
+  }
+  [[nodiscard]] Eigen::Index coefficients() const { return intervals + 3; }
+  /// Interval that holds x, points beyond the ends going to the last ones.
+  [[nodiscard]] Eigen::Index interval(double x) const {
+    const auto i = static_cast<Eigen::Index>(std::floor((x - lower) / spacing));
+    return std::clamp<Eigen::Index>(i, 0, intervals - 1);
+  }
+  [[nodiscard]] double within(double x, Eigen::Index i) const { return (x - lower) / spacing - static_cast<double>(i); }
+};
+
+struct Solution {
+  Eigen::VectorXd storage, loss;            // coefficients
+  Eigen::VectorXd storage_left, loss_left;  // what is left of each point
+  double trace;                             // of the hat matrix: coefficients that the data determine
+};
+
+/// The splines for given shifts: linear least squares, with so weak a pull towards small second differences that it
+/// matters in intervals without points only.
+class Splines {
+ public:
+  Splines(const SweepPoints& points, const Knots& knots, const Eigen::VectorXd& shift)
+      : points_(points), knots_(knots), matrix_(points.x.size(), knots.coefficients()) {
+    matrix_.setZero();
+    x_.resize(points.x.size());
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      x_[i] = points.x[i] + shift[points.isotherm[static_cast<std::size_t>(i)]];
+      const Eigen::Index k = knots.interval(x_[i]);
+      const auto b = basis(knots.within(x_[i], k));
+      for (Eigen::Index j = 0; j < 4; ++j) matrix_(i, k + j) = b[static_cast<std::size_t>(j)];
+    }
+    Eigen::MatrixXd normal = matrix_.transpose() * matrix_;
+    constexpr double pull = 1e-9;
+    for (Eigen::Index j = 0; j + 2 < normal.rows(); ++j) {
+      Eigen::Vector3d d(1, -2, 1);
+      normal.block<3, 3>(j, j) += pull * d * d.transpose();
+    }
+    factor_.compute(normal);
+  }
+
+  [[nodiscard]] Solution solve() const {
+    Solution s;
+    s.storage = factor_.solve(matrix_.transpose() * points_.storage);
+    s.loss = factor_.solve(matrix_.transpose() * points_.loss);
+    s.storage_left = points_.storage - matrix_ * s.storage;
+    s.loss_left = points_.loss - matrix_ * s.loss;
+    s.trace = factor_.solve(matrix_.transpose() * matrix_).trace();
+    return s;
+  }
+
+  /// How what is left changes with the shifts (but the fixed one): the spline's slope, less what the spline itself
+  /// follows of it (Kaufman's variable projection, BIT 15, 49 (1975)).
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& coefficients, Eigen::Index fixed) const {
+    Eigen::MatrixXd d = Eigen::MatrixXd::Zero(x_.size(), points_.isotherms - 1);
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const Eigen::Index curve = points_.isotherm[static_cast<std::size_t>(i)];
+      if (curve == fixed) continue;
+      const Eigen::Index k = knots_.interval(x_[i]);
+      const auto b = basis_slope(knots_.within(x_[i], k));
+      double slope = 0;
+      for (Eigen::Index j = 0; j < 4; ++j) slope += b[static_cast<std::size_t>(j)] * coefficients[k + j];
+      d(i, curve < fixed ? curve : curve - 1) = -slope / knots_.spacing;
+    }
+    return d - matrix_ * factor_.solve(matrix_.transpose() * d);
+  }
+
+ private:
+  const SweepPoints& points_;
+  const Knots& knots_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd x_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+};
+
+double lowest(const SweepPoints& p, const Eigen::VectorXd& shift) {
+  double x = p.x[0] + shift[p.isotherm[0]];
+  for (Eigen::Index i = 0; i < p.x.size(); ++i)
+    x = std::min(x, p.x[i] + shift[p.isotherm[static_cast<std::size_t>(i)]]);
+  return x;
+}
+double highest(const SweepPoints& p, const Eigen::VectorXd& shift) {
+  double x = p.x[0] + shift[p.isotherm[0]];
+  for (Eigen::Index i = 0; i < p.x.size(); ++i)
+    x = std::max(x, p.x[i] + shift[p.isotherm[static_cast<std::size_t>(i)]]);
+  return x;
+}
+
+double rms(const Eigen::VectorXd& v, double freedom) { return std::sqrt(v.squaredNorm() / std::max(1.0, freedom)); }
+
+/// Gauss-Newton in the shifts (all but `fixed`, none where it is -1) with knots some `wanted` apart, E' and E''
+/// weighted by what is left of each.
+MasterSpline fit_with_knots(const SweepPoints& points, Eigen::VectorXd shift, Eigen::Index fixed, double wanted) {
+  const auto n = static_cast<double>(points.x.size());
+  MasterSpline result;
+  double weight = 1;  // of E'' against E': the ratio of their variances
+  for (int round = 0; round < 30; ++round) {
+    const Knots knots(lowest(points, shift), highest(points, shift), wanted);
+    const Splines splines(points, knots, shift);
+    const Solution s = splines.solve();
+    const double freedom = n - s.trace - static_cast<double>(points.isotherms - 1) / 2;
+    const double storage = rms(s.storage_left, freedom), loss = rms(s.loss_left, freedom);
+    constexpr double most = 100;  // neither is left out, however smooth the other
+    if (round > 0) weight = std::clamp(storage * storage / std::max(loss * loss, 1e-300), 1 / most, most);
+    result.lower = knots.lower;
+    result.spacing = knots.spacing;
+    result.storage = s.storage;
+    result.loss = s.loss;
+    result.shift = shift;
+    result.storage_residual = storage;
+    result.loss_residual = loss;
+    result.validation = (s.storage_left.squaredNorm() + s.loss_left.squaredNorm()) / n / std::pow(freedom / n, 2);
+    if (fixed < 0) break;
+    const Eigen::MatrixXd js = splines.jacobian(s.storage, fixed), jl = splines.jacobian(s.loss, fixed);
+    Eigen::MatrixXd normal = js.transpose() * js + weight * jl.transpose() * jl;
+    const Eigen::VectorXd right = js.transpose() * s.storage_left + weight * jl.transpose() * s.loss_left;
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor(normal);
+    Eigen::VectorXd step = -factor.solve(right);
+    const double longest = step.size() ? step.cwiseAbs().maxCoeff() : 0;
+    constexpr double stride = 0.5;  // of a step, in ln w: the slopes hold near by only
+    if (longest > stride) step *= stride / longest;
+
+    // a plateau leaves a shift without a slope to hold on to: a small multiple of the identity makes its variance
+    // large, not infinite
+    normal.diagonal().array() += 1e-12 * std::max(1e-30, normal.diagonal().maxCoeff());
+    result.covariance = storage * storage * normal.completeOrthogonalDecomposition().pseudoInverse();
+    if (longest < 1e-10) break;
+    for (Eigen::Index i = 0, k = 0; i < shift.size(); ++i)
+      if (i != fixed) shift[i] += step[k++];
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::Vector2d MasterSpline::at(double x) const {
+  const auto intervals = storage.size() - 3;
+  const auto k =
+      std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor((x - lower) / spacing)), 0, intervals - 1);
+  const auto b = basis((x - lower) / spacing - static_cast<double>(k));
+  Eigen::Vector2d value(0, 0);
+  for (Eigen::Index j = 0; j < 4; ++j)
+    value += b[static_cast<std::size_t>(j)] * Eigen::Vector2d(storage[k + j], loss[k + j]);
+  return value;
+}
+
+namespace {
+
+// The distance of knots by generalised cross-validation: fine where the data are clean, coarse where they scatter.
+MasterSpline best_spline(const SweepPoints& points, Eigen::VectorXd shift, Eigen::Index fixed) {
+  constexpr double decade = 2.302585092994046;
+  MasterSpline best = fit_with_knots(points, shift, fixed, 2 * decade);
+  for (const double wanted : {1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18}) {
+    const MasterSpline found = fit_with_knots(points, best.shift, fixed, wanted * decade);
+    if (2 * (found.storage.size() + points.isotherms) > points.x.size()) break;  // too few points for these
+    if (found.validation < best.validation) best = found;
+  }
+  return best;
+}
+
+}  // namespace
+
+MasterSpline fit_master_spline(const SweepPoints& points, const Eigen::VectorXd& start, Eigen::Index fixed) {
+  return best_spline(points, start, fixed);
+}
+
+MasterSpline master_spline_at(const SweepPoints& points, const Eigen::VectorXd& shift) {
+  return best_spline(points, shift, -1);
+}
+
+}  // namespace asperity

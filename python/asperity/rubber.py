@@ -1,0 +1,139 @@
+"""Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
+
+from pathlib import Path
+from typing import Any
+
+from asperity._core import (
+    InvalidInput,
+    MasterCurve,
+    MasterCurveBuild,
+    PronySeries,
+    ShiftFactors,
+    build_master_curve,
+)
+from asperity.fields import (
+    Field,
+    arguments,
+    file_name,
+    file_names,
+    named,
+    names_of,
+    number,
+    numbers,
+    read_table,
+    refuse,
+    require,
+    text,
+    texts,
+)
+from asperity.read_dma import read_isotherms, read_shift_factors
+from asperity.read_rubber import read_master_curve
+
+Values = dict[str, Any]
+Rubber = PronySeries | MasterCurve
+
+_PRONY = {
+    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
+    "moduli_pa": Field(numbers, "moduli"),
+    "relaxation_times_s": Field(numbers, "relaxation_times"),
+}
+_DMA = {
+    "columns": Field(texts, "columns"),
+    "units": Field(texts, "units"),
+    "modulus": Field(text, "modulus"),
+    "poisson_ratio": Field(number, "poisson_ratio"),
+}
+_BUILD = {
+    "reference_temperature_k": Field(number, "reference_temperature"),
+    "vertical_shift": Field(text, "vertical_shift"),
+}
+_TEMPERATURE = {"temperature_k": Field(number, "temperature"), "shift": Field(file_name)}
+_RUBBER = {
+    **_PRONY,
+    "master_curve": Field(file_name),
+    "isotherms": Field(file_names),
+    **_DMA,
+    **_BUILD,
+    **_TEMPERATURE,
+    "extrapolation": Field(text, "extrapolation"),
+}
+# which keys go with which source of the modulus
+_WITH = {
+    "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, "extrapolation"},
+    "master_curve": {*_TEMPERATURE, "reference_temperature_k", "extrapolation"},
+    "": {*_PRONY, *_TEMPERATURE, "reference_temperature_k"},
+}
+
+
+def build_rubber(path: Path, table: object) -> tuple[Rubber, Values, list[str]]:
+    """The rubber at the scene's temperature, the table as it was used, and what to know of it."""
+    values = read_table(path, "rubber", table, _RUBBER)
+    source = next((key for key in ("isotherms", "master_curve") if key in values), "")
+    for key in values:
+        if key != source and key not in _WITH[source]:
+            given = f"{source} is given" if source else "neither isotherms nor master_curve is"
+            refuse(path, f"[rubber] {key}", f"must be left out where {given}")
+    if source == "isotherms":
+        return _from_isotherms(path, values)
+    rubber: Rubber
+    if source == "master_curve":
+        with named(path, {"extrapolation": "[rubber] extrapolation"}):
+            file = path.parent / values["master_curve"]
+            rubber = read_master_curve(file, values.get("extrapolation"))
+    else:
+        alternatives = (
+            "give isotherms, master_curve, or equilibrium_modulus_pa, moduli_pa and "
+            "relaxation_times_s"
+        )
+        require(path, "rubber", values, tuple(_PRONY), alternatives)
+        with named(path, names_of("rubber", _PRONY)):
+            rubber = PronySeries(**arguments(values, _PRONY))
+    shifts = _shift_table(path, values)
+    if shifts is None:
+        for key in ("temperature_k", "reference_temperature_k"):
+            if key in values:
+                refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
+        return rubber, values, []
+    require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
+    return _at_temperature(path, rubber, shifts, values), values, []
+
+
+def _from_isotherms(path: Path, values: Values) -> tuple[Rubber, Values, list[str]]:
+    require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
+    require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
+    values = {"reference_temperature_k": values["temperature_k"], **values}
+    files = [path.parent / name for name in values["isotherms"]]
+    with named(path, names_of("rubber", _DMA)):
+        isotherms = read_isotherms(files, **arguments(values, _DMA))
+    with named(path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}):
+        build = build_master_curve(
+            isotherms,
+            **arguments(values, _BUILD),
+            shift_factors=_shift_table(path, values),
+            smooth=True,
+            extrapolation=values.get("extrapolation"),
+        )
+    rubber = _at_temperature(path, build.master_curve, build, values)
+    return rubber, values, list(build.notes)
+
+
+def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
+    if "shift" not in values:
+        return None
+    require(path, "rubber", values, ("reference_temperature_k",), "at which a_T is 1")
+    reference = values["reference_temperature_k"]
+    with named(path, names_of("rubber", _BUILD)):
+        file = path.parent / values["shift"]
+        return read_shift_factors(file, reference_temperature=reference)
+
+
+def _at_temperature(
+    path: Path, rubber: Rubber, shifts: ShiftFactors | MasterCurveBuild, values: Values
+) -> Rubber:
+    if values["temperature_k"] == values.get("reference_temperature_k"):
+        return rubber
+    with named(path, names_of("rubber", _TEMPERATURE)):
+        a_t = shifts.shift_factor(values["temperature_k"])
+        if not 0 < a_t < float("inf"):
+            raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
+        return rubber.shifted(a_t)
