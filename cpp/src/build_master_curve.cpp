@@ -121,21 +121,22 @@ double residual_of(const MasterSpline& spline) {
 
 /// What the vertical shift b_T = T / T_ref would have done, where it matters; nothing where neighbours do not even meet
 /// with it.
-std::string compared(const std::vector<Isotherm>& isotherms, const std::vector<double>& log10_a_T,
-                     const MasterSpline& spline, const std::vector<double>& ratio_b_T, double reference) {
+std::string compared(const std::vector<Isotherm>& isotherms, const Shifted& first, const std::vector<double>& ratio_b_T,
+                     double reference) {
   for (std::size_t i = 1; i < isotherms.size(); ++i)
     if (!meet(isotherms[i - 1], isotherms[i], ratio_b_T[i - 1], ratio_b_T[i])) return {};
-  const Shifted ratio = joint_shifts(isotherms, ratio_b_T, reference);
+  const Shifted ratio = joint_shifts(isotherms, ratio_b_T, reference, first);
   std::vector<double> temperature;
   for (const Isotherm& i : isotherms) temperature.push_back(i.temperature());
-  const double at_reference = Steffen(temperature, ratio.log10_a_T)(reference);
+  const double here = Steffen(temperature, first.log10_a_T)(reference);
+  const double there = Steffen(temperature, ratio.log10_a_T)(reference);
   double worst = 0;
   for (std::size_t i = 0; i < isotherms.size(); ++i)
-    worst = std::max(worst, std::fabs(ratio.log10_a_T[i] - at_reference - log10_a_T[i]));
+    worst = std::max(worst, std::fabs((ratio.log10_a_T[i] - there) - (first.log10_a_T[i] - here)));
   if (!(worst > 0.1)) return {};
   return "vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " + show(worst, 2) +
          " decades, and the residual be " + show(residual_of(ratio.spline), 2) + " instead of " +
-         show(residual_of(spline), 2);
+         show(residual_of(first.spline), 2);
 }
 
 std::vector<MasterPoint> reduced_points(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T,
@@ -219,20 +220,19 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
     spline = master_spline_at(gather(isotherms, b_T), shift);
     deviation.assign(isotherms.size(), 0.0);
   } else {
-    Shifted shifted = joint_shifts(isotherms, b_T, reference);
-    log10_a_T = std::move(shifted.log10_a_T);
-    deviation = std::move(shifted.deviation);
-    spline = std::move(shifted.spline);
-    to_reference = Steffen(temperature, log10_a_T)(reference);
-    for (double& a : log10_a_T) a -= to_reference;
-    note_undetermined(isotherms, deviation, notes);
+    const Shifted shifted = joint_shifts(isotherms, b_T, reference);
     if (options.vertical_shift == VerticalShift::none) {
       MasterCurveOptions other = options;
       other.vertical_shift = VerticalShift::temperature_ratio;
-      if (const std::string note = compared(isotherms, log10_a_T, spline, vertical_shifts(isotherms, other), reference);
-          !note.empty())
-        notes.push_back(note);
+      if (std::string note = compared(isotherms, shifted, vertical_shifts(isotherms, other), reference); !note.empty())
+        notes.push_back(std::move(note));
     }
+    log10_a_T = shifted.log10_a_T;
+    deviation = shifted.deviation;
+    spline = shifted.spline;
+    to_reference = Steffen(temperature, log10_a_T)(reference);
+    for (double& a : log10_a_T) a -= to_reference;
+    note_undetermined(isotherms, deviation, notes);
   }
   note_overlaps(isotherms, log10_a_T, notes);
   note_outliers(isotherms, b_T, spline, notes);

@@ -53,7 +53,7 @@ double distance(const Curve& fixed, const Curve& moving, double s) {
 double pairwise_shift(const Curve& cold, const Curve& hot) {
   const double overlap = std::min({least_overlap * ln10, cold.upper() - cold.lower(), hot.upper() - hot.lower()});
   const double lowest = cold.lower() + overlap - hot.upper(), highest = cold.upper() - overlap - hot.lower();
-  constexpr int places = 400;
+  constexpr int places = 120;
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= places; ++i) {
     const double s = lowest + (highest - lowest) * i / places;
@@ -64,7 +64,7 @@ double pairwise_shift(const Curve& cold, const Curve& hot) {
   }
   double a = best - (highest - lowest) / places, b = best + (highest - lowest) / places;
   constexpr double golden = std::numbers::phi - 1;
-  while (b - a > 1e-6) {
+  while (b - a > 1e-3) {  // the joint fit goes on from here
     const double left = b - golden * (b - a), right = a + golden * (b - a);
     if (distance(cold, hot, left) < distance(cold, hot, right))
       b = right;
@@ -140,24 +140,41 @@ double deviation_if_flat(const Isotherm& isotherm, const MasterSpline& spline, d
 
 }  // namespace
 
-Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference) {
-  std::size_t fixed = 0;
-  for (std::size_t i = 1; i < isotherms.size(); ++i)
-    if (std::fabs(isotherms[i].temperature() - reference) < std::fabs(isotherms[fixed].temperature() - reference))
-      fixed = i;
-  Shifted result{
-      fit_master_spline(gather(isotherms, b_T), pairwise_shifts(isotherms, b_T), static_cast<Eigen::Index>(fixed)),
-      {},
-      {}};
+namespace {
+
+std::size_t nearest(const std::vector<Isotherm>& isotherms, double reference) {
+  const auto distance_of = [&](const Isotherm& i) { return std::fabs(i.temperature() - reference); };
+  return static_cast<std::size_t>(std::ranges::min_element(isotherms, {}, distance_of) - isotherms.begin());
+}
+
+Shifted shifted(const std::vector<Isotherm>& isotherms, MasterSpline spline, std::size_t fixed) {
+  Shifted result{std::move(spline), {}, {}};
   for (std::size_t i = 0, k = 0; i < isotherms.size(); ++i) {
-    result.log10_a_T.push_back(result.spline.shift[static_cast<Eigen::Index>(i)] / ln10);
+    const double shift = result.spline.shift[static_cast<Eigen::Index>(i)];
     const auto free = static_cast<Eigen::Index>(k);
     const double formal = i == fixed ? 0 : std::sqrt(result.spline.covariance(free, free)) / ln10;
-    const double shift = result.spline.shift[static_cast<Eigen::Index>(i)];
+    result.log10_a_T.push_back(shift / ln10);
     result.deviation.push_back(std::max(formal, deviation_if_flat(isotherms[i], result.spline, shift)));
     if (i != fixed) ++k;
   }
   return result;
+}
+
+}  // namespace
+
+Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference) {
+  const std::size_t fixed = nearest(isotherms, reference);
+  return shifted(
+      isotherms,
+      fit_master_spline(gather(isotherms, b_T), pairwise_shifts(isotherms, b_T), static_cast<Eigen::Index>(fixed)),
+      fixed);
+}
+
+Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference,
+                     const Shifted& first) {
+  const std::size_t fixed = nearest(isotherms, reference);
+  return shifted(isotherms, refit_master_spline(gather(isotherms, b_T), first.spline, static_cast<Eigen::Index>(fixed)),
+                 fixed);
 }
 
 }  // namespace asperity

@@ -27,5 +27,8 @@ struct Shifted {
 /// From neighbour to neighbour, then all at once; the isotherm nearest to the reference stays where its neighbours put
 /// it.
 Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference);
+/// The same with other vertical shifts, from what the first ones gave.
+Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference,
+                     const Shifted& first);
 
 }  // namespace asperity

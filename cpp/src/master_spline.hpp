@@ -31,6 +31,9 @@ struct MasterSpline {
 /// All shifts at once, from `start` on.
 MasterSpline fit_master_spline(const SweepPoints& points, const Eigen::VectorXd& start, Eigen::Index fixed);
 
+/// The same for moduli that are a little different, from the shifts and with about the knots of the first.
+MasterSpline refit_master_spline(const SweepPoints& points, const MasterSpline& first, Eigen::Index fixed);
+
 /// The splines for shifts that are known.
 MasterSpline master_spline_at(const SweepPoints& points, const Eigen::VectorXd& shift);
 

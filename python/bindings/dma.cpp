@@ -224,7 +224,8 @@ InvalidInput
 angular_frequency : a_T w [rad/s]. storage_modulus, loss_modulus : E / b_T [Pa].
 isotherm : index of the isotherm of origin, in rising temperature.
 )");
-  py::classh<Built> built(m, "MasterCurveBuild", "What build_master_curve returns: a master curve, and a_T [-] over temperature [K].");
+  py::classh<Built> built(m, "MasterCurveBuild",
+                          "What build_master_curve returns: a master curve, and a_T [-] over temperature [K].");
   built
       .def_property_readonly(
           "master_curve", [](const Built& b) { return b.build.master_curve; }, "A MasterCurve at T_ref.")
