@@ -26,6 +26,32 @@ CURVE = {
     "storage_modulus": [1e6, 1e7, 1e8],
     "loss_modulus": [1e5, 1e6, 1e7],
 }
+SWEEP = {
+    "angular_frequency": [1.0, 10.0, 100.0, 1000.0],
+    "storage_modulus": [1e6, 2e6, 3e6, 4e6],
+    "loss_modulus": [1e5, 2e5, 3e5, 4e5],
+}
+SHIFTS = {
+    "reference_temperature": 293.0,
+    "temperature": [273.0, 293.0, 313.0],
+    "log10_a_T": [2.0, 0.0, -1.5],
+}
+STRAIN = {
+    "temperature": 293.0,
+    "angular_frequency": 6.0,
+    "strain": [1e-3, 1e-2],
+    "storage_modulus": [2e6, 1e6],
+    "loss_modulus": [2e5, 2.5e5],
+}
+FITTED = {
+    "equilibrium_modulus": 1e6,
+    "moduli": [1e8],
+    "relaxation_times": [1e-4],
+    "storage_residual": 0.01,
+    "loss_residual": 0.02,
+    "causal": True,
+    "notes": ("a note",),
+}
 SEPARATION = {"pressure": [1e5, 1e6], "effective_modulus": 1e7, "rms_height": 1e-4, "q0": 1e3}
 # class, the arguments it is made from, one argument changed
 MADE = [
@@ -42,6 +68,18 @@ MADE = [
         {"moduli": [2e8]},
     ),
     ("MasterCurve", CURVE, {"extrapolation": "clamp"}),
+    (
+        "MasterCurve",
+        {**CURVE, "shift_factors": asperity.ShiftFactors(**SHIFTS)},
+        {"shift_factors": None},
+    ),
+    ("LineScan", {"heights": HEIGHTS[0], "spacing": 1e-6}, {"spacing": 2e-6}),
+    ("LineSpectrum", {**TABLE, "count": [2, 2, 2], "flag": [1, 0, 2]}, {"flag": [0, 0, 2]}),
+    ("TabulatedSpectrum", {**TABLE, "standard_error": [1e-13, 1e-17, 1e-21]}, {"flag": [0, 0, 4]}),
+    ("Isotherm", {"temperature": 293.0, **SWEEP}, {"temperature": 294.0}),
+    ("ShiftFactors", SHIFTS, {"standard_deviation": [0.1, 0, 0.1]}),
+    ("StrainSweep", STRAIN, {"angular_frequency": 7.0}),
+    ("PronyFit", FITTED, {"causal": False}),
     ("SFactor", {"gamma": 0.4, "applies_to": "both"}, {"applies_to": "area"}),
     ("AffineShift", {"p": 2.0}, {"p": 2.1}),
     ("LocalPeaks", {"heights_or_map": PEAKS}, {"z_max": 4e-4}),
@@ -61,6 +99,14 @@ RESULTS = {
     ),
     "Separation": asperity.separation(**SEPARATION),
     "Separation with states": asperity.separation(**SEPARATION, z_max=1e-3, z_min=-1e-3),
+    "WlfFit": asperity.ShiftFactors(
+        **{**SHIFTS, "temperature": [263, 283, 293, 303], "log10_a_T": [3.2, 0.9, 0, -0.8]}
+    ).fit_wlf(),
+    "ArrheniusFit": asperity.ShiftFactors(**SHIFTS).fit_arrhenius(),
+    "Anisotropy": asperity.anisotropy(
+        asperity.HeightMap(np.random.default_rng(1).normal(size=(80, 80)), pixel_size=1.0)
+    ),
+    "SpectralDensity": asperity.spectral_density(asperity.HeightMap(HEIGHTS, pixel_size=1.0)),
     "LocalPeaks of a map": asperity.LocalPeaks(
         asperity.synthesize(ROAD, shape=(40, 40), pixel_size=3e-4, seed=1), min_distance=1e-3
     ),
