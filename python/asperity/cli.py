@@ -69,6 +69,13 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
 
+def _numbers(text: str) -> list[float]:
+    try:
+        return [float(entry) for entry in text.split(",")]
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r}: must be numbers, parted by commas") from None
+
+
 def _pairs(text: str) -> dict[str, str]:
     pairs = [entry.partition("=") for entry in text.split(",")]
     if not all(name and mark and value for name, mark, value in pairs):
@@ -255,6 +262,12 @@ def _parser() -> argparse.ArgumentParser:
         default=0.5,
         metavar="NU",
         help="for E = 2 (1 + nu) G (default: %(default)s)",
+    )
+    rubber.add_argument(
+        "--temperatures",
+        type=_numbers,
+        metavar="T,T,...",
+        help="one for each file, where the files have no column of them",
     )
     rubber.add_argument(
         "--reference-temperature",

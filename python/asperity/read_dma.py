@@ -1,7 +1,7 @@
 """DMA sweeps from files: columns and units as declared, nothing guessed."""
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -34,6 +34,7 @@ def read_isotherms(
     units: Mapping[str, str],
     modulus: Literal["E", "G"],
     poisson_ratio: float = 0.5,
+    temperatures: Sequence[float] | None = None,
 ) -> list[Isotherm]:
     """Frequency sweeps from text files, one temperature or several in each.
 
@@ -46,7 +47,8 @@ def read_isotherms(
     ----------
     paths : path-like or iterable of path-like
     columns : mapping
-        Names in the files of "frequency", "storage", "loss" and "temperature".
+        Names in the files of "frequency", "storage", "loss" and "temperature"; not the last where
+        `temperatures` are given.
     units : mapping
         "frequency": "Hz" or "rad/s"; "modulus": "Pa", "kPa", "MPa" or "GPa"; "temperature": "K" or
         "C". All are required.
@@ -54,6 +56,8 @@ def read_isotherms(
         Whether the moduli are Young's or those of shear, E = 2 (1 + nu) G.
     poisson_ratio : float
         nu [-], for "G".
+    temperatures : sequence of float, optional
+        One for each file, in the unit of "temperature", where the files have no column of it.
 
     Returns
     -------
@@ -74,7 +78,7 @@ def read_isotherms(
     factor = _young(modulus, poisson_ratio)
     wanted = ("frequency", "storage", "loss", "temperature")
     result = []
-    for path, table in _tables(paths, columns, units, wanted):
+    for path, table in _tables(paths, columns, units, wanted, temperatures):
         order = np.argsort(table["temperature"], kind="stable")
         steps = np.flatnonzero(np.diff(table["temperature"][order]) > _STEP) + 1
         for rows in np.split(order, steps):
@@ -153,11 +157,14 @@ def _tables(
     columns: Mapping[str, str],
     units: Mapping[str, str],
     wanted: Iterable[str],
+    temperatures: Sequence[float] | None = None,
 ) -> list[tuple[Path, dict[str, Column]]]:
     """The wanted columns of each file in SI units, and the numbers of their lines."""
     wanted = tuple(wanted)
     for name, given in (("columns", columns), ("units", units)):
         known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
+        if name == "columns" and temperatures is not None:
+            known.discard("temperature")
         for key in given:
             if key not in known:
                 allowed = ", ".join(sorted(known))
@@ -172,9 +179,14 @@ def _tables(
     files = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
     if not files:
         raise InvalidInput("paths: is empty, must have 1 file or more")
+    if temperatures is not None and len(temperatures) != len(files):
+        found = f"temperatures has {len(temperatures)} entries, paths has {len(files)}"
+        raise InvalidInput(f"{found}: must be as many")
     result = []
-    for file in map(Path, files):
+    for at, file in enumerate(map(Path, files)):
         table = _table(file, columns)
+        if temperatures is not None:
+            table["temperature"] = np.full(table["line"].size, float(temperatures[at]))
         for name in wanted:
             if name != "temperature" and not np.all(table[name] > 0):
                 row = int(np.argmin(table[name] > 0))

@@ -42,6 +42,7 @@ _DMA = {
     "units": Field(texts, "units"),
     "modulus": Field(text, "modulus"),
     "poisson_ratio": Field(number, "poisson_ratio"),
+    "temperatures": Field(numbers, "temperatures"),
 }
 _BUILD = {
     "reference_temperature_k": Field(number, "reference_temperature"),

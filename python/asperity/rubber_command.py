@@ -31,6 +31,7 @@ _FLAGS = {
     "units": "--units",
     "modulus": "--modulus",
     "poisson_ratio": "--poisson-ratio",
+    "temperatures": "--temperatures",
 }
 
 
@@ -46,6 +47,7 @@ def rubber(args: Namespace) -> None:
             units=args.units,
             modulus=args.modulus,
             poisson_ratio=args.poisson_ratio,
+            temperatures=args.temperatures,
         )
         middle = isotherms[len(isotherms) // 2].temperature
         reference = middle if args.reference_temperature is None else args.reference_temperature
@@ -67,6 +69,7 @@ def rubber(args: Namespace) -> None:
         "units": args.units,
         "modulus": args.modulus,
         "poisson_ratio": args.poisson_ratio,
+        "temperatures": args.temperatures,
         "vertical_shift": args.vertical_shift,
         "shift": args.shift,
         "isotherms": _isotherms(build),
