@@ -98,11 +98,11 @@ Fit Measured::solve(Index modes, double smoothing, double pad) const {
   return fit;
 }
 
-/// Akaike's information criterion (IEEE Trans. Autom. Control 19, 716 (1974)) up to a constant: it falls as long as
-/// another mode takes away more than it would take from noise.
+/// Schwarz's information criterion (Ann. Stat. 6, 461 (1978)) up to a constant: it falls as long as another mode takes
+/// away clearly more than it would take from noise.
 double criterion(const Fit& fit) {
   const auto m = static_cast<double>(fit.residual.size());
-  return m * std::log(fit.sum_of_squares() / m + exact * exact) + 2 * static_cast<double>(fit.modes);
+  return m * std::log(fit.sum_of_squares() / m + exact * exact) + std::log(m) * static_cast<double>(fit.modes);
 }
 
 /// The numbers of modes that a search tries: `start` per decade, times `factor` each. More than twice as many as there
@@ -114,7 +114,7 @@ std::vector<Index> ladder(const Measured& data, double start, double factor) {
   return modes;
 }
 
-/// The fewest modes that Akaike's criterion does not clearly prefer more to. Not below 2 a decade, where a smooth
+/// The fewest modes that Schwarz's criterion does not clearly prefer more to. Not below 2 a decade, where a smooth
 /// modulus comes out with ripples (1.4: 2 to 4 % of E'' at steep places, 2: 0.3 %); the search ends where twice as many
 /// gave nothing. Modes are not the only price of a finer grid, most of which is zero: hence a margin.
 Fit fit_to_noise(const Measured& data) {
