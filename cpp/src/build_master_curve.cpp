@@ -40,16 +40,20 @@ std::vector<Isotherm> sorted(std::span<const Isotherm> isotherms, std::vector<st
   return result;
 }
 
-std::vector<double> vertical_shifts(const std::vector<Isotherm>& isotherms, const MasterCurveOptions& options) {
-  std::vector<double> b_T(isotherms.size(), 1.0);
-  if (options.vertical_shift == VerticalShift::temperature_ratio)
-    for (std::size_t i = 0; i < b_T.size(); ++i) b_T[i] = isotherms[i].temperature() / options.reference_temperature;
-  if (options.vertical_shift == VerticalShift::table) {
-    require_same_size("vertical_shift", options.b_T.size(), "isotherms", isotherms.size());
-    require_each_positive("vertical_shift", options.b_T);
-    b_T = options.b_T;
-  }
+/// b_T = T / T_ref.
+std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference) {
+  std::vector<double> b_T;
+  for (const Isotherm& i : isotherms) b_T.push_back(i.temperature() / reference);
   return b_T;
+}
+
+std::vector<double> vertical_shifts(const std::vector<Isotherm>& isotherms, const MasterCurveOptions& options) {
+  if (options.vertical_shift == VerticalShift::temperature_ratio)
+    return temperature_ratios(isotherms, options.reference_temperature);
+  if (options.vertical_shift == VerticalShift::none) return std::vector<double>(isotherms.size(), 1.0);
+  require_same_size("vertical_shift", options.b_T.size(), "isotherms", isotherms.size());
+  require_each_positive("vertical_shift", options.b_T);
+  return options.b_T;
 }
 
 /// Neighbours that share less than they should once shifted.
@@ -121,8 +125,8 @@ double residual_of(const MasterSpline& spline) {
 
 /// What the vertical shift b_T = T / T_ref would have done, where it matters; nothing where neighbours do not even meet
 /// with it.
-std::string compared(const std::vector<Isotherm>& isotherms, const Shifted& first, const std::vector<double>& ratio_b_T,
-                     double reference) {
+std::string compared(const std::vector<Isotherm>& isotherms, const Shifted& first, double reference) {
+  const std::vector<double> ratio_b_T = temperature_ratios(isotherms, reference);
   for (std::size_t i = 1; i < isotherms.size(); ++i)
     if (!meet(isotherms[i - 1], isotherms[i], ratio_b_T[i - 1], ratio_b_T[i])) return {};
   const Shifted ratio = joint_shifts(isotherms, ratio_b_T, reference, first);
@@ -196,8 +200,9 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
   for (const Isotherm& isotherm : given) notes.insert(notes.end(), isotherm.notes().begin(), isotherm.notes().end());
   const std::vector<Isotherm> isotherms = sorted(given, notes);
   if (isotherms.size() < 2)
-    throw InvalidInput("isotherms: " + std::to_string(isotherms.size()) +
-                       " temperature, must be 2 or more to shift; one isotherm is a MasterCurve as it stands");
+    throw InvalidInput(
+        "isotherms: " + std::to_string(isotherms.size()) +
+        " different temperatures, must be 2 or more to shift; one isotherm is a MasterCurve as it stands");
   const std::vector<double> b_T = vertical_shifts(isotherms, options);
   std::vector<double> temperature;
   for (const Isotherm& i : isotherms) temperature.push_back(i.temperature());
@@ -208,25 +213,20 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
 
   std::vector<double> log10_a_T, deviation;
   MasterSpline spline;
-  double to_reference = 0;
+  double to_reference = 0;  // log10 a_T of the reference, in the spline's own frequencies
   if (options.shift_table) {
     Eigen::VectorXd shift(static_cast<Eigen::Index>(isotherms.size()));
-    to_reference = std::log10(options.shift_table->shift_factor(reference));
+    const double at_reference = std::log10(options.shift_table->shift_factor(reference));
     for (std::size_t i = 0; i < isotherms.size(); ++i) {
-      log10_a_T.push_back(std::log10(options.shift_table->shift_factor(temperature[i])) - to_reference);
+      log10_a_T.push_back(std::log10(options.shift_table->shift_factor(temperature[i])) - at_reference);
       shift[static_cast<Eigen::Index>(i)] = ln10 * log10_a_T[i];
     }
-    to_reference = 0;
     spline = master_spline_at(gather(isotherms, b_T), shift);
     deviation.assign(isotherms.size(), 0.0);
   } else {
     const Shifted shifted = joint_shifts(isotherms, b_T, reference);
-    if (options.vertical_shift == VerticalShift::none) {
-      MasterCurveOptions other = options;
-      other.vertical_shift = VerticalShift::temperature_ratio;
-      if (std::string note = compared(isotherms, shifted, vertical_shifts(isotherms, other), reference); !note.empty())
-        notes.push_back(std::move(note));
-    }
+    if (options.vertical_shift == VerticalShift::none)
+      if (std::string note = compared(isotherms, shifted, reference); !note.empty()) notes.push_back(std::move(note));
     log10_a_T = shifted.log10_a_T;
     deviation = shifted.deviation;
     spline = shifted.spline;

@@ -6,6 +6,7 @@
 
 #include "asperity/spectrum.hpp"
 #include "checks.hpp"
+#include "minimum.hpp"
 
 namespace asperity {
 
@@ -101,16 +102,8 @@ std::optional<Broken> best_break(const Rows& rows) {
       least = left;
       best = lower + step * i;
     }
-  double a = std::max(lower, best - step), b = std::min(upper, best + step);
-  constexpr double golden = std::numbers::phi - 1;
-  while (b - a > 1e-9) {  // golden section
-    const double left = b - golden * (b - a), right = a + golden * (b - a);
-    if (Broken(rows, left).sum_of_squares < Broken(rows, right).sum_of_squares)
-      b = right;
-    else
-      a = left;
-  }
-  return Broken(rows, (a + b) / 2);
+  const auto left = [&](double at) { return Broken(rows, at).sum_of_squares; };
+  return Broken(rows, golden_section(left, std::max(lower, best - step), std::min(upper, best + step), 1e-9));
 }
 
 /// The slope of the rows below x_r by themselves.
@@ -153,8 +146,8 @@ void check(const FitOptions& options) {
 
 }  // namespace
 
-// Weighted least squares in ln C. H = -slope / 2 - 1 (Eq. 28). Errors from the covariance s^2 (J^T W J)^-1, W of trace
-// 1 and s^2 what is left over the degrees of freedom; that of h_rms by its derivatives after the parameters.
+// Weighted least squares in ln C. H = -slope / 2 - 1 (Eq. 28), held at 1 where it lies above by less than three of its
+// errors. The error of h_rms follows from its derivatives after the parameters.
 SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOptions& options) {
   check(options);
   const auto& q = spectrum.wavenumber();

@@ -7,6 +7,7 @@
 
 #include "checks.hpp"
 #include "interpolate.hpp"
+#include "minimum.hpp"
 
 namespace asperity {
 
@@ -62,16 +63,9 @@ double pairwise_shift(const Curve& cold, const Curve& hot) {
       best = s;
     }
   }
-  double a = best - (highest - lowest) / places, b = best + (highest - lowest) / places;
-  constexpr double golden = std::numbers::phi - 1;
-  while (b - a > 1e-3) {  // the joint fit goes on from here
-    const double left = b - golden * (b - a), right = a + golden * (b - a);
-    if (distance(cold, hot, left) < distance(cold, hot, right))
-      b = right;
-    else
-      a = left;
-  }
-  return (a + b) / 2;
+  const double step = (highest - lowest) / places;
+  // the joint fit goes on from here
+  return golden_section([&](double at) { return distance(cold, hot, at); }, best - step, best + step, 1e-3);
 }
 
 }  // namespace
@@ -137,10 +131,6 @@ double deviation_if_flat(const Isotherm& isotherm, const MasterSpline& spline, d
   constexpr double told = 4;  // times the noise
   return ((highest - lowest) < told * noise).all() ? (upper - lower) / ln10 : 0;
 }
-
-}  // namespace
-
-namespace {
 
 std::size_t nearest(const std::vector<Isotherm>& isotherms, double reference) {
   const auto distance_of = [&](const Isotherm& i) { return std::fabs(i.temperature() - reference); };

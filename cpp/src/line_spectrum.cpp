@@ -4,10 +4,9 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
-#include "checks.hpp"
 #include "fourier.hpp"
+#include "preparation.hpp"
 #include "reliability.hpp"
-#include "trend.hpp"
 #include "window.hpp"
 
 namespace asperity {
@@ -30,9 +29,7 @@ HeightMap row_of(const HeightMap& map, std::size_t y) {
 // signs, times 2 pi / L, is the mean square height. Rows nearer to each other than half a wavelength are not
 // independent: the error counts one for each half wavelength.
 LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend) {
-  if (map.dropout_fraction() > 0)
-    throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
-                       " %), fill_dropouts must come before its spectrum");
+  require_filled(map);
   const std::size_t rows = map.shape()[0], n = map.shape()[1];
   if (n < 4) throw InvalidInput("surface has " + std::to_string(n) + " points along x: must have 4 or more");
   const std::vector<double> w = window_weights(window, n);

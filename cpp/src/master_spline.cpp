@@ -130,17 +130,10 @@ class Splines {
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 
-double lowest(const SweepPoints& p, const Eigen::VectorXd& shift) {
-  double x = p.x[0] + shift[p.isotherm[0]];
-  for (Eigen::Index i = 0; i < p.x.size(); ++i)
-    x = std::min(x, p.x[i] + shift[p.isotherm[static_cast<std::size_t>(i)]]);
-  return x;
-}
-double highest(const SweepPoints& p, const Eigen::VectorXd& shift) {
-  double x = p.x[0] + shift[p.isotherm[0]];
-  for (Eigen::Index i = 0; i < p.x.size(); ++i)
-    x = std::max(x, p.x[i] + shift[p.isotherm[static_cast<std::size_t>(i)]]);
-  return x;
+/// Lowest and highest x once shifted.
+std::array<double, 2> ends(const SweepPoints& p, const Eigen::VectorXd& shift) {
+  const Eigen::VectorXd x = p.x + shift(p.isotherm);
+  return {x.minCoeff(), x.maxCoeff()};
 }
 
 double rms(const Eigen::VectorXd& v, double freedom) { return std::sqrt(v.squaredNorm() / std::max(1.0, freedom)); }
@@ -153,7 +146,8 @@ MasterSpline fit_with_knots(const SweepPoints& points, Eigen::VectorXd shift, Ei
   double weight = 1;  // of E'' against E': the ratio of their variances
   constexpr int last_round = 29;
   for (int round = 0; round <= last_round; ++round) {
-    const Knots knots(lowest(points, shift), highest(points, shift), wanted);
+    const auto [lowest, highest] = ends(points, shift);
+    const Knots knots(lowest, highest, wanted);
     const Splines splines(points, knots, shift);
     const Solution s = splines.solve();
     const double freedom = n - s.trace - static_cast<double>(points.isotherms - 1) / 2;

@@ -139,7 +139,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
                                  Part part) {
   if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
   if (part != Part::all) {
-    static_cast<void>(prepare(map, window, {}, 1));  // refuses in the name of the map itself
+    require_plane(map);
     const auto [side, share] = one_side(map, detrend, part);
     const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
     return share > 0 ? scaled_table(spectrum, 1 / share) : spectrum;  // a constant map has no side

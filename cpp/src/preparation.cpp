@@ -9,14 +9,23 @@
 
 namespace asperity {
 
-Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads) {
+void require_filled(const HeightMap& map) {
   if (map.dropout_fraction() > 0)
     throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
                        " %), fill_dropouts must come before its spectrum");
+}
+
+void require_plane(const HeightMap& map) {
+  require_filled(map);
   const auto [ny, nx] = map.shape();
   if (ny < 2 || nx < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
                        "): must be 2 x 2 or more for a two-dimensional spectrum; one line is a LineScan");
+}
+
+Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads) {
+  require_plane(map);
+  const auto [ny, nx] = map.shape();
   Preparation result{window_weights(window, ny), window_weights(window, nx), {}, 0, 0};
   if (detrend) result.trend.emplace(map, *detrend, threads);
   const WindowMoments y(result.wy), x(result.wx);

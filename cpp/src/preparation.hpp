@@ -17,7 +17,13 @@ struct Preparation {
   double ring_variance_factor;  // of a mean over a ring of modes, which has neighbours on two of four sides only
 };
 
+/// Throws where the map has drop-outs.
+void require_filled(const HeightMap& map);
+
 /// Throws where the map has drop-outs or no two-dimensional spectrum.
+void require_plane(const HeightMap& map);
+
+/// Throws as require_plane does.
 Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads);
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #include "asperity/dma.hpp"
 #include "checks.hpp"
 #include "interpolate.hpp"
+#include "minimum.hpp"
 
 namespace asperity {
 
@@ -82,16 +83,8 @@ WlfFit ShiftTable::fit_wlf() const {
       least = found;
       best = x;
     }
-  double a = best - step, b = best + step;
-  constexpr double golden = std::numbers::phi - 1;
-  while (b - a > 1e-10) {
-    const double c = b - golden * (b - a), d = a + golden * (b - a);
-    if (left(c) < left(d))
-      b = d;
-    else
-      a = c;
-  }
-  const double c2 = std::exp((a + b) / 2) - lowest;
+  const double x = golden_section(left, best - step, best + step, 1e-10);
+  const double c2 = std::exp(x) - lowest;
   const Sums s = sums(c2);
   const double c1 = s.uy / s.uu;
 
@@ -102,7 +95,7 @@ WlfFit ShiftTable::fit_wlf() const {
     uv += u * v;
     vv += v * v;
   }
-  const double sum = left((a + b) / 2), variance = sum / static_cast<double>(n - 2);
+  const double sum = left(x), variance = sum / static_cast<double>(n - 2);
   const double determinant = s.uu * vv - uv * uv;
   return {c1,
           c2,

@@ -96,7 +96,7 @@ def build_rubber(path: Path, table: object) -> tuple[Rubber, Values, list[str]]:
                 refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
         return rubber, values, []
     require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
-    return _at_temperature(path, rubber, shifts, values), values, []
+    return rubber.shifted(_shift_factor(path, shifts, values)), values, []
 
 
 def _from_isotherms(path: Path, values: Values) -> tuple[Rubber, Values, list[str]]:
@@ -114,8 +114,20 @@ def _from_isotherms(path: Path, values: Values) -> tuple[Rubber, Values, list[st
             smooth=True,
             extrapolation=values.get("extrapolation"),
         )
-    rubber = _at_temperature(path, build.master_curve, build, values)
+    rubber = build.master_curve.shifted(_shift_factor(path, build, values))
+    if values.get("vertical_shift") == "T/T_ref":
+        rubber = _stiffer(rubber, values["temperature_k"] / values["reference_temperature_k"])
     return rubber, values, list(build.notes)
+
+
+def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
+    """E(w; T) = b_T E(a_T w; T_ref) beyond its horizontal shift."""
+    return MasterCurve(
+        angular_frequency=curve.angular_frequency,
+        storage_modulus=b_t * curve.storage_modulus,
+        loss_modulus=b_t * curve.loss_modulus,
+        extrapolation=curve.extrapolation,
+    )
 
 
 def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
@@ -128,13 +140,12 @@ def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
         return read_shift_factors(file, reference_temperature=reference)
 
 
-def _at_temperature(
-    path: Path, rubber: Rubber, shifts: ShiftFactors | MasterCurveBuild, values: Values
-) -> Rubber:
+def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: Values) -> float:
+    """a_T at the scene's temperature."""
     if values["temperature_k"] == values.get("reference_temperature_k"):
-        return rubber
+        return 1.0
     with named(path, names_of("rubber", _TEMPERATURE)):
-        a_t = shifts.shift_factor(values["temperature_k"])
+        a_t = float(shifts.shift_factor(values["temperature_k"]))
         if not 0 < a_t < float("inf"):
             raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
-        return rubber.shifted(a_t)
+        return a_t

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from asperity._core import (
 from asperity.read import read_surface
 
 Scan = HeightMap | LineScan
+Window = Literal["split-cosine-bell", "hann", "none"]
+Detrend = Literal["plane", "quadratic", "offset"] | None
 
 _LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
@@ -35,12 +37,12 @@ def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Sc
         raise InvalidInput(f"{path}: {error}") from error
 
 
-def surface_spectrum(scan: Scan, *, window: str, detrend: str | None) -> TabulatedSpectrum:
+def surface_spectrum(scan: Scan, *, window: Window, detrend: Detrend) -> TabulatedSpectrum:
     """C(q) of the scanned surface; of a line scan that of the isotropic one with such profiles, in
     the finest of a few logarithmic bins that scatter little enough for it."""
     if isinstance(scan, HeightMap):
-        return power_spectrum(scan, window=window, detrend=detrend)  # type: ignore[arg-type]
-    profile = line_spectrum(scan, window=window, detrend=detrend)  # type: ignore[arg-type]
+        return power_spectrum(scan, window=window, detrend=detrend)
+    profile = line_spectrum(scan, window=window, detrend=detrend)
     *finer, coarsest = _BINS
     for per_decade in finer:
         with suppress(InvalidInput):
@@ -53,17 +55,17 @@ def nyquist(scan: Scan) -> float:
     return math.pi / (max(scan.pixel_size) if isinstance(scan, HeightMap) else scan.spacing)
 
 
-def flat(scan: Scan, detrend: str | None) -> Scan:
+def flat(scan: Scan, detrend: Detrend) -> Scan:
     """The scan without its trend and without its mean."""
-    return scan.detrend(detrend or "offset")  # type: ignore[arg-type]
+    return scan.detrend(detrend or "offset")
 
 
-def lay(scan: Scan, *, window: str, detrend: str | None) -> float | None:
+def lay(scan: Scan, *, window: Window, detrend: Detrend) -> float | None:
     """Ratio of the principal slopes; None of a line scan, and of a map too small to tell."""
     if isinstance(scan, LineScan):
         return None
     try:
-        found = anisotropy(scan, window=window, detrend=detrend)  # type: ignore[arg-type]
+        found = anisotropy(scan, window=window, detrend=detrend)
     except InvalidInput:
         return None
     return found.ratio if found.along > 0 else None

@@ -16,6 +16,11 @@ inline std::optional<Extrapolation> extrapolation_of(const std::optional<std::st
   return name ? std::optional(choice<Extrapolation>("extrapolation", *name, extrapolations)) : std::nullopt;
 }
 
+/// Result of build_master_curve.
+struct Built {
+  MasterCurveBuild build;
+};
+
 /// A ShiftFactors, or what came out of build_master_curve.
 const ShiftTable& shifts_of(const py::object& found);
 

@@ -17,6 +17,8 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_self_affine(m);
   bind_rubber(m);
   bind_dma(m);
+  bind_prony_fit(m);
+  bind_strain_sweep(m);
   bind_asperities(m);
   bind_correction(m);
   bind_contact(m);

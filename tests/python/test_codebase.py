@@ -75,6 +75,7 @@ SEAMS = {
     "integrate",
     "fourier",
     "interpolate",
+    "minimum",
     "nnls",
     "overloaded",
     "pair",

@@ -190,6 +190,21 @@ def test_friction_at_two_temperatures_of_a_measured_rubber_on_a_measured_surface
     np.testing.assert_allclose(hot, same, rtol=1e-3)  # built at the one temperature or the other
 
 
+def test_the_vertical_shift_too_is_that_of_the_temperature_of_the_scene(tmp_path):
+    """E(w; T) = b_T(T) E(a_T w; T_ref), b_T = T / T_ref: whichever isotherm was the reference."""
+
+    def with_ratio(*temperatures):
+        path = scene(tmp_path, *temperatures)
+        path.write_text(
+            path.read_text().replace('modulus = "G"', 'modulus = "G"\nvertical_shift = "T/T_ref"')
+        )
+        return load_scene(path).rubber
+
+    there, elsewhere = with_ratio(313.15), with_ratio(313.15, 293.15)
+    w = np.geomspace(1, 100, 9)
+    np.testing.assert_allclose(elsewhere.modulus(w), there.modulus(w), rtol=3e-3)
+
+
 @pytest.mark.parametrize("velocity", [1e-8, 10.0])
 def test_velocities_outside_of_the_measured_frequencies(tmp_path, velocity, capsys):
     path = scene(tmp_path, 293.15, velocity=[velocity])
