@@ -200,8 +200,8 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
   for (const Isotherm& isotherm : given) notes.insert(notes.end(), isotherm.notes().begin(), isotherm.notes().end());
   const std::vector<Isotherm> isotherms = sorted(given, notes);
   if (isotherms.size() < 2)
-    throw InvalidInput("isotherms: number of temperatures = " + std::to_string(isotherms.size()) +
-                       ", must be 2 or more to shift; one isotherm is a MasterCurve as it stands");
+    throw InvalidInput("isotherms at " + std::to_string(isotherms.size()) +
+                       " temperature(s): must be at 2 or more to shift; one isotherm is a MasterCurve as it stands");
   const std::vector<double> b_T = vertical_shifts(isotherms, options);
   std::vector<double> temperature;
   for (const Isotherm& i : isotherms) temperature.push_back(i.temperature());
