@@ -163,14 +163,14 @@ def test_isotherms_out_of_order_are_put_in_order():
 @pytest.mark.parametrize("count", [0, 1])
 def test_one_isotherm_cannot_be_shifted(count):
     with pytest.raises(
-        InvalidInput, match=f"^isotherms: number of temperatures = {count}, must be 2 or more"
+        InvalidInput, match=f"^isotherms at {count} temperature.s.: must be at 2 or more"
     ):
         built(sweeps([T_REF] * count))
 
 
 def test_one_isotherm_twice_is_one_isotherm():
     with pytest.raises(
-        InvalidInput, match=r"^isotherms: number of temperatures = 1, must be 2 or more to shift"
+        InvalidInput, match=r"^isotherms at 1 temperature.s.: must be at 2 or more to shift"
     ):
         built(sweeps([T_REF, T_REF + 0.1]))
 

@@ -193,4 +193,4 @@ def test_one_isotherm_is_refused(folder, capsys):
     (folder / "one.csv").write_text("\n".join(head))
     assert main(["rubber", "one.csv", *SYNTHETIC]) == 2
     err = capsys.readouterr().err
-    assert "isotherms at 1 temperature(s): must be 2 or more to shift" in err
+    assert "isotherms at 1 temperature(s): must be at 2 or more to shift" in err
