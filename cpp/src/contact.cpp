@@ -16,13 +16,6 @@ using std::numbers::pi;
 
 namespace {
 
-/// The G that the contact area is to be taken at, for the S factor on the area or not.
-double area_g(double g, const ContactModel& model) {
-  const auto* s = std::get_if<SFactor>(&model.correction);
-  if (!s || s->applies_to == SFactor::AppliesTo::friction) return g;
-  return g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
-}
-
 std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const double> wavenumber) {
   const auto [q0, q1] = band(spectrum);
   if (wavenumber.empty()) return {q1};
@@ -37,11 +30,10 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
 /// Calls visit(index of point, index of wavenumber, uncorrected-by-S G, shift) for every combination; G is
 /// negative where there is no contact at all.
 template <class Visit>
-void visit_g(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-             std::span<const double> pressure, std::span<const double> velocity, std::span<const double> wavenumber,
-             Visit visit) {
+void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber,
+             const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
+             std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
-  const std::vector<Segment> surface = segments(spectrum);
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     check_frequencies(spectrum, rubber, velocity[i]);
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
@@ -63,10 +55,12 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size() * q.size());
-  visit_g(spectrum, rubber, model, pressure, velocity, q, [&](std::size_t i, std::size_t j, double g, const Shift&) {
-    result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g(g, model), model.form);
-  });
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t j, double g, const Shift&) {
+            result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g(g, model, surface, q[j]), model.form);
+          });
   return result;
 }
 
@@ -74,9 +68,21 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, model.correction);
-  for (std::size_t i = 0; i < pressure.size(); ++i)
-    notes.add(affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio),
-              velocity[i], 0);
+  const std::vector<Segment> surface = segments(spectrum);
+  const double q1 = band(spectrum)[1];
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    bool worse = false;
+    if (shift.p > 1 && shift.state == ContactState::partial) {
+      check_frequencies(spectrum, rubber, velocity[i]);
+      at_point(pressure[i], velocity[i], [&] {
+        const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, {}, false,
+                        model.rtol);
+        worse = shift_worsens_area(path.g(q1), shift.p, model.form, surface, q1);
+      });
+    }
+    notes.add(shift, velocity[i], 0, worse);
+  }
   return notes.texts();
 }
 
@@ -94,18 +100,19 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
                                       std::span<const double> pressure, std::span<const double> velocity,
                                       std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size() * q.size());
-  const auto* s = std::get_if<SFactor>(&model.correction);
-  visit_g(spectrum, rubber, model, pressure, velocity, q,
+  const std::optional<SFunction> s = s_in_integrand(model.correction);
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
             double& factor = result[i * q.size() + j];
             if (g < 0) {
               factor = 0;
-            } else if (s && s->applies_to != SFactor::AppliesTo::area) {
+            } else if (s) {
               const double share = contact_share(g, model.form);
-              factor = s_factor(share, s->gamma) * share;
+              factor = (*s)(share)*share;
             } else {
-              factor = contact_share(area_g(g, model), model.form) / (shift.p * shift.p);
+              factor = contact_share(area_g(g, model, surface, q[j]), model.form) / (shift.p * shift.p);
             }
           });
   return result;
@@ -118,11 +125,12 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
   for (const double sigma : stress) require_not_negative("stress", sigma);
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
+  const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size());
-  visit_g(spectrum, rubber, model, pressure, velocity, q,
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
             if (uncorrected < 0) return;
-            const double g = area_g(uncorrected, model), x = stress[i] / pressure[i];
+            const double g = area_g(uncorrected, model, surface, wavenumber), x = stress[i] / pressure[i];
             const double from_nominal = (stress[i] - pressure[i]) / pressure[i];
             if (g == 0)
               throw InvalidInput("wavenumber = " + show(wavenumber) +

@@ -74,6 +74,10 @@ void validate(const Correction& correction) {
           [](const SFactor& s) {
             if (!(s.gamma >= 0 && s.gamma <= 1)) refuse("gamma", s.gamma, "in [0, 1]");
           },
+          [](const NayakSFactor& s) {
+            if (!(s.friction_gamma >= 0 && s.friction_gamma <= 1))
+              refuse("friction_gamma", s.friction_gamma, "in [0, 1]");
+          },
           [](const AffineShift& s) {
             if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
           },
@@ -126,6 +130,7 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
   return std::visit(Overloaded{
                         [](const NoCorrection&) { return Shift{}; },
                         [](const SFactor&) { return Shift{}; },
+                        [](const NayakSFactor&) { return Shift{}; },
                         [](const AffineShift& s) { return Shift{.p = s.p}; },
                         [](const LocalPeaks& s) { return Shift{.p = shift_factor(s)}; },
                         [&](const GreenwoodWilliamson& s) { return gw(s, 1, s.peaks); },

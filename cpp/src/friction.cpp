@@ -46,9 +46,9 @@ double sensitivity(bool with_s) { return with_s ? 1.5 : 0.5; }
 
 /// Row i of the tables of contributions, from the panels that `hysteresis` was summed over.
 void add_contributions(Contributions& c, std::size_t i, const Path& path, const Path::Hysteresis& hysteresis,
-                       double velocity, Form form, std::optional<double> gamma) {
+                       double velocity, Form form, const std::optional<SFunction>& factor) {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = path.hysteresis_density(c.wavenumber[j], form, gamma);
+  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = path.hysteresis_density(c.wavenumber[j], form, factor);
   const auto panels = path.panels();
   for (std::size_t j = 0; j < panels.size() && hysteresis.value > 0; ++j) {
     const double w = velocity * std::sqrt(panels[j][0] * panels[j][1]);
@@ -82,10 +82,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   const auto [q0, q1] = band(spectrum);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
 
-  const auto* s = std::get_if<SFactor>(&model.correction);
-  const bool s_in_area = s != nullptr && s->applies_to != SFactor::AppliesTo::friction;
-  const bool s_in_integrand = s != nullptr && s->applies_to != SFactor::AppliesTo::area;
-  const std::optional<double> gamma = s_in_integrand ? std::optional(s->gamma) : std::nullopt;
+  const bool s_in_area = s_inside(model.correction, surface, q1).has_value();
+  const std::optional<SFunction> factor = s_in_integrand(model.correction);
 
   const std::size_t n = velocity.size();
   Friction f;
@@ -109,18 +107,19 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 2e-12 : 1e-15;
   std::vector<double> stops;
+  bool worse = false;
   const auto compute = [&](std::size_t i, const Shift& shift) {
     stops.clear();
     if (f.contributions)
       for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
     const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, stops, true, model.rtol);
-    const Path::Hysteresis hysteresis = path.hysteresis(model.form, gamma);
+    const Path::Hysteresis hysteresis = path.hysteresis(model.form, factor);
     f.hysteresis[i] = hysteresis.value;
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
 
-    double g = path.g(q1);
-    if (s_in_area) g = g_with_s_inside(g, s->gamma, model.form, std::fmax(model.rtol / 100, 1e-13));
-    f.contact_area[i] = contact_share(g, model.form);
+    const double g = path.g(q1);
+    f.contact_area[i] = contact_share(area_g(g, model, surface, q1), model.form);
+    worse |= shift_worsens_area(g, shift.p, model.form, surface, q1);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
 
@@ -128,18 +127,18 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
     f.error_estimate[i] =
         hysteresis.error +
-        f.hysteresis[i] * (sensitivity(s_in_integrand) * g_error + 2 * shift.relative_error + angular_error) +
+        f.hysteresis[i] * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
         f.adhesion[i] * area_error;
     if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
       throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
                          " where rtol = " + show(model.rtol) + " was asked for");
-    if (f.contributions) add_contributions(*f.contributions, i, path, hysteresis, velocity[i], model.form, gamma);
+    if (f.contributions) add_contributions(*f.contributions, i, path, hysteresis, velocity[i], model.form, factor);
   };
   for (std::size_t i = 0; i < n; ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
     if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift); });
-    notes.add(shift, velocity[i], f.extrapolated_share[i]);
+    notes.add(shift, velocity[i], f.extrapolated_share[i], worse);
   }
   f.notes = notes.texts();
   return f;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "checks.hpp"
+#include "partial_contact.hpp"
 
 namespace asperity {
 
@@ -39,20 +40,29 @@ std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
   return ends;
 }
 
+std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correction& correction) {
+  if (std::holds_alternative<NoCorrection>(correction)) return {};
+  const double alpha = nayak_parameter(spectrum);
+  if (alpha >= lowest_measured_nayak && alpha <= highest_measured_nayak) return {};
+  return alpha;
+}
+
 }  // namespace
 
 Notes::Notes(const Spectrum& spectrum, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
+      unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
-void Notes::add(const Shift& shift, double velocity, double extrapolated_share) {
+void Notes::add(const Shift& shift, double velocity, double extrapolated_share, bool worse) {
   fast_ |= velocity > flash_velocity;
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
   extrapolated_ |= extrapolated_share > share_limit;
+  worse_ |= worse;
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
@@ -80,6 +90,14 @@ std::vector<std::string> Notes::texts() const {
     result.emplace_back(
         "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of the "
         "macro-asperities: give q0");
+  if (unmeasured_nayak_)
+    result.push_back("the error of this correction is not known here: Nayak's parameter of the spectrum is " +
+                     show(*unmeasured_nayak_, 3) + ", those of the boundary-element contacts it was measured on are " +
+                     show(lowest_measured_nayak) + " to " + show(highest_measured_nayak));
+  if (worse_)
+    result.emplace_back(
+        "the affine shift takes the contact area further from that of boundary elements than no correction would at "
+        "some points: NayakSFactor is nearer");
   if (full_)
     result.emplace_back(
         "Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest point "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,16 @@ namespace asperity {
 class Notes {
  public:
   Notes(const Spectrum& spectrum, const Correction& correction);
-  void add(const Shift& shift, double velocity, double extrapolated_share);
+  /// `worse`: the shift takes the area further from the truth than none would.
+  void add(const Shift& shift, double velocity, double extrapolated_share, bool worse);
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
   double rms_slope_;
-  std::array<double, 2> flagged_ends_;  // [1/m]: unreliable up to the first and from the second on
-  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false;
+  std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
+  std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
+  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,
+       worse_ = false;
 };
 
 }  // namespace asperity

@@ -12,34 +12,6 @@ namespace asperity {
 
 using std::numbers::pi;
 
-double contact_share(double g, Form form) {
-  if (form == Form::exact) return std::erf(0.5 / std::sqrt(g));
-  return 1 / std::cbrt(1 + std::pow(pi * g, 1.5));
-}
-
-// Phi(G) = int_0^G dg / S is close to a power of G between 1 and 2, so that Newton's steps in ln Phi over ln G
-// converge from anywhere. Below `low` S is 1 to rounding.
-double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol) {
-  if (uncorrected == 0 || gamma == 1) return uncorrected;
-  const double low = 1e-10 * std::fmin(1, uncorrected);
-  const auto phi = [&](double g) {
-    const auto rate = [&](double x) {
-      const double at = std::exp(x);
-      return at / s_factor(contact_share(at, form), gamma);
-    };
-    return low + integrate(rate, std::log(low), std::log(g), rtol).value;
-  };
-  double g = uncorrected;
-  for (int i = 0; i < 50; ++i) {
-    const double value = phi(g), s = s_factor(contact_share(g, form), gamma);
-    const double step = std::log(uncorrected / value) * s * value / g;
-    g = std::fmax(g * std::exp(step), low * 2);
-    if (std::fabs(step) <= rtol) return g;
-  }
-  throw NotConverged("contact area with the S factor inside G: G = " + show(g) +
-                     " after 50 steps at rtol = " + show(rtol));
-}
-
 Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
            bool resolve_front, double rtol)
     : rubber_(rubber), point_(point), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
@@ -123,7 +95,7 @@ double Path::g(double wavenumber) const {
   return g_inside(panel, panel.segment->offset(wavenumber));
 }
 
-double Path::hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
+double Path::hysteresis_rate(const Panel& panel, double s, Form form, const std::optional<SFunction>& factor,
                              double* outside) const {
   if (outside) *outside = 0;
   const double c = panel.segment->density_at(s);
@@ -132,7 +104,7 @@ double Path::hysteresis_rate(const Panel& panel, double s, Form form, std::optio
   const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q);
   if (angular.i1 == 0) return 0;
   const double share = contact_share(g_inside(panel, s), form);
-  const double weight = mu_factor_ * q * q * q * q * c * share * (gamma ? s_factor(share, *gamma) : 1);
+  const double weight = mu_factor_ * q * q * q * q * c * share * (factor ? (*factor)(share) : 1);
   if (outside) *outside = weight * angular.i1_outside;
   return weight * angular.i1;
 }
@@ -146,11 +118,11 @@ bool Path::reaches_outside(const Panel& panel) const {
   });
 }
 
-Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const {
+Path::Hysteresis Path::hysteresis(Form form, const std::optional<SFunction>& factor) const {
   Hysteresis result;
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
   for (const Panel& panel : panels_) {
-    const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, gamma, nullptr); },
+    const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, factor, nullptr); },
                                     panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value);
     result.value += part.value;
     result.error += part.error;
@@ -158,7 +130,7 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
     if (!measured || !reaches_outside(panel)) continue;
     const auto outside = [&](double s) {
       double rate = 0;
-      (void)hysteresis_rate(panel, s, form, gamma, &rate);
+      (void)hysteresis_rate(panel, s, form, factor, &rate);
       return rate;
     };
     constexpr double share_tolerance = 1e-4;  // a share is read to two or three digits
@@ -167,9 +139,9 @@ Path::Hysteresis Path::hysteresis(Form form, std::optional<double> gamma) const 
   return result;
 }
 
-double Path::hysteresis_density(double wavenumber, Form form, std::optional<double> gamma) const {
+double Path::hysteresis_density(double wavenumber, Form form, const std::optional<SFunction>& factor) const {
   const Panel& panel = panel_at(wavenumber);
-  return hysteresis_rate(panel, std::fmin(panel.segment->offset(wavenumber), panel.upper), form, gamma, nullptr);
+  return hysteresis_rate(panel, std::fmin(panel.segment->offset(wavenumber), panel.upper), form, factor, nullptr);
 }
 
 std::vector<std::array<double, 2>> Path::panels() const {

@@ -1,22 +1,14 @@
-// Persson's G along the magnification, and what follows from it: area, S factor, hysteresis.
+// Persson's G along the magnification, and the hysteresis that follows from it.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "asperity/contact.hpp"
-#include "segments.hpp"
+#include "partial_contact.hpp"
 
 namespace asperity {
-
-/// P(G), the share of the nominal area in contact.
-double contact_share(double g, Form form);
-
-/// S = gamma + (1 - gamma) P^2 (Eq. 8).
-inline double s_factor(double share, double gamma) { return gamma + (1 - gamma) * share * share; }
-
-/// G with S = gamma + (1 - gamma) P^2 inside it: int_0^G dg / S(P(g)) = `uncorrected`.
-double g_with_s_inside(double uncorrected, double gamma, Form form, double rtol);
 
 /// One velocity and one pressure on one surface, with s = ln(q / a) on each segment of it that starts at a:
 ///   dG/ds   = q^4 C I2(v q) / (8 ((1 - nu^2) sigma0 p_T)^2)                     (Eq. 7)
@@ -42,10 +34,10 @@ class Path {
     double outside = 0;            // part of value from frequencies outside of the measured range
     std::vector<double> by_panel;  // sums to value
   };
-  /// mu_H; `gamma` puts the factor S of the uncorrected P into the integrand.
-  [[nodiscard]] Hysteresis hysteresis(Form form, std::optional<double> gamma) const;
+  /// mu_H; `factor` puts S of the uncorrected P into the integrand.
+  [[nodiscard]] Hysteresis hysteresis(Form form, const std::optional<SFunction>& factor) const;
   /// dmu_H / dln q.
-  [[nodiscard]] double hysteresis_density(double wavenumber, Form form, std::optional<double> gamma) const;
+  [[nodiscard]] double hysteresis_density(double wavenumber, Form form, const std::optional<SFunction>& factor) const;
   /// How far in s the contact takes to break up from the start of a segment on.
   [[nodiscard]] double front(const Segment& segment) const;
   /// Lower and upper wavenumber of each panel.
@@ -60,7 +52,7 @@ class Path {
   [[nodiscard]] double g_rate(const Segment& segment, double s) const;
   void add_segment(const Segment& segment, std::vector<double> edges);
   [[nodiscard]] double g_inside(const Panel& panel, double s) const;
-  [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, std::optional<double> gamma,
+  [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, const std::optional<SFunction>& factor,
                                        double* outside) const;
   [[nodiscard]] const Panel& panel_at(double wavenumber) const;
   [[nodiscard]] bool reaches_outside(const Panel& panel) const;

@@ -1,6 +1,7 @@
 // A spectrum as the pieces on which it is one power law or one straight line.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "asperity/spectrum.hpp"
@@ -19,10 +20,13 @@ struct Segment {
   [[nodiscard]] double length() const { return offset(b); }
   [[nodiscard]] double density_at(double offset) const;
   [[nodiscard]] double density(double q) const;
-  /// int_a^q k^n C(k) dk for n = 1 and 3, without cancellation on narrow segments.
+  /// int_a^q k^n C(k) dk for n = 1, 3 and 5, without cancellation on narrow segments.
   [[nodiscard]] double moment(int n, double q) const;
 };
 
 std::vector<Segment> segments(const Spectrum& spectrum);
+
+/// Nayak's parameter of the surface up to `wavenumber`; 1.5, its least, where there is no roughness.
+double nayak_parameter(std::span<const Segment> surface, double wavenumber);
 
 }  // namespace asperity

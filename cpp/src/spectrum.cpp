@@ -59,10 +59,15 @@ double Segment::density_at(double offset) const {
 
 double Segment::moment(int n, double q) const {
   if (!straight) return at_a * std::pow(a, n + 1) * exponential_integral(n + 1 + slope, offset(q));
-  // a polynomial of degree 4 at most: the Gauss rule of three points is exact
-  const double node = std::sqrt(0.6), middle = a + (q - a) / 2, half = (q - a) / 2;
-  const auto f = [&](double at) { return std::pow(at, n) * density(at); };
-  return half * (5 * f(middle - node * half) + 8 * f(middle) + 5 * f(middle + node * half)) / 9;
+  // a polynomial of degree 6 at most: the Gauss rule of four points is exact
+  const double middle = a + (q - a) / 2, half = (q - a) / 2, root = std::sqrt(1.2);
+  const auto pair = [&](double square, double weight) {
+    const double node = std::sqrt(square) * half;
+    const auto f = [&](double at) { return std::pow(at, n) * density(at); };
+    return weight * (f(middle - node) + f(middle + node));
+  };
+  return half * (pair((3 - 2 * root) / 7, (18 + std::sqrt(30.0)) / 36) +
+                 pair((3 + 2 * root) / 7, (18 - std::sqrt(30.0)) / 36));
 }
 
 std::vector<Segment> segments(const Spectrum& spectrum) {
@@ -84,6 +89,21 @@ std::vector<Segment> segments(const Spectrum& spectrum) {
     result.push_back(segment);
   }
   return result;
+}
+
+// alpha = m0 m4 / m2^2 of a profile (P. R. Nayak, J. Lubr. Technol. 93, 398 (1971)). With M_n = 2 pi int q^(n+1) C dq
+// of an isotropic surface m0 = M_0, m2 = M_2 / 2, m4 = 3 M_4 / 8. Wavenumbers and densities are taken in units of their
+// highest, so that q^6 C leaves the range of a double for none.
+double nayak_parameter(std::span<const Segment> surface, double wavenumber) {
+  double densest = 0;
+  for (const Segment& s : surface) densest = std::fmax(densest, std::fmax(s.at_a, s.at_b));
+  double m[3] = {0, 0, 0};
+  for (const Segment& s : surface) {
+    if (s.a >= wavenumber || densest == 0) break;
+    const Segment scaled{s.a / wavenumber, s.b / wavenumber, s.at_a / densest, s.at_b / densest, s.slope, s.straight};
+    for (int n = 0; n < 3; ++n) m[n] += scaled.moment(2 * n + 1, std::fmin(1, scaled.b));
+  }
+  return m[1] > 0 ? 1.5 * (m[0] / m[1]) * (m[2] / m[1]) : 1.5;
 }
 
 SelfAffineSpectrum SelfAffineSpectrum::from_article(double h0, double hurst, double q0, double q1) {
@@ -151,6 +171,8 @@ double rms_height(const Spectrum& spectrum) {
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) return s->rms_height;
   return std::sqrt(total_moment(spectrum, 1));
 }
+
+double nayak_parameter(const Spectrum& spectrum) { return nayak_parameter(segments(spectrum), band(spectrum)[1]); }
 
 double rms_slope(const Spectrum& spectrum) { return std::sqrt(total_moment(spectrum, 3)); }
 

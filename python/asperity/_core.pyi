@@ -9,7 +9,13 @@ _Result: TypeAlias = Any  # float for scalar arguments, else an array of their b
 _Spectrum: TypeAlias = SelfAffineSpectrum | TabulatedSpectrum
 _Rubber: TypeAlias = PronySeries | MasterCurve
 _Correction: TypeAlias = (
-    SFactor | AffineShift | LocalPeaks | GreenwoodWilliamson | PeaksThenGreenwoodWilliamson | None
+    SFactor
+    | NayakSFactor
+    | AffineShift
+    | LocalPeaks
+    | GreenwoodWilliamson
+    | PeaksThenGreenwoodWilliamson
+    | None
 )
 _Detrend: TypeAlias = Literal["offset", "plane", "quadratic"]
 _Window: TypeAlias = Literal["split-cosine-bell", "hann", "none"]
@@ -102,6 +108,8 @@ class SelfAffineSpectrum:
     def rolloff(self) -> float | None: ...
     @property
     def rms_slope(self) -> float: ...
+    @property
+    def nayak_parameter(self) -> float: ...
     def at(self, wavenumber: ArrayLike) -> _Result: ...
     def truncated(
         self, *, q0: float | None = None, q1: float | None = None
@@ -139,6 +147,8 @@ class TabulatedSpectrum:
     def rms_height(self) -> float: ...
     @property
     def rms_slope(self) -> float: ...
+    @property
+    def nayak_parameter(self) -> float: ...
     @property
     def q0(self) -> float: ...
     @property
@@ -530,6 +540,12 @@ class SFactor:
     def gamma(self) -> float: ...
     @property
     def applies_to(self) -> Literal["friction", "area", "both"]: ...
+
+@final
+class NayakSFactor:
+    def __init__(self, *, friction_gamma: float = 0.4) -> None: ...
+    @property
+    def friction_gamma(self) -> float: ...
 
 @final
 class AffineShift:

@@ -11,6 +11,7 @@ from asperity._core import (
     HeightMap,
     LineScan,
     LocalPeaks,
+    NayakSFactor,
     PeaksThenGreenwoodWilliamson,
     SelfAffineSpectrum,
     SFactor,
@@ -36,7 +37,14 @@ from asperity.scan import Scan, nyquist, read_filled, surface_spectrum
 
 Values = dict[str, Any]
 Spectrum = SelfAffineSpectrum | TabulatedSpectrum
-Correction = SFactor | AffineShift | LocalPeaks | GreenwoodWilliamson | PeaksThenGreenwoodWilliamson
+Correction = (
+    SFactor
+    | NayakSFactor
+    | AffineShift
+    | LocalPeaks
+    | GreenwoodWilliamson
+    | PeaksThenGreenwoodWilliamson
+)
 
 _SELF_AFFINE = {
     "rms_height_m": Field(number, "rms_height"),
@@ -73,6 +81,7 @@ _ASPERITIES = {
 }
 _CORRECTIONS = {
     "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
+    "nayak-s-factor": {**_KIND, "friction_gamma": Field(number, "friction_gamma")},
     "affine-shift": {**_KIND, "p": Field(number, "p")},
     "local-peaks": _PEAKS,
     "greenwood-williamson": _ASPERITIES,
@@ -192,6 +201,8 @@ def build_correction(
     with named(path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}):
         if kind == "s-factor":
             correction = SFactor(**settings)
+        elif kind == "nayak-s-factor":
+            correction = NayakSFactor(**settings)
         elif kind == "affine-shift":
             require(path, "correction", values, ("p",))
             correction = AffineShift(settings["p"])

@@ -71,7 +71,7 @@ pressure, velocity : array_like
     sigma0 [Pa] and v [m/s], positive; they broadcast.
 poisson_ratio : float
     In [0, 0.5].
-correction : SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
+correction : SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
     None is plain Persson.
 form : {"exact", "interpolated"}
     "interpolated" is Eq. 7, (1 + (pi G)^1.5)^(-1/3), which differs by -2.8 to +2.6 %.

@@ -66,13 +66,14 @@ auto optional_field(std::optional<double> C::*field) {
 Correction correction_of(const py::object& found) {
   if (found.is_none()) return NoCorrection{};
   if (py::isinstance<SFactor>(found)) return found.cast<const SFactor&>();
+  if (py::isinstance<NayakSFactor>(found)) return found.cast<const NayakSFactor&>();
   if (py::isinstance<AffineShift>(found)) return found.cast<const AffineShift&>();
   if (py::isinstance<BoundLocalPeaks>(found)) return LocalPeaks(found.cast<const BoundLocalPeaks&>());
   if (py::isinstance<GreenwoodWilliamson>(found)) return found.cast<const GreenwoodWilliamson&>();
   if (py::isinstance<BoundPeaksThenGreenwoodWilliamson>(found))
     return PeaksThenGreenwoodWilliamson(found.cast<const BoundPeaksThenGreenwoodWilliamson&>());
   throw InvalidInput("correction = " + brief(found) +
-                     ": must be None, SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson or "
+                     ": must be None, SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson or "
                      "PeaksThenGreenwoodWilliamson");
 }
 
@@ -111,6 +112,36 @@ within 3 % at 5/9, where Persson's own is 26 % too small at low load.
       .def_property_readonly(
           "applies_to", [](const SFactor& s) { return name_of(s.applies_to, places); }, "Where S is applied.");
   value_semantics(s_factor, {"gamma", "applies_to"});
+
+  py::classh<NayakSFactor> nayak(m, "NayakSFactor",
+                                 R"(S inside G that knows how wide the spectrum's band is, fitted to exact contacts.
+
+For `contact_area` and the adhesion int_0^G dg / S(P(g)) = G_uncorrected with
+S = gamma + 0.29 sqrt(P) + (0.71 - gamma) P^13, gamma = 0.63 (1 - 0.50 alpha^(-1/4)) and alpha the spectrum's Nayak
+parameter up to the wavenumber at which the area is asked for. The integrand of Eq. 22 is multiplied by the S of Eq. 8
+with `friction_gamma` and the uncorrected P.
+
+Parameters
+----------
+friction_gamma : float
+    In [0, 1]; 1 leaves Eq. 22 alone. 0.40 gives the elastic energy, which the integrand weighs, best.
+
+Notes
+-----
+Against 177 boundary-element contacts, random-phase maps with H 0.7 and 0.8 and q1/q0 from 2 to 128 (alpha from 1.75 to
+200), p / (E* h') from 0.005 to 1, elastic: the area is off by 1.0 % in the mean and 6.1 % at worst, S inside G with
+gamma = 5/9 by 2.4 % and 15.6 %. Its four numbers were fitted to the same contacts; each map predicted from the others is
+off by 1.1 % and 8.9 %. Beyond these bands results carry a note.
+)");
+  nayak
+      .def(py::init([](double friction_gamma) {
+             const NayakSFactor s{friction_gamma};
+             validate(Correction(s));
+             return s;
+           }),
+           py::kw_only(), py::arg("friction_gamma") = 0.40)
+      .def_readonly("friction_gamma", &NayakSFactor::friction_gamma, "gamma of S in the integrand of Eq. 22 [-].");
+  value_semantics(nayak, {"friction_gamma"});
 
   py::classh<AffineShift> shift(m, "AffineShift", R"(C -> C / p^2 with a given shift factor (Eqs 9-11).
 

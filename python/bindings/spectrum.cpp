@@ -17,6 +17,10 @@ template <class S>
 void bind_common(py::classh<S>& cls) {
   cls.def_property_readonly(
          "rms_slope", [](const S& s) { return rms_slope(s); }, "h' = sqrt(2 pi int q^3 C dq) [-].")
+      .def_property_readonly(
+          "nayak_parameter", [](const S& s) { return nayak_parameter(s); },
+          "Nayak's parameter m0 m4 / m2^2 of a profile [-] (P. R. Nayak, J. Lubr. Technol. 93, 398 (1971)): 1.5 for a "
+          "single wavenumber, the larger the wider the band.")
       .def(
           "at",
           [](const S& s, const py::object& q) {

@@ -87,6 +87,7 @@ CALLS = {
         {"spectrum": SURFACE, "shape": (32, 32), "pixel_size": 1e-4, "seed": 1},
     ),
     "SFactor": (asperity.SFactor, {}),
+    "NayakSFactor": (asperity.NayakSFactor, {}),
     "AffineShift": (asperity.AffineShift, {"p": 2}),
     "LocalPeaks": (asperity.LocalPeaks, {"heights_or_map": PEAKS}),
     "GreenwoodWilliamson": (asperity.GreenwoodWilliamson, PROFILE),
@@ -121,7 +122,10 @@ NAME = (["x", ""], ' = "x?": must be one of "')
 ABOVE_Q0 = ([1e3, 10, -1], " = .+: must be above q0 = 1000$")
 SPECTRUM = ([None, RUBBER, "x", MAP], " = .+: must be a SelfAffineSpectrum or a TabulatedSpectrum$")
 SOLID = ([None, SURFACE, 5.0], " = .+: must be a PronySeries or a MasterCurve$")
-CORRECTION = (["s-factor", 5, SURFACE], " = .+: must be None, SFactor, AffineShift, LocalPeaks")
+CORRECTION = (
+    ["s-factor", 5, SURFACE],
+    " = .+: must be None, SFactor, NayakSFactor, AffineShift, LocalPeaks",
+)
 FEW_PEAKS = ([[], [1, 2]], " has [02] entries: must be 3 or more$")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): must be finite$")
 OUTSIDE_BAND = ([1, 1e9], r" = .+: must be in \[1000, 100000\], the spectrum's band \[1/m\]$")
@@ -227,6 +231,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
         "seed": [([-1], " = -1: must not be negative$")],
     },
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
+    "NayakSFactor": {"friction_gamma": [SHARE]},
     "AffineShift": {"p": [AT_LEAST_ONE]},
     "LocalPeaks": {
         "heights_or_map": [VECTOR, REAL],

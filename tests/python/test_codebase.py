@@ -67,6 +67,7 @@ TOPIC = {
     "shift_table": "dma",
     "prony": "rubber",
     "contact_checks": "contact",
+    "partial_contact": "contact",
     "persson": "contact",
     "notes": "contact",
 }

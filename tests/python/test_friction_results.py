@@ -199,11 +199,14 @@ def test_states_of_contact_are_numbers_and_never_nan(expected):
         assert np.all(np.isfinite([found.mu, area, density, *factor, *mean]))
 
 
+WIDE = SelfAffineSpectrum(rms_height=2e-5, hurst=0.87, q0=2e3, q1=1e6)  # rms slope 0.2
 NOTES = {
+    "Nayak's parameter": (WIDE, 0.005, asperity.SFactor(), 2e5),
+    "further from": (ROAD, 0.005, asperity.AffineShift(2), 2e5),
     "rms slope": (STEEP, 0.005, None, 2e5),
     "flash": (ROAD, [0.005, 0.0101], None, 2e5),
     "full conformity": (ROAD, 0.005, gw(9e-4, z_min=-1e-9), 2e6),
-    "3 rms": (ROAD, 0.005, gw(2e-3), 1.0),
+    "3 rms": (ROAD, 0.005, gw(2e-3, z_min=-2e-6), 1.0),
     "no contact": (ROAD, 0.005, gw(1e-4), 1.0),
     None: (ROAD, [1e-6, 0.01], gw(2e-3), 2e5),
 }
@@ -232,7 +235,32 @@ def test_notes_add_up():
     notes = asperity.friction(
         STEEP, RUBBER, pressure=[1e-3, 1e5], velocity=0.02, correction=gw(1.2e-3)
     ).notes
-    assert len(notes) == 3
+    assert [note[:20] for note in notes] == [
+        "the rms slope is 2.7",
+        "above 0.01 m/s flash",
+        "the error of this co",
+        "the affine shift tak",
+        "Greenwood-Williamson",
+    ]
+
+
+@pytest.mark.parametrize("p", [1.0, 1.05, 1.3, 1.6, 2.5])
+def test_the_shift_is_worse_than_none_where_its_area_is_further_from_the_best(p):
+    def area(correction):
+        return asperity.contact_area(ROAD, RUBBER, **SCENE, correction=correction)
+
+    none, best, shifted = area(None), area(asperity.NayakSFactor()), area(asperity.AffineShift(p))
+    worse = abs(shifted - best) > abs(none - best)
+    correction = asperity.AffineShift(p)
+    for notes in (
+        asperity.friction(ROAD, RUBBER, **SCENE, correction=correction).notes,
+        asperity.contact_notes(ROAD, RUBBER, **SCENE, correction=correction),
+    ):
+        assert any("further from" in note for note in notes) == worse
+
+
+def test_without_a_correction_its_error_is_not_talked_about():
+    assert asperity.friction(WIDE, RUBBER, **SCENE).notes == ()
 
 
 def test_an_elastic_solid_has_no_hysteresis():

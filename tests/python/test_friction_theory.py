@@ -12,6 +12,7 @@ from asperity import (
     GreenwoodWilliamson,
     LocalPeaks,
     MasterCurve,
+    NayakSFactor,
     PeaksThenGreenwoodWilliamson,
     PronySeries,
     SelfAffineSpectrum,
@@ -49,6 +50,7 @@ def elastic(modulus):
 ALL = [
     None,
     SFactor(applies_to="both"),
+    NayakSFactor(),
     AffineShift(2),
     LocalPeaks(PEAKS),
     GreenwoodWilliamson(**PROFILE),
@@ -184,7 +186,9 @@ def test_correction_factors_are_those_of_section_6_1():
         np.testing.assert_allclose(factor(SFactor(gamma=0.4, applies_to=where)), s, rtol=1e-12)
     inside = SFactor(gamma=0.4, applies_to="area")
     np.testing.assert_allclose(factor(inside), area(inside), rtol=1e-12)
-    for correction in ALL[2:]:
+    nayak = NayakSFactor(friction_gamma=0.4)
+    np.testing.assert_allclose(factor(nayak), s, rtol=1e-12)
+    for correction in ALL[3:]:
         p_t = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction).shift_factor
         assert 1 < p_t < math.inf
         np.testing.assert_allclose(factor(correction), area(correction) / p_t**2, rtol=1e-12)

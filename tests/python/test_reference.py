@@ -106,6 +106,26 @@ def test_autocorrelation_of_self_affine_spectra(row):
     close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
 
 
+@pytest.mark.parametrize("rtol", [1e-4, 1e-10])
+@pytest.mark.reference("nayak_s_factor")
+def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
+    spectrum = SelfAffineSpectrum(
+        rms_height=1e-4, hurst=row["hurst"], q0=1e3, q1=1e3 * row["q1_over_q0"]
+    )
+    close(row, ["nayak_parameter"], [spectrum.nayak_parameter])
+    found = asperity.contact_area(
+        spectrum,
+        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
+        # elastic: G = h'^2 / 8 (E* / p)^2
+        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * row["g_uncorrected"]),
+        velocity=1.0,
+        poisson_ratio=0,
+        correction=asperity.NayakSFactor(),
+        rtol=rtol,
+    )
+    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
+
+
 @pytest.mark.reference("pressure_distribution")
 def test_pressure_distribution_at_a_known_g(row):
     # elastic: G = h'^2 E^2 / (8 ((1 - nu^2) sigma0)^2), and h'^2 = h_rms^2 q0 q1 where H = 1/2

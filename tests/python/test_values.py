@@ -81,6 +81,7 @@ MADE = [
     ("StrainSweep", STRAIN, {"angular_frequency": 7.0}),
     ("PronyFit", FITTED, {"causal": False}),
     ("SFactor", {"gamma": 0.4, "applies_to": "both"}, {"applies_to": "area"}),
+    ("NayakSFactor", {"friction_gamma": 0.4}, {"friction_gamma": 1.0}),
     ("AffineShift", {"p": 2.0}, {"p": 2.1}),
     ("LocalPeaks", {"heights_or_map": PEAKS}, {"z_max": 4e-4}),
     ("GreenwoodWilliamson", {"z_max": 1e-3, "z_min": -1e-3}, {"peaks": PEAKS}),
@@ -215,7 +216,15 @@ FUNCTIONS = [
     for name in asperity.__all__
     if callable(getattr(asperity, name)) and not inspect.isclass(getattr(asperity, name))
 ]
-UNITLESS = {"SFactor", "SelfAffineFit", "Error", "InvalidInput", "OutOfRange", "NotConverged"}
+UNITLESS = {
+    "SFactor",
+    "NayakSFactor",
+    "SelfAffineFit",
+    "Error",
+    "InvalidInput",
+    "OutOfRange",
+    "NotConverged",
+}
 UNIT = r"\[(K|m|1/m|m\^4|m\^2|Pa|Pa\^2|1/Pa|rad/s|s|m/s|N|-)\]"
 
 

@@ -27,6 +27,15 @@ struct SFactor {
   bool operator==(const SFactor&) const = default;
 };
 
+/// S inside G that knows the width of the spectrum's band, for the area and the adhesion: S = gamma + 0.29 sqrt(P) +
+/// (0.71 - gamma) P^13, gamma = 0.63 (1 - 0.50 alpha^(-1/4)), alpha Nayak's parameter up to the wavenumber at which the
+/// area is asked for; fitted to boundary-element contacts. On the friction the S of Eq. 8 with `friction_gamma` and the
+/// uncorrected P.
+struct NayakSFactor {
+  double friction_gamma = 0.40;
+  bool operator==(const NayakSFactor&) const = default;
+};
+
 /// C -> C / p^2 (Eq. 11) with a given p >= 1.
 struct AffineShift {
   double p;
@@ -61,8 +70,8 @@ struct PeaksThenGreenwoodWilliamson {
   bool operator==(const PeaksThenGreenwoodWilliamson&) const = default;
 };
 
-using Correction =
-    std::variant<NoCorrection, SFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, PeaksThenGreenwoodWilliamson>;
+using Correction = std::variant<NoCorrection, SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson,
+                                PeaksThenGreenwoodWilliamson>;
 
 ASPERITY_EXPORT void validate(const Correction& correction);
 

@@ -71,6 +71,8 @@ ASPERITY_EXPORT std::array<double, 2> band(const Spectrum& spectrum);
 ASPERITY_EXPORT double rms_height(const Spectrum& spectrum);
 /// sqrt(2 pi int q^3 C dq) [-].
 ASPERITY_EXPORT double rms_slope(const Spectrum& spectrum);
+/// Nayak's parameter m0 m4 / m2^2 of the band [-]: 1.5 for a single wavenumber, the larger the wider the band.
+ASPERITY_EXPORT double nayak_parameter(const Spectrum& spectrum);
 /// The wavenumber up to which the rms slope is `slope`; q1 where the whole spectrum has less.
 ASPERITY_EXPORT double cutoff_for_slope(const Spectrum& spectrum, double slope = 1.3);
 /// 2 pi / `size` of the contamination particles [m]; q1 where that lies beyond.
