@@ -15,6 +15,7 @@ from typing import NoReturn
 from asperity import commands, rubber_command
 from asperity._core import Error, InvalidInput, OutOfRange, __version__
 from asperity.fields import MOST_POINTS
+from asperity.validation import command as validation
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -282,4 +283,19 @@ def _parser() -> argparse.ArgumentParser:
         "--shift", metavar="FILE", help="take a_T from a table, temperature_k,log10_a_t"
     )
     outputs(rubber)
+    validate = verb(
+        "validate",
+        validation.validate,
+        "the measured error of every correction, against boundary-element contacts",
+        "--output worth",
+    )
+    validate.add_argument(
+        "--output",
+        metavar="DIR",
+        default="asperity-validate",
+        help="directory (default: %(default)s)",
+    )
+    validate.add_argument(
+        "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
+    )
     return parser

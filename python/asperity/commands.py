@@ -22,11 +22,11 @@ from asperity._core import (
     TabulatedSpectrum,
     fit_self_affine,
 )
-from asperity.demo import check_directory, input_files, write_directory
+from asperity.demo import check_directory, input_files
 from asperity.fields import MOST_ROWS, named
 from asperity.scan import read_filled, surface_spectrum
 from asperity.scene import COLUMNS, Curves, Progress, Scene, load_scene
-from asperity.table import Table, check_output, terminal_table, write_files
+from asperity.table import Table, check_output, terminal_table, write_directory, write_files
 
 
 def demo(args: Namespace) -> None:
@@ -46,11 +46,11 @@ def demo(args: Namespace) -> None:
         files[picture.name] = plot.friction_figure([scene], curves, picture)
     write_directory(directory, files)
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
-    _print(terminal_table({name: table.columns[name] for name in shown}) + "\n")
+    tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     _print_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
     drawn = "none, pip install asperity[plot]" if missing else str(picture)
-    _print(
+    tell(
         f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"
         f"table:   {directory / 'friction.csv'}\n"
@@ -257,10 +257,11 @@ def deliver(
         print(f"{name} = {value:.6g}", file=sys.stderr)
     _print_notes(table.notes)
     if args.output is None:
-        _print(text)
+        tell(text)
 
 
-def _print(text: str) -> None:
+def tell(text: str) -> None:
+    """Write to standard output; a failure names it."""
     try:
         print(text, end="", flush=True)
     except BrokenPipeError:

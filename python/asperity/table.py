@@ -95,6 +95,33 @@ def check_output(path: Path) -> None:
         raise InvalidInput(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
+def check_writable(directory: Path) -> Path:
+    """Refuse, before any work, a directory that cannot be written or made; which of its parents, or
+    itself, is there."""
+    try:
+        existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
+        if not existing.is_dir():
+            raise InvalidInput(f"{directory}: cannot be written: {existing} is not a directory")
+        with tempfile.TemporaryFile(dir=existing):
+            pass
+    except OSError as error:
+        raise InvalidInput(f"{directory}: cannot be written: {error.strerror or error}") from error
+    return existing
+
+
+def write_directory(directory: Path, contents: Mapping[str, bytes]) -> None:
+    """Write all files or none, into a directory that is made where it is missing."""
+    made = [d for d in (directory, *directory.parents) if not d.exists()]
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        write_files({directory / name: data for name, data in contents.items()})
+    except BaseException:
+        for empty in made:
+            with suppress(OSError):
+                empty.rmdir()
+        raise
+
+
 def write_files(contents: Mapping[Path, bytes]) -> None:
     """Write all files or none: each beside its place first, then moved onto it.
 

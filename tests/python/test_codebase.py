@@ -86,7 +86,7 @@ SEAMS = {
 # Modules of the Python package, from the lowest to the highest: an import points down.
 LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma", "scan"]
 LAYERS += ["__init__", "demo", "parts", "rubber", "scene", "plot", "plot_surface", "plot_rubber"]
-LAYERS += ["commands", "rubber_command", "cli", "__main__"]
+LAYERS += ["commands", "rubber_command", "validation", "cli", "__main__"]
 
 
 def includes(path):

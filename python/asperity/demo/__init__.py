@@ -2,9 +2,6 @@
 
 import io
 import os
-import tempfile
-from collections.abc import Mapping
-from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
@@ -12,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, SelfAffineSpectrum, synthesize
-from asperity.table import check_output, write_files
+from asperity.table import check_output, check_writable
 
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)
@@ -53,12 +50,8 @@ def check_directory(directory: Path) -> None:
     InvalidInput
         If it cannot be written, or holds files of the demo's names that the demo did not write.
     """
+    existing = check_writable(directory)
     try:
-        existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
-        if not existing.is_dir():
-            raise InvalidInput(f"{directory}: cannot be written: {existing} is not a directory")
-        with tempfile.TemporaryFile(dir=existing):
-            pass
         foreign = ", ".join(_foreign(directory))
     except OSError as error:
         raise InvalidInput(f"{directory}: cannot be written: {error.strerror or error}") from error
@@ -69,19 +62,6 @@ def check_directory(directory: Path) -> None:
     if existing == directory:
         for name in FILES:
             check_output(directory / name)
-
-
-def write_directory(directory: Path, contents: Mapping[str, bytes]) -> None:
-    """Write all files or none, into a directory that is made where it is missing."""
-    made = [d for d in (directory, *directory.parents) if not d.exists()]
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        write_files({directory / name: data for name, data in contents.items()})
-    except BaseException:
-        for empty in made:
-            with suppress(OSError):
-                empty.rmdir()
-        raise
 
 
 def _foreign(directory: Path) -> list[str]:

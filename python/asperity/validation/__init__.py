@@ -1,0 +1,1 @@
+"""What each correction is worth: areas and elastic energies held against boundary elements."""

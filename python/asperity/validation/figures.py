@@ -1,0 +1,157 @@
+"""Pictures of how far each correction is from exact contact (matplotlib)."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+from typing import TYPE_CHECKING
+
+from asperity.plot import COLOURS, new_figure, picture, shades
+from asperity.validation.contacts import Contact
+from asperity.validation.predictions import (
+    Prediction,
+    Quantity,
+    needed_shift,
+    needed_shift_for_energy,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_LOAD = "$p^* = p / (E^* h')$ [-]"
+_MARKS = ("o", "s", "^", "D", "v", "P")  # by Hurst exponent
+
+
+def error_figure(
+    predictions: Sequence[Sequence[Prediction]], quantity: Quantity, path: Path
+) -> bytes:
+    """Relative error over load, a panel a model, colours for q1/q0 and marks for H."""
+    from matplotlib.figure import Figure
+
+    predictions = _different(predictions, quantity)
+    columns = 4
+    rows = -(-(len(predictions) + 1) // columns)
+    figure = Figure(figsize=(11.5, 2.7 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, sharex=True, sharey=True).ravel()
+    contacts = [prediction.contact for prediction in predictions[0]]
+    bands = sorted({contact.band for contact in contacts})
+    exponents = sorted({contact.hurst for contact in contacts}, key=str)
+    for axes, found in zip(panels, predictions, strict=False):
+        axes.axhline(0, color="0.4", linewidth=0.8)
+        for i, band in enumerate(bands):
+            colour = shades()(i / max(len(bands) - 1, 1))
+            for hurst, mark in zip(exponents, _MARKS, strict=False):
+                _draw_errors(axes, found, band, hurst, quantity, colour, mark)
+        axes.set_title(shown(found[0].model), fontsize="medium")
+        axes.tick_params(which="both", direction="in", top=True, right=True)
+    for axes in panels[len(predictions) :]:
+        axes.set_axis_off()
+    legend = panels[len(predictions)]
+    for i, band in enumerate(bands):
+        colour = shades()(i / max(len(bands) - 1, 1))
+        legend.plot([], [], color=colour, linewidth=3, label=f"$q_1/q_0$ = {band:g}")
+    for hurst, mark in zip(exponents, _MARKS, strict=False):
+        if hurst is not None:
+            legend.plot([], [], mark, color="0.3", markersize=4, label=f"$H$ = {hurst:g}")
+    legend.legend(loc="center", fontsize="small", ncols=2, frameon=False)
+    panels[0].set_xscale("log")
+    # linear up to what a theory without fitted numbers reaches, logarithmic beyond
+    panels[0].set_yscale("symlog", linthresh=10, linscale=1.2, subs=range(2, 10))
+    panels[0].set_yticks([-100, -10, 0, 10, 100], ["-100", "-10", "0", "10", "100"])
+    largest = max(abs(p.error(quantity)) for found in predictions for p in found)
+    panels[0].set_ylim(-120, max(120, 130 * largest))
+    figure.supxlabel(_LOAD, fontsize="medium")
+    name = "contact area" if quantity == "area" else "elastic energy"
+    figure.supylabel(f"Error of the {name} against boundary elements [%]", fontsize="medium")
+    return picture(figure, path)
+
+
+def _different(
+    predictions: Sequence[Sequence[Prediction]], quantity: Quantity
+) -> list[Sequence[Prediction]]:
+    """Without the models that say of this quantity what one before them says."""
+    kept: dict[tuple[float, ...], Sequence[Prediction]] = {}
+    for found in predictions:
+        kept.setdefault(tuple(prediction.error(quantity) for prediction in found), found)
+    return list(kept.values())
+
+
+def _draw_errors(
+    axes: "Axes",
+    found: Sequence[Prediction],
+    band: float,
+    hurst: float | None,
+    quantity: Quantity,
+    colour: object,
+    mark: str,
+) -> None:
+    points = [p for p in found if p.contact.band == band and p.contact.hurst == hurst]
+    load = [p.contact.load for p in points]
+    error = [100 * p.error(quantity) for p in points]
+    axes.plot(load, error, mark, color=colour, markersize=3, markeredgewidth=0, alpha=0.8)
+
+
+def shown(model: str) -> str:
+    """A model's name with its Greek letter."""
+    return model.replace("lambda0", "$\\lambda_0$")
+
+
+def shift_figure(
+    contacts: Sequence[Contact], predictions: Sequence[Sequence[Prediction]], path: Path
+) -> bytes:
+    """Which p_T the exact areas and energies ask for and which the article's methods give; beside
+    it what the friction integrand makes of the energy."""
+    figure, (left, right) = new_figure(2)
+    figure.set_size_inches(12.5, 4.0)
+    by_name = {found[0].model: found for found in predictions}
+
+    def draw(axes: "Axes", label: str, values: Sequence[float], colour: str, dashes: str) -> None:
+        load, low, middle, high = _ranges(contacts, values)
+        axes.plot(load, middle, dashes, color=colour, label=label)
+        axes.fill_between(load, low, high, color=colour, alpha=0.2, linewidth=0)
+
+    draw(left, "asked for by the area", [needed_shift(c) for c in contacts], COLOURS[0], "-")
+    energetic = [needed_shift_for_energy(c) for c in contacts]
+    draw(left, "asked for by the energy", energetic, COLOURS[1], "-")
+    for label, name, colour in (
+        ("IGW, implicit", "IGW implicit", COLOURS[2]),
+        ("IGW, added", "IGW added", COLOURS[4]),
+        ("peaks, $\\lambda_0$", "peaks, lambda0", COLOURS[3]),
+        ("peaks, $\\lambda_0/2$", "peaks, lambda0/2", COLOURS[5]),
+    ):
+        if name in by_name:
+            draw(left, label, [p.shift for p in by_name[name]], colour, "--")
+    left.set_ylim(0.9, 5)
+    left.set_ylabel("Shift factor $p_T$ [-]")
+    left.set_title("(a) shift factors", fontsize="medium")
+    right.axhline(1, color="0.4", linewidth=0.8)
+    for label, name, colour, dashes in (
+        ("no correction", "none", "0.4", "-"),
+        ("$S$, $\\gamma$ = 0.40", "S in Eq. 22, 0.40", COLOURS[0], "-"),
+        ("$p_T$ = 2", "shift 2", COLOURS[6], "--"),
+        ("IGW, implicit", "IGW implicit", COLOURS[2], "--"),
+        ("IGW, added", "IGW added", COLOURS[4], "--"),
+    ):
+        if name in by_name:
+            draw(right, label, [1 + p.energy_error for p in by_name[name]], colour, dashes)
+    right.set_ylim(0, 3)
+    right.set_ylabel("Elastic energy / exact [-]")
+    right.set_title("(b) what the friction integrand weighs", fontsize="medium")
+    for axes in (left, right):
+        axes.set_xscale("log")
+        axes.set_xlabel(_LOAD)
+        axes.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
+    return picture(figure, path)
+
+
+def _ranges(
+    contacts: Sequence[Contact], values: Sequence[float]
+) -> tuple[list[float], list[float], list[float], list[float]]:
+    """Loads, and lowest, median and highest of the known values at each."""
+    groups: dict[float, list[float]] = {}
+    for contact, value in zip(contacts, values, strict=True):
+        if math.isfinite(value):
+            groups.setdefault(float(f"{contact.load:.3g}"), []).append(value)
+    loads = sorted(groups)
+    found = [groups[load] for load in loads]
+    return loads, [min(g) for g in found], [median(g) for g in found], [max(g) for g in found]

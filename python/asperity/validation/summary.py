@@ -1,0 +1,70 @@
+"""Errors of all models in tables: worst and mean, by bandwidth and by Hurst exponent."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from asperity.validation.predictions import Prediction, Quantity
+
+
+def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[Any]]:
+    """Columns of a table, a row a model and contact."""
+    flat = [prediction for found in predictions for prediction in found]
+    return {
+        "case": [p.contact.case for p in flat],
+        "hurst": ["" if p.contact.hurst is None else p.contact.hurst for p in flat],
+        "q1_over_q0": [p.contact.band for p in flat],
+        "p_over_Eh": [p.contact.load for p in flat],
+        "model": [p.model for p in flat],
+        "shift_factor": [p.shift for p in flat],
+        "contact_area": [p.area for p in flat],
+        "contact_area_exact": [p.contact.area for p in flat],
+        "contact_area_error": [p.area_error for p in flat],
+        "energy_j_per_m2": [p.energy for p in flat],
+        "energy_exact_j_per_m2": [p.contact.energy for p in flat],
+        "energy_error": [p.energy_error for p in flat],
+    }
+
+
+def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
+    """Markdown: for area and energy the mean and the worst error of every model."""
+    contacts = [prediction.contact for prediction in predictions[0]]
+    loads = sorted(contact.load for contact in contacts)
+    text = [
+        "# What each correction is worth",
+        "",
+        f"Relative errors in % against {len(contacts)} boundary-element contacts (elastic, without "
+        f"friction or adhesion), p* = p / (E* h') from {loads[0]:.3g} to {loads[-1]:.3g}.",
+        "",
+    ]
+    quantities: tuple[tuple[Quantity, str], ...] = (
+        ("area", "Contact area"),
+        ("energy", "Elastic energy, which the friction integrand weighs"),
+    )
+    for quantity, title in quantities:
+        text += [f"## {title}", "", *_table(predictions, quantity), ""]
+    return "\n".join(text)
+
+
+def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> list[str]:
+    contacts = [prediction.contact for prediction in predictions[0]]
+    groups = {"": list(range(len(contacts)))}
+    for i, contact in enumerate(contacts):
+        groups.setdefault(f"q1/q0 {contact.band:g}", []).append(i)
+    for i, contact in enumerate(contacts):
+        if contact.hurst is not None:
+            groups.setdefault(f"H {contact.hurst:g}", []).append(i)
+    names = sorted(filter(None, groups), key=_by_number)
+    head = "".join(f" worst, {name} ({len(groups[name])}) |" for name in names)
+    lines = ["| correction | mean | worst |" + head, "| --- " * (len(names) + 3) + "|"]
+    for found in predictions:
+        errors = [100 * p.error(quantity) for p in found]
+        mean = sum(map(abs, errors)) / len(errors)
+        worst = [max((errors[i] for i in groups[name]), key=abs) for name in ("", *names)]
+        cells = "".join(f" {error:+.1f} |" for error in worst)
+        lines.append(f"| {found[0].model} | {mean:.1f} |{cells}")
+    return lines
+
+
+def _by_number(group: str) -> tuple[bool, float]:
+    name, number = group.split()
+    return name == "H", float(number)
