@@ -200,16 +200,20 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   if (broken) gradient[2] = (log_rms(0, 0, h) - log_rms(0, 0, -h)) / (2 * h);
 
   const double rms = std::exp(log_rms(0, 0, 0));
+  // of rms height, H and roll-off after level, slope and x_r
+  Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(3, parameters);
+  transform.row(0) = rms * gradient.transpose();
+  transform(1, 1) = -0.5;
+  if (broken) transform(2, 2) = std::exp(fit.x_r);
+  const Eigen::Matrix3d spread = transform * covariance * transform.transpose();
   SelfAffineFit result{{.rms_height = rms, .hurst = hurst, .q0 = q[chosen.front()], .q1 = q[chosen.back()]},
-                       rms * std::sqrt(gradient.dot(covariance * gradient)),
-                       hurst_error,
-                       std::nullopt,
+                       {},
                        std::sqrt(fit.sum_of_squares),
                        chosen.size()};
-  if (broken) {
-    result.spectrum.rolloff = std::exp(fit.x_r);
-    result.rolloff_error = std::exp(fit.x_r) * std::sqrt(covariance(2, 2));
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      result.covariance[i][j] = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  if (broken) result.spectrum.rolloff = std::exp(fit.x_r);
   return result;
 }
 

@@ -220,16 +220,23 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
     const double q_r = s->rolloff.value_or(s->q0);
     if (q1 <= q_r)
       refuse("q1", q1, "above the roll-off, " + show(q_r) + ": what is left would be flat, not self-affine");
-    SelfAffineSpectrum cut = *s;
-    cut.q0 = q0;
-    cut.q1 = q1;
-    if (!(q_r > q0)) cut.rolloff.reset();
-    // the density at the new roll-off (or q0) stays what it was
-    const double top = density_at_rolloff(*s) * std::pow(std::max(q_r, q0) / q_r, fall(*s));
-    cut.rms_height = std::sqrt(2 * pi * top * height_per_density(cut));
-    return cut;
+    return extended(*s, q0, q1);
   }
   return truncated_table(std::get<TabulatedSpectrum>(spectrum), q0, q1);
+}
+
+SelfAffineSpectrum extended(const SelfAffineSpectrum& spectrum, std::optional<double> q0, std::optional<double> q1) {
+  validate(spectrum);
+  SelfAffineSpectrum result = spectrum;
+  result.q0 = q0.value_or(spectrum.q0);
+  result.q1 = q1.value_or(spectrum.q1);
+  if (spectrum.rolloff && *spectrum.rolloff <= result.q0) result.rolloff.reset();
+  validate(result);
+  // the density at the new roll-off (or q0) is that of the old law there
+  const double from = spectrum.rolloff.value_or(spectrum.q0), to = result.rolloff.value_or(result.q0);
+  const double top = density_at_rolloff(spectrum) * std::pow(to / from, fall(spectrum));
+  result.rms_height = std::sqrt(2 * pi * top * height_per_density(result));
+  return result;
 }
 
 Spectrum scaled(const Spectrum& spectrum, double factor) {

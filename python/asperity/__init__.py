@@ -54,6 +54,7 @@ from asperity._core import (
 )
 from asperity.read import read_surface
 from asperity.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
+from asperity.uncertainty import FrictionBand, friction_band
 
 __all__ = [
     "Adhesion",
@@ -62,6 +63,7 @@ __all__ = [
     "ArrheniusFit",
     "Error",
     "Friction",
+    "FrictionBand",
     "GreenwoodWilliamson",
     "HeightMap",
     "InvalidInput",
@@ -97,6 +99,7 @@ __all__ = [
     "fit_prony",
     "fit_self_affine",
     "friction",
+    "friction_band",
     "hertz_penetration",
     "line_spectrum",
     "mean_pressure",

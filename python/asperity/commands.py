@@ -38,7 +38,7 @@ def demo(args: Namespace) -> None:
         write_directory(Path(aside), files)
         scene = load_scene(Path(aside) / "scene.toml")
     scene = replace(scene, path=directory / "scene.toml")
-    table, curves = _friction_table([scene])
+    table, curves = _friction_table([scene], bands=False)
     files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
@@ -63,18 +63,23 @@ def friction(args: Namespace) -> None:
     outputs = check_outputs(args)
     scenes = [load_scene(name) for name in args.scene]
     spare(outputs, [source for scene in scenes for source in scene.sources])
-    table, curves = _friction_table(scenes)
+    table, curves = _friction_table(scenes, bands=args.plot is not None)
     deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
 
 
-def _friction_table(scenes: Sequence[Scene]) -> tuple[Table, list[Curves]]:
-    curves = [scene.friction(_progress(str(scene.path))) for scene in scenes]
+def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
+    """mu of every scene. A band, where standard errors are known, is computed for a picture and
+    where a scene asks for it; it has columns where all scenes ask."""
+    curves = [_curves(scene, band=bands or scene.asks_for_band) for scene in scenes]
     columns: dict[str, list[Any]] = {}
+    asked = all(scene.asks_for_band for scene in scenes)
     for scene, result in zip(scenes, curves, strict=True):
         pressure, velocity = scene.points
         names = {"scene": [str(scene.path)] * pressure.size} if len(scenes) > 1 else {}
         points = {"pressure_pa": pressure, "velocity_m_s": velocity}
         values = {name: getattr(result, name).ravel() for name in COLUMNS}
+        if asked and result.band is not None:
+            values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
     several = len(scenes) > 1
@@ -84,6 +89,13 @@ def _friction_table(scenes: Sequence[Scene]) -> tuple[Table, list[Curves]]:
         for note in result.notes
     ]
     return Table("friction", [_inputs(scene) for scene in scenes], notes, columns), curves
+
+
+def _curves(scene: Scene, *, band: bool) -> Curves:
+    curves = scene.friction(_progress(str(scene.path)))
+    if not (band and scene.has_errors):
+        return curves
+    return replace(curves, band=scene.band(curves.mu, _progress(f"{scene.path}, band")))
 
 
 def _progress(title: str) -> Progress:

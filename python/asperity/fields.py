@@ -52,6 +52,12 @@ def text(value: object) -> str:
     return value
 
 
+def truth(value: object) -> bool:
+    if not isinstance(value, bool):
+        raise _WrongValueError("must be true or false")
+    return value
+
+
 def file_name(value: object) -> str:
     if not isinstance(value, str) or not value or "\0" in value:
         raise _WrongValueError("must be the name of a file")

@@ -1,4 +1,4 @@
-"""Surface, correction and adhesion of a scene, each built from its table."""
+"""Correction and adhesion of a scene, each built from its table."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,35 +8,30 @@ from asperity._core import (
     Adhesion,
     AffineShift,
     GreenwoodWilliamson,
-    HeightMap,
     LineScan,
     LocalPeaks,
     NayakSFactor,
     PeaksThenGreenwoodWilliamson,
     SelfAffineSpectrum,
     SFactor,
-    TabulatedSpectrum,
 )
 from asperity.fields import (
     Field,
     arguments,
-    count,
-    file_name,
     named,
     names_of,
     nearest,
     number,
     numbers,
-    pixel_size,
     read_table,
     refuse,
     require,
     text,
 )
-from asperity.scan import Scan, nyquist, read_filled, surface_spectrum
+from asperity.scan import Scan
+from asperity.uncertainty import Spectrum
 
 Values = dict[str, Any]
-Spectrum = SelfAffineSpectrum | TabulatedSpectrum
 Correction = (
     SFactor
     | NayakSFactor
@@ -45,25 +40,6 @@ Correction = (
     | GreenwoodWilliamson
     | PeaksThenGreenwoodWilliamson
 )
-
-_SELF_AFFINE = {
-    "rms_height_m": Field(number, "rms_height"),
-    "hurst": Field(number, "hurst"),
-    "rolloff_per_m": Field(number, "rolloff"),
-}
-_BAND = {"q0_per_m": Field(number, "q0"), "q1_per_m": Field(number, "q1")}
-_CUTOFFS = {
-    "contamination_size_m": Field(number, "size"),
-    "slope_cutoff": Field(number, "slope"),
-}
-_READ = {
-    "channel": Field(count, "channel"),
-    "pixel_size_m": Field(pixel_size, "pixel_size"),
-    "unit": Field(text, "unit"),
-    "max_dropouts": Field(number, "max_fraction"),
-}
-_TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
-_SURFACE = {"file": Field(file_name), **_READ, **_TRANSFORM, **_SELF_AFFINE, **_BAND, **_CUTOFFS}
 
 _KIND = {"kind": Field(text)}
 _PEAKS = {
@@ -92,80 +68,6 @@ _ADHESION = {
     "reference_velocity_m_s": Field(number, "reference_velocity"),
     "width": Field(number, "width"),
 }
-
-
-def build_surface(path: Path, table: object) -> tuple[Spectrum, Scan | None, Values, Values]:
-    """Spectrum, the scan it was measured on, the table with its defaults, and what came out."""
-    values = read_table(path, "surface", table, _SURFACE)
-    derived: Values = {}
-    if "file" in values:
-        for key in _SELF_AFFINE:
-            if key in values:
-                refuse(path, f"[surface] {key}", "must be left out where file is given")
-        values = {
-            "channel": 0,
-            "max_dropouts": 0.10,
-            "window": "split-cosine-bell",
-            "detrend": "plane",
-            **values,
-        }
-        surface = _read_scan(path, values, derived)
-        spectrum: Spectrum = _measure(path, surface, values)
-    else:
-        for key in (*_READ, *_TRANSFORM):
-            if key in values:
-                refuse(path, f"[surface] {key}", "must be left out where no file is given")
-        needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
-        require(path, "surface", values, needed, "give file, or " + ", ".join(needed))
-        surface = None
-        fields = {**_SELF_AFFINE, **_BAND}
-        with named(path, names_of("surface", fields)):
-            spectrum = SelfAffineSpectrum(**arguments(values, fields))
-    spectrum = _cut(path, spectrum, values)
-    derived |= {
-        "q0_per_m": spectrum.q0,
-        "q1_per_m": spectrum.q1,
-        "rms_height_m": spectrum.rms_height,
-        "rms_slope": spectrum.rms_slope,
-    }
-    return spectrum, surface, values, derived
-
-
-def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
-    """The scan without drop-outs; trends are still in it."""
-    with named(path, names_of("surface", _READ)):
-        raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
-    derived["shape"] = list(raw.heights.shape)
-    derived["pixel_size_m"] = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
-    derived["dropout_fraction"] = raw.dropout_fraction
-    return filled
-
-
-def _measure(path: Path, surface: Scan, values: Values) -> TabulatedSpectrum:
-    settings = arguments(values, _TRANSFORM)
-    if settings["detrend"] == "none":
-        settings["detrend"] = None
-    band = arguments(values, _BAND)
-    with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
-        spectrum = surface_spectrum(surface, **settings)
-        band.setdefault("q1", min(nyquist(surface), spectrum.q1))  # beyond it rings are incomplete
-        return spectrum.truncated(**band)
-
-
-def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
-    """The spectrum up to the smaller of the cut-offs that are named."""
-    cutoffs = {}
-    with named(path, names_of("surface", _CUTOFFS)):
-        if "contamination_size_m" in values:
-            size = values["contamination_size_m"]
-            cutoffs["contamination_size_m"] = spectrum.cutoff_for_contamination(size)
-        if "slope_cutoff" in values:
-            cutoffs["slope_cutoff"] = spectrum.cutoff_for_slope(values["slope_cutoff"])
-    if not cutoffs:
-        return spectrum
-    key = min(cutoffs, key=cutoffs.__getitem__)
-    with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
-        return spectrum.truncated(q1=cutoffs[key])
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:

@@ -44,9 +44,9 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     names = [scene.path.name for scene in scenes]
     if len(set(names)) < len(names):
         names = [str(scene.path) for scene in scenes]
-    curves = []
+    curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
     for name, scene, result in zip(names, scenes, results, strict=True):
-        values = [result.mu, result.hysteresis, result.adhesion]
+        values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
         loads = [_pressure(float(pressure)) for pressure in scene.pressure]
         if over_pressure:
             values = [array.T for array in values]
@@ -54,9 +54,13 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         for row, load in enumerate(loads):
             label = f"{_plain(name)}, {load}" if len(scenes) > 1 else load
             x = scene.pressure if over_pressure else scene.velocity
-            curves.append((label, x, [array[row] for array in values]))
-    for (label, x, lines), colour in zip(curves, _colours(len(curves)), strict=True):
+            lines = [array[row] for array in values]
+            curves.append((label, x, lines[:3], lines[3:]))
+    for (label, x, lines, band), colour in zip(curves, _colours(len(curves)), strict=True):
         order = np.argsort(x)
+        if band:
+            low, high = (bound[order] for bound in band)
+            axes.fill_between(x[order], low, high, color=colour, alpha=0.2, linewidth=0)
         for y, (kind, dashes) in zip(lines, kinds.items(), strict=False):
             axes.plot(
                 x[order],
@@ -70,6 +74,10 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     if adhesive:
         for kind, dashes in kinds.items():
             axes.plot([], [], dashes, color="0.3", label=kind)
+    drawn = zip(scenes, results, strict=True)
+    for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
+        label = f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
+        axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
     axes.set_xlabel(

@@ -1,5 +1,7 @@
 """Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -25,12 +27,13 @@ from asperity.fields import (
     require,
     text,
     texts,
+    truth,
 )
 from asperity.read_dma import read_isotherms, read_shift_factors
 from asperity.read_rubber import read_master_curve
+from asperity.uncertainty import DrawRubber, Generator, Rubber, draw_build, quiet_prony
 
 Values = dict[str, Any]
-Rubber = PronySeries | MasterCurve
 
 _PRONY = {
     "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
@@ -48,6 +51,7 @@ _BUILD = {
     "reference_temperature_k": Field(number, "reference_temperature"),
     "vertical_shift": Field(text, "vertical_shift"),
 }
+_PRONY_FIT = {"prony": Field(truth)}
 _TEMPERATURE = {"temperature_k": Field(number, "temperature"), "shift": Field(file_name)}
 _RUBBER = {
     **_PRONY,
@@ -56,18 +60,29 @@ _RUBBER = {
     **_DMA,
     **_BUILD,
     **_TEMPERATURE,
+    **_PRONY_FIT,
     "extrapolation": Field(text, "extrapolation"),
 }
 # which keys go with which source of the modulus
 _WITH = {
-    "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, "extrapolation"},
+    "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, *_PRONY_FIT, "extrapolation"},
     "master_curve": {*_TEMPERATURE, "reference_temperature_k", "extrapolation"},
     "": {*_PRONY, *_TEMPERATURE, "reference_temperature_k"},
 }
 
 
-def build_rubber(path: Path, table: object) -> tuple[Rubber, Values, list[str]]:
-    """The rubber at the scene's temperature, the table as it was used, and what to know of it."""
+@dataclass(frozen=True, eq=False)
+class BuiltRubber:
+    """The rubber at a scene's temperature."""
+
+    rubber: Rubber
+    values: Values  # the table as it was used
+    notes: Sequence[str] = ()
+    draw: DrawRubber | None = None  # one as its standard errors would have it, where they are known
+
+
+def build_rubber(path: Path, table: object) -> BuiltRubber:
+    """The rubber of a scene's table."""
     values = read_table(path, "rubber", table, _RUBBER)
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
@@ -94,12 +109,12 @@ def build_rubber(path: Path, table: object) -> tuple[Rubber, Values, list[str]]:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:
                 refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
-        return rubber, values, []
+        return BuiltRubber(rubber, values)
     require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
-    return rubber.shifted(_shift_factor(path, shifts, values)), values, []
+    return BuiltRubber(rubber.shifted(_shift_factor(path, shifts, values)), values)
 
 
-def _from_isotherms(path: Path, values: Values) -> tuple[Rubber, Values, list[str]]:
+def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
     require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
     values = {"reference_temperature_k": values["temperature_k"], **values}
@@ -114,10 +129,26 @@ def _from_isotherms(path: Path, values: Values) -> tuple[Rubber, Values, list[st
             smooth=True,
             extrapolation=values.get("extrapolation"),
         )
-    rubber = build.master_curve.shifted(_shift_factor(path, build, values))
+    rubber, notes = _at_temperature(path, values, build)
+
+    def draw(rng: Generator) -> Rubber:
+        return _at_temperature(path, values, draw_build(build, rng))[0]
+
+    return BuiltRubber(rubber, values, [*build.notes, *notes], draw)
+
+
+def _at_temperature(
+    path: Path, values: Values, build: MasterCurveBuild
+) -> tuple[Rubber, Sequence[str]]:
+    """The master curve, or the Prony series through it, as it is at the scene's temperature."""
+    curve = build.master_curve.shifted(_shift_factor(path, build, values))
     if values.get("vertical_shift") == "T/T_ref":
-        rubber = _stiffer(rubber, values["temperature_k"] / values["reference_temperature_k"])
-    return rubber, values, list(build.notes)
+        curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
+    if not values.get("prony", False):
+        return curve, ()
+    with named(path, {"residual": "[rubber] prony"}):
+        series = quiet_prony(curve)
+    return series, series.notes
 
 
 def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:

@@ -1,7 +1,7 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
@@ -24,6 +24,7 @@ from asperity.fields import (
     MOST_ROWS,
     Field,
     arguments,
+    count,
     named,
     names_of,
     nearest,
@@ -36,18 +37,25 @@ from asperity.fields import (
 )
 from asperity.parts import (
     Correction,
-    Spectrum,
     build_adhesion,
     build_correction,
-    build_surface,
 )
-from asperity.rubber import Rubber, build_rubber
+from asperity.rubber import BuiltRubber, build_rubber
+from asperity.surface import Surface, build_surface
+from asperity.uncertainty import Drawn, Rubber, Spectrum, coarse, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
 _SOLVER = {"rtol": Field(number, "rtol"), "form": Field(text, "form")}
 _NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
-_TABLES = dict.fromkeys(("surface", "rubber", "conditions", "correction", "adhesion", "solver"))
+_UNCERTAINTY = {
+    "samples": Field(count, "samples"),
+    "seed": Field(count, "seed"),
+    "level": Field(number, "level"),
+}
+_TABLES = dict.fromkeys(
+    ("surface", "rubber", "conditions", "correction", "adhesion", "solver", "uncertainty")
+)
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
 _CHUNK = 4  # points between two steps of a progress bar, or two looks at Ctrl-C
@@ -66,6 +74,7 @@ class Curves:
     contact_area: NDArray[np.float64]
     shift_factor: NDArray[np.float64]
     error_estimate: NDArray[np.float64]
+    band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,16 +86,27 @@ class Scene:
     """
 
     path: Path
-    spectrum: Spectrum
-    rubber: Rubber
+    surface: Surface
+    built_rubber: BuiltRubber
     pressure: NDArray[np.float64]  # [Pa], shape (n,)
     velocity: NDArray[np.float64]  # [m/s], shape (m,)
     correction: Correction | None
     adhesion: Adhesion | None
     options: Mapping[str, Any]  # poisson_ratio, rtol, form
     inputs: Mapping[str, Mapping[str, Any]]
-    derived: Mapping[str, Any]
-    rubber_notes: Sequence[str]  # of the isotherms
+    sampling: Mapping[str, Any]  # samples, seed and level of a band
+
+    @property
+    def spectrum(self) -> Spectrum:
+        return self.surface.spectrum
+
+    @property
+    def rubber(self) -> Rubber:
+        return self.built_rubber.rubber
+
+    @property
+    def derived(self) -> Mapping[str, Any]:
+        return self.surface.derived
 
     @property
     def sources(self) -> list[Path]:
@@ -107,13 +127,40 @@ class Scene:
         compute = partial(friction, adhesion=self.adhesion, **self.options)
         parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
-        notes = dict.fromkeys([*self._surface_notes(), *self.rubber_notes])
+        notes = dict.fromkeys([*self.surface.notes, *self.built_rubber.notes])
         notes |= dict.fromkeys(note for part in parts for note in part.notes)
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in COLUMNS
         }
-        return Curves(list(notes), **columns)
+        return Curves(notes=list(notes), band=None, **columns)
+
+    @property
+    def asks_for_band(self) -> bool:
+        return "uncertainty" in self.inputs
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether standard errors of the surface or of the rubber are known."""
+        return not (self.surface.draw is None and self.built_rubber.draw is None)
+
+    def band(
+        self, mu: NDArray[np.float64], progress: Progress = nullcontext
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
+        names = {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}
+        options = {**self.options, "correction": self.correction, "adhesion": self.adhesion}
+        with named(self.path, names):
+            lower, upper = swept_band(
+                Drawn(coarse(self.spectrum), self.surface.draw),
+                Drawn(self.rubber, self.built_rubber.draw),
+                self.pressure,
+                self.velocity,
+                options,
+                progress=progress,
+                **self.sampling,
+            )
+        return mu * lower, mu * upper
 
     def contact_area(
         self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext
@@ -123,21 +170,11 @@ class Scene:
         parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
         return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
 
-    def _surface_notes(self) -> list[str]:
-        wanted = self.inputs["surface"].get("slope_cutoff")
-        found = self.derived["rms_slope"]
-        if wanted is None or "contamination_size_m" in self.inputs["surface"]:
-            return []
-        if found >= wanted * (1 - 1e-9):
-            return []
-        end = f"{self.derived['q1_per_m']:.4g} 1/m"
-        return [f"slope_cutoff = {wanted} is not reached: the rms slope up to {end} is {found:.3g}"]
-
     def contact_notes(self) -> list[str]:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, poisson_ratio=self.options["poisson_ratio"])
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        notes = dict.fromkeys([*self._surface_notes(), *self.rubber_notes])
+        notes = dict.fromkeys([*self.surface.notes, *self.built_rubber.notes])
         return list(notes | dict.fromkeys(note for part in parts for note in part))
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
@@ -197,33 +234,41 @@ def load_scene(path: str | Path) -> Scene:
         problem = f"pressure_pa times velocity_m_s are {rows} points: must be at most {MOST_ROWS}"
         refuse(path, "[conditions]", problem)
 
-    spectrum, surface, surface_values, derived = build_surface(path, tables["surface"])
-    rubber, rubber_values, rubber_notes = build_rubber(path, tables["rubber"])
+    surface = build_surface(path, tables["surface"])
+    rubber = build_rubber(path, tables["rubber"])
     inputs = {
-        "surface": surface_values,
-        "rubber": rubber_values,
+        "surface": surface.values,
+        "rubber": rubber.values,
         "conditions": {**{key: tables["conditions"][key] for key in _POINTS}, **conditions},
     }
     correction = adhesion = None
     if "correction" in tables:
         correction, inputs["correction"] = build_correction(
-            path, tables["correction"], spectrum, surface, surface_values
+            path, tables["correction"], surface.spectrum, surface.scan, surface.values
         )
     if "adhesion" in tables:
         adhesion, inputs["adhesion"] = build_adhesion(path, tables["adhesion"])
     inputs["solver"] = solver
+    sampling = {"samples": 100, "seed": 0, "level": 0.95}
+    if "uncertainty" in tables:
+        sampling |= read_table(path, "uncertainty", tables["uncertainty"], _UNCERTAINTY)
+        inputs["uncertainty"] = sampling
+        if surface.draw is None and rubber.draw is None:
+            problem = (
+                "no standard errors are known: the surface must be a file, or the rubber isotherms"
+            )
+            refuse(path, "[uncertainty]", problem)
     return Scene(
         path=path,
-        spectrum=spectrum,
-        rubber=rubber,
+        surface=surface,
+        built_rubber=rubber,
         pressure=points["pressure_pa"],
         velocity=points["velocity_m_s"],
         correction=correction,
         adhesion=adhesion,
         options={**arguments(conditions, _CONDITIONS), **arguments(solver, _SOLVER)},
         inputs=inputs,
-        derived=derived,
-        rubber_notes=rubber_notes,
+        sampling=sampling,
     )
 
 

@@ -16,29 +16,28 @@ const auto rolloffs = {std::pair{"find", Rolloff::find}, std::pair{"require", Ro
                        std::pair{"none", Rolloff::none}};
 
 std::map<std::string, double> standard_errors(const SelfAffineFit& f) {
-  std::map<std::string, double> errors{{"rms_height", f.rms_height_error}, {"hurst", f.hurst_error}};
-  if (f.rolloff_error) errors["rolloff"] = *f.rolloff_error;
+  std::map<std::string, double> errors{{"rms_height", std::sqrt(f.covariance[0][0])},
+                                       {"hurst", std::sqrt(f.covariance[1][1])}};
+  if (f.spectrum.rolloff) errors["rolloff"] = std::sqrt(f.covariance[2][2]);
   return errors;
 }
 
-SelfAffineFit make_fit(const SelfAffineSpectrum& spectrum, const std::map<std::string, double>& errors, double residual,
+SelfAffineFit make_fit(const SelfAffineSpectrum& spectrum, const py::object& covariance, double residual,
                        std::size_t rows) {
-  const bool broken = spectrum.rolloff.has_value();
-  if (errors.size() != (broken ? 3 : 2) || !errors.contains("rms_height") || !errors.contains("hurst") ||
-      errors.contains("rolloff") != broken)
-    throw InvalidInput(
-        "standard_errors: must have rms_height and hurst, rolloff where the spectrum has one, and nothing "
-        "else");
-  return {spectrum,           errors.at("rms_height"),
-          errors.at("hurst"), broken ? std::optional(errors.at("rolloff")) : std::nullopt,
-          residual,           rows};
+  const Array given = real_array(covariance, "covariance");
+  if (given.ndim() != 2 || given.shape(0) != 3 || given.shape(1) != 3)
+    throw InvalidInput("covariance: must have shape (3, 3)");
+  SelfAffineFit fit{spectrum, {}, residual, rows};
+  for (py::ssize_t i = 0; i < 9; ++i)
+    fit.covariance[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] = given.data()[i];
+  return fit;
 }
 
 }  // namespace
 
 void bind_self_affine(py::module_& m) {
   py::classh<SelfAffineFit> fit(m, "SelfAffineFit", "A power law through a measured spectrum (fit_self_affine).");
-  fit.def(py::init(&make_fit), py::kw_only(), py::arg("spectrum"), py::arg("standard_errors"), py::arg("residual"),
+  fit.def(py::init(&make_fit), py::kw_only(), py::arg("spectrum"), py::arg("covariance"), py::arg("residual"),
           py::arg("rows"))
       .def_property_readonly(
           "rms_height", [](const SelfAffineFit& f) { return f.spectrum.rms_height; }, "h_rms on [q0, q1] [m].")
@@ -55,10 +54,17 @@ void bind_self_affine(py::module_& m) {
       .def_readonly("residual", &SelfAffineFit::residual, "Weighted rms of ln(C / fit) [-].")
       .def_readonly("rows", &SelfAffineFit::rows, "Rows of the spectrum that were used.")
       .def_property_readonly(
-          "standard_errors", &standard_errors,
-          "{'rms_height': [m], 'hurst': [-]} and 'rolloff' [1/m] where there is one, from the scatter "
-          "of the rows about the fit.");
-  value_semantics(fit, {"spectrum", "standard_errors", "residual", "rows"});
+          "covariance",
+          [](const SelfAffineFit& f) {
+            std::vector<double> flat;
+            for (const auto& row : f.covariance) flat.insert(flat.end(), row.begin(), row.end());
+            return shaped(std::move(flat), {3, 3});
+          },
+          "Of rms_height [m], hurst [-] and rolloff [1/m], shape (3, 3), from the scatter of the rows about the fit; "
+          "zeros where there is no roll-off.")
+      .def_property_readonly("standard_errors", &standard_errors,
+                             "{'rms_height': [m], 'hurst': [-]} and 'rolloff' [1/m] where there is one.");
+  value_semantics(fit, {"spectrum", "covariance", "residual", "rows"});
 
   m.def(
       "fit_self_affine",

@@ -126,6 +126,14 @@ Table 1's asphalt; its rms slope is above the 1.3 at which the cut-off rule ends
       .def_readonly("q0", &SelfAffineSpectrum::q0, "Lower cut-off [1/m].")
       .def_readonly("q1", &SelfAffineSpectrum::q1, "Upper cut-off [1/m].")
       .def_readonly("rolloff", &SelfAffineSpectrum::rolloff, "Roll-off [1/m] or None.");
+  self_affine.def(
+      "extended",
+      [](const SelfAffineSpectrum& s, std::optional<double> q0, std::optional<double> q1) {
+        return extended(s, q0, q1);
+      },
+      py::kw_only(), py::arg("q0") = py::none(), py::arg("q1") = py::none(),
+      "The same law on another band [1/m], wider or narrower: beyond the old ends the power law goes on, and below a "
+      "roll-off the flat part. C(q) stays, the rms height follows; a new spectrum.");
   bind_common(self_affine);
   value_semantics(self_affine, {"rms_height", "hurst", "q0", "q1", "rolloff"});
 

@@ -150,8 +150,8 @@ REFUSED = [
     ([lambda: asperity.LocalPeaks(MAP, min_distance=1.0)], "min_distance = 1"),
     ([lambda: asperity.LocalPeaks([1e-4, 2e-4])], "^heights_or_map has 2 "),
     (
-        [lambda: asperity.SelfAffineFit(spectrum=SURFACE, standard_errors={}, residual=0, rows=3)],
-        "^standard_errors",
+        [lambda: asperity.SelfAffineFit(spectrum=SURFACE, covariance=[[1]], residual=0, rows=3)],
+        "^covariance",
     ),
     (
         [

@@ -84,8 +84,28 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma", "scan"]
-LAYERS += ["__init__", "demo", "parts", "rubber", "scene", "plot", "plot_surface", "plot_rubber"]
+LAYERS = [
+    "_core",
+    "fields",
+    "table",
+    "instrument",
+    "read",
+    "read_rubber",
+    "read_dma",
+    "scan",
+    "uncertainty",
+]
+LAYERS += [
+    "__init__",
+    "demo",
+    "surface",
+    "parts",
+    "rubber",
+    "scene",
+    "plot",
+    "plot_surface",
+    "plot_rubber",
+]
 LAYERS += ["commands", "rubber_command", "validation", "cli", "__main__"]
 
 

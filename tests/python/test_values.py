@@ -17,7 +17,7 @@ HEIGHTS = np.arange(12.0).reshape(3, 4)
 PEAKS = [1e-4, 2e-4, 3e-4]
 FIT = {
     "spectrum": ROAD,
-    "standard_errors": {"rms_height": 1e-6, "hurst": 0.01, "rolloff": 10.0},
+    "covariance": np.array([[1e-12, 2e-9, 1e-6], [2e-9, 1e-4, 0.02], [1e-6, 0.02, 100.0]]),
     "residual": 0.1,
     "rows": 17,
 }

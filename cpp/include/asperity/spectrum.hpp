@@ -79,6 +79,9 @@ ASPERITY_EXPORT double cutoff_for_slope(const Spectrum& spectrum, double slope =
 ASPERITY_EXPORT double cutoff_for_contamination(const Spectrum& spectrum, double size);
 /// The same densities on a narrower band.
 ASPERITY_EXPORT Spectrum truncated(const Spectrum& spectrum, std::optional<double> q0, std::optional<double> q1);
+/// The same law on another band: the power law goes on beyond the old ends, or the flat part below a roll-off.
+ASPERITY_EXPORT SelfAffineSpectrum extended(const SelfAffineSpectrum& spectrum, std::optional<double> q0,
+                                            std::optional<double> q1);
 /// All densities times `factor`.
 ASPERITY_EXPORT Spectrum scaled(const Spectrum& spectrum, double factor);
 /// <h(x) h(0)> = 2 pi int q C(q) J0(q |x|) dq [m^2], the inverse of Eq. 6, at each distance [m].
@@ -158,11 +161,10 @@ struct FitOptions {
 /// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it.
 struct SelfAffineFit {
   SelfAffineSpectrum spectrum;
-  double rms_height_error;              // [m]
-  double hurst_error;                   // [-]
-  std::optional<double> rolloff_error;  // [1/m]
-  double residual;                      // weighted rms of ln(C / fit)
-  std::size_t rows;                     // rows used
+  // of rms height [m], Hurst exponent [-] and roll-off [1/m], zeros where there is no roll-off
+  std::array<std::array<double, 3>, 3> covariance;
+  double residual;   // weighted rms of ln(C / fit)
+  std::size_t rows;  // rows used
 };
 ASPERITY_EXPORT SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOptions& options = {});
 
