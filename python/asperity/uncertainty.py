@@ -50,7 +50,7 @@ class Drawn(Generic[Input]):
 
 @dataclass(frozen=True, eq=False)
 class FrictionBand:
-    """mu between `lower` and `upper` with probability `level`, arrays of the points' shape."""
+    """mu [-] between `lower` and `upper` with probability `level`, arrays of the points' shape."""
 
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]

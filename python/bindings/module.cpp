@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_strain_sweep(m);
   bind_asperities(m);
   bind_correction(m);
+  bind_asperity_correction(m);
   bind_contact(m);
   bind_friction(m);
 }

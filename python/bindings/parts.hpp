@@ -16,6 +16,7 @@ void bind_prony_fit(pybind11::module_& m);
 void bind_strain_sweep(pybind11::module_& m);
 void bind_asperities(pybind11::module_& m);
 void bind_correction(pybind11::module_& m);
+void bind_asperity_correction(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_friction(pybind11::module_& m);
 

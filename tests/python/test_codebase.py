@@ -106,7 +106,7 @@ LAYERS += [
     "plot_surface",
     "plot_rubber",
 ]
-LAYERS += ["commands", "rubber_command", "validation", "cli", "__main__"]
+LAYERS += ["commands", "rubber_command", "validation", "options", "verbs", "cli", "__main__"]
 
 
 def includes(path):
