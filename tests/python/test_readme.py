@@ -66,7 +66,7 @@ def test_scene(folder: Path) -> None:
     assert np.all(curves.mu > curves.hysteresis)
 
 
-@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum", "rubber"])
+@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum", "rubber", "validate"])
 def test_verbs(verb: str) -> None:
     assert f"asperity {verb}" in README
     text = subprocess.run(
