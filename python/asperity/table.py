@@ -17,17 +17,17 @@ import numpy as np
 
 from asperity._core import Error, InvalidInput, __version__
 
+# Endings of columns that are no pure numbers; the first that fits holds.
 UNITS = {
     "scene": "file",
-    "pressure_pa": "Pa",
-    "velocity_m_s": "m/s",
-    "wavenumber_per_m": "1/m",
-    "density_m4": "m^4",
-    "standard_error_m4": "m^4",
-    "angular_frequency_rad_s": "rad/s",
-    "storage_modulus_pa": "Pa",
-    "loss_modulus_pa": "Pa",
-}  # all other columns are pure numbers
+    "_per_pa": "1/Pa",
+    "_pa": "Pa",
+    "_m_s": "m/s",
+    "_rad_s": "rad/s",
+    "_per_m": "1/m",
+    "_m4": "m^4",
+    "_m": "m",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Table:
                 out.write(f"# {key} = {json.dumps(value, ensure_ascii=False)}\n")
         for note in self.notes:
             out.write(f"# note: {note}\n")
-        units = ", ".join(f"{name} [{UNITS.get(name, '-')}]" for name in self.columns)
+        units = ", ".join(f"{name} [{unit(name)}]" for name in self.columns)
         out.write(f"# columns: {units}\n")
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(self.columns)
@@ -64,12 +64,17 @@ class Table:
             "command": self.command,
             "inputs": [dict(inputs) for inputs in self.inputs],
             "notes": list(self.notes),
-            "units": {name: UNITS.get(name, "-") for name in self.columns},
+            "units": {name: unit(name) for name in self.columns},
             "columns": {
                 name: [_plain(cell) for cell in column] for name, column in self.columns.items()
             },
         }
         return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def unit(column: str) -> str:
+    """The unit that a column's name ends in."""
+    return next((u for ending, u in UNITS.items() if column.endswith(ending)), "-")
 
 
 def terminal_table(columns: Mapping[str, Sequence[float]]) -> str:
