@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from asperity import commands, rubber_command
 from asperity._core import __version__
+from asperity.article.command import article
 from asperity.options import Parser, number, numbers, pairs, pixel_size, points, whole
 from asperity.validation import command as validation
 
@@ -35,12 +36,15 @@ def parser() -> argparse.ArgumentParser:
         to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
         to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
 
+    def directory(to: argparse.ArgumentParser, default: str) -> None:
+        to.add_argument(
+            "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
+        )
+
     demo = verb(
         "demo", commands.demo, "friction of rubber on a shipped asphalt scan", "--output tryout"
     )
-    demo.add_argument(
-        "--output", metavar="DIR", default="asperity-demo", help="directory (default: %(default)s)"
-    )
+    directory(demo, "asperity-demo")
 
     friction = verb(
         "friction",
@@ -178,13 +182,15 @@ def parser() -> argparse.ArgumentParser:
         "the measured error of every correction, against boundary-element contacts",
         "--output worth",
     )
-    validate.add_argument(
-        "--output",
-        metavar="DIR",
-        default="asperity-validate",
-        help="directory (default: %(default)s)",
-    )
+    directory(validate, "asperity-validate")
     validate.add_argument(
         "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
     )
+    remade = verb(
+        "article",
+        article,
+        "the article remade: its figures and table, and its statements checked",
+        "--output remade",
+    )
+    directory(remade, "asperity-article")
     return result

@@ -84,29 +84,21 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = [
-    "_core",
-    "fields",
-    "table",
-    "instrument",
-    "read",
-    "read_rubber",
-    "read_dma",
-    "scan",
-    "uncertainty",
-]
+LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma", "scan"]
+LAYERS += ["uncertainty", "__init__", "demo", "surface", "parts", "rubber", "scene"]
+LAYERS += ["plot", "plot_surface", "plot_rubber", "commands", "rubber_command"]
+LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
+LAYERS += ["validation.summary", "validation.command", "validation", "article"]
 LAYERS += [
-    "__init__",
-    "demo",
-    "surface",
-    "parts",
-    "rubber",
-    "scene",
-    "plot",
-    "plot_surface",
-    "plot_rubber",
+    f"article.{name}"
+    for name in (
+        *("compounds", "readings", "inputs", "statement", "page", "surfaces", "affine", "peaks"),
+        *("persson", "asperities", "factors", "igw", "printed", "sliding", "friction"),
+        *("draw_surfaces", "draw_scales", "draw_factors", "draw_igw", "draw_friction"),
+        *("summary", "command"),
+    )
 ]
-LAYERS += ["commands", "rubber_command", "validation", "options", "verbs", "cli", "__main__"]
+LAYERS += ["options", "verbs", "cli", "__main__"]
 
 
 def includes(path):
@@ -173,8 +165,8 @@ def test_bindings_use_public_headers_only(path):
 
 def module_of(path):
     """Name of a module inside the package: `demo/__init__.py` is `demo`."""
-    relative = path.relative_to(ROOT / "python/asperity")
-    return relative.parts[0].removesuffix(".py")
+    relative = path.relative_to(ROOT / "python/asperity").with_suffix("")
+    return ".".join(relative.parts).removesuffix(".__init__")
 
 
 def imported(path):
@@ -191,8 +183,8 @@ def imported(path):
         for name in names:
             parts = name.split(".")
             if parts[0] == "asperity":
-                inner = parts[1] if len(parts) > 1 else "__init__"
-                found.add(inner if inner in LAYERS else "__init__")
+                inner = (".".join(parts[1:3]), *parts[1:2], "__init__")
+                found.add(next(layer for layer in inner if layer in LAYERS))
     return found
 
 

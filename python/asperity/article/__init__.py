@@ -1,0 +1,1 @@
+"""The article remade: its figures, its table, and its statements checked (`asperity article`)."""

@@ -1,0 +1,101 @@
+"""The verb `article`: the article's figures, its table and its statements, remade."""
+
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+
+from asperity._core import InvalidInput
+from asperity.article import (
+    affine,
+    asperities,
+    draw_factors,
+    draw_friction,
+    draw_igw,
+    draw_scales,
+    draw_surfaces,
+    factors,
+    friction,
+    igw,
+    peaks,
+    persson,
+    printed,
+    sliding,
+    surfaces,
+)
+from asperity.article.inputs import SEEDS, prepare
+from asperity.article.page import Page
+from asperity.article.statement import Statement
+from asperity.article.summary import HEADING, counted, markdown
+from asperity.commands import tell
+from asperity.plot import check_plot, picture
+from asperity.table import check_output, check_writable, write_directory
+
+# Fig. 4, the sketch of a Hertz contact, is left out.
+PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
+FILES = (*(f"{page}.{kind}" for page in PAGES for kind in ("png", "csv")), "summary.md")
+
+
+def article(args: Namespace) -> None:
+    """Write all pictures, tables and the summary, and show how many statements hold."""
+    directory = Path(args.output)
+    check_plot(directory / f"{PAGES[0]}.png")
+    if check_writable(directory) == directory:
+        _check_own(directory)
+    contents, statements = remake()
+    write_directory(directory, contents)
+    tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
+
+
+def remake(seeds: Sequence[int] = SEEDS) -> tuple[dict[str, bytes], list[Statement]]:
+    """All files by their names, and the statements; `seeds` of the synthetic scans."""
+    inputs = prepare(seeds)
+    spectra, curves = surfaces.compute(inputs), factors.compute(inputs)
+    readings, slid = igw.compute(inputs), sliding.compute(inputs)
+    statements = [
+        *persson.statements(inputs),
+        *affine.statements(inputs),
+        *peaks.statements(inputs, peaks.compute(inputs)),
+        *asperities.statements(inputs),
+        *surfaces.statements(inputs, spectra),
+        *factors.statements(inputs, curves),
+        *printed.statements(inputs),
+        *igw.statements(inputs, readings),
+        *friction.statements(inputs, slid),
+    ]
+    pages = [
+        draw_scales.fig01(inputs),
+        draw_surfaces.fig02(inputs),
+        draw_surfaces.fig03(inputs),
+        draw_friction.fig05(inputs),
+        draw_surfaces.fig06(inputs),
+        draw_surfaces.fig07(inputs, spectra),
+        draw_factors.fig08(inputs, curves),
+        draw_factors.fig09(inputs, curves),
+        draw_factors.fig10(inputs, curves),
+        draw_factors.fig11(inputs, curves),
+        draw_factors.fig12(inputs, curves),
+        draw_igw.fig13(inputs, readings),
+        draw_igw.fig14(inputs, readings),
+        draw_friction.fig15(inputs, slid),
+        draw_friction.table1(inputs, slid),
+    ]
+    contents = {name: data for page in pages for name, data in _files(page).items()}
+    contents["summary.md"] = markdown(inputs, statements).encode()
+    return contents, statements
+
+
+def _files(page: Page) -> dict[str, bytes]:
+    drawn = f"{page.name}.png"
+    return {
+        drawn: picture(page.figure, Path(drawn)),
+        f"{page.name}.csv": page.table.csv().encode(),
+    }
+
+
+def _check_own(directory: Path) -> None:
+    """Refuse a summary.md that is not this verb's, and what cannot be written over."""
+    for name in FILES:
+        check_output(directory / name)
+    summary = directory / "summary.md"
+    if summary.exists() and not summary.read_bytes().startswith(HEADING.encode()):
+        raise InvalidInput(f"{summary}: is not the article's own: choose another --output")

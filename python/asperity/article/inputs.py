@@ -1,0 +1,122 @@
+"""What the article states, and what stands in for what it does not publish."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import (
+    Adhesion,
+    GreenwoodWilliamson,
+    HeightMap,
+    PronySeries,
+    SelfAffineSpectrum,
+    synthesize,
+)
+from asperity.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
+from asperity.article.readings import READINGS, Implied, implied
+
+Q0 = 2000.0  # 1/m, of both surfaces (Fig. 7, Table 1)
+LAMBDA0 = 2 * math.pi / Q0
+MAGNIFICATION = 500.0  # q1 / q0 (Section 5.2)
+PRESSURES = (0.1e6, 0.3e6, 0.5e6)  # Pa, of Figs 10 to 12
+LOADS = f"{', '.join(f'{p / 1e6:g}' for p in PRESSURES)} MPa"
+VELOCITY = 0.1  # m/s, of Figs 10 to 12
+ASPHALT_PRESSURE = 81e3  # Pa (Table 1)
+ADHESION = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3, width=0.1)  # Table 1
+
+# Square scans of 16 x 16 lambda0. The skewness of the abraded sandpaper is not published: with this
+# one z_max and z_min of the scans lie between those that the printed p_T ask for in either reading.
+SIDE = 16  # lambda0
+PIXELS = 1024
+PIXEL_SIZE = SIDE * LAMBDA0 / PIXELS
+SKEWNESS = -0.3
+SEEDS = (1, 2, 3, 4, 5, 6)
+
+
+@dataclass(frozen=True, eq=False)
+class Tuned:
+    """Compound A moved along the frequency axis until a reading gives the printed p_T."""
+
+    implied: Implied
+    decades: float  # log10 of the factor on the relaxation times
+    temperature: float  # [C] at which the surrogate would be as stiff, by WLF
+    rubber: PronySeries
+    correction: GreenwoodWilliamson
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """Surfaces, compounds and readings that all figures and statements share."""
+
+    sandpaper: SelfAffineSpectrum
+    asphalt: SelfAffineSpectrum
+    scans: Sequence[HeightMap]  # of the sandpaper, one a seed
+    gaussian_scans: Sequence[HeightMap]  # the same spectrum without skewness
+    asphalt_scans: Sequence[HeightMap]
+    compound_a: PronySeries  # at room temperature, not tuned
+    compound_b: PronySeries
+    tuned: Mapping[str, Tuned]  # by reading
+
+    @property
+    def rubber(self) -> PronySeries:
+        """Compound A of Figs 1 and 8 to 12: tuned to the implicit reading."""
+        return self.tuned["implicit"].rubber
+
+
+def prepare(seeds: Sequence[int] = SEEDS) -> Inputs:
+    """Everything that is computed once: half a minute of figures and statements starts here."""
+    sandpaper = SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=Q0, q1=MAGNIFICATION * Q0)
+    asphalt = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=Q0, q1=MAGNIFICATION * Q0)
+    compound_a = compound(T_G["A"])
+    return Inputs(
+        sandpaper=sandpaper,
+        asphalt=asphalt,
+        scans=[_scan(sandpaper, seed, SKEWNESS) for seed in seeds],
+        gaussian_scans=[_scan(sandpaper, seed, 0.0) for seed in seeds],
+        asphalt_scans=[_scan(asphalt, seed, 0.0) for seed in seeds],
+        compound_a=compound_a,
+        compound_b=compound(T_G["B"]),
+        tuned={
+            reading: tune(compound_a, implied(reading, sandpaper.rms_height, Q0))
+            for reading in READINGS
+        },
+    )
+
+
+def tune(rubber: PronySeries, wanted: Implied) -> Tuned:
+    """One factor on all relaxation times, so that |E(q0 v)| / (1 - nu^2) at 0.1 m/s is E*."""
+    low, high = -12.0, 12.0
+    while high - low > 1e-13:
+        decades = (low + high) / 2
+        low, high = (
+            (decades, high)
+            if effective_modulus(rubber.shifted(10**decades)) < wanted.effective_modulus
+            else (low, decades)
+        )
+    return Tuned(
+        implied=wanted,
+        decades=low,
+        temperature=temperature_of(low, T_G["A"]),
+        rubber=rubber.shifted(10**low),
+        correction=GreenwoodWilliamson(
+            z_max=wanted.z_max, z_min=wanted.z_min, reading=wanted.reading
+        ),
+    )
+
+
+def effective_modulus(rubber: PronySeries, velocity: float = VELOCITY) -> float:
+    """E* = |E(q0 v)| / (1 - nu^2) [Pa], of Eqs 16 to 20."""
+    return float(abs(rubber.modulus(Q0 * velocity))) / (1 - POISSON_RATIO**2)
+
+
+def magnifications(count: int) -> NDArray[np.float64]:
+    """q / q0 from 1 to 500, dense at 1: the contact breaks up within a small part of a decade."""
+    return np.concatenate([[1.0], 1 + np.geomspace(1e-4, MAGNIFICATION - 1, count - 1)])
+
+
+def _scan(spectrum: SelfAffineSpectrum, seed: int, skewness: float) -> HeightMap:
+    shape = (PIXELS, PIXELS)
+    return synthesize(spectrum, shape=shape, pixel_size=PIXEL_SIZE, seed=seed, skewness=skewness)

@@ -1,0 +1,72 @@
+"""Section 6.1.2's three printed p_T: what they imply, and what A has to be tuned to."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import GreenwoodWilliamson
+from asperity.article.igw import shifts
+from asperity.article.inputs import LOADS, PRESSURES, VELOCITY, Inputs, effective_modulus
+from asperity.article.readings import PRINTED, READINGS, Reading
+from asperity.article.statement import TUNED, Statement, listed, unchecked
+
+_Array = NDArray[np.float64]
+
+
+def statements(inputs: Inputs) -> list[Statement]:
+    """What Section 6.1.2 prints as numbers, tuned; and what comes out where nothing is."""
+    implied = [tuned.implied for tuned in inputs.tuned.values()]
+    bare = effective_modulus(inputs.compound_a)
+    untuned = {name: _of_the_scans(inputs, name) for name in READINGS}
+    return [
+        Statement(
+            "G1",
+            "Sec. 6.1.2",
+            f"p_T is {listed(PRINTED.values())} at {LOADS} and 0.1 m/s",
+            "none: E*, z_max and z_min are solved for",
+            "; ".join(
+                f"{x.reading}: {listed(x.shift_factor, '.4g')} with E* "
+                f"{x.effective_modulus / 1e6:.3g} MPa, z_max {x.z_max * 1e6:.0f} um, z_min "
+                f"{x.z_min * 1e6:.0f} um"
+                for x in implied
+            ),
+            TUNED,
+            "three numbers for three unknowns cannot tell which reading is meant; within their "
+            "rounding E* is "
+            + ", ".join(
+                f"{x.lowest / 1e6:.0f} to {x.highest / 1e6:.0f} MPa ({x.reading})" for x in implied
+            ),
+        ),
+        Statement(
+            "G2",
+            "Sec. 5.1, 6.1.2",
+            "compound A has the modulus that these p_T ask for",
+            "none: its relaxation times are moved by one factor",
+            f"the surrogate (T_g -32 C, 20 C) has E* {bare / 1e6:.3g} MPa at q0 v; "
+            + "; ".join(
+                f"{name}: {t.implied.effective_modulus / bare:.2g} times it, {t.decades:+.2f} "
+                f"decades, as at {t.temperature:.0f} C"
+                for name, t in inputs.tuned.items()
+            ),
+            TUNED,
+            "moduli are not published; one reading asks for colder rubber, the other for warmer",
+        ),
+        unchecked(
+            "G3",
+            "Sec. 6.1.2",
+            "the same p_T with nothing tuned: surrogate at 20 C, heights of the synthetic scans",
+            "modulus, z_max and z_min are not published; with surrogates of our choice a near hit "
+            "proves as little as a miss",
+            "; ".join(f"{name}: {listed(values)}" for name, values in untuned.items()),
+        ),
+    ]
+
+
+def _of_the_scans(inputs: Inputs, reading: Reading) -> _Array:
+    """p_T at the three pressures with the surrogate untuned and the scans' mean extremes."""
+    igw = GreenwoodWilliamson(
+        z_max=float(np.mean([scan.z_max for scan in inputs.scans])),
+        z_min=float(np.mean([scan.z_min for scan in inputs.scans])),
+        reading=reading,
+    )
+    velocity = np.array([VELOCITY])
+    return shifts(inputs, inputs.compound_a, igw, np.array(PRESSURES), velocity).shift_factor[:, 0]
