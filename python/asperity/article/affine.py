@@ -55,7 +55,7 @@ def statements(inputs: Inputs) -> list[Statement]:
         Statement(
             "A4",
             "Eq. 12",
-            "is the spectrum of a surface with the rms height h0",
+            "Eq. 12 is the spectrum of a surface with the rms height h0",
             "2 pi int q C dq = h0^2 within 1 %",
             f"rms height {printed.rms_height * 1e6:.4g} um for h0 = 265.7 um: "
             f"{printed.rms_height / 265.7e-6:.4f} h0",

@@ -41,7 +41,7 @@ def _hertz(inputs: Inputs) -> Statement:
     return Statement(
         "E1",
         "Eq. 14",
-        "is Hertz's penetration",
+        "Eq. 14 is Hertz's penetration",
         "put into the force of Eq. 16 it gives F_N = 0.01 N back within 1 %",
         f"{printed:.3g} N as printed, {squared:.3g} N with F_N squared",
         judged(abs(printed / force - 1) < 0.01),
@@ -134,7 +134,7 @@ def _shift(inputs: Inputs) -> list[Statement]:
         Statement(
             "E5",
             "Eq. 21",
-            "gives the shift factor p_T >= 1",
+            "Eq. 21 gives the shift factor, p_T >= 1",
             f"p_T >= 1 at {LOADS}, as printed",
             f"{listed(printed)} as printed; {listed(-printed)} with its sign turned, "
             f"{listed(twice)} with twice the amplitude above",

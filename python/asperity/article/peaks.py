@@ -98,7 +98,7 @@ def statements(inputs: Inputs, peaks: Peaks) -> list[Statement]:
         Statement(
             "P3",
             "Sec. 6.1.1, Fig. 9",
-            "p_T1 is about 2 with lambda0/2 to lambda0",
+            "p_T1 is about 2 with peaks down to lambda0/2 apart",
             "2 within 2 standard deviations of single scans, at lambda0/2",
             f"{_scatter(peaks.skewed[:, narrow])} at lambda0/2 ({sample}), "
             f"{_scatter(peaks.skewed[:, middle])} at 0.75 lambda0; "

@@ -158,7 +158,7 @@ def _interpolation(inputs: Inputs) -> Statement:
     return Statement(
         "T9",
         "Eq. 7",
-        "gives the area approximately",
+        "Eq. 7 gives the area approximately",
         "within 3 % of the exact erf(1 / (2 sqrt G)) at every G",
         f"{percent(error.min())} to {percent(error.max())} over A/A0 from {exact.min():.1e} to "
         f"{exact.max():g}",

@@ -124,7 +124,7 @@ def _scans(inputs: Inputs) -> list[Statement]:
         Statement(
             "S5",
             "Eqs 26-27",
-            "are the spectrum of the surface",
+            "Eqs 25 to 27 give the spectrum of the surface",
             "the variance of C within 5 % of that of the heights, mean of the asphalt scans",
             f"{level:.3f} of it, with a window whose mean square is {lost:.3f}",
             judged(bool(abs(level - 1) < 0.05)),
