@@ -22,7 +22,15 @@ from asperity.article.inputs import (
 )
 from asperity.article.persson import areas
 from asperity.article.readings import PRINTED
-from asperity.article.statement import TUNED, Statement, judged, listed, percent, unchecked
+from asperity.article.statement import (
+    TUNED,
+    Statement,
+    judged,
+    listed,
+    percent,
+    rests_on_tuning,
+    unchecked,
+)
 from asperity.parts import Correction
 
 _Array = NDArray[np.float64]
@@ -176,13 +184,13 @@ def _comparisons(inputs: Inputs, f: Factors) -> list[Statement]:
             "IGW-CF is similar to PF-CF at 0.3 and 0.5 MPa, less so at 0.1 MPa",
             "within 10 % at 500 q0 at 0.3 and 0.5 MPa, farther off at 0.1 MPa",
             f"{', '.join(percent(x) for x in igw[:, -1])} at {LOADS}",
-            judged(
+            rests_on_tuning(
                 [
                     bool(np.all(np.abs(igw[1:, -1]) < 0.1)),
                     bool(abs(igw[0, -1]) > np.abs(igw[1:, -1]).max()),
                 ]
             ),
-            "p_T is tuned to the printed values: this checks what follows from them",
+            "met, by p_T that were tuned to the printed ones",
         ),
         Statement(
             "C10",
@@ -233,8 +241,10 @@ def _larger(f: Factors) -> list[Statement]:
             "with IGW the area is larger, by far the most at low pressure",
             "larger at every magnification with partial contact; the gain falls with pressure",
             f"x {listed(igw[:, -1], '.4g')} at {LOADS}, 500 q0: A/A0 up by {listed(gain, '.2g')}",
-            judged([bool(np.all(igw[partial] > 1)), bool(np.all(np.diff(igw[:, -1]) < 0))]),
-            "the factor is p_T itself, tuned here; in area the gain is largest at the highest load",
+            rests_on_tuning(
+                [bool(np.all(igw[partial] > 1)), bool(np.all(np.diff(igw[:, -1]) < 0))]
+            ),
+            "met, by p_T itself, which is tuned; in area the gain is largest at the highest load",
         ),
     ]
 

@@ -30,6 +30,12 @@ def judged(held: bool | Iterable[bool]) -> str:
     return HOLDS if all(tests) else IN_PART if any(tests) else FAILS
 
 
+def rests_on_tuning(held: bool | Iterable[bool]) -> str:
+    """The verdict where the tuned compound decides: met is only "tuned", for it was put in."""
+    verdict = judged(held)
+    return TUNED if verdict == HOLDS else verdict
+
+
 def unchecked(name: str, place: str, claim: str, reason: str, found: str = "-") -> Statement:
     """A statement that nothing at hand can decide."""
     return Statement(name, place, claim, "-", found, UNCHECKED, reason)
