@@ -66,7 +66,9 @@ TOPIC = {
     "master_spline": "dma",
     "shift_table": "dma",
     "prony": "rubber",
+    "adhesion_curve": "friction",
     "contact_checks": "contact",
+    "fit_adhesion": "friction",
     "persson": "contact",
     "notes": "contact",
 }
