@@ -2,6 +2,7 @@
 
 from asperity._core import (
     Adhesion,
+    AdhesionFit,
     AffineShift,
     Anisotropy,
     ArrheniusFit,
@@ -38,6 +39,7 @@ from asperity._core import (
     contact_notes,
     correction_factor,
     effective_modulus,
+    fit_adhesion,
     fit_prony,
     fit_self_affine,
     friction,
@@ -56,6 +58,7 @@ from asperity.read_dma import read_isotherms, read_shift_factors, read_strain_sw
 
 __all__ = [
     "Adhesion",
+    "AdhesionFit",
     "AffineShift",
     "Anisotropy",
     "ArrheniusFit",
@@ -92,6 +95,7 @@ __all__ = [
     "contact_notes",
     "correction_factor",
     "effective_modulus",
+    "fit_adhesion",
     "fit_prony",
     "fit_self_affine",
     "friction",

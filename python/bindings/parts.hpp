@@ -18,5 +18,6 @@ void bind_asperities(pybind11::module_& m);
 void bind_correction(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_friction(pybind11::module_& m);
+void bind_fit_adhesion(pybind11::module_& m);
 
 }  // namespace asperity::python
