@@ -2,6 +2,7 @@
 
 from asperity._core import (
     Adhesion,
+    AdhesionFit,
     AffineShift,
     Anisotropy,
     ArrheniusFit,
@@ -39,6 +40,7 @@ from asperity._core import (
     contact_notes,
     correction_factor,
     effective_modulus,
+    fit_adhesion,
     fit_prony,
     fit_self_affine,
     friction,
@@ -58,6 +60,7 @@ from asperity.uncertainty import FrictionBand, friction_band
 
 __all__ = [
     "Adhesion",
+    "AdhesionFit",
     "AffineShift",
     "Anisotropy",
     "ArrheniusFit",
@@ -96,6 +99,7 @@ __all__ = [
     "contact_notes",
     "correction_factor",
     "effective_modulus",
+    "fit_adhesion",
     "fit_prony",
     "fit_self_affine",
     "friction",

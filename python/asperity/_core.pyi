@@ -691,7 +691,6 @@ def pressure_distribution(
     rtol: float = 1e-6,
 ) -> _Result: ...
 
-@final
 class Adhesion:
     def __init__(
         self, *, shear_stress: float, reference_velocity: float = 6e-3, width: float = 0.1
@@ -747,3 +746,45 @@ def friction(
     rtol: float = 1e-6,
     contributions: bool = False,
 ) -> Friction: ...
+
+@final
+class AdhesionFit(Adhesion):
+    def __init__(
+        self,
+        *,
+        shear_stress: float,
+        reference_velocity: float,
+        width: float,
+        covariance: ArrayLike,
+        residual: float,
+        outliers: ArrayLike,
+        notes: Iterable[str] = (),
+    ) -> None: ...
+    @property
+    def covariance(self) -> _Array: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def outliers(self) -> NDArray[np.bool_]: ...
+    @property
+    def notes(self) -> tuple[str, ...]: ...
+    @property
+    def adhesion(self) -> Adhesion: ...
+    @property
+    def standard_errors(self) -> dict[str, float]: ...
+    @property
+    def log10_reference_velocity_error(self) -> float: ...
+
+def fit_adhesion(
+    spectrum: _Spectrum,
+    rubber: _Rubber,
+    *,
+    velocity: ArrayLike,
+    mu: ArrayLike,
+    pressure: ArrayLike,
+    fixed: dict[str, float] = ...,
+    poisson_ratio: float = 0.5,
+    correction: _Correction = None,
+    form: _Form = "exact",
+    rtol: float = 1e-6,
+) -> AdhesionFit: ...

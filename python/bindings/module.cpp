@@ -24,4 +24,5 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_asperity_correction(m);
   bind_contact(m);
   bind_friction(m);
+  bind_fit_adhesion(m);
 }

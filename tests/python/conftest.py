@@ -20,6 +20,10 @@ LISTS = {
     "table_loss",
     "table_wavenumber",
     "table_density",
+    "pressures",
+    "velocities",
+    "measured",
+    "outliers",
 }
 
 

@@ -66,8 +66,10 @@ TOPIC = {
     "master_spline": "dma",
     "shift_table": "dma",
     "prony": "rubber",
+    "adhesion_curve": "friction",
     "contact_checks": "contact",
     "partial_contact": "contact",
+    "fit_adhesion": "friction",
     "persson": "contact",
     "notes": "contact",
 }

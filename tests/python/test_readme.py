@@ -38,6 +38,18 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
             e = RUBBER.modulus(2 * np.pi * hertz * 10 ** (-0.1 * (celsius - 20)))
             lines.append(f"{hertz},{celsius},{e.real / 3e6},{e.imag / 3e6}")
     (tmp_path / "dma.csv").write_text("\n".join(lines))
+    road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
+    road = road.truncated(q1=road.cutoff_for_slope(1.3))
+    test = asperity.friction(
+        road,
+        RUBBER,
+        pressure=81e3,
+        velocity=np.geomspace(1e-6, 1e-2, 20),
+        correction=asperity.SFactor(),
+        adhesion=asperity.Adhesion(shear_stress=8.3e6),
+    )
+    columns = np.column_stack([test.velocity, test.mu])
+    np.savetxt("test.csv", columns, delimiter=",", header="velocity,mu")
     return tmp_path
 
 
@@ -55,6 +67,10 @@ def test_python(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert isinstance(warm, asperity.PronySeries)
     exact = RUBBER.modulus(10 ** (-0.1 * 20) * 10.0)
     assert warm.modulus(10.0) == pytest.approx(exact, rel=0.02)
+    adhesion = names["adhesion"]
+    assert isinstance(adhesion, asperity.AdhesionFit)
+    # by the hysteresis of the modulus that came out of the sweeps
+    assert adhesion.shear_stress == pytest.approx(8.3e6, rel=0.02)
     assert capsys.readouterr().out
 
 

@@ -52,6 +52,15 @@ FITTED = {
     "causal": True,
     "notes": ("a note",),
 }
+STICKING = {
+    "shear_stress": 8e6,
+    "reference_velocity": 6e-3,
+    "width": 0.1,
+    "covariance": [[1e10, 10.0, 0.1], [10.0, 1e-6, 1e-6], [0.1, 1e-6, 1e-4]],
+    "residual": 0.05,
+    "outliers": [[False, True]],
+    "notes": ("a note",),
+}
 SEPARATION = {"pressure": [1e5, 1e6], "effective_modulus": 1e7, "rms_height": 1e-4, "q0": 1e3}
 # class, the arguments it is made from, one argument changed
 MADE = [
@@ -91,6 +100,8 @@ MADE = [
         {"reading": "added"},
     ),
     ("Adhesion", {"shear_stress": 8e6}, {"width": 0.2}),
+    ("AdhesionFit", STICKING, {"residual": 0.06}),
+    ("AdhesionFit", STICKING, {"outliers": [[True, False]]}),
 ]
 IDS = [f"{name}{i}" for i, (name, _, _) in enumerate(MADE)]
 RESULTS = {

@@ -1,6 +1,7 @@
 // Rubber friction: hysteresis (Eq. 22), adhesion (Eq. 23) and their sum (Eq. 24).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,5 +62,27 @@ ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber
 ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                                   std::span<const double> velocity, bool contributions = false);
+
+/// Parameters of Eq. 23 that a fit holds instead of fitting them.
+struct FixedAdhesion {
+  std::optional<double> shear_stress = std::nullopt;        // [Pa]
+  std::optional<double> reference_velocity = std::nullopt;  // [m/s]
+  std::optional<double> width = std::nullopt;               // [-]
+};
+
+/// Eq. 23 through measured friction. Standard errors come from the scatter of the points about the fit.
+struct AdhesionFit {
+  Adhesion adhesion;
+  std::array<double, 9> covariance;  // 3 x 3: shear_stress [Pa], reference_velocity [m/s], width [-]; 0 where held
+  double residual;                   // robust standard deviation of ln(mu / fit) [-]
+  std::vector<bool> outliers;        // an entry a point: put aside, more than 4.685 times `residual` off the fit
+  std::vector<std::string> notes;
+};
+
+/// Robust least squares in ln mu: points scatter in proportion to mu. Hysteresis and area are those of `friction`.
+/// InvalidInput where the points do not determine what is to be fitted.
+ASPERITY_EXPORT AdhesionFit fit_adhesion(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                         std::span<const double> pressure, std::span<const double> velocity,
+                                         std::span<const double> mu, const FixedAdhesion& fixed = {});
 
 }  // namespace asperity
