@@ -95,7 +95,7 @@ def _curves(scene: Scene, *, band: bool) -> Curves:
     curves = scene.friction(_progress(str(scene.path)))
     if not (band and scene.has_errors):
         return curves
-    return replace(curves, band=scene.band(curves.mu, _progress(f"{scene.path}, band")))
+    return replace(curves, band=scene.band(curves.mu, band_progress(scene)))
 
 
 def _progress(title: str) -> Progress:
@@ -105,6 +105,11 @@ def _progress(title: str) -> Progress:
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
     shown = "{l_bar}{bar}| {elapsed}<{remaining}"
     return lambda chunks: bar(chunks, desc=title, delay=2, leave=False, bar_format=shown)
+
+
+def band_progress(scene: Scene) -> Progress:
+    """The same while a band is drawn."""
+    return _progress(f"{scene.path}, band")
 
 
 def area(args: Namespace) -> None:

@@ -47,7 +47,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
     for name, scene, result in zip(names, scenes, results, strict=True):
         values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
-        loads = [_pressure(float(pressure)) for pressure in scene.pressure]
+        loads = [pressure_text(float(pressure)) for pressure in scene.pressure]
         if over_pressure:
             values = [array.T for array in values]
             loads = [f"{float(scene.velocity[0]):.4g} m/s"]
@@ -56,7 +56,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
             x = scene.pressure if over_pressure else scene.velocity
             lines = [array[row] for array in values]
             curves.append((label, x, lines[:3], lines[3:]))
-    for (label, x, lines, band), colour in zip(curves, _colours(len(curves)), strict=True):
+    for (label, x, lines, band), colour in zip(curves, colours(len(curves)), strict=True):
         order = np.argsort(x)
         if band:
             low, high = (bound[order] for bound in band)
@@ -76,7 +76,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
             axes.plot([], [], dashes, color="0.3", label=kind)
     drawn = zip(scenes, results, strict=True)
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
-        label = f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
+        label = band_text(level)
         axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
@@ -95,7 +95,7 @@ def area_figure(
     other way where there are more pressures; beside it the distribution of the pressure at three
     magnifications, as in the article's Fig. 1."""
     figure, (axes, right) = new_figure(2)
-    sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, _pressure)]
+    sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, pressure_text)]
     title = "Sliding velocity $v$ [m/s]"
     if scene.pressure.size > scene.velocity.size:
         sweeps.reverse()
@@ -153,7 +153,7 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
     axes.set_xlabel("Local pressure $\\sigma / \\sigma_0$ [-]")
     # per ln(sigma), so that the area under a curve is the share in contact
     axes.set_ylabel("Pressure distribution $\\sigma\\, P(\\sigma)$ [-]")
-    title = f"{_pressure(nominal)}, {float(scene.velocity[0]):.3g} m/s"
+    title = f"{pressure_text(nominal)}, {float(scene.velocity[0]):.3g} m/s"
     if scene.options["form"] != "exact":
         title += ", exact form"  # the other has no distribution
     axes.set_title(title, fontsize="medium")
@@ -192,7 +192,13 @@ def _plain(name: str) -> str:
     return f"./{name}" if name.startswith("_") else name
 
 
-def _colours(count: int) -> Sequence[Any]:
+def band_text(level: float) -> str:
+    """What a band is, for a legend."""
+    return f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
+
+
+def colours(count: int) -> Sequence[Any]:
+    """As many as are asked for, told apart as well as can be."""
     if count <= len(COLOURS):
         return COLOURS[:count]
     return list(shades()(np.linspace(0, 1, count)))
@@ -206,7 +212,8 @@ def shades() -> "Colormap":
     return ListedColormap(colormaps["cividis"](np.linspace(0, 0.92, 256)))
 
 
-def _pressure(value: float) -> str:
+def pressure_text(value: float) -> str:
+    """A pressure [Pa] in a unit that suits it."""
     for factor, unit in ((1e6, "MPa"), (1e3, "kPa")):
         if value >= factor:
             return f"{value / factor:.4g} {unit}"

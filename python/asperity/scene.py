@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from asperity._core import (
     Adhesion,
+    AdhesionFit,
     Friction,
     InvalidInput,
     contact_area,
@@ -141,8 +142,9 @@ class Scene:
 
     @property
     def has_errors(self) -> bool:
-        """Whether standard errors of the surface or of the rubber are known."""
-        return not (self.surface.draw is None and self.built_rubber.draw is None)
+        """Whether standard errors of the surface, the rubber or the adhesion are known."""
+        measured = self.surface.draw is not None or self.built_rubber.draw is not None
+        return measured or isinstance(self.adhesion, AdhesionFit)
 
     def band(
         self, mu: NDArray[np.float64], progress: Progress = nullcontext

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import (
+    Adhesion,
+    AdhesionFit,
     InvalidInput,
     Isotherm,
     MasterCurve,
@@ -89,7 +91,8 @@ def friction_band(
     level : float
         Share of the draws between the two curves, in (0, 1).
     **options
-        As for `friction`: poisson_ratio, correction, adhesion, form. All of them are held.
+        As for `friction`: poisson_ratio, correction, adhesion, form. All are held but an
+        AdhesionFit, which is drawn from its covariance.
 
     Returns
     -------
@@ -98,16 +101,16 @@ def friction_band(
     Raises
     ------
     InvalidInput
-        Neither input has errors; a PronyFit, which does not know its own (give the build).
+        No input has errors; a PronyFit, which does not know its own (give the build).
     """
     if isinstance(rubber, PronyFit):
         raise InvalidInput(
             "rubber: a PronyFit does not know its errors, give the MasterCurveBuild behind it"
         )
-    if not (has_errors(spectrum) or has_errors(rubber)):
+    if not any(map(has_errors, (spectrum, rubber, options.get("adhesion")))):
         raise InvalidInput(
-            "spectrum, rubber: neither has errors: one must be a SelfAffineFit, "
-            "a TabulatedSpectrum with standard_error, or a MasterCurveBuild"
+            "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
+            "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
         )
     p, v = np.broadcast_arrays(np.asarray(pressure, float), np.asarray(velocity, float))
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum
@@ -129,7 +132,7 @@ def has_errors(source: object) -> bool:
     """Whether `source` is a measured input that knows its standard errors."""
     if isinstance(source, TabulatedSpectrum):
         return source.standard_error is not None
-    return isinstance(source, SelfAffineFit | MasterCurveBuild)
+    return isinstance(source, SelfAffineFit | MasterCurveBuild | AdhesionFit)
 
 
 def relative_band(
@@ -152,8 +155,16 @@ def relative_band(
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
     centre = friction(spectrum.plain, rubber.plain, **options).mu
+    adhesion = options.pop("adhesion", None)
     with progress(range(samples)) as shown:
-        drawn = np.array([friction(spectrum(rng), rubber(rng), **options).mu for _ in shown])
+        drawn = np.array(
+            [
+                friction(
+                    spectrum(rng), rubber(rng), adhesion=draw_adhesion(adhesion, rng), **options
+                ).mu
+                for _ in shown
+            ]
+        )
     ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)
@@ -250,6 +261,23 @@ def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:
         smooth=True,
         extrapolation="power-law",  # ends move with the shift factors
     )
+
+
+def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:
+    """A fitted adhesion as its errors would have it, tau_f0 and v0 in the logarithm; c until it is
+    one."""
+    if not isinstance(source, AdhesionFit):
+        return source
+    scale = np.array([source.shear_stress, source.reference_velocity, 1])
+    covariance = source.covariance / np.outer(scale, scale)
+    while True:
+        drawn = rng.multivariate_normal(np.zeros(3), covariance, method="eigh")
+        if source.width + drawn[2] >= 0:
+            return Adhesion(
+                shear_stress=source.shear_stress * float(np.exp(drawn[0])),
+                reference_velocity=source.reference_velocity * float(np.exp(drawn[1])),
+                width=source.width + drawn[2],
+            )
 
 
 def draw_rubber(source: Rubber | MasterCurveBuild, rng: Generator) -> Rubber:

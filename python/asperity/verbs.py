@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Callable
 
-from asperity import commands, rubber_command
+from asperity import commands, fit_command, rubber_command
 from asperity._core import __version__
 from asperity.article.command import article
 from asperity.options import Parser, number, numbers, pairs, pixel_size, points, whole
@@ -176,6 +176,27 @@ def parser() -> argparse.ArgumentParser:
         "--shift", metavar="FILE", help="take a_T from a table, temperature_k,log10_a_t"
     )
     outputs(rubber)
+    fit = verb(
+        "fit",
+        fit_command.fit,
+        "adhesion from measured friction, beside the scene's hysteresis",
+        "scene.toml measured.csv --hold width=0.1 --output fit.csv --plot fit.png",
+    )
+    fit.add_argument("scene", metavar="SCENE.toml")
+    fit.add_argument(
+        "measured",
+        metavar="MEASURED.csv",
+        help="columns mu, velocity_m_s (or velocity_mm_s, velocity_km_h) and, where pressures "
+        "differ, pressure_pa (pressure_kpa, pressure_mpa)",
+    )
+    fit.add_argument(
+        "--hold",
+        type=pairs,
+        metavar="NAME=VALUE,...",
+        help="keep shear_stress_pa, reference_velocity_m_s or width",
+    )
+    outputs(fit)
+
     validate = verb(
         "validate",
         validation.validate,

@@ -86,9 +86,20 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma", "scan"]
-LAYERS += ["uncertainty", "__init__", "demo", "surface", "parts", "rubber", "scene"]
-LAYERS += ["plot", "plot_surface", "plot_rubber", "commands", "rubber_command"]
+LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma"]
+LAYERS += [
+    "read_friction",
+    "scan",
+    "uncertainty",
+    "__init__",
+    "demo",
+    "surface",
+    "parts",
+    "rubber",
+    "scene",
+]
+LAYERS += ["plot", "plot_surface", "plot_rubber", "experiment", "plot_fit"]
+LAYERS += ["commands", "rubber_command", "fit_command"]
 LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
 LAYERS += ["validation.summary", "validation.command", "validation", "article"]
 LAYERS += [

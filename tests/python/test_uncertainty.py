@@ -147,6 +147,23 @@ def test_shape_level_and_samples():
     assert (wide.level, half.level, wide.samples) == (0.95, 0.5, 100)
 
 
+def test_a_fitted_adhesion_brings_its_own_errors():
+    velocity = np.geomspace(1e-6, 1, 40)
+    truth = asperity.Adhesion(shear_stress=5e6)
+    mu = friction(ROAD, RUBBER, pressure=2e5, velocity=velocity, adhesion=truth).mu
+    inside = []
+    for seed in range(40):
+        noisy = mu * np.exp(0.05 * np.random.default_rng(seed).normal(size=mu.size))
+        fit = asperity.fit_adhesion(
+            ROAD, RUBBER, velocity=velocity, mu=noisy, pressure=2e5, fixed={"width": 0.1}
+        )
+        points = {"pressure": 2e5, "velocity": velocity[::8]}
+        band = friction_band(ROAD, RUBBER, **points, adhesion=fit, seed=seed)
+        inside.append((band.lower <= mu[::8]) & (mu[::8] <= band.upper))
+    # 95 % of 40, at each velocity: below 33 once in 700 draws of a binomial
+    assert (np.mean(inside, axis=0) >= 33 / 40).all()
+
+
 def test_without_friction_the_band_has_no_width():
     elastic = PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[])
     band = friction_band(fit_self_affine(measured_spectrum(2)), elastic, **SCENE)
@@ -155,7 +172,7 @@ def test_without_friction_the_band_has_no_width():
 
 
 BAD = {
-    r"^spectrum, rubber: neither has errors": (ROAD, RUBBER, {}),
+    r"^spectrum, rubber, adhesion: none has errors": (ROAD, RUBBER, {}),
     r"^rubber: a PronyFit does not know its errors": (ROAD, "prony", {}),
     r"^samples = 19: must be 20 or more": ("fit", RUBBER, {"samples": 19}),
     r"^seed = -1: must not be negative": ("fit", RUBBER, {"seed": -1}),
