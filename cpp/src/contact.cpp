@@ -8,7 +8,7 @@
 #include "checks.hpp"
 #include "contact_checks.hpp"
 #include "notes.hpp"
-#include "persson.hpp"
+#include "solver.hpp"
 
 namespace asperity {
 
@@ -34,17 +34,20 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
              const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
              std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
-  for (std::size_t i = 0; i < pressure.size(); ++i) {
-    check_frequencies(spectrum, rubber, velocity[i]);
+  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  Solver solver(surface, rubber, model, false, {});
+  double started = 0;
+  for (const std::size_t i : by_velocity(velocity)) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     if (shift.state == ContactState::no_contact) {
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
       continue;
     }
     at_point(pressure[i], velocity[i], [&] {
-      const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, wavenumber, false,
-                      model.rtol);
-      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, path.g(wavenumber[j]), shift);
+      if (velocity[i] != started) solver.start(velocity[i], {});
+      started = velocity[i];
+      solver.solve(pressure[i], shift.p);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, solver.g(wavenumber[j]), shift);
     });
   }
 }
@@ -70,15 +73,16 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   Notes notes(spectrum, model.correction);
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
+  Solver solver(surface, rubber, model, false, {});
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     bool worse = false;
     if (shift.p > 1 && shift.state == ContactState::partial) {
       check_frequencies(spectrum, rubber, velocity[i]);
       at_point(pressure[i], velocity[i], [&] {
-        const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, {}, false,
-                        model.rtol);
-        worse = shift_worsens_area(path.g(q1), shift.p, model.form, surface, q1);
+        solver.start(velocity[i], {});
+        solver.solve(pressure[i], shift.p);
+        worse = shift_worsens_area(solver.g(q1), shift.p, model.form, surface, q1);
       });
     }
     notes.add(shift, velocity[i], 0, worse);

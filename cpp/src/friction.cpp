@@ -7,7 +7,7 @@
 #include "checks.hpp"
 #include "contact_checks.hpp"
 #include "notes.hpp"
-#include "persson.hpp"
+#include "solver.hpp"
 
 namespace asperity {
 
@@ -45,16 +45,16 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 double sensitivity(bool with_s) { return with_s ? 1.5 : 0.5; }
 
 /// Row i of the tables of contributions, from the panels that `hysteresis` was summed over.
-void add_contributions(Contributions& c, std::size_t i, const Path& path, const Path::Hysteresis& hysteresis,
-                       double velocity, Form form, const std::optional<SFunction>& factor) {
+void add_contributions(Contributions& c, std::size_t i, const Solver& solver, double velocity) {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = path.hysteresis_density(c.wavenumber[j], form, factor);
-  const auto panels = path.panels();
-  for (std::size_t j = 0; j < panels.size() && hysteresis.value > 0; ++j) {
-    const double w = velocity * std::sqrt(panels[j][0] * panels[j][1]);
+  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver.hysteresis_density(c.wavenumber[j]);
+  const double whole = solver.hysteresis().value;
+  if (whole == 0) return;
+  for (const auto& [lower, upper, hysteresis] : solver.parts()) {
+    const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
-    c.decade_share[i * m + decade] += hysteresis.by_panel[j] / hysteresis.value;
+    c.decade_share[i * m + decade] += hysteresis / whole;
   }
 }
 
@@ -69,7 +69,8 @@ void validate(const Adhesion& adhesion) {
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
                   std::span<const double> velocity) {
   const std::vector<double> pressure(velocity.size(), conditions.pressure);
-  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form, conditions.rtol};
+  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form, conditions.rtol,
+                           conditions.method};
   return friction(spectrum, rubber, model, conditions.adhesion, pressure, velocity, conditions.contributions);
 }
 
@@ -106,24 +107,30 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Notes notes(spectrum, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 2e-12 : 1e-15;
+  Solver solver(surface, rubber, model, true, factor);
   std::vector<double> stops;
+  double started = 0;  // the velocity that the solver stands at
   bool worse = false;
   const auto compute = [&](std::size_t i, const Shift& shift) {
-    stops.clear();
-    if (f.contributions)
-      for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
-    const Path path(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], shift.p}, stops, true, model.rtol);
-    const Path::Hysteresis hysteresis = path.hysteresis(model.form, factor);
+    if (velocity[i] != started) {
+      stops.clear();
+      if (f.contributions)
+        for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
+      solver.start(velocity[i], stops);
+      started = velocity[i];
+    }
+    solver.solve(pressure[i], shift.p);
+    const Solver::Hysteresis hysteresis = solver.hysteresis();
     f.hysteresis[i] = hysteresis.value;
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
 
-    const double g = path.g(q1);
+    const double g = solver.g(q1);
     f.contact_area[i] = contact_share(area_g(g, model, surface, q1), model.form);
     worse |= shift_worsens_area(g, shift.p, model.form, surface, q1);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
 
-    const double g_error = path.relative_error() + 2 * shift.relative_error + angular_error;
+    const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
     const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
     f.error_estimate[i] =
         hysteresis.error +
@@ -132,9 +139,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
       throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
                          " where rtol = " + show(model.rtol) + " was asked for");
-    if (f.contributions) add_contributions(*f.contributions, i, path, hysteresis, velocity[i], model.form, factor);
+    if (f.contributions) add_contributions(*f.contributions, i, solver, velocity[i]);
   };
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const std::size_t i : by_velocity(velocity)) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
     if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift); });

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,6 +58,34 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
   return {2 * pi * i1, 2 * pi * i2};
 }
 
+void PronySeries::angular_integrals(std::span<const double> w, double* i1, double* i2) const {
+  const std::size_t n = w.size();
+  const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
+  const auto overflows = [&](double tau) { return !(fastest * tau < 1e150); };
+  if (std::ranges::any_of(times_, overflows)) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const AngularIntegrals one = angular_integrals(w[i]);
+      i1[i] = one.i1;
+      i2[i] = one.i2;
+    }
+    return;
+  }
+  std::fill_n(i1, n, 0.0);
+  std::fill_n(i2, n, equilibrium_ * equilibrium_);
+  for (std::size_t k = 0; k < moduli_.size(); ++k) {
+    const double tau = times_[k], modulus = moduli_[k], weight = weights_[k];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = w[i] * tau, r = std::sqrt(1 + t * t), s_over_t = t / (r * (r + 1));
+      i1[i] += modulus * s_over_t;
+      i2[i] += weight * t * s_over_t;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    i1[i] *= 2 * pi;
+    i2[i] *= 2 * pi;
+  }
+}
+
 PronySeries PronySeries::shifted(double a_T) const {
   require_positive("a_T", a_T);
   std::vector<double> times = times_;
@@ -70,6 +99,25 @@ std::complex<double> modulus(const Rubber& rubber, double angular_frequency) {
 
 AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency) {
   return std::visit([&](const auto& r) { return r.angular_integrals(angular_frequency); }, rubber);
+}
+
+bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, double* i1, double* i2,
+                       double* i1_outside) {
+  if (const auto* series = std::get_if<PronySeries>(&rubber)) {
+    series->angular_integrals(angular_frequency, i1, i2);
+    return false;
+  }
+  constexpr double worth_telling = 1e-7;
+  const auto& curve = std::get<MasterCurve>(rubber);
+  bool outside = false;
+  for (std::size_t i = 0; i < angular_frequency.size(); ++i) {
+    const AngularIntegrals one = curve.angular_integrals(angular_frequency[i]);
+    i1[i] = one.i1;
+    i2[i] = one.i2;
+    i1_outside[i] = one.i1_outside;
+    outside |= one.i1_outside > worth_telling * one.i1;
+  }
+  return outside;
 }
 
 double effective_modulus(double modulus, double poisson_ratio, double modulus_2, double poisson_ratio_2) {

@@ -20,6 +20,7 @@ _Correction: TypeAlias = (
 _Detrend: TypeAlias = Literal["offset", "plane", "quadratic"]
 _Window: TypeAlias = Literal["split-cosine-bell", "hann", "none"]
 _Form: TypeAlias = Literal["exact", "interpolated"]
+_Method: TypeAlias = Literal["gauss", "qag"]
 _Reading: TypeAlias = Literal["implicit", "added"]
 
 __version__: str
@@ -644,6 +645,7 @@ def contact_area(
     form: _Form = "exact",
     wavenumber: ArrayLike | None = None,
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> _Result: ...
 def contact_notes(
     spectrum: _Spectrum,
@@ -665,6 +667,7 @@ def mean_pressure(
     form: _Form = "exact",
     wavenumber: ArrayLike | None = None,
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> _Result: ...
 def correction_factor(
     spectrum: _Spectrum,
@@ -677,6 +680,7 @@ def correction_factor(
     form: _Form = "exact",
     wavenumber: ArrayLike,
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> _Result: ...
 def pressure_distribution(
     stress: ArrayLike,
@@ -745,6 +749,7 @@ def friction(
     form: _Form = "exact",
     rtol: float = 1e-6,
     contributions: bool = False,
+    method: _Method = "gauss",
 ) -> Friction: ...
 
 @final

@@ -12,6 +12,7 @@ namespace asperity::python {
 namespace {
 
 const auto forms = {std::pair{"exact", Form::exact}, std::pair{"interpolated", Form::interpolated}};
+const auto methods = {std::pair{"gauss", Method::gauss}, std::pair{"qag", Method::qag}};
 
 using Spans = std::vector<double> (*)(const Spectrum&, const Rubber&, const ContactModel&, std::span<const double>,
                                       std::span<const double>, std::span<const double>);
@@ -21,9 +22,9 @@ template <Spans function>
 void bind_over_wavenumber(py::module_& m, const char* name, bool wavenumber_required, const char* doc) {
   const auto call = [](const py::object& spectrum, const py::object& rubber, const py::object& pressure,
                        const py::object& velocity, double poisson_ratio, const py::object& correction,
-                       const std::string& form, const py::object& wavenumber, double rtol) {
+                       const std::string& form, const py::object& wavenumber, double rtol, const std::string& method) {
     Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-    const ContactModel model = contact_model(poisson_ratio, correction, form, rtol);
+    const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
     std::vector<double> q, result;
     if (!wavenumber.is_none()) {
       const Array array = real_array(wavenumber, "wavenumber");
@@ -44,17 +45,19 @@ void bind_over_wavenumber(py::module_& m, const char* name, bool wavenumber_requ
   if (wavenumber_required)
     m.def(name, call, py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
           py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(), py::arg("form") = "exact",
-          py::arg("wavenumber"), py::arg("rtol") = 1e-6, doc);
+          py::arg("wavenumber"), py::arg("rtol") = 1e-6, py::arg("method") = "gauss", doc);
   else
     m.def(name, call, py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
           py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(), py::arg("form") = "exact",
-          py::arg("wavenumber") = py::none(), py::arg("rtol") = 1e-6, doc);
+          py::arg("wavenumber") = py::none(), py::arg("rtol") = 1e-6, py::arg("method") = "gauss", doc);
 }
 
 }  // namespace
 
-ContactModel contact_model(double poisson_ratio, const py::object& correction, const std::string& form, double rtol) {
-  return {poisson_ratio, correction_of(correction), choice<Form>("form", form, forms), rtol};
+ContactModel contact_model(double poisson_ratio, const py::object& correction, const std::string& form, double rtol,
+                           const std::string& method) {
+  return {poisson_ratio, correction_of(correction), choice<Form>("form", form, forms), rtol,
+          choice<Method>("method", method, methods)};
 }
 
 void bind_contact(py::module_& m) {
@@ -79,6 +82,8 @@ wavenumber : array_like, shape (n,) or (), optional
     Where the surface is cut [1/m], within its band: appended as last axis. By default q1.
 rtol : float
     Relative tolerance, 1e-12 to 0.1.
+method : {"gauss", "qag"}
+    Gauss-Legendre panels, or GSL's adaptive integration to check them with, slower by a hundred times.
 
 Returns
 -------

@@ -21,9 +21,10 @@ struct FrictionTag {
 
 Record<FrictionTag> compute(const py::object& spectrum, const py::object& rubber, const py::object& pressure,
                             const py::object& velocity, double poisson_ratio, const py::object& correction,
-                            const py::object& adhesion, const std::string& form, double rtol, bool contributions) {
+                            const py::object& adhesion, const std::string& form, double rtol, bool contributions,
+                            const std::string& method) {
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol);
+  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
   std::optional<Adhesion> sticking;
@@ -114,10 +115,12 @@ decade_share : share of the hysteresis from each decade of v q, shape (..., m); 
   m.def("friction", &compute, py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"),
         py::arg("velocity"), py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(),
         py::arg("adhesion") = py::none(), py::arg("form") = "exact", py::arg("rtol") = 1e-6,
-        py::arg("contributions") = false,
+        py::arg("contributions") = false, py::arg("method") = "gauss",
         R"(Friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
-mu_H = (1/2) int q^3 C(q) (A/A0)(q) [S(q)] I1(v q) dq / ((1 - nu^2) sigma0), by adaptive Gauss-Kronrod integration.
+mu_H = (1/2) int q^3 C(q) (A/A0)(q) [S(q)] I1(v q) dq / ((1 - nu^2) sigma0). By parts this is
+4 (1 - nu^2) sigma0 (R F at q1 - int F dR) with R = I1 / I2 and F = int_0^G P S dG, on Gauss-Legendre panels as fine as
+rtol asks for.
 
 Parameters
 ----------
@@ -137,6 +140,8 @@ rtol : float
     Relative tolerance of mu, 1e-12 to 0.1.
 contributions : bool
     Also give dmu/dlnq and the share of each decade of frequency.
+method : {"gauss", "qag"}
+    As above, or GSL's adaptive Gauss-Kronrod integration to check it with, slower by a hundred times.
 
 Returns
 -------

@@ -70,7 +70,11 @@ TOPIC = {
     "contact_checks": "contact",
     "partial_contact": "contact",
     "fit_adhesion": "friction",
+    "front_integral": "contact",
+    "gauss_panels": "contact",
+    "gauss_path": "contact",
     "persson": "contact",
+    "solver": "contact",
     "notes": "contact",
 }
 SEAMS = {
@@ -78,6 +82,7 @@ SEAMS = {
     "integrate",
     "fourier",
     "interpolate",
+    "legendre",
     "minimum",
     "nnls",
     "overloaded",

@@ -16,12 +16,17 @@ namespace asperity {
 /// -2.8 % to +2.6 %.
 enum class Form { exact, interpolated };
 
+/// How integrals are computed: on Gauss-Legendre panels made for them, or by GSL's adaptive integration (QAG), which is
+/// slower by a hundred times and there to check the former. Both keep rtol or fail with NotConverged.
+enum class Method { gauss, qag };
+
 /// How the contact is computed.
 struct ContactModel {
   double poisson_ratio = 0.5;
   Correction correction = NoCorrection{};
   Form form = Form::exact;
   double rtol = 1e-6;
+  Method method = Method::gauss;
 };
 
 /// A/A0 for pairs of pressure [Pa] and velocity [m/s], at each of `wavenumber` [1/m] (the last index), or at

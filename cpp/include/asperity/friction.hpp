@@ -52,6 +52,7 @@ struct Conditions {
   Form form = Form::exact;
   double rtol = 1e-6;
   bool contributions = false;
+  Method method = Method::gauss;
 };
 
 /// The friction curve at one pressure.

@@ -33,6 +33,8 @@ class ASPERITY_EXPORT PronySeries {
   /// At angular frequency w [rad/s], 0 or more.
   [[nodiscard]] std::complex<double> modulus(double w) const;
   [[nodiscard]] AngularIntegrals angular_integrals(double w) const;
+  /// At each of `w`, in one pass over the terms for all of them; `i1` and `i2` have as many entries.
+  void angular_integrals(std::span<const double> w, double* i1, double* i2) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w).
   [[nodiscard]] PronySeries shifted(double a_T) const;
   bool operator==(const PronySeries&) const = default;
@@ -81,6 +83,11 @@ using Rubber = std::variant<PronySeries, MasterCurve>;
 
 ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
 ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);
+
+/// At each of `angular_frequency`, into arrays of as many entries; false, and `i1_outside` left as it was, where
+/// nothing comes from outside of the measured range.
+ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, double* i1,
+                                       double* i2, double* i1_outside);
 
 /// 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2 (Eq. 15) [Pa].
 ASPERITY_EXPORT double effective_modulus(double modulus, double poisson_ratio,

@@ -1,0 +1,70 @@
+#include "solver.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace asperity {
+
+Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
+               const std::optional<SFunction>& factor)
+    : surface_(surface),
+      rubber_(rubber),
+      model_(model),
+      factor_(factor),
+      with_hysteresis_(with_hysteresis),
+      gauss_(surface, rubber, model.poisson_ratio, model.rtol) {
+  if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
+}
+
+void Solver::start(double velocity, std::span<const double> stops) {
+  if (model_.method == Method::gauss) {
+    gauss_.start(velocity, stops);
+    return;
+  }
+  velocity_ = velocity;
+  stops_.assign(stops.begin(), stops.end());
+}
+
+void Solver::solve(double pressure, double shift) {
+  if (model_.method == Method::gauss) {
+    gauss_.solve(pressure, shift, front_ ? &*front_ : nullptr);
+    const auto& found = gauss_.hysteresis();
+    hysteresis_ = {found.value, found.error, found.outside};
+    return;
+  }
+  path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity_, shift}, stops_,
+                with_hysteresis_, model_.rtol);
+  if (!with_hysteresis_) return;
+  const Path::Hysteresis found = path_->hysteresis(model_.form, factor_);
+  hysteresis_ = {found.value, found.error, found.outside};
+  by_panel_ = found.by_panel;
+}
+
+double Solver::g(double wavenumber) const { return path_ ? path_->g(wavenumber) : gauss_.g(wavenumber); }
+
+double Solver::relative_error() const { return path_ ? path_->relative_error() : gauss_.relative_error(); }
+
+double Solver::hysteresis_density(double wavenumber) const {
+  if (path_) return path_->hysteresis_density(wavenumber, model_.form, factor_);
+  const double full = gauss_.full_density(wavenumber);
+  if (full == 0) return 0;
+  const double share = contact_share(gauss_.g(wavenumber), model_.form);
+  return full * share * (factor_ ? (*factor_)(share) : 1);
+}
+
+std::vector<GaussPath::Part> Solver::parts() const {
+  if (!path_) return gauss_.parts();
+  std::vector<GaussPath::Part> result;
+  const auto panels = path_->panels();
+  for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});
+  return result;
+}
+
+std::vector<std::size_t> by_velocity(std::span<const double> velocity) {
+  std::vector<std::size_t> order(velocity.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return velocity[i]; });
+  return order;
+}
+
+}  // namespace asperity
