@@ -14,6 +14,12 @@ namespace {
 constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails;
 constexpr double rounding = 2e-15;
 
+/// Between the sum of the errors and the tolerance: the further below the tolerance the sum is, the more of that may be
+/// chance. Measured: with 4 and 0.75 one of 30,000 random scenes (tests/stability) had an error above it.
+double cautious(double error, double tolerance) {
+  return tolerance > 0 ? 8 * tolerance * std::pow(error / tolerance, 0.8) : error;
+}
+
 }  // namespace
 
 GaussPath::GaussPath(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
@@ -44,13 +50,16 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
 
   double series[tails], f_tail[tails];
   for (std::size_t k = 0; k < tails; ++k) {
-    double by_g = 0, by_r = 0;
-    f_tail[k] = 0;
+    const double *integral = rule.tail_integral[k].data(), *derivative = rule.tail_derivative[k].data(),
+                 *coefficient = rule.tail[k].data();
+    double by_g = 0, by_r = 0, of_f = 0;
+#pragma omp simd reduction(+ : by_g, by_r, of_f)
     for (std::size_t i = 0; i < n; ++i) {
-      by_g += passed[i] * rule.tail_integral[k][i];
-      by_r += f[i] * rule.tail_derivative[k][i];
-      f_tail[k] += f[i] * rule.tail[k][i];
+      by_g += passed[i] * integral[i];
+      by_r += f[i] * derivative[i];
+      of_f += f[i] * coefficient[i];
     }
+    f_tail[k] = of_f;
     const double at_lower = (n - 1 - k) % 2 ? -f_lower : f_lower;
     series[k] = std::fabs(p.g_tail[k] * scale * by_g) + std::fabs(p.r_tail[k] * (f_upper - at_lower - by_r));
   }
@@ -104,8 +113,8 @@ void GaussPath::refine(bool hysteresis_good, bool g_good) {
     g_worst = std::fmax(g_worst, visit.g_part);
   }
   const double part = 1 / static_cast<double>(visits_.size()), none = std::numeric_limits<double>::infinity();
-  const double allowed = hysteresis_good ? none : std::fmin(worst / 2, 0.2 * part * rtol_ * hysteresis_.value);
-  const double g_allowed = g_good ? none : std::fmin(g_worst / 2, 0.1 * part * rtol_);
+  const double allowed = hysteresis_good ? none : std::fmin(worst / 2, 0.1 * part * rtol_ * hysteresis_.value);
+  const double g_allowed = g_good ? none : std::fmin(g_worst / 2, 0.03 * part * rtol_);
   next_.clear();
   for (const Visit& visit : visits_) {
     if (visit.error <= std::fmax(allowed, 1e-3 * worst) && visit.g_part <= g_allowed) {
@@ -129,7 +138,8 @@ void GaussPath::solve(double pressure, double shift, const FrontIntegral* front)
   constexpr std::size_t most_panels = 20000;
   for (int round = 0;; ++round) {
     evaluate(scale_, front);
-    const bool good = hysteresis_.error <= rtol_ / 2 * hysteresis_.value, g_good = g_relative_error_ <= rtol_ / 4;
+    hysteresis_.error = cautious(hysteresis_.error, rtol_ * hysteresis_.value);
+    const bool good = hysteresis_.error <= 0.85 * rtol_ * hysteresis_.value, g_good = g_relative_error_ <= rtol_ / 16;
     if (good && g_good) break;
     if (round == most_rounds || visits_.size() > most_panels)
       throw NotConverged("mu_H = " + show(mu_factor_ * hysteresis_.value) + " with error " +

@@ -1,0 +1,133 @@
+"""Random scenes: the error estimate of friction against the error it has.
+
+    python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3]
+
+Surfaces, rubbers (Prony series of 1 to 20 terms, or tables of 4 to 40 rows with kinks), pressures,
+velocities, corrections, forms and tolerances are drawn over many decades, most of them absurd. The
+truth is GSL's adaptive integration (method="qag") at a hundredth of the tolerance. Printed: scenes
+whose estimate, with that of the truth, was exceeded, what did not converge, the median of estimate
+over error where the latter can be told. Exit status 1 where any scene failed.
+"""
+
+import argparse
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import asperity
+
+
+@dataclass
+class Outcome:
+    """A scene computed: by default, and as the truth."""
+
+    mu: float
+    truth: float
+    estimate: float  # of mu, absolute
+    truth_estimate: float
+    rtol: float
+
+    @property
+    def error(self) -> float:
+        return abs(self.mu - self.truth)
+
+    @property
+    def kept(self) -> bool:
+        """Whether the error is within the estimates of both, and mu within rtol."""
+        allowed = self.estimate + self.truth_estimate
+        return self.error <= allowed and self.estimate <= self.rtol * self.mu
+
+
+def _power(rng: Any, low: float, high: float, size: int | None = None) -> Any:
+    return 10 ** rng.uniform(low, high, size)
+
+
+def _surface(rng: Any, tables: float) -> tuple[Any, float, float]:
+    """A surface and its band."""
+    q0, band = _power(rng, 1, 6), _power(rng, 0.01, 8 if rng.random() < 0.2 else 4)
+    if rng.random() < tables:
+        rows = int(rng.integers(2, 200))
+        q = np.geomspace(q0, q0 * band, rows)
+        density = _power(rng, -3, 1) ** 2 / q0**4 * (q / q0) ** -rng.uniform(2.1, 4)
+        density *= np.exp(rng.uniform(0, 1) * rng.standard_normal(rows))
+        density[rng.random(rows) < 0.03] = 0
+        density[rng.integers(rows)] = 1e-3 / q0**4
+        return asperity.TabulatedSpectrum(wavenumber=q, density=density), q[0], q[-1]
+    rolloff = q0 * band ** rng.uniform(0.1, 0.9) if rng.random() < 0.3 else None
+    q1 = q0 * band
+    surface = asperity.SelfAffineSpectrum(
+        rms_height=_power(rng, -3, 1) / q0,
+        hurst=rng.uniform(0.01, 1),
+        q0=q0,
+        q1=q1,
+        rolloff=rolloff,
+    )
+    return surface, q0, q1
+
+
+def _rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
+    if rng.random() < tables:
+        rows = int(rng.integers(4, 40))
+        w = np.geomspace(0.5 * slowest, 2 * fastest, rows)
+        storage = 1e6 * np.exp(np.cumsum(rng.exponential(0.4, rows)))
+        return asperity.MasterCurve(
+            angular_frequency=w,
+            storage_modulus=storage,
+            loss_modulus=storage * rng.uniform(0.02, 1, rows),
+        )
+    terms = int(rng.integers(1, 21))
+    return asperity.PronySeries(
+        equilibrium_modulus=_power(rng, 5, 7),
+        moduli=_power(rng, 4, 9.5, terms),
+        relaxation_times=_power(rng, -10, 2, terms),
+    )
+
+
+def compute(seed: int, scene: int, tables: float) -> Outcome:
+    """Scene number `scene` of a seed."""
+    rng = np.random.default_rng([seed, scene])
+    surface, q0, q1 = _surface(rng, tables)
+    pressure, velocity, rtol = _power(rng, 3, 8), _power(rng, -6, 1), _power(rng, -10, -2)
+    rubber = _rubber(rng, tables, velocity * q0, velocity * q1)
+    choice = rng.random()
+    correction: Any = None
+    if choice < 0.4:
+        correction = asperity.SFactor(gamma=rng.uniform(0, 1), applies_to="friction")
+    elif choice < 0.5:
+        correction = asperity.AffineShift(p=rng.uniform(1, 3))
+    form = "exact" if rng.random() < 0.8 else "interpolated"
+    options = {"pressure": pressure, "velocity": velocity, "correction": correction, "form": form}
+    ours = asperity.friction(surface, rubber, rtol=rtol, **options)
+    best = max(rtol / 100, 1e-11)
+    truth = asperity.friction(surface, rubber, rtol=best, method="qag", **options)
+    return Outcome(ours.mu, truth.mu, ours.error_estimate, truth.error_estimate, rtol)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scenes", type=int, default=10000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tables", type=float, default=0.3)
+    arguments = parser.parse_args()
+    ratios, exceeded, unsolved = [], 0, 0
+    for scene in range(arguments.scenes):
+        try:
+            outcome = compute(arguments.seed, scene, arguments.tables)
+        except asperity.NotConverged as error:
+            unsolved += 1
+            print(f"scene {scene}: {error}")
+            continue
+        if outcome.error > outcome.truth_estimate:
+            ratios.append(outcome.estimate / outcome.error)
+        if not outcome.kept:
+            exceeded += 1
+            print(f"scene {scene}: {outcome}")
+    print(f"{arguments.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved}")
+    print(f"median of estimate over error: {np.median(ratios):.3g}, of {len(ratios)} scenes")
+    return 1 if exceeded or unsolved else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
