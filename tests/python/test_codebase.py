@@ -100,8 +100,9 @@ LAYERS += [
 ]
 LAYERS += ["plot", "plot_surface", "plot_rubber", "experiment", "plot_fit"]
 LAYERS += ["commands", "rubber_command", "fit_command"]
-LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
-LAYERS += ["validation.summary", "validation.command", "validation", "article"]
+LAYERS += ["validation.boundary_elements", "validation.contacts", "validation.predictions"]
+LAYERS += ["validation.figures", "validation.summary", "validation.command", "validation"]
+LAYERS += ["article"]
 LAYERS += [
     f"article.{name}"
     for name in (
@@ -215,7 +216,7 @@ def test_numpy_is_all_that_the_package_imports_at_once():
     run = [sys.executable, "-c", code]
     loaded = subprocess.run(run, check=True, capture_output=True, text=True).stdout.split()
     assert "numpy" in loaded
-    assert not {"matplotlib", "scipy", "SurfaceTopography", "tqdm"} & set(loaded)
+    assert not {"matplotlib", "scipy", "SurfaceTopography", "tqdm", "tamaas"} & set(loaded)
 
 
 def test_the_version_is_the_same_everywhere():
