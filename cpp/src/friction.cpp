@@ -107,8 +107,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 2e-12 : 1e-15;
   std::vector<double> stops;
-  bool worse = false;
-  const auto compute = [&](std::size_t i, const Shift& shift) {
+  const auto compute = [&](std::size_t i, const Shift& shift, MeasuredWorth& worth) {
     stops.clear();
     if (f.contributions)
       for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
@@ -119,7 +118,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
 
     const double g = path.g(q1);
     f.contact_area[i] = contact_share(area_g(g, model, surface, q1), model.form);
-    worse |= shift_worsens_area(g, shift.p, model.form, surface, q1);
+    worth = measured_worth(g, shift.p, model.form, surface, q1);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
 
@@ -137,8 +136,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   for (std::size_t i = 0; i < n; ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
-    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift); });
-    notes.add(shift, velocity[i], f.extrapolated_share[i], worse);
+    MeasuredWorth worth;
+    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift, worth); });
+    notes.add(shift, velocity[i], f.extrapolated_share[i], worth);
   }
   f.notes = notes.texts();
   return f;

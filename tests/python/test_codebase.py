@@ -101,7 +101,13 @@ LAYERS += [
 LAYERS += ["plot", "plot_surface", "plot_rubber", "experiment", "plot_fit"]
 LAYERS += ["commands", "rubber_command", "fit_command"]
 LAYERS += ["validation.boundary_elements", "validation.contacts", "validation.predictions"]
-LAYERS += ["validation.figures", "validation.summary", "validation.command", "validation"]
+LAYERS += [
+    "validation.figures",
+    "validation.summary",
+    "validation.own",
+    "validation.command",
+    "validation",
+]
 LAYERS += ["article"]
 LAYERS += [
     f"article.{name}"

@@ -45,7 +45,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         RUBBER,
         pressure=81e3,
         velocity=np.geomspace(1e-6, 1e-2, 20),
-        correction=asperity.SFactor(),
+        correction=asperity.NayakSFactor(),
         adhesion=asperity.Adhesion(shear_stress=8.3e6),
     )
     columns = np.column_stack([test.velocity, test.mu])
