@@ -17,6 +17,7 @@ from asperity.article import command
 from asperity.article.inputs import PRESSURES, Inputs, prepare
 from asperity.article.readings import PRINTED
 from asperity.article.statement import VERDICTS
+from asperity.article.summary import OPENING
 from asperity.cli import main
 
 pytest.importorskip("matplotlib")
@@ -228,7 +229,7 @@ def test_a_second_run_gives_the_same_numbers(
     monkeypatch.setattr(command, "picture", lambda *_: b"")
     contents, _ = command.remake((1, 2))
     averaged = ("fig15.csv", "table1.csv")
-    for name in (n for n in command.FILES if n.endswith(".csv") and n not in averaged):
+    for name in (n for n in command.MARKS if n.endswith(".csv") and n not in averaged):
         assert contents[name] == (remade / name).read_bytes(), name
     again = statements(contents["summary.md"].decode())
     assert again.keys() == rows.keys()
@@ -236,26 +237,31 @@ def test_a_second_run_gives_the_same_numbers(
     assert {n: again[n] for n in of_one_scan} == {n: rows[n] for n in of_one_scan}
 
 
-def stub(contents: bytes = b"x") -> Callable[[], tuple[dict[str, bytes], list[object]]]:
-    files = {name: contents for name in command.FILES} | {"summary.md": b"# The article remade\n"}
-    return lambda: (files, [])
+def stub(mark: str) -> Callable[[], tuple[dict[str, bytes], list[object]]]:
+    tables = {
+        n: f"# asperity 0.1.0 article {n[:-4]}\n{mark}" for n in command.MARKS if n[-4:] == ".csv"
+    }
+    files = {name: tables.get(name, mark).encode() for name in command.MARKS}
+    return lambda: (files | {"summary.md": f"{OPENING}0.1.0 article`. {mark}".encode()}, [])
 
 
-def test_it_writes_over_its_own_files_alone(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_it_writes_over_its_own_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for mark in ("old", "new"):
+        monkeypatch.setattr(command, "remake", stub(mark))
+        assert main(["article", "--output", str(tmp_path / "out")]) == 0
+    for name in command.MARKS:
+        assert (tmp_path / "out" / name).read_text().endswith("new")
+
+
+@pytest.mark.parametrize("name", ["fig01.png", "fig01.csv", "summary.md"])
+def test_it_spares_what_another_wrote(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    monkeypatch.setattr(command, "remake", stub(b"old"))
-    assert main(["article", "--output", str(tmp_path / "out")]) == 0
-    monkeypatch.setattr(command, "remake", stub(b"new"))
-    assert main(["article", "--output", str(tmp_path / "out")]) == 0
-    assert (tmp_path / "out" / "fig01.csv").read_bytes() == b"new"
-    summary = tmp_path / "summary.md"
-    summary.write_text("mine\n")
-    capsys.readouterr()
+    (tmp_path / name).write_text("# What each correction is worth\n")
     assert main(["article", "--output", str(tmp_path)]) == 2
-    message = "is not the article's own: choose another --output"
-    assert capsys.readouterr().err == f"asperity: {summary}: {message}\n"
-    assert summary.read_text() == "mine\n"
+    message = f"holds {name}, not the article's own: choose another --output"
+    assert capsys.readouterr().err == f"asperity: {tmp_path}: {message}\n"
+    assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
 def test_a_file_in_place_of_the_directory_is_refused(
@@ -288,7 +294,7 @@ def test_a_full_disk_leaves_nothing(
         replace(part, target)
 
     monkeypatch.setattr("os.replace", full)
-    monkeypatch.setattr(command, "remake", stub())
+    monkeypatch.setattr(command, "remake", stub(""))
     assert main(["article", "--output", str(tmp_path / "out")]) == 1
     assert "fig09.csv: cannot be written: No space left on device" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

@@ -86,7 +86,7 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma"]
+LAYERS = ["_core", "fields", "table", "own", "instrument", "read", "read_rubber", "read_dma"]
 LAYERS += [
     "read_friction",
     "scan",

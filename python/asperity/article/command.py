@@ -4,7 +4,6 @@ from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
-from asperity._core import InvalidInput
 from asperity.article import (
     affine,
     asperities,
@@ -25,22 +24,26 @@ from asperity.article import (
 from asperity.article.inputs import SEEDS, prepare
 from asperity.article.page import Page
 from asperity.article.statement import Statement
-from asperity.article.summary import HEADING, counted, markdown
+from asperity.article.summary import OPENING, counted, markdown
 from asperity.commands import tell
+from asperity.own import Mark, begins, check_own_directory, table_of
 from asperity.plot import check_plot, picture
-from asperity.table import check_output, check_writable, write_directory
+from asperity.table import write_directory
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
-FILES = (*(f"{page}.{kind}" for page in PAGES for kind in ("png", "csv")), "summary.md")
+MARKS: dict[str, list[Mark]] = {
+    **{f"{page}.csv": [table_of(f"article {page}")] for page in PAGES},
+    **{f"{page}.png": [f"{page}.csv"] for page in PAGES},
+    "summary.md": [begins(OPENING)],
+}
 
 
 def article(args: Namespace) -> None:
     """Write all pictures, tables and the summary, and show how many statements hold."""
     directory = Path(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
-    if check_writable(directory) == directory:
-        _check_own(directory)
+    check_own_directory(directory, "the article", MARKS)
     contents, statements = remake()
     write_directory(directory, contents)
     tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
@@ -90,12 +93,3 @@ def _files(page: Page) -> dict[str, bytes]:
         drawn: picture(page.figure, Path(drawn)),
         f"{page.name}.csv": page.table.csv().encode(),
     }
-
-
-def _check_own(directory: Path) -> None:
-    """Refuse a summary.md that is not this verb's, and what cannot be written over."""
-    for name in FILES:
-        check_output(directory / name)
-    summary = directory / "summary.md"
-    if summary.exists() and not summary.read_bytes().startswith(HEADING.encode()):
-        raise InvalidInput(f"{summary}: is not the article's own: choose another --output")

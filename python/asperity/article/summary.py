@@ -16,7 +16,7 @@ from asperity.article.inputs import (
 from asperity.article.readings import PRINTED
 from asperity.article.statement import VERDICTS, Statement, listed
 
-HEADING = "# The article remade"  # by which a directory is known as this verb's own
+OPENING = "# The article remade\n\nMade by `asperity "  # by which it is known as this verb's own
 _TOPICS = {
     "T": "Multiscale theory (Section 2)",
     "A": "Affine transformation (Section 3)",
@@ -45,7 +45,7 @@ def counted(statements: Sequence[Statement]) -> str:
 def markdown(inputs: Inputs, statements: Sequence[Statement]) -> str:
     """The whole summary."""
     parts = [
-        f"{HEADING}\n\nMade by `asperity {__version__} article`. Verdicts follow from the numbers "
+        f"{OPENING}{__version__} article`. Verdicts follow from the numbers "
         'by the criterion beside them. "Tuned" was put in, not found. Nothing here is compared '
         "with exact contact: `asperity validate` does that.",
         f"{counted(statements)}.",
