@@ -1,7 +1,6 @@
 """The verb `article`: the article's figures, its table and its statements, remade."""
 
 from argparse import Namespace
-from collections.abc import Sequence
 from pathlib import Path
 
 from asperity.article import (
@@ -15,18 +14,20 @@ from asperity.article import (
     factors,
     friction,
     igw,
+    matches,
     peaks,
     persson,
     printed,
+    shifts,
     sliding,
     surfaces,
 )
-from asperity.article.inputs import SEEDS, prepare
+from asperity.article.inputs import prepare
 from asperity.article.page import Page
 from asperity.article.statement import Statement
 from asperity.article.summary import OPENING, counted, markdown
 from asperity.commands import tell
-from asperity.own import Mark, begins, check_own_directory, table_of
+from asperity.directory import Mark, begins, check_own_directory, table_of
 from asperity.plot import check_plot, picture
 from asperity.table import write_directory
 
@@ -49,18 +50,20 @@ def article(args: Namespace) -> None:
     tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 
-def remake(seeds: Sequence[int] = SEEDS) -> tuple[dict[str, bytes], list[Statement]]:
-    """All files by their names, and the statements; `seeds` of the synthetic scans."""
-    inputs = prepare(seeds)
-    spectra, curves = surfaces.compute(inputs), factors.compute(inputs)
-    readings, slid = igw.compute(inputs), sliding.compute(inputs)
+def remake() -> tuple[dict[str, bytes], list[Statement]]:
+    """All files by their names, and the statements."""
+    inputs = prepare()
+    spectra, all_curves = surfaces.compute(inputs), factors.compute(inputs)
+    curves = all_curves["implicit"]
+    readings, slid = shifts.compute(inputs), sliding.compute(inputs)
     statements = [
         *persson.statements(inputs),
         *affine.statements(inputs),
         *peaks.statements(inputs, peaks.compute(inputs)),
         *asperities.statements(inputs),
         *surfaces.statements(inputs, spectra),
-        *factors.statements(inputs, curves),
+        *factors.statements(inputs, all_curves),
+        *matches.statements(inputs, all_curves),
         *printed.statements(inputs),
         *igw.statements(inputs, readings),
         *friction.statements(inputs, slid),

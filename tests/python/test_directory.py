@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import asperity
-from asperity.own import Mark, begins, check_own_directory, table_of
+from asperity.directory import Mark, begins, check_own_directory, table_of
 
 MARKS: dict[str, list[Mark]] = {
     "a.csv": [table_of("worth a")],
