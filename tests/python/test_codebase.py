@@ -86,7 +86,7 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma"]
+LAYERS = ["_core", "fields", "table", "directory", "instrument", "read", "read_rubber", "read_dma"]
 LAYERS += [
     "read_friction",
     "scan",
@@ -113,7 +113,8 @@ LAYERS += [
     f"article.{name}"
     for name in (
         *("compounds", "readings", "inputs", "statement", "page", "surfaces", "affine", "peaks"),
-        *("persson", "asperities", "factors", "igw", "printed", "sliding", "friction"),
+        *("persson", "shifts", "asperities", "factors", "matches", "igw", "printed"),
+        *("sliding", "friction"),
         *("draw_surfaces", "draw_scales", "draw_factors", "draw_igw", "draw_friction"),
         *("summary", "command"),
     )

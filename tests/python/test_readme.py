@@ -82,7 +82,9 @@ def test_scene(folder: Path) -> None:
     assert np.all(curves.mu > curves.hysteresis)
 
 
-@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum", "rubber", "validate"])
+@pytest.mark.parametrize(
+    "verb", ["demo", "friction", "area", "spectrum", "rubber", "fit", "article", "validate"]
+)
 def test_verbs(verb: str) -> None:
     assert f"asperity {verb}" in README
     text = subprocess.run(
