@@ -8,14 +8,15 @@ from typing import Any
 from asperity import plot
 from asperity._core import HeightMap, InvalidInput
 from asperity.commands import progress, spare, tell, tell_notes
+from asperity.directory import begins, check_own_directory, table_of
 from asperity.fields import named
 from asperity.scan import read_filled
-from asperity.table import Table, check_output, check_writable, write_directory
+from asperity.table import Table, write_directory
 from asperity.validation.contacts import Contact, read_contacts, shipped
 from asperity.validation.figures import error_figure, shift_figure
 from asperity.validation.own import own_contacts
 from asperity.validation.predictions import Prediction, models_for, predict
-from asperity.validation.summary import error_rows, summary
+from asperity.validation.summary import TITLE, error_rows, summary
 
 LOADS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)  # those of the shipped rows
 _AREA, _ENERGY, _SHIFT = "area_error.png", "energy_error.png", "shift.png"
@@ -26,9 +27,15 @@ def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
     directory = Path(args.output)
     plot.check_plot(directory / _AREA)
-    if check_writable(directory) == directory:
-        for name in _FILES:
-            check_output(directory / name)
+    check_own_directory(
+        directory,
+        "validate",
+        {
+            "summary.md": [begins(f"{TITLE}\n")],
+            "errors.csv": [table_of("validate")],
+            **{name: ["errors.csv"] for name in (_AREA, _ENERGY, _SHIFT)},
+        },
+    )
     inputs = [Path(name) for name in (args.rows, args.surface) if name is not None]
     spare([directory / name for name in _FILES], inputs)
     contacts, told, notes = _contacts(args)

@@ -5,6 +5,8 @@ from typing import Any
 
 from asperity.validation.predictions import Prediction, Quantity
 
+TITLE = "# What each correction is worth"
+
 
 def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[Any]]:
     """Columns of a table, a row a model and contact."""
@@ -30,7 +32,7 @@ def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
     contacts = [prediction.contact for prediction in predictions[0]]
     loads = sorted(contact.load for contact in contacts)
     text = [
-        "# What each correction is worth",
+        TITLE,
         "",
         f"Relative errors in % against {len(contacts)} boundary-element contacts (elastic, without "
         f"friction or adhesion), p* = p / (E* h') from {loads[0]:.3g} to {loads[-1]:.3g}.",
