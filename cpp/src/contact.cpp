@@ -76,16 +76,16 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   Solver solver(surface, rubber, model, false, {});
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
-    bool worse = false;
-    if (shift.p > 1 && shift.state == ContactState::partial) {
+    MeasuredWorth worth;
+    if (!std::holds_alternative<NoCorrection>(model.correction) && shift.state != ContactState::no_contact) {
       check_frequencies(spectrum, rubber, velocity[i]);
       at_point(pressure[i], velocity[i], [&] {
         solver.start(velocity[i], {});
         solver.solve(pressure[i], shift.p);
-        worse = shift_worsens_area(solver.g(q1), shift.p, model.form, surface, q1);
+        worth = measured_worth(solver.g(q1), shift.p, model.form, surface, q1);
       });
     }
-    notes.add(shift, velocity[i], 0, worse);
+    notes.add(shift, velocity[i], 0, worth);
   }
   return notes.texts();
 }

@@ -22,6 +22,8 @@ constexpr double uncertain_share = 0.5;  // standard error of tau_f0, and of c, 
 constexpr double uncertain_decades = 1;  // standard error of log10 v0
 constexpr double uncertain_width = 0.3;  // ... of c about a v0 that is held: a third of mu_A a decade away
 constexpr double many_outliers = 0.25;   // share of the points
+constexpr double large_scatter = 0.2;    // of ln mu: repeated measurements differ by less
+constexpr Index few_spare = 20;          // below it robust errors are not yet what they are with many points
 constexpr double edge_errors = 3;        // standard errors by which c may lie below 0 and be taken as 0
 
 std::size_t count_free(const FixedAdhesion& fixed) {
@@ -172,6 +174,15 @@ std::vector<std::string> notes_on(const AdhesionCurve& curve, const AdhesionPoin
     notes.emplace_back(
         "neighbours in velocity are off the fit to the same side, by more than chance: the hysteresis (spectrum, "
         "modulus, correction), what was held or Eq. 23 does not fit these points; errors are larger than stated");
+  const Index spare = points.size() - count_free(fixed);
+  if (curve.scale > rtol && spare < few_spare)
+    notes.push_back(
+        "only " + std::to_string(spare) +
+        " points more than parameters: standard errors are too small, of 17 by a third and of 3 by four times "
+        "in simulations");
+  if (curve.scale > large_scatter)
+    notes.push_back("the points scatter by " + show(100 * curve.scale, 2) +
+                    " % about the fit: their unit of velocity, the hysteresis or Eq. 23 may be wrong");
   if (edge) notes.emplace_back("width was taken as 0: the points leave it there or, within their scatter, below");
   return notes;
 }

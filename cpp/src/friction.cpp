@@ -110,8 +110,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Solver solver(surface, rubber, model, true, factor);
   std::vector<double> stops;
   double started = 0;  // the velocity that the solver stands at
-  bool worse = false;
-  const auto compute = [&](std::size_t i, const Shift& shift) {
+  const auto compute = [&](std::size_t i, const Shift& shift, MeasuredWorth& worth) {
     if (velocity[i] != started) {
       stops.clear();
       if (f.contributions)
@@ -126,7 +125,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
 
     const double g = solver.g(q1);
     f.contact_area[i] = contact_share(area_g(g, model, surface, q1), model.form);
-    worse |= shift_worsens_area(g, shift.p, model.form, surface, q1);
+    worth = measured_worth(g, shift.p, model.form, surface, q1);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
 
@@ -144,8 +143,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   for (const std::size_t i : by_velocity(velocity)) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     f.shift_factor[i] = shift.p;
-    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift); });
-    notes.add(shift, velocity[i], f.extrapolated_share[i], worse);
+    MeasuredWorth worth;
+    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift, worth); });
+    notes.add(shift, velocity[i], f.extrapolated_share[i], worth);
   }
   f.notes = notes.texts();
   return f;

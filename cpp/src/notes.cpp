@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "checks.hpp"
-#include "partial_contact.hpp"
 
 namespace asperity {
 
@@ -51,18 +50,20 @@ std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correctio
 
 Notes::Notes(const Spectrum& spectrum, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
+      corrected_(!std::holds_alternative<NoCorrection>(correction)),
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
-void Notes::add(const Shift& shift, double velocity, double extrapolated_share, bool worse) {
+void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const MeasuredWorth& worth) {
   fast_ |= velocity > flash_velocity;
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
   extrapolated_ |= extrapolated_share > share_limit;
-  worse_ |= worse;
+  worse_ |= worth.worse;
+  light_ |= corrected_ && worth.light;
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
@@ -94,6 +95,9 @@ std::vector<std::string> Notes::texts() const {
     result.push_back("the error of this correction is not known here: Nayak's parameter of the spectrum is " +
                      show(*unmeasured_nayak_, 3) + ", those of the boundary-element contacts it was measured on are " +
                      show(lowest_measured_nayak) + " to " + show(highest_measured_nayak));
+  if (light_)
+    result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
+                     show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
   if (worse_)
     result.emplace_back(
         "the affine shift takes the contact area further from that of boundary elements than no correction would at "

@@ -66,13 +66,17 @@ std::optional<SFunction> s_in_integrand(const Correction& correction) {
   return {};
 }
 
-bool shift_worsens_area(double g, double p, Form form, std::span<const Segment> surface, double wavenumber) {
+// Of one modulus G = 1 / (8 p*^2), which is what a load means where the modulus is not one.
+MeasuredWorth measured_worth(double g, double p, Form form, std::span<const Segment> surface, double wavenumber) {
   const double uncorrected = g * p * p;
-  if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return false;
+  MeasuredWorth result;
+  result.light = 8 * uncorrected * lowest_measured_load * lowest_measured_load > 1 + 1e-9;
+  if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return result;
   constexpr double rtol = 1e-4;  // the truth itself is known to a few percent
   const SFunction s = nayak_s(nayak_parameter(surface, wavenumber));
   const double best = contact_share(g_with_s_inside(uncorrected, s, form, rtol), form);
-  return std::fabs(contact_share(g, form) - best) > std::fabs(contact_share(uncorrected, form) - best);
+  result.worse = std::fabs(contact_share(g, form) - best) > std::fabs(contact_share(uncorrected, form) - best);
+  return result;
 }
 
 double area_g(double g, const ContactModel& model, std::span<const Segment> surface, double wavenumber) {

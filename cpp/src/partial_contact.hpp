@@ -30,11 +30,17 @@ std::optional<SFunction> s_in_integrand(const Correction& correction);
 /// The G that the contact area at `wavenumber` is to be taken at.
 double area_g(double g, const ContactModel& model, std::span<const Segment> surface, double wavenumber);
 
-/// Nayak's parameters of the boundary-element contacts that corrections were measured on, lowest and highest.
-inline constexpr double lowest_measured_nayak = 1.75, highest_measured_nayak = 201;
+/// What the boundary-element contacts that corrections were measured on reach from and to: Nayak's parameter, and the
+/// load p* = sigma0 / (E* h').
+inline constexpr double lowest_measured_nayak = 1.75, highest_measured_nayak = 201, lowest_measured_load = 0.005;
 
-/// Whether an affine shift `p` that made G to `g` at `wavenumber` takes the area further from the truth, as
-/// NayakSFactor knows it, than no correction would.
-bool shift_worsens_area(double g, double p, Form form, std::span<const Segment> surface, double wavenumber);
+/// How a correction stands to those contacts at one pressure and velocity.
+struct MeasuredWorth {
+  bool light = false;  // the load is below theirs
+  bool worse =
+      false;  // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
+};
+/// `g` at `wavenumber` as the affine shift `p` made it.
+MeasuredWorth measured_worth(double g, double p, Form form, std::span<const Segment> surface, double wavenumber);
 
 }  // namespace asperity

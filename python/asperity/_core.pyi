@@ -655,6 +655,8 @@ def contact_notes(
     velocity: ArrayLike,
     poisson_ratio: float = 0.5,
     correction: _Correction = None,
+    form: _Form = "exact",
+    rtol: float = 1e-6,
 ) -> tuple[str, ...]: ...
 def mean_pressure(
     spectrum: _Spectrum,

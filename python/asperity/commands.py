@@ -47,7 +47,7 @@ def demo(args: Namespace) -> None:
     write_directory(directory, files)
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
     tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
-    _print_notes(table.notes)
+    tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
     drawn = "none, pip install asperity[plot]" if missing else str(picture)
     tell(
@@ -92,13 +92,13 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
 
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
-    curves = scene.friction(_progress(str(scene.path)))
+    curves = scene.friction(progress(str(scene.path)))
     if not (band and scene.has_errors):
         return curves
     return replace(curves, band=scene.band(curves.mu, band_progress(scene)))
 
 
-def _progress(title: str) -> Progress:
+def progress(title: str) -> Progress:
     """A bar on a terminal, after two seconds of work, where tqdm is installed."""
     if not sys.stderr.isatty() or importlib.util.find_spec("tqdm") is None:
         return nullcontext
@@ -109,7 +109,7 @@ def _progress(title: str) -> Progress:
 
 def band_progress(scene: Scene) -> Progress:
     """The same while a band is drawn."""
-    return _progress(f"{scene.path}, band")
+    return progress(f"{scene.path}, band")
 
 
 def area(args: Namespace) -> None:
@@ -124,7 +124,7 @@ def area(args: Namespace) -> None:
         )
         raise InvalidInput(f"{scene.path}: {problem}")
     wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
-    values = scene.contact_area(wavenumber, _progress(str(scene.path)))
+    values = scene.contact_area(wavenumber, progress(str(scene.path)))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
     columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}
@@ -272,7 +272,7 @@ def deliver(
     write_files(files)
     for name, value in (found or {}).items():
         print(f"{name} = {value:.6g}", file=sys.stderr)
-    _print_notes(table.notes)
+    tell_notes(table.notes)
     if args.output is None:
         tell(text)
 
@@ -291,6 +291,7 @@ def _bytes(text: str) -> bytes:
     return text.encode(errors="backslashreplace")  # file names need not be UTF-8
 
 
-def _print_notes(notes: Sequence[str]) -> None:
+def tell_notes(notes: Sequence[str]) -> None:
+    """Write notes to standard error."""
     for note in notes:
         print("note:", note, file=sys.stderr)

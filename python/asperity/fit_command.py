@@ -6,15 +6,25 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from asperity import plot_fit
 from asperity._core import InvalidInput
 from asperity.commands import band_progress, check_outputs, deliver, spare
-from asperity.experiment import PARAMETERS, Fitted, fit_scene, found, pressures
+from asperity.experiment import (
+    PARAMETERS,
+    Experiment,
+    Fitted,
+    found,
+    nearest_pressure,
+    pressures,
+)
 from asperity.fields import nearest
 from asperity.read_friction import read_friction
 from asperity.scene import load_scene
 from asperity.table import Table
 
+_APART = 0.2  # of ln pressure
 _COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
 
 
@@ -26,20 +36,21 @@ def fit(args: Namespace) -> None:
     scene = load_scene(args.scene)
     spare(outputs, [*scene.sources, path])
     measured = read_friction(path)
-    pressure = pressures(scene, measured, path)
+    experiment = Experiment(path, measured, pressures(scene, measured, path), held)
     models = [scene] if scene.correction is None else [scene, replace(scene, correction=None)]
+    found_in = [experiment.fit_scene(model) for model in models]
+    if found_in[0][0] is None:
+        raise InvalidInput(found_in[0][1])
     fits = [
-        fit_scene(model, measured, pressure, held, path, band_progress(model)) for model in models
+        Fitted(model, adhesion, problem, experiment.curves(model, adhesion, band_progress(model)))
+        for model, (adhesion, problem) in zip(models, found_in, strict=True)
     ]
-    fitted, *original = fits
-    if fitted.adhesion is None:
-        raise InvalidInput(fitted.problem)
-    table = _table(args, fitted, original, held)
+    table = _table(args, experiment, fits)
     deliver(
         args,
         table,
-        lambda picture: plot_fit.fit_figure(fits, measured, pressure, picture),
-        found(fitted.adhesion),
+        lambda picture: plot_fit.fit_figure(fits, experiment, picture),
+        found(found_in[0][0]),
     )
 
 
@@ -55,32 +66,42 @@ def _held(given: Mapping[str, str]) -> dict[str, float]:
     return held
 
 
-def _table(
-    args: Namespace, fitted: Fitted, original: list[Fitted], held: Mapping[str, float]
-) -> Table:
-    pressure, velocity = fitted.scene.points
+def _table(args: Namespace, experiment: Experiment, fits: list[Fitted]) -> Table:
+    scene = fits[0].scene
+    pressure, velocity = scene.points
     columns: dict[str, Any] = {"pressure_pa": pressure, "velocity_m_s": velocity}
-    for fit, suffix in zip([fitted, *original], ("", "_original"), strict=False):
+    inputs: dict[str, Any] = {
+        "scene": str(scene.path),
+        "measured": args.measured,
+        "held": dict(experiment.held),
+        **{key: value for key, value in scene.inputs.items() if key != "adhesion"},
+        "derived": scene.derived,
+    }
+    notes = list(fits[0].curves.notes)
+    if "adhesion" in scene.inputs:
+        notes.append("the scene's [adhesion] gave way to the fitted one")
+    drawn_with = scene.pressure[nearest_pressure(scene, experiment.pressure)]
+    if (np.abs(np.log(experiment.pressure / drawn_with)) > _APART).any():
+        notes.append(
+            "some points were measured at pressures that the scene's do not come near: they are "
+            "fitted at their own, and drawn beside the nearest"
+        )
+    known = set(notes)
+    for fit, suffix in zip(fits, ("", "_original"), strict=False):
         columns |= {f"{name}{suffix}": getattr(fit.curves, name).ravel() for name in _COLUMNS}
         if fit.curves.band is not None:
             low, high = fit.curves.band
             columns |= {f"mu_low{suffix}": low.ravel(), f"mu_high{suffix}": high.ravel()}
-    inputs: dict[str, Any] = {
-        "scene": str(fitted.scene.path),
-        "measured": args.measured,
-        "held": dict(held),
-        **{key: value for key, value in fitted.scene.inputs.items() if key != "adhesion"},
-        "derived": fitted.scene.derived,
-    }
-    notes = list(fitted.curves.notes)
-    if "adhesion" in fitted.scene.inputs:
-        notes.append("the scene's [adhesion] gave way to the fitted one")
-    known = set(notes)
-    for fit, key in zip([fitted, *original], ("found", "found_original"), strict=False):
         said: tuple[str, ...] = (fit.problem,)
         if fit.adhesion is not None:
-            inputs[key] = {**found(fit.adhesion), "covariance": fit.adhesion.covariance.tolist()}
+            covariance = fit.adhesion.covariance.tolist()
+            inputs[f"found{suffix}"] = {
+                **found(fit.adhesion),
+                "covariance": covariance,
+                "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
+            }
             said = fit.adhesion.notes
-        prefix = "" if fit is fitted else "without the correction: "
+        prefix = "without the correction: " if suffix else ""
+        said = tuple(note.replace("see outliers", "see outlier_rows") for note in said)
         notes += [prefix + note for note in said if note not in known]
     return Table("fit", [inputs], notes, {name: list(column) for name, column in columns.items()})

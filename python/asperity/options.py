@@ -26,7 +26,10 @@ def pairs(text: str) -> dict[str, str]:
     pairs = [entry.partition("=") for entry in text.split(",")]
     if not all(name and mark and value for name, mark, value in pairs):
         raise ArgumentTypeError(f"{text!r}: must be NAME=VALUE,NAME=VALUE")
-    return {name.strip(): value.strip() for name, _, value in pairs}
+    result = {name.strip(): value.strip() for name, _, value in pairs}
+    if len(result) < len(pairs):
+        raise ArgumentTypeError(f"{text!r}: must have each NAME once")
+    return result
 
 
 def number(text: str) -> float:

@@ -3,60 +3,60 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import AdhesionFit
-from asperity.experiment import Fitted
+from asperity.experiment import Experiment, Fitted, nearest_pressure
 from asperity.plot import band_text, colours, new_figure, picture, pressure_text
-from asperity.read_friction import MeasuredFriction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def fit_figure(
-    fits: Sequence[Fitted], measured: MeasuredFriction, pressure: NDArray[np.float64], path: Path
-) -> bytes:
+def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> bytes:
     """Points, total, hysteresis and adhesion: the original theory, and beside it the modified."""
     figure, panels = new_figure(len(fits))
     figure.set_size_inches(4.6 * len(fits) + 2.2, 3.9)
     titles = ["(a) original", "(b) modified"] if len(fits) == 2 else ["original"]
     if len(fits) == 1 and fits[0].scene.correction is not None:
         titles = ["modified"]
-    highest = 1.1 * max(float(measured.mu.max()), *(float(f.curves.mu.max()) for f in fits))
+    highest = 1.1 * max(
+        float(experiment.measured.mu.max()), *(float(f.curves.mu.max()) for f in fits)
+    )
     for axes, fit, title in zip(panels, reversed(fits), titles, strict=True):
-        _draw(axes, fit, measured, pressure)
+        _draw(axes, fit, experiment)
         axes.set_title(title, fontsize="medium")
         axes.set_ylim(0, highest)
         axes.set_xscale("log")
         axes.set_xlabel("Sliding velocity $v$ [m/s]")
     panels[0].set_ylabel("Friction coefficient $\\mu$ [-]")
-    handles, labels = panels[-1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right upper")
+    entries: dict[str, Any] = {}  # of both panels, each once: points may be put aside in one alone
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    figure.legend(list(entries.values()), list(entries), loc="outside right upper")
     return picture(figure, path)
 
 
-def _draw(
-    axes: "Axes", fit: Fitted, measured: MeasuredFriction, pressure: NDArray[np.float64]
-) -> None:
+def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
     curves, scene = fit.curves, fit.scene
-    aside = np.zeros(measured.mu.shape, bool)
+    x, y = experiment.measured.velocity, experiment.measured.mu
+    aside = np.zeros(y.shape, bool)
     if fit.adhesion is not None:
         aside = fit.adhesion.outliers
         _write(axes, _parameters(fit.adhesion))
     else:
         _write(axes, "no adhesion fits:\nsee the notes")
+    nearest = nearest_pressure(scene, experiment.pressure)
     order = np.argsort(scene.velocity)
     v = scene.velocity[order]
     for i, (load, colour) in enumerate(
         zip(scene.pressure, colours(scene.pressure.size), strict=True)
     ):
-        of_load = pressure == load
-        label = pressure_text(float(load)) if scene.pressure.size > 1 else "measured"
-        x, y = measured.velocity, measured.mu
+        of_load = nearest == i
+        label = f"measured, {pressure_text(float(load))}"
         kept = of_load & ~aside
         axes.plot(x[kept], y[kept], "o", color=colour, markersize=3.5, label=label)
         axes.plot(x[of_load & aside], y[of_load & aside], "x", color=colour, markersize=4.5)
@@ -76,7 +76,8 @@ def _draw(
 
 
 def _write(axes: "Axes", text: str) -> None:
-    axes.text(0.04, 0.96, text, transform=axes.transAxes, va="top", fontsize="small")
+    paper = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5}
+    axes.text(0.03, 0.97, text, transform=axes.transAxes, va="top", fontsize="small", bbox=paper)
 
 
 def _parameters(fit: AdhesionFit) -> str:

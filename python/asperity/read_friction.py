@@ -74,7 +74,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
 def _column(path: Path, header: list[str], kind: str) -> tuple[int, float] | None:
     """Place and factor of a column; None of pressure where there is none."""
     known: Mapping[str, float] = _COLUMNS[kind]
-    places = [(header.index(name), factor) for name, factor in known.items() if name in header]
+    places = [(i, known[name]) for i, name in enumerate(header) if name in known]
     if len(places) > 1:
         raise InvalidInput(f"{path}: has two columns of {kind}: must be one of {', '.join(known)}")
     if places:
@@ -84,7 +84,7 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, float] | Non
         return None
     allowed = " or ".join(known) if len(known) == 1 else f"one of {', '.join(known)}"
     problem = (
-        f"column {bare[0]!r} has no unit"
+        f"column {bare[0]!r} names no unit known here"
         if bare
         else f"header {brief(','.join(header))!r} has no {kind}"
     )

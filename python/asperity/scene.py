@@ -43,7 +43,7 @@ from asperity.parts import (
 )
 from asperity.rubber import BuiltRubber, build_rubber
 from asperity.surface import Surface, build_surface
-from asperity.uncertainty import Drawn, Rubber, Spectrum, coarse, swept_band
+from asperity.uncertainty import DrawAdhesion, Drawn, Rubber, Spectrum, coarse, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
@@ -143,23 +143,34 @@ class Scene:
     @property
     def has_errors(self) -> bool:
         """Whether standard errors of the surface, the rubber or the adhesion are known."""
-        measured = self.surface.draw is not None or self.built_rubber.draw is not None
-        return measured or isinstance(self.adhesion, AdhesionFit)
+        return self.has_measured_errors or isinstance(self.adhesion, AdhesionFit)
+
+    @property
+    def has_measured_errors(self) -> bool:
+        """Whether those of the surface or of the rubber are."""
+        return self.surface.draw is not None or self.built_rubber.draw is not None
 
     def band(
-        self, mu: NDArray[np.float64], progress: Progress = nullcontext
+        self,
+        mu: NDArray[np.float64],
+        progress: Progress = nullcontext,
+        refit: DrawAdhesion | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        names = {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}
-        options = {**self.options, "correction": self.correction, "adhesion": self.adhesion}
-        with named(self.path, names):
+        with named(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             lower, upper = swept_band(
                 Drawn(coarse(self.spectrum), self.surface.draw),
                 Drawn(self.rubber, self.built_rubber.draw),
+                self.adhesion,
                 self.pressure,
                 self.velocity,
-                options,
+                {
+                    "poisson_ratio": self.options["poisson_ratio"],
+                    "form": self.options["form"],
+                    "correction": self.correction,
+                },
                 progress=progress,
+                refit=refit,
                 **self.sampling,
             )
         return mu * lower, mu * upper
@@ -174,7 +185,7 @@ class Scene:
 
     def contact_notes(self) -> list[str]:
         """Where the theory leaves its range at some of the points."""
-        compute = partial(contact_notes, poisson_ratio=self.options["poisson_ratio"])
+        compute = partial(contact_notes, **self.options)
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
         notes = dict.fromkeys([*self.surface.notes, *self.built_rubber.notes])
         return list(notes | dict.fromkeys(note for part in parts for note in part))

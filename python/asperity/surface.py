@@ -8,6 +8,7 @@ from typing import Any
 
 from asperity._core import (
     HeightMap,
+    OutOfRange,
     SelfAffineFit,
     SelfAffineSpectrum,
     TabulatedSpectrum,
@@ -56,6 +57,7 @@ _READ = {
     "max_dropouts": Field(number, "max_fraction"),
 }
 _TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
+_NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
 _SURFACE = {
     "file": Field(file_name),
@@ -154,7 +156,10 @@ def _measure(
         if wanted is not None:
             return spectrum, fit_self_affine(spectrum)
         band.setdefault("q1", min(nyquist(scan), spectrum.q1))  # beyond it rings are incomplete
-        return spectrum.truncated(**band), None
+        try:
+            return spectrum.truncated(**band), None
+        except OutOfRange as error:
+            raise OutOfRange(f'{error}; fit = "self-affine" goes on beyond it') from error
 
 
 def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:
@@ -164,7 +169,7 @@ def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectru
 
 
 def _draw_fit(fit: SelfAffineFit, q0: float, q1: float, rng: Generator) -> Spectrum:
-    return draw_fit(fit, rng).extended(q0=q0, q1=q1)
+    return draw_fit(fit, rng, q1).extended(q0=q0, q1=q1)
 
 
 def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
@@ -178,7 +183,8 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
     ]
     if not beyond:
         return []
-    return [f"the spectrum {' and '.join(beyond)} is the fitted law gone on with, not measured"]
+    where = " and ".join(beyond)
+    return [f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"]
 
 
 def _slope_notes(spectrum: Spectrum, values: Values) -> list[str]:
@@ -203,5 +209,9 @@ def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
     if not cutoffs:
         return spectrum
     key = min(cutoffs, key=cutoffs.__getitem__)
+    if cutoffs[key] < _NARROWEST * spectrum.q0:
+        found = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
+        problem = f"must leave a band, cuts at {found}: are the heights in another unit?"
+        refuse(path, f"[surface] {key} = {values[key]}", problem)
     with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])

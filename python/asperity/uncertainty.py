@@ -5,7 +5,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,14 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 from asperity._core import (
     Adhesion,
     AdhesionFit,
+    AffineShift,
+    GreenwoodWilliamson,
     InvalidInput,
     Isotherm,
+    LocalPeaks,
     MasterCurve,
     MasterCurveBuild,
+    NayakSFactor,
+    PeaksThenGreenwoodWilliamson,
     PronyFit,
     PronySeries,
     SelfAffineFit,
     SelfAffineSpectrum,
+    SFactor,
     TabulatedSpectrum,
     build_master_curve,
     fit_prony,
@@ -32,6 +38,16 @@ Rubber = PronySeries | MasterCurve
 Generator = np.random.Generator
 DrawSpectrum = Callable[[Generator], Spectrum]
 DrawRubber = Callable[[Generator], Rubber]
+DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
+Correction = (
+    SFactor
+    | NayakSFactor
+    | AffineShift
+    | LocalPeaks
+    | GreenwoodWilliamson
+    | PeaksThenGreenwoodWilliamson
+    | None
+)
 Input = TypeVar("Input", Spectrum, Rubber)
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -52,7 +68,8 @@ class Drawn(Generic[Input]):
 
 @dataclass(frozen=True, eq=False)
 class FrictionBand:
-    """mu [-] between `lower` and `upper` with probability `level`, arrays of the points' shape."""
+    """A share `level` of `samples` draws has its mu [-] between `lower` and `upper`, arrays of the
+    points' shape."""
 
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
@@ -66,10 +83,13 @@ def friction_band(
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction = None,
+    adhesion: Adhesion | None = None,
+    form: Literal["exact", "interpolated"] = "exact",
     samples: int = 100,
     seed: int = 0,
     level: float = 0.95,
-    **options: Any,
 ) -> FrictionBand:
     """A band on mu from the standard errors of its measured inputs.
 
@@ -84,15 +104,16 @@ def friction_band(
         rubber has no errors.
     pressure, velocity : array_like
         [Pa], [m/s], broadcast.
+    poisson_ratio, correction, adhesion, form
+        As for `friction`, and held; but an AdhesionFit is drawn from its covariance, apart from
+        spectrum and rubber: where those have errors too the band is an upper bound, for the points
+        that were fitted hold the sum (`asperity fit` fits them anew for every draw).
     samples : int
         Draws, 20 or more.
     seed : int
         The same band for the same seed.
     level : float
         Share of the draws between the two curves, in (0, 1).
-    **options
-        As for `friction`: poisson_ratio, correction, adhesion, form. All are held but an
-        AdhesionFit, which is drawn from its covariance.
 
     Returns
     -------
@@ -107,7 +128,7 @@ def friction_band(
         raise InvalidInput(
             "rubber: a PronyFit does not know its errors, give the MasterCurveBuild behind it"
         )
-    if not any(map(has_errors, (spectrum, rubber, options.get("adhesion")))):
+    if not any(map(has_errors, (spectrum, rubber, adhesion))):
         raise InvalidInput(
             "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
             "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
@@ -115,10 +136,16 @@ def friction_band(
     p, v = np.broadcast_arrays(np.asarray(pressure, float), np.asarray(velocity, float))
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum
     solid = rubber.master_curve if isinstance(rubber, MasterCurveBuild) else rubber
-    mu = friction(plain, solid, pressure=p, velocity=v, **options).mu
+    options: dict[str, Any] = {
+        "poisson_ratio": poisson_ratio,
+        "correction": correction,
+        "form": form,
+    }
+    mu = friction(plain, solid, pressure=p, velocity=v, adhesion=adhesion, **options).mu
     lower, upper = relative_band(
         Drawn(coarse(plain), partial(draw_spectrum, spectrum)),
         Drawn(solid, partial(draw_rubber, rubber)),
+        adhesion,
         {**options, "pressure": p.ravel(), "velocity": v.ravel()},
         samples=samples,
         seed=seed,
@@ -138,14 +165,17 @@ def has_errors(source: object) -> bool:
 def relative_band(
     spectrum: Drawn[Spectrum],
     rubber: Drawn[Rubber],
+    adhesion: Adhesion | None,
     options: dict[str, Any],
     *,
     samples: int,
     seed: int,
     level: float,
     progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
+    refit: DrawAdhesion | None = None,
 ) -> Bounds:
-    """Quantiles of mu of drawn inputs over mu of the plain ones; 1 where there is no friction."""
+    """Quantiles of mu of drawn inputs over mu of the plain ones; 1 where there is no friction.
+    `refit` gives the adhesion that goes with a drawn spectrum and rubber."""
     if samples < 20:
         raise InvalidInput(f"samples = {samples}: must be 20 or more")
     if seed < 0:
@@ -154,17 +184,15 @@ def relative_band(
         raise InvalidInput(f"level = {level}: must be in (0, 1)")
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
-    centre = friction(spectrum.plain, rubber.plain, **options).mu
-    adhesion = options.pop("adhesion", None)
+    centre = friction(spectrum.plain, rubber.plain, adhesion=adhesion, **options).mu
+
+    def draw() -> Any:
+        surface, solid = spectrum(rng), rubber(rng)
+        of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, solid, rng)
+        return friction(surface, solid, adhesion=of_draw, **options).mu
+
     with progress(range(samples)) as shown:
-        drawn = np.array(
-            [
-                friction(
-                    spectrum(rng), rubber(rng), adhesion=draw_adhesion(adhesion, rng), **options
-                ).mu
-                for _ in shown
-            ]
-        )
+        drawn = np.array([draw() for _ in shown])
     ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)
@@ -174,6 +202,7 @@ def relative_band(
 def swept_band(
     spectrum: Drawn[Spectrum],
     rubber: Drawn[Rubber],
+    adhesion: Adhesion | None,
     pressure: NDArray[np.float64],
     velocity: NDArray[np.float64],
     options: dict[str, Any],
@@ -186,7 +215,7 @@ def swept_band(
         few = np.geomspace(few[0], few[-1], _SWEPT)
     p, v = np.meshgrid(pressure, few, indexing="ij")
     points = {"pressure": p.ravel(), "velocity": v.ravel()}
-    lower, upper = relative_band(spectrum, rubber, {**options, **points}, **sampling)
+    lower, upper = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
 
     def everywhere(bound: NDArray[np.float64]) -> NDArray[np.float64]:
         rows = bound.reshape(p.shape)
@@ -217,17 +246,18 @@ def draw_spectrum(source: Spectrum | SelfAffineFit, rng: Generator) -> Spectrum:
     return TabulatedSpectrum(wavenumber=table.wavenumber, density=table.density * factor)
 
 
-def draw_fit(fit: SelfAffineFit, rng: Generator) -> SelfAffineSpectrum:
+def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> SelfAffineSpectrum:
     """Rms height and roll-off in the logarithm, where they stay positive; H until it is one."""
     has_rolloff = fit.rolloff is not None
     count = 3 if has_rolloff else 2
     scale = np.array([fit.rms_height, 1, fit.rolloff or 1])[:count]
     covariance = fit.covariance[:count, :count] / np.outer(scale, scale)
+    end = fit.q1 if q1 is None else min(q1, fit.q1)  # the band is to keep a self-affine part
     while True:
         drawn = rng.multivariate_normal(np.zeros(count), covariance, method="eigh")
         hurst = fit.hurst + drawn[1]
         rolloff = None if fit.rolloff is None else fit.rolloff * float(np.exp(drawn[2]))
-        if 0 < hurst <= 1 and (rolloff is None or fit.q0 < rolloff < fit.q1):
+        if 0 < hurst <= 1 and (rolloff is None or fit.q0 < rolloff < end):
             return SelfAffineSpectrum(
                 rms_height=fit.rms_height * float(np.exp(drawn[0])),
                 hurst=hurst,

@@ -207,6 +207,33 @@ def parser() -> argparse.ArgumentParser:
     validate.add_argument(
         "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
     )
+    validate.add_argument(
+        "--surface",
+        metavar="FILE",
+        help="a map of your own, pressed by boundary elements (needs asperity[bem])",
+    )
+    validate.add_argument(
+        "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
+    )
+    validate.add_argument("--unit", metavar="UNIT", help="of its heights, where it states none")
+    validate.add_argument("--channel", type=whole, help="of a file with several maps (default: 0)")
+    validate.add_argument(
+        "--detrend",
+        choices=("plane", "quadratic", "offset", "none"),
+        help="before it is pressed (default: plane)",
+    )
+    validate.add_argument(
+        "--q0",
+        type=number,
+        metavar="Q",
+        help="wavenumber of its macro-asperities [1/m]; without it peaks and IGW are left out",
+    )
+    validate.add_argument(
+        "--loads", type=numbers, metavar="P,P,...", help="p / (E* h') (default: those of the rows)"
+    )
+    validate.add_argument(
+        "--periodic", action="store_true", help="the map continues at its opposite sides"
+    )
     remade = verb(
         "article",
         article,

@@ -124,7 +124,8 @@ d~ = 3 h_rms the model has left its range: results carry a note.
 
 On the contacts of SFactor, mean error and the worst. Area: 16 %, +48 % implicit; 14 %, +51 % added. Elastic energy:
 32 %, +81 % implicit; 27 %, -81 % added. Its p_T falls with the load as the exact one does, but too fast: the implicit
-reading is in full conformity, no correction at all, from p / (E* h') = 0.1 on, the added one turns back above 0.5.
+reading is in full conformity, no correction at all, on all but 5 of 104 contacts from p / (E* h') = 0.1
+on, the added one turns back above 0.5.
 )");
   gw.def(py::init([](double z_max, double z_min, const py::object& heights, const std::string& reading,
                      std::optional<double> rms_height, std::optional<double> q0) {

@@ -100,14 +100,15 @@ NotConverged
   m.def(
       "contact_notes",
       [](const py::object& spectrum, const py::object& rubber, const py::object& pressure, const py::object& velocity,
-         double poisson_ratio, const py::object& correction) {
+         double poisson_ratio, const py::object& correction, const std::string& form, double rtol) {
         const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-        return py::tuple(py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
-                                                contact_model(poisson_ratio, correction, "exact", 1e-6), b.columns[0],
-                                                b.columns[1])));
+        return py::tuple(
+            py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
+                                   contact_model(poisson_ratio, correction, form, rtol), b.columns[0], b.columns[1])));
       },
       py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
-      py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(),
+      py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(), py::arg("form") = "exact",
+      py::arg("rtol") = 1e-6,
       R"(Where the theory or its input leaves its range at these pressures [Pa] and velocities [m/s], in sentences.
 
 What `friction` returns as notes, for those who ask for the contact area alone. Arguments as for `contact_area`; a tuple

@@ -53,7 +53,8 @@ Notes
 Measured on 177 elastic boundary-element contacts, random-phase maps with H 0.7 and 0.8, q1/q0 from 2 to 128,
 p / (E* h') from 0.005 to 1; mean error, and the worst. Area without correction: 17 %, -37 %. "area": 3.4 %, -11 % at
 gamma = 0.5, 2.4 %, -16 % at 5/9. Elastic energy, which the integrand of Eq. 22 weighs, without correction: 69 %,
-+198 %. "friction": 4.0 %, +23 % at gamma = 0.4, 14 %, +52 % at 0.5. Beyond these bands results carry a note.
++198 %. "friction": 4.0 %, +23 % at gamma = 0.4, 14 %, +52 % at 0.5. Beyond this bandwidth and below this
+load results carry a note.
 `asperity validate` makes the table.
 )");
   s_factor
@@ -86,7 +87,8 @@ Notes
 Against 177 boundary-element contacts, random-phase maps with H 0.7 and 0.8 and q1/q0 from 2 to 128 (alpha from 1.75 to
 200), p / (E* h') from 0.005 to 1, elastic: the area is off by 1.0 % in the mean and 6.1 % at worst, S inside G with
 gamma = 5/9 by 2.4 % and 15.6 %. Its four numbers were fitted to the same contacts; each map predicted from the others is
-off by 1.1 % and 8.9 %. Beyond these bands results carry a note.
+off by 1.0 % and 8.9 %, ten maps unknown to the fit, with H 0.3, 0.5 and 0.9, by 1.2 % and 3.7 %. Beyond this bandwidth
+and below this load results carry a note.
 )");
   nayak
       .def(py::init([](double friction_gamma) {
@@ -109,7 +111,7 @@ Notes
 -----
 On the contacts of SFactor, mean error and the worst. Area: 14 %, +26 % for p = 1.5; 42 %, +64 % for p = 2. Elastic
 energy: 43 %, +97 % for 1.5; 44 %, -75 % for 2. The exact area asks for a p that falls from 1.4 at p / (E* h') = 0.005
-to 1 at 1, the exact energy for one from 2.8 to 1: no single p serves either. Where p takes the area further from the
+to 1.05 at 1, the exact energy for one from 2.8 to 1: no single p serves either. Where p takes the area further from the
 truth than no correction would, results carry a note.
 )");
   shift

@@ -17,7 +17,9 @@ from asperity.article import command
 from asperity.article.inputs import PRESSURES, Inputs, prepare
 from asperity.article.readings import PRINTED
 from asperity.article.statement import VERDICTS
+from asperity.article.summary import OPENING
 from asperity.cli import main
+from summaries import COLUMNS, PUBLISHED, numbers, same, statements
 
 pytest.importorskip("matplotlib")
 
@@ -46,25 +48,10 @@ def rows(remade: Path) -> dict[str, dict[str, str]]:
     return statements((remade / "summary.md").read_text())
 
 
-def statements(summary: str) -> dict[str, dict[str, str]]:
-    """Rows of a summary by their ids."""
-    names = ("id", "place", "claim", "criterion", "found", "verdict", "reason")
-    found = {}
-    for line in summary.splitlines():
-        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if len(cells) == len(names) and re.fullmatch(r"[A-Z]\d+", cells[0]):
-            found[cells[0]] = dict(zip(names, cells, strict=True))
-    return found
-
-
 def table(path: Path) -> dict[str, np.ndarray]:
     lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
     names, *cells = csv.reader(lines)
     return dict(zip(names, np.array(cells).T, strict=True))
-
-
-def numbers(text: str) -> list[float]:
-    return [float(x) for x in re.findall(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text)]
 
 
 def test_every_file_is_there_and_no_other(remade: Path) -> None:
@@ -109,29 +96,39 @@ def test_terminal_and_summary_count_alike(
 ) -> None:
     directory, printed = run
     parts = [f"{sum(r['verdict'] == v for r in rows.values())} {v}" for v in VERDICTS]
-    line = f"{len(rows)} statements: {', '.join(parts)}"
+    line = f"{len(rows)} statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
     summary = directory / "summary.md"
     assert f"\n{line}.\n" in summary.read_text()
     assert printed == f"{line}\nsummary: {summary}\n"
+
+
+def test_the_published_summary_is_that_of_a_run(rows: dict[str, dict[str, str]]) -> None:
+    """Ids, statements, criteria and verdicts to the letter; numbers found to their last digit."""
+    published = statements(PUBLISHED)
+    assert list(published) == list(rows)
+    for name, row in rows.items():
+        for column in COLUMNS:
+            agree = same if column in ("found", "reason") else str.__eq__
+            assert agree(row[column], published[name][column]), (name, column)
 
 
 # What the issue names, by id: the verdict and numbers that must be among those found.
 EXPECTED = {
     "A4": ("does not hold", [0.7071]),
     "C1": ("does not hold", []),
-    "C2": ("holds", []),
+    "C2": ("tuned", [1.01, 1.09, 1.25, 1.36, 3.97, 8.16, 1.14, 2.11, 3.82]),
     "C7": ("holds in part", [-75.0]),
     "C8": ("holds in part", [0.407, 0.495, 0.546]),
     "C11": ("tuned", []),
     "C12": ("cannot be checked", []),
-    "C13": ("holds", []),
+    "C13": ("by construction", []),
     "C14": ("tuned", [2.46, 2.02, 1.83]),
     "E1": ("does not hold", []),
     "E5": ("does not hold", []),
     "F1": ("does not hold", [320.0, 11.7, 1.49, 2.76]),
     "F3": ("does not hold", [-20.0]),
     "F4": ("holds", []),
-    "F6": ("holds", []),
+    "F6": ("holds in part", [46.0, 92.0]),
     "F10": ("cannot be checked", []),
     "F11": ("cannot be checked", []),
     "G1": ("tuned", [2.46, 2.02, 1.83]),
@@ -142,10 +139,10 @@ EXPECTED = {
     "G7": ("holds in part", []),
     "G10": ("tuned", []),
     "G11": ("tuned", []),
-    "P2": ("holds", []),
-    "P3": ("holds", []),
-    "T4": ("holds", []),
-    "T5": ("holds", []),
+    "P2": ("holds", [2.72, 2.51]),
+    "P3": ("holds", [1.97, 1.85]),
+    "T4": ("by construction", []),
+    "T5": ("by construction", []),
 }
 
 
@@ -221,41 +218,31 @@ def test_figure_15_adds_up_and_shows_no_measured_points(remade: Path) -> None:
     assert set(columns["theory"]) == {"original", "modified, implicit", "modified, added"}
 
 
-def test_a_second_run_gives_the_same_numbers(
-    remade: Path, rows: dict[str, dict[str, str]], monkeypatch: pytest.MonkeyPatch
+def stub(mark: str) -> Callable[[], tuple[dict[str, bytes], list[object]]]:
+    tables = {
+        n: f"# asperity 0.1.0 article {n[:-4]}\n{mark}" for n in command.MARKS if n[-4:] == ".csv"
+    }
+    files = {name: tables.get(name, mark).encode() for name in command.MARKS}
+    return lambda: (files | {"summary.md": f"{OPENING}0.1.0 article`. {mark}".encode()}, [])
+
+
+def test_it_writes_over_its_own_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for mark in ("old", "new"):
+        monkeypatch.setattr(command, "remake", stub(mark))
+        assert main(["article", "--output", str(tmp_path / "out")]) == 0
+    for name in command.MARKS:
+        assert (tmp_path / "out" / name).read_text().endswith("new")
+
+
+@pytest.mark.parametrize("name", ["fig01.png", "fig01.csv", "summary.md"])
+def test_it_spares_what_another_wrote(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    """On two of the six scans: figures show the first, some numbers are means over all."""
-    monkeypatch.setattr(command, "picture", lambda *_: b"")
-    contents, _ = command.remake((1, 2))
-    averaged = ("fig15.csv", "table1.csv")
-    for name in (n for n in command.FILES if n.endswith(".csv") and n not in averaged):
-        assert contents[name] == (remade / name).read_bytes(), name
-    again = statements(contents["summary.md"].decode())
-    assert again.keys() == rows.keys()
-    of_one_scan = [name for name in rows if name[0] in "TAECM"]
-    assert {n: again[n] for n in of_one_scan} == {n: rows[n] for n in of_one_scan}
-
-
-def stub(contents: bytes = b"x") -> Callable[[], tuple[dict[str, bytes], list[object]]]:
-    files = {name: contents for name in command.FILES} | {"summary.md": b"# The article remade\n"}
-    return lambda: (files, [])
-
-
-def test_it_writes_over_its_own_files_alone(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(command, "remake", stub(b"old"))
-    assert main(["article", "--output", str(tmp_path / "out")]) == 0
-    monkeypatch.setattr(command, "remake", stub(b"new"))
-    assert main(["article", "--output", str(tmp_path / "out")]) == 0
-    assert (tmp_path / "out" / "fig01.csv").read_bytes() == b"new"
-    summary = tmp_path / "summary.md"
-    summary.write_text("mine\n")
-    capsys.readouterr()
+    (tmp_path / name).write_text("# What each correction is worth\n")
     assert main(["article", "--output", str(tmp_path)]) == 2
-    message = "is not the article's own: choose another --output"
-    assert capsys.readouterr().err == f"asperity: {summary}: {message}\n"
-    assert summary.read_text() == "mine\n"
+    message = f"holds {name}, not the article's own: choose another --output"
+    assert capsys.readouterr().err == f"asperity: {tmp_path}: {message}\n"
+    assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
 def test_a_file_in_place_of_the_directory_is_refused(
@@ -288,7 +275,7 @@ def test_a_full_disk_leaves_nothing(
         replace(part, target)
 
     monkeypatch.setattr("os.replace", full)
-    monkeypatch.setattr(command, "remake", stub())
+    monkeypatch.setattr(command, "remake", stub(""))
     assert main(["article", "--output", str(tmp_path / "out")]) == 1
     assert "fig09.csv: cannot be written: No space left on device" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

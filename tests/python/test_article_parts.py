@@ -103,6 +103,11 @@ def test_window_is_eq_25() -> None:
     np.testing.assert_allclose(surfaces.split_cosine_bell(points), wanted, atol=1e-15)
 
 
+def test_window_of_the_package_is_taken_from_spectra() -> None:
+    bell = surfaces.packaged_bell(40)
+    np.testing.assert_allclose(bell, surfaces.split_cosine_bell(40), rtol=0, atol=1e-12)
+
+
 def test_printed_variance_is_eqs_25_to_27_term_by_term() -> None:
     heights = np.random.default_rng(1).normal(size=(12, 12))
     scan = asperity.HeightMap(heights, pixel_size=inputs.PIXEL_SIZE)
@@ -142,6 +147,45 @@ def test_curves_share_a_table() -> None:
 )
 def test_verdicts_follow_from_tests(held: object, verdict: str) -> None:
     assert statement.judged(held) == verdict
+
+
+@pytest.mark.parametrize(
+    ("tuned", "untuned", "verdict"),
+    [
+        ([True, True], True, "holds"),
+        ([False, False], False, "does not hold"),
+        ([True, False], [True, False], "holds in part"),
+        ([True, True], False, "tuned"),
+        ([False, False], True, "tuned"),
+        ([True, False], False, "tuned"),
+        ([True, True], [True, False], "tuned"),
+    ],
+)
+def test_where_tuned_and_untuned_differ_it_is_tuned(
+    tuned: list[bool], untuned: object, verdict: str
+) -> None:
+    held = dict(zip(("implicit", "added"), tuned, strict=True)) | {"untuned": untuned}
+    assert statement.despite_tuning(held) == verdict
+
+
+def test_what_is_met_by_tuning_or_by_construction_never_holds() -> None:
+    for rule, met in (
+        (statement.rests_on_tuning, "tuned"),
+        (statement.by_construction, "by construction"),
+    ):
+        assert rule(True) == met
+        assert rule([True, False]) == "holds in part"
+        assert rule(False) == "does not hold"
+
+
+def test_nothing_that_is_untuned_knows_the_printed_p_t() -> None:
+    found = inputs.prepare((1, 2))
+    heights = [scan.z_max for scan in found.gaussian_scans]
+    for model in found.untuned.values():
+        assert model.rubber is found.compound_a
+        assert model.correction.z_max == pytest.approx(np.mean(heights), rel=1e-15)
+    assert list(found.models) == ["implicit", "added", "untuned, implicit", "untuned, added"]
+    assert list(found.compounds) == ["implicit", "added", "untuned"]
 
 
 def test_percentages_keep_their_sign_and_drop_noise() -> None:

@@ -91,7 +91,7 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "instrument", "read", "read_rubber", "read_dma"]
+LAYERS = ["_core", "fields", "table", "directory", "instrument", "read", "read_rubber", "read_dma"]
 LAYERS += [
     "read_friction",
     "scan",
@@ -105,13 +105,21 @@ LAYERS += [
 ]
 LAYERS += ["plot", "plot_surface", "plot_rubber", "experiment", "plot_fit"]
 LAYERS += ["commands", "rubber_command", "fit_command"]
-LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
-LAYERS += ["validation.summary", "validation.command", "validation", "article"]
+LAYERS += ["validation.boundary_elements", "validation.contacts", "validation.predictions"]
+LAYERS += [
+    "validation.figures",
+    "validation.summary",
+    "validation.own",
+    "validation.command",
+    "validation",
+]
+LAYERS += ["article"]
 LAYERS += [
     f"article.{name}"
     for name in (
         *("compounds", "readings", "inputs", "statement", "page", "surfaces", "affine", "peaks"),
-        *("persson", "asperities", "factors", "igw", "printed", "sliding", "friction"),
+        *("persson", "shifts", "asperities", "factors", "matches", "igw", "printed"),
+        *("sliding", "friction"),
         *("draw_surfaces", "draw_scales", "draw_factors", "draw_igw", "draw_friction"),
         *("summary", "command"),
     )
@@ -220,7 +228,7 @@ def test_numpy_is_all_that_the_package_imports_at_once():
     run = [sys.executable, "-c", code]
     loaded = subprocess.run(run, check=True, capture_output=True, text=True).stdout.split()
     assert "numpy" in loaded
-    assert not {"matplotlib", "scipy", "SurfaceTopography", "tqdm"} & set(loaded)
+    assert not {"matplotlib", "scipy", "SurfaceTopography", "tqdm", "tamaas"} & set(loaded)
 
 
 def test_the_version_is_the_same_everywhere():

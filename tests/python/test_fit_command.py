@@ -119,13 +119,53 @@ def test_the_table_is_the_curve_at_the_velocities_of_the_scene(scene, tmp_path):
         assert float(row["hysteresis_original"]) > float(row["hysteresis"])
 
 
-def test_several_pressures_are_fitted_together(scene, tmp_path):
-    path = scene()
-    rows = np.vstack([measurement(path, 0.02, p, seed=i) for i, p in enumerate((5e4, 2e5))])
+def test_several_pressures_are_fitted_together_each_point_at_its_own(scene, tmp_path, capsys):
+    path = scene(pressure="[5e4, 2e5]")
+    rows = np.vstack([measurement(path, 0, p) for p in (5e4, 2.05e5)])
     measured = table(tmp_path / "measured.csv", rows)
+    out = tmp_path / "fit.json"
+    assert main(["fit", str(path), str(measured), "--json", "--output", str(out)]) == 0
+    content = json.loads(out.read_text())
+    assert set(content["columns"]["pressure_pa"]) == {5e4, 2e5}
+    for key, name in KEYS.items():
+        assert content["inputs"][0]["found"][key] == pytest.approx(TRUTH[name], rel=1e-4)
+    assert "drawn beside the nearest" not in capsys.readouterr().err
+    far = table(tmp_path / "far.csv", measurement(path, 0, 8e4))
+    assert main(["fit", str(path), str(far), "--output", str(out)]) == 0
+    assert "drawn beside the nearest" in capsys.readouterr().err
+
+
+def test_the_points_hold_the_sum_of_hysteresis_and_adhesion(scene, tmp_path):
+    """Of a drawn surface the points are fitted anew: drawn apart the band would be far wider."""
+    surface = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2e4, q1=3e5)
+    heights = asperity.synthesize(surface, shape=(64, 64), pixel_size=1e-5, seed=4).heights
+    np.save(tmp_path / "scan.npy", heights)
+    path = scene()
+    text = path.read_text()
+    measured_surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 1e-5\nunit = "m"\n'
+    path.write_text(measured_surface + text[text.index("[rubber]") :])
+    measured = table(tmp_path / "measured.csv", measurement(path, noise=0.01))
     out = tmp_path / "fit.csv"
     assert main(["fit", str(path), str(measured), "--output", str(out)]) == 0
-    assert {float(row["pressure_pa"]) for row in written(out)} == {5e4, 2e5}
+    rows = written(out)
+    loaded = asperity.scene.load_scene(path)
+    fit = asperity.fit_adhesion(
+        loaded.spectrum,
+        loaded.rubber,
+        correction=loaded.correction,
+        pressure=81e3,
+        **dict(zip(("velocity", "mu"), measurement(path, noise=0.01)[:, 1:].T, strict=True)),
+    )
+    slow = rows[4]  # nearly all adhesion
+    apart = asperity.friction_band(
+        loaded.spectrum,
+        loaded.rubber,
+        correction=loaded.correction,
+        pressure=81e3,
+        velocity=float(slow["velocity_m_s"]),
+        adhesion=fit,
+    )
+    assert float(slow["mu_high"]) - float(slow["mu_low"]) < 0.7 * (apart.upper - apart.lower)
 
 
 def test_parameters_are_held(scene, tmp_path):
@@ -166,10 +206,10 @@ def test_units_are_those_of_the_columns_names(scene, tmp_path):
 
 
 BAD = {
-    "column 'velocity' has no unit: must be one of velocity_m_s, velocity_mm_s, velocity_km_h": (
+    "column 'velocity' names no unit known here: must be one of velocity_m_s, velocity_mm_s, ": (
         "velocity,mu\n1,1\n2,1"
     ),
-    "column 'pressure' has no unit: must be one of pressure_pa": (
+    "column 'pressure' names no unit known here: must be one of pressure_pa": (
         "pressure,velocity_m_s,mu\n1,1,1\n1,2,1"
     ),
     "header 'velocity_m_s,friction' has no mu: must be mu": "velocity_m_s,friction\n1,1\n2,1",
@@ -179,6 +219,7 @@ BAD = {
     "line 3 has 1 cells: must be 2, as the header": "velocity_m_s,mu\n1,1\n2",
     "has 0 rows below its header: must have 1 or more": "velocity_m_s,mu",
     "has two columns of velocity": "velocity_m_s,velocity_mm_s,mu\n1,1,1",
+    "has two columns of mu": "velocity_m_s,mu,mu\n1,1,1",
 }
 
 
@@ -217,11 +258,29 @@ def test_bad_holds(scene, tmp_path, capsys):
     for hold, message in (
         ("widht=0.1", "--hold widht: did you mean width?"),
         ("width=wide", "--hold width = 'wide': must be a number"),
-        ("width=-1", "width"),
+        ("width=-1", "--hold width = -1: must be"),
     ):
         assert main(["fit", str(path), str(measured), "--hold", hold]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert message in line
+
+
+def test_a_parameter_is_held_once(scene, tmp_path, capsys):
+    measured = table(tmp_path / "measured.csv", measurement(scene()))
+    with pytest.raises(SystemExit, match="2"):
+        main(["fit", str(scene()), str(measured), "--hold", "width=0.1,width=0.2"])
+    assert "must have each NAME once" in capsys.readouterr().err
+
+
+def test_what_the_points_leave_open_is_said_in_words_of_the_command_line(scene, tmp_path, capsys):
+    path = scene()
+    rows = measurement(path)[:12]  # below the maximum alone
+    measured = table(tmp_path / "measured.csv", rows)
+    assert main(["fit", str(path), str(measured)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"asperity: {measured}: velocity, mu: do not determine ")
+    assert "--hold width=0.1" in line
+    assert "fixed" not in line
 
 
 def test_where_the_original_theory_leaves_no_adhesion_the_picture_says_so(scene, tmp_path, capsys):

@@ -206,7 +206,8 @@ NOTES = {
     "rms slope": (STEEP, 0.005, None, 2e5),
     "flash": (ROAD, [0.005, 0.0101], None, 2e5),
     "full conformity": (ROAD, 0.005, gw(9e-4, z_min=-1e-9), 2e6),
-    "3 rms": (ROAD, 0.005, gw(2e-3, z_min=-2e-6), 1.0),
+    "3 rms": (ROAD, 0.005, gw(2e-3, z_min=-2e-6), 1.0, "load sigma0"),
+    "load sigma0": (ROAD, 0.005, asperity.SFactor(), 1e3),
     "no contact": (ROAD, 0.005, gw(1e-4), 1.0),
     None: (ROAD, [1e-6, 0.01], gw(2e-3), 2e5),
 }
@@ -214,14 +215,19 @@ NOTES = {
 
 @pytest.mark.parametrize("words", NOTES)
 def test_a_note_appears_exactly_when_its_reason_does(words):
-    spectrum, velocity, correction, pressure = NOTES[words]
+    spectrum, velocity, correction, pressure, *more = NOTES[words]
     notes = asperity.friction(
         spectrum, RUBBER, pressure=pressure, velocity=velocity, correction=correction
     ).notes
     assert isinstance(notes, tuple)
-    assert len(notes) == (words is not None)
-    if words is not None:
-        assert words in notes[0]
+    expected = [words, *more] if words is not None else []
+    assert len(notes) == len(expected)
+    for wanted in expected:
+        assert sum(wanted in note for note in notes) == 1
+    for form in ("exact", "interpolated"):
+        arguments = {"pressure": pressure, "velocity": velocity, "correction": correction}
+        whole = asperity.friction(spectrum, RUBBER, form=form, **arguments).notes
+        assert asperity.contact_notes(spectrum, RUBBER, form=form, **arguments) == whole
 
 
 def test_a_spectrum_cut_by_the_slope_rule_has_no_note():
@@ -238,6 +244,7 @@ def test_notes_add_up():
     assert [note[:20] for note in notes] == [
         "the rms slope is 2.7",
         "above 0.01 m/s flash",
+        "the error of this co",
         "the error of this co",
         "the affine shift tak",
         "Greenwood-Williamson",

@@ -45,7 +45,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         RUBBER,
         pressure=81e3,
         velocity=np.geomspace(1e-6, 1e-2, 20),
-        correction=asperity.SFactor(),
+        correction=asperity.NayakSFactor(),
         adhesion=asperity.Adhesion(shear_stress=8.3e6),
     )
     columns = np.column_stack([test.velocity, test.mu])
@@ -82,7 +82,9 @@ def test_scene(folder: Path) -> None:
     assert np.all(curves.mu > curves.hysteresis)
 
 
-@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum", "rubber", "validate"])
+@pytest.mark.parametrize(
+    "verb", ["demo", "friction", "area", "spectrum", "rubber", "fit", "article", "validate"]
+)
 def test_verbs(verb: str) -> None:
     assert f"asperity {verb}" in README
     text = subprocess.run(

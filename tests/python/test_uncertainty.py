@@ -256,7 +256,7 @@ def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_p
     out = tmp_path / "mu.csv"
     path = scene(fit='fit = "self-affine"\nq1_per_m = 1e6')
     assert main(["friction", str(path), "--output", str(out)]) == 0
-    assert "is the fitted law gone on with, not measured" in capsys.readouterr().err
+    assert "is the fitted law gone on with, beyond" in capsys.readouterr().err
     loaded = asperity.scene.load_scene(path)
     assert isinstance(loaded.spectrum, SelfAffineSpectrum)
     assert loaded.spectrum.q1 == 1e6

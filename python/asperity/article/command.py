@@ -1,10 +1,8 @@
 """The verb `article`: the article's figures, its table and its statements, remade."""
 
 from argparse import Namespace
-from collections.abc import Sequence
 from pathlib import Path
 
-from asperity._core import InvalidInput
 from asperity.article import (
     affine,
     asperities,
@@ -16,48 +14,56 @@ from asperity.article import (
     factors,
     friction,
     igw,
+    matches,
     peaks,
     persson,
     printed,
+    shifts,
     sliding,
     surfaces,
 )
-from asperity.article.inputs import SEEDS, prepare
+from asperity.article.inputs import prepare
 from asperity.article.page import Page
 from asperity.article.statement import Statement
-from asperity.article.summary import HEADING, counted, markdown
+from asperity.article.summary import OPENING, counted, markdown
 from asperity.commands import tell
+from asperity.directory import Mark, begins, check_own_directory, table_of
 from asperity.plot import check_plot, picture
-from asperity.table import check_output, check_writable, write_directory
+from asperity.table import write_directory
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
-FILES = (*(f"{page}.{kind}" for page in PAGES for kind in ("png", "csv")), "summary.md")
+MARKS: dict[str, list[Mark]] = {
+    **{f"{page}.csv": [table_of(f"article {page}")] for page in PAGES},
+    **{f"{page}.png": [f"{page}.csv"] for page in PAGES},
+    "summary.md": [begins(OPENING)],
+}
 
 
 def article(args: Namespace) -> None:
     """Write all pictures, tables and the summary, and show how many statements hold."""
     directory = Path(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
-    if check_writable(directory) == directory:
-        _check_own(directory)
+    check_own_directory(directory, "the article", MARKS)
     contents, statements = remake()
     write_directory(directory, contents)
     tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 
-def remake(seeds: Sequence[int] = SEEDS) -> tuple[dict[str, bytes], list[Statement]]:
-    """All files by their names, and the statements; `seeds` of the synthetic scans."""
-    inputs = prepare(seeds)
-    spectra, curves = surfaces.compute(inputs), factors.compute(inputs)
-    readings, slid = igw.compute(inputs), sliding.compute(inputs)
+def remake() -> tuple[dict[str, bytes], list[Statement]]:
+    """All files by their names, and the statements."""
+    inputs = prepare()
+    spectra, all_curves = surfaces.compute(inputs), factors.compute(inputs)
+    curves = all_curves["implicit"]
+    readings, slid = shifts.compute(inputs), sliding.compute(inputs)
     statements = [
         *persson.statements(inputs),
         *affine.statements(inputs),
         *peaks.statements(inputs, peaks.compute(inputs)),
         *asperities.statements(inputs),
         *surfaces.statements(inputs, spectra),
-        *factors.statements(inputs, curves),
+        *factors.statements(inputs, all_curves),
+        *matches.statements(inputs, all_curves),
         *printed.statements(inputs),
         *igw.statements(inputs, readings),
         *friction.statements(inputs, slid),
@@ -90,12 +96,3 @@ def _files(page: Page) -> dict[str, bytes]:
         drawn: picture(page.figure, Path(drawn)),
         f"{page.name}.csv": page.table.csv().encode(),
     }
-
-
-def _check_own(directory: Path) -> None:
-    """Refuse a summary.md that is not this verb's, and what cannot be written over."""
-    for name in FILES:
-        check_output(directory / name)
-    summary = directory / "summary.md"
-    if summary.exists() and not summary.read_bytes().startswith(HEADING.encode()):
-        raise InvalidInput(f"{summary}: is not the article's own: choose another --output")

@@ -70,7 +70,7 @@ def fig12(inputs: Inputs, factors: Factors) -> Page:
 def _local(inputs: Inputs, factors: Factors, name: str, distance: float, printed: float) -> Page:
     scan, pressure = inputs.scans[0], PRESSURES[_MIDDLE]
     x, y, peaks = located(scan, distance)
-    own = cf(inputs, factors.zeta, AffineShift(peaks.shift_factor))[_MIDDLE]
+    own = cf(inputs, inputs.rubber, factors.zeta, AffineShift(peaks.shift_factor))[_MIDDLE]
     curves = {
         "pf_cf": factors.persson[_MIDDLE],
         "lp_cf_printed": factors.local[printed][_MIDDLE],

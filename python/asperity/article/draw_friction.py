@@ -8,7 +8,8 @@ import numpy as np
 
 from asperity._core import SelfAffineSpectrum
 from asperity.article import compounds
-from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, MAGNIFICATION, Q0, Inputs
+from asperity.article.affine import printed_eq12
+from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, Q0, Inputs
 from asperity.article.page import Page, asphalt_inputs, page, stacked
 from asperity.article.sliding import CUTOFFS, Sliding, of_asphalt
 from asperity.plot import COLOURS, new_figure
@@ -116,7 +117,7 @@ def table1(inputs: Inputs, sliding: Sliding) -> Page:
     """Table 1 as printed, and what follows from it."""
     from matplotlib.transforms import Bbox
 
-    rows = [*_printed(), *_following(inputs, sliding)]
+    rows = [*_printed(inputs.asphalt), *_following(inputs, sliding)]
     figure, (axes,) = new_figure(1)
     figure.set_size_inches(8.4, 0.27 * len(rows) + 0.6)
     axes.set_axis_off()
@@ -155,13 +156,13 @@ def _given(inputs: Inputs) -> dict[str, Any]:
     }
 
 
-def _printed() -> list[_Row]:
+def _printed(road: SelfAffineSpectrum) -> list[_Row]:
     given = "Table 1"
     return [
-        ("Hurst exponent", "$H$", 0.87, "-", given),
-        ("rms height", "$h_0$", 265.7, "µm", given),
-        ("lower cut-off", "$q_0$", Q0, "1/m", given),
-        ("upper cut-off", "$q_{max}$", MAGNIFICATION * Q0, "1/m", given),
+        ("Hurst exponent", "$H$", road.hurst, "-", given),
+        ("rms height", "$h_0$", 1e6 * road.rms_height, "µm", given),
+        ("lower cut-off", "$q_0$", road.q0, "1/m", given),
+        ("upper cut-off", "$q_{max}$", road.q1, "1/m", given),
         ("width of the adhesion", "$c$", ADHESION.width, "-", given),
         ("velocity of the adhesion", "$v_0$", 1e3 * ADHESION.reference_velocity, "mm/s", given),
         ("shear stress", r"$\tau_{f0}$", ADHESION.shear_stress / 1e6, "MPa", given),
@@ -171,11 +172,9 @@ def _printed() -> list[_Row]:
 
 def _following(inputs: Inputs, sliding: Sliding) -> list[_Row]:
     road, igw = inputs.asphalt, of_asphalt(inputs, "implicit")
-    printed = SelfAffineSpectrum.from_article(
-        h0=road.rms_height, hurst=road.hurst, q0=road.q0, q1=road.q1
-    )
+    printed = printed_eq12(road)
     rows: list[_Row] = [
-        ("rms slope to 500 q0", "$h'$", road.rms_slope, "-", "Table 1"),
+        (f"rms slope to {CUTOFFS[0]}", "$h'$", road.rms_slope, "-", "Table 1"),
         ("q1 at rms slope 1.3", "$q_1/q_0$", road.cutoff_for_slope() / Q0, "-", "rule of Sec. 4"),
         ("spectrum at q0, rms height h0", "$C(q_0)$", float(road.at(Q0)), "m$^4$", "Parseval"),
         ("spectrum at q0, Eq. 12 as printed", "$C(q_0)$", float(printed.at(Q0)), "m$^4$", "Eq. 12"),

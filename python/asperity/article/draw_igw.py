@@ -4,9 +4,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.article.igw import Readings, Shifts
 from asperity.article.inputs import Inputs
 from asperity.article.page import Page, page, sandpaper_inputs, stacked, tuned_inputs
+from asperity.article.readings import READINGS
+from asperity.article.shifts import Readings, Shifts
 from asperity.plot import COLOURS, new_figure
 
 if TYPE_CHECKING:
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
 def fig13(inputs: Inputs, readings: Readings) -> Page:
     """Over pressure, a colour a velocity."""
     figure, panels = new_figure(4)
-    for row, (name, curves) in enumerate(readings.over_pressure.items()):
+    for row, name in enumerate(READINGS):
+        curves = readings.over_pressure[name]
         left, right = panels[2 * row : 2 * row + 2]
         for k, v in enumerate(curves.velocity):
             x, label = curves.pressure / 1e6, f"{v:g} m/s"
@@ -32,7 +34,8 @@ def fig13(inputs: Inputs, readings: Readings) -> Page:
 def fig14(inputs: Inputs, readings: Readings) -> Page:
     """Over velocity, a colour a pressure."""
     figure, panels = new_figure(4)
-    for row, (name, curves) in enumerate(readings.over_velocity.items()):
+    for row, name in enumerate(READINGS):
+        curves = readings.over_velocity[name]
         left, right = panels[2 * row : 2 * row + 2]
         for k, pressure in enumerate(curves.pressure):
             label = f"{pressure / 1e6:g} MPa"
@@ -96,6 +99,7 @@ def _columns(curves: dict[str, Shifts]) -> dict[str, list[Any]]:
                 "separation_m": c.effective.ravel(),
                 "shift_factor": c.shift_factor.ravel(),
             }
-            for name, c in curves.items()
+            for name in READINGS
+            for c in (curves[name],)
         ]
     )

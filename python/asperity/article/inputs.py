@@ -16,7 +16,7 @@ from asperity._core import (
     synthesize,
 )
 from asperity.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
-from asperity.article.readings import READINGS, Implied, implied
+from asperity.article.readings import READINGS, Implied, Reading, implied
 
 Q0 = 2000.0  # 1/m, of both surfaces (Fig. 7, Table 1)
 LAMBDA0 = 2 * math.pi / Q0
@@ -27,8 +27,9 @@ VELOCITY = 0.1  # m/s, of Figs 10 to 12
 ASPHALT_PRESSURE = 81e3  # Pa (Table 1)
 ADHESION = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3, width=0.1)  # Table 1
 
-# Square scans of 16 x 16 lambda0. The skewness of the abraded sandpaper is not published: with this
-# one z_max and z_min of the scans lie between those that the printed p_T ask for in either reading.
+# Square scans of 16 x 16 lambda0. The skewness of the abraded sandpaper is not published: this one
+# was chosen knowing the printed p_T, so that z_max and z_min of the scans lie between those that
+# either reading asks for. So statements are put to scans without skewness too.
 SIDE = 16  # lambda0
 PIXELS = 1024
 PIXEL_SIZE = SIDE * LAMBDA0 / PIXELS
@@ -36,15 +37,24 @@ SKEWNESS = -0.3
 SEEDS = (1, 2, 3, 4, 5, 6)
 
 
+UNTUNED = "untuned"
+
+
 @dataclass(frozen=True, eq=False)
-class Tuned:
-    """Compound A moved along the frequency axis until a reading gives the printed p_T."""
+class Model:
+    """Compound A, and the improved Greenwood-Williamson model on the sandpaper."""
+
+    rubber: PronySeries
+    correction: GreenwoodWilliamson
+
+
+@dataclass(frozen=True, eq=False)
+class Tuned(Model):
+    """A moved along the frequency axis until a reading gives the printed p_T, with its heights."""
 
     implied: Implied
     decades: float  # log10 of the factor on the relaxation times
     temperature: float  # [C] at which the surrogate would be as stiff, by WLF
-    rubber: PronySeries
-    correction: GreenwoodWilliamson
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +69,19 @@ class Inputs:
     compound_a: PronySeries  # at room temperature, not tuned
     compound_b: PronySeries
     tuned: Mapping[str, Tuned]  # by reading
+    untuned: Mapping[str, Model]  # by reading; A as it is, heights of the scans without skewness
+
+    @property
+    def models(self) -> dict[str, Model]:
+        """Tuned and untuned, in either reading."""
+        bare = {f"{UNTUNED}, {reading}": model for reading, model in self.untuned.items()}
+        return {**self.tuned, **bare}
+
+    @property
+    def compounds(self) -> dict[str, PronySeries]:
+        """Compound A as tuned to either reading, and untuned."""
+        tuned = {reading: model.rubber for reading, model in self.tuned.items()}
+        return {**tuned, UNTUNED: self.compound_a}
 
     @property
     def rubber(self) -> PronySeries:
@@ -67,15 +90,16 @@ class Inputs:
 
 
 def prepare(seeds: Sequence[int] = SEEDS) -> Inputs:
-    """Everything that is computed once: half a minute of figures and statements starts here."""
+    """Surfaces, a scan a seed of each, and compound A with the model's heights, tuned and not."""
     sandpaper = SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=Q0, q1=MAGNIFICATION * Q0)
     asphalt = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=Q0, q1=MAGNIFICATION * Q0)
     compound_a = compound(T_G["A"])
+    gaussian_scans = [_scan(sandpaper, seed, 0.0) for seed in seeds]
     return Inputs(
         sandpaper=sandpaper,
         asphalt=asphalt,
         scans=[_scan(sandpaper, seed, SKEWNESS) for seed in seeds],
-        gaussian_scans=[_scan(sandpaper, seed, 0.0) for seed in seeds],
+        gaussian_scans=gaussian_scans,
         asphalt_scans=[_scan(asphalt, seed, 0.0) for seed in seeds],
         compound_a=compound_a,
         compound_b=compound(T_G["B"]),
@@ -83,6 +107,21 @@ def prepare(seeds: Sequence[int] = SEEDS) -> Inputs:
             reading: tune(compound_a, implied(reading, sandpaper.rms_height, Q0))
             for reading in READINGS
         },
+        untuned={
+            reading: Model(compound_a, heights_of(gaussian_scans, reading)) for reading in READINGS
+        },
+    )
+
+
+def heights_of(
+    scans: Sequence[HeightMap], reading: Reading, rms_height: float | None = None
+) -> GreenwoodWilliamson:
+    """The model with the mean extremes of scans; the rms height is the spectrum's unless given."""
+    return GreenwoodWilliamson(
+        z_max=float(np.mean([scan.z_max for scan in scans])),
+        z_min=float(np.mean([scan.z_min for scan in scans])),
+        reading=reading,
+        rms_height=rms_height,
     )
 
 

@@ -7,12 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Friction, GreenwoodWilliamson, SFactor, friction
-from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, Inputs
+from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, MAGNIFICATION, Inputs, heights_of
 from asperity.article.readings import READINGS, Reading
 from asperity.parts import Correction
 
 _Array = NDArray[np.float64]
-CUTOFFS = ("500 q0", "rms slope 1.3")  # the article's q1, and that of the rule it cites
+# The article's q1, and that of the rule it cites.
+CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +55,4 @@ def compute(inputs: Inputs) -> Sliding:
 
 def of_asphalt(inputs: Inputs, reading: Reading) -> GreenwoodWilliamson:
     """IGW with the mean extremes of the synthetic scans and all of the published rms height."""
-    return GreenwoodWilliamson(
-        z_max=float(np.mean([scan.z_max for scan in inputs.asphalt_scans])),
-        z_min=float(np.mean([scan.z_min for scan in inputs.asphalt_scans])),
-        reading=reading,
-        rms_height=inputs.asphalt.rms_height,
-    )
+    return heights_of(inputs.asphalt_scans, reading, inputs.asphalt.rms_height)

@@ -1,19 +1,17 @@
 """The scene that ships with the package: rubber on a synthetic asphalt scan."""
 
 import io
-import os
 from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, SelfAffineSpectrum, synthesize
-from asperity.table import check_output, check_writable
+from asperity._core import SelfAffineSpectrum, synthesize
+from asperity.directory import Mark, check_own_directory, table_of
 
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)
-FILES = ("scan.npy", "scene.toml", "friction.csv", "friction.png")  # what `asperity demo` leaves
 
 
 def scan() -> NDArray[np.float32]:
@@ -50,30 +48,21 @@ def check_directory(directory: Path) -> None:
     InvalidInput
         If it cannot be written, or holds files of the demo's names that the demo did not write.
     """
-    existing = check_writable(directory)
-    try:
-        foreign = ", ".join(_foreign(directory))
-    except OSError as error:
-        raise InvalidInput(f"{directory}: cannot be written: {error.strerror or error}") from error
-    if foreign:
-        raise InvalidInput(
-            f"{directory}: holds {foreign}, not the demo's own: choose another --output"
-        )
-    if existing == directory:
-        for name in FILES:
-            check_output(directory / name)
+    check_own_directory(directory, "the demo", _MARKS)
 
 
-def _foreign(directory: Path) -> list[str]:
-    """Files that the demo would overwrite though another wrote them."""
-    taken = [name for name in FILES if os.path.lexists(directory / name)]
-    scene = directory / "scene.toml"
-    if not scene.is_file() or scene.read_bytes() != scene_text().encode():
-        return taken
+def _is_scan(path: Path) -> bool:
     try:
-        shipped = np.load(directory / "scan.npy", mmap_mode="r")
-        return [] if (shipped.shape, shipped.dtype) == (SHAPE, np.float32) else ["scan.npy"]
-    except FileNotFoundError:
-        return []
+        found = np.load(path, mmap_mode="r")
     except (ValueError, EOFError):
-        return ["scan.npy"]
+        return False
+    return isinstance(found, np.ndarray) and (found.shape, found.dtype) == (SHAPE, np.float32)
+
+
+# A friction.csv alone may be another scene's.
+_MARKS: dict[str, list[Mark]] = {
+    "scan.npy": ["scene.toml", _is_scan],
+    "scene.toml": [lambda path: path.read_bytes() == scene_text().encode()],
+    "friction.csv": ["scene.toml", table_of("friction")],
+    "friction.png": ["friction.csv"],
+}

@@ -2,7 +2,7 @@
 
 import csv
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import as_file, files
 from pathlib import Path
@@ -87,6 +87,13 @@ def read_contacts(path: Path) -> list[Contact]:
 def _contact(line: int, row: Mapping[str, str | None]) -> Contact:
     try:
         values = {name: _value(name, row[name]) for name in _NUMBERS}
+        if values["A_over_A0_corrected"] > 1:
+            raise InvalidInput(
+                f"A_over_A0_corrected = {row['A_over_A0_corrected']}: must be at most 1"
+            )
+        for name in ("peak_mean_lambda0", "peak_mean_half_lambda0"):
+            if values[name] >= values["z_max"]:
+                raise InvalidInput(f"{name} = {row[name]}: must be below z_max = {row['z_max']}")
         spectrum = SelfAffineSpectrum(
             rms_height=values["h_rms"], hurst=values["H"], q0=values["q0"], q1=values["q1"]
         )
@@ -121,11 +128,3 @@ def _value(name: str, text: str | None) -> float:
     if not math.isfinite(value) or sign * value <= 0:
         raise InvalidInput(f"{name} = {text or 'nothing'}: must be {allowed} and finite")
     return value
-
-
-def cases(contacts: Sequence[Contact]) -> list[list[Contact]]:
-    """Contacts of one map together, by rising load."""
-    maps: dict[str, list[Contact]] = {}
-    for contact in contacts:
-        maps.setdefault(contact.case, []).append(contact)
-    return [sorted(group, key=lambda contact: contact.load) for group in maps.values()]

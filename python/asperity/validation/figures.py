@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Sequence
+from itertools import cycle
 from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING
 
-from asperity.plot import COLOURS, new_figure, picture, shades
+from asperity.plot import COLOURS, new_figure, picture
+from asperity.plot import colours as colours_for
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,
@@ -36,21 +38,22 @@ def error_figure(
     contacts = [prediction.contact for prediction in predictions[0]]
     bands = sorted({contact.band for contact in contacts})
     exponents = sorted({contact.hurst for contact in contacts}, key=str)
+    colours = colours_for(len(bands))
     for axes, found in zip(panels, predictions, strict=False):
         axes.axhline(0, color="0.4", linewidth=0.8)
         for i, band in enumerate(bands):
-            colour = shades()(i / max(len(bands) - 1, 1))
-            for hurst, mark in zip(exponents, _MARKS, strict=False):
-                _draw_errors(axes, found, band, hurst, quantity, colour, mark)
+            for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
+                _draw_errors(axes, found, band, hurst, quantity, colours[i], mark)
         axes.set_title(shown(found[0].model), fontsize="medium")
         axes.tick_params(which="both", direction="in", top=True, right=True)
     for axes in panels[len(predictions) :]:
         axes.set_axis_off()
+    for axes in panels[len(predictions) - columns : len(predictions)]:  # nothing below them
+        axes.tick_params(labelbottom=True)
     legend = panels[len(predictions)]
     for i, band in enumerate(bands):
-        colour = shades()(i / max(len(bands) - 1, 1))
-        legend.plot([], [], color=colour, linewidth=3, label=f"$q_1/q_0$ = {band:g}")
-    for hurst, mark in zip(exponents, _MARKS, strict=False):
+        legend.plot([], [], "s", color=colours[i], markersize=5, label=f"$q_1/q_0$ = {band:g}")
+    for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
         if hurst is not None:
             legend.plot([], [], mark, color="0.3", markersize=4, label=f"$H$ = {hurst:g}")
     legend.legend(loc="center", fontsize="small", ncols=2, frameon=False)
@@ -62,7 +65,9 @@ def error_figure(
     panels[0].set_ylim(-120, max(120, 130 * largest))
     figure.supxlabel(_LOAD, fontsize="medium")
     name = "contact area" if quantity == "area" else "elastic energy"
-    figure.supylabel(f"Error of the {name} against boundary elements [%]", fontsize="medium")
+    figure.supylabel(
+        f"Error of the {name} against boundary elements [%], linear to 10", fontsize="medium"
+    )
     return picture(figure, path)
 
 

@@ -43,6 +43,7 @@ class Model:
     """A correction by the name that tables and pictures give it, as made for a contact."""
 
     name: str
+    call: str  # how it is made
     correction: Callable[[Contact], Correction]
     asperities: bool = False  # needs the macro-asperities' wavenumber
 
@@ -69,19 +70,52 @@ def _both(distance: str) -> Callable[[Contact], Correction]:
 
 
 MODELS = (
-    Model("none", lambda _: None),
-    Model("S in Eq. 22, 0.40", lambda _: SFactor(gamma=0.4)),
-    Model("S in Eq. 22, 0.50", lambda _: SFactor(gamma=0.5)),
-    Model("S in G, 0.50", lambda _: SFactor(gamma=0.5, applies_to="area")),
-    Model("S in G, 5/9", lambda _: SFactor(gamma=5 / 9, applies_to="area")),
-    Model("Nayak S", lambda _: NayakSFactor()),
-    Model("shift 1.5", lambda _: AffineShift(1.5)),
-    Model("shift 2", lambda _: AffineShift(2)),
-    Model("peaks, lambda0", _peaks("lambda0"), asperities=True),
-    Model("peaks, lambda0/2", _peaks("lambda0/2"), asperities=True),
-    Model("IGW implicit", _greenwood_williamson("implicit"), asperities=True),
-    Model("IGW added", _greenwood_williamson("added"), asperities=True),
-    Model("peaks, then IGW", _both("lambda0/2"), asperities=True),
+    Model("none", "None", lambda _: None),
+    Model("S in Eq. 22, 0.40", "SFactor(gamma=0.4)", lambda _: SFactor(gamma=0.4)),
+    Model("S in Eq. 22, 0.50", "SFactor(gamma=0.5)", lambda _: SFactor(gamma=0.5)),
+    Model(
+        "S in G, 0.50",
+        'SFactor(gamma=0.5, applies_to="area")',
+        lambda _: SFactor(gamma=0.5, applies_to="area"),
+    ),
+    Model(
+        "S in G, 5/9",
+        'SFactor(gamma=5/9, applies_to="area")',
+        lambda _: SFactor(gamma=5 / 9, applies_to="area"),
+    ),
+    Model("Nayak S", "NayakSFactor()", lambda _: NayakSFactor()),
+    Model("shift 1.5", "AffineShift(1.5)", lambda _: AffineShift(1.5)),
+    Model("shift 2", "AffineShift(2)", lambda _: AffineShift(2)),
+    Model(
+        "peaks, lambda0",
+        "LocalPeaks(map, min_distance=lambda0)",
+        _peaks("lambda0"),
+        asperities=True,
+    ),
+    Model(
+        "peaks, lambda0/2",
+        "LocalPeaks(map, min_distance=lambda0/2)",
+        _peaks("lambda0/2"),
+        asperities=True,
+    ),
+    Model(
+        "IGW implicit",
+        "GreenwoodWilliamson(...)",
+        _greenwood_williamson("implicit"),
+        asperities=True,
+    ),
+    Model(
+        "IGW added",
+        'GreenwoodWilliamson(..., reading="added")',
+        _greenwood_williamson("added"),
+        asperities=True,
+    ),
+    Model(
+        "peaks, then IGW",
+        "PeaksThenGreenwoodWilliamson(map, min_distance=lambda0/2)",
+        _both("lambda0/2"),
+        asperities=True,
+    ),
 )
 
 
@@ -91,6 +125,7 @@ class Prediction:
 
     contact: Contact
     model: str
+    call: str
     shift: float  # p_T, infinite without contact
     area: float
     energy: float  # [J/m^2]
@@ -128,6 +163,7 @@ def predict(contact: Contact, model: Model) -> Prediction:
     return Prediction(
         contact,
         model.name,
+        model.call,
         shift=float(found.shift_factor),
         area=float(found.contact_area),
         energy=energy(contact, correction),
@@ -181,7 +217,10 @@ def _nodes(
 
 
 def needed_shift(contact: Contact) -> float:
-    """The p_T with which Persson's area is the exact one: erf(p_T sqrt(2) p*) = A/A0."""
+    """The p_T with which Persson's area is the exact one: erf(p_T sqrt(2) p*) = A/A0; NaN where the
+    contact is full, which every p_T gives."""
+    if contact.area >= 1:
+        return math.nan
     erfinv = NormalDist().inv_cdf((1 + contact.area) / 2) / math.sqrt(2)
     return erfinv / (math.sqrt(2) * contact.load)
 

@@ -5,6 +5,8 @@ from typing import Any
 
 from asperity.validation.predictions import Prediction, Quantity
 
+TITLE = "# What each correction is worth"
+
 
 def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[Any]]:
     """Columns of a table, a row a model and contact."""
@@ -30,19 +32,34 @@ def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
     contacts = [prediction.contact for prediction in predictions[0]]
     loads = sorted(contact.load for contact in contacts)
     text = [
-        "# What each correction is worth",
+        TITLE,
         "",
         f"Relative errors in % against {len(contacts)} boundary-element contacts (elastic, without "
         f"friction or adhesion), p* = p / (E* h') from {loads[0]:.3g} to {loads[-1]:.3g}.",
         "",
     ]
     quantities: tuple[tuple[Quantity, str], ...] = (
-        ("area", "Contact area"),
+        ("area", "Contact area, which sets the adhesion"),
         ("energy", "Elastic energy, which the friction integrand weighs"),
     )
     for quantity, title in quantities:
+        best = min(predictions, key=lambda found: _mean(found, quantity))
         text += [f"## {title}", "", *_table(predictions, quantity), ""]
+        text += ["Mean signed error by load p*:", "", *_by_load(predictions, quantity), ""]
+        text += [f"Least mean error: {best[0].model}, {_mean(best, quantity):.1f} %.", ""]
+    text += ["| name | in Python |", "| --- | --- |"]
+    text += [f"| {found[0].model} | `{found[0].call}` |" for found in predictions]
+    text += [
+        "",
+        "S in Eq. 22: on the friction integrand, with the uncorrected area. S in G: inside G, "
+        "self-consistently. lambda0 = 2 pi / q0. In brackets: how many contacts.",
+        "",
+    ]
     return "\n".join(text)
+
+
+def _mean(found: Sequence[Prediction], quantity: Quantity) -> float:
+    return 100 * sum(abs(p.error(quantity)) for p in found) / len(found)
 
 
 def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> list[str]:
@@ -58,10 +75,23 @@ def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> l
     lines = ["| correction | mean | worst |" + head, "| --- " * (len(names) + 3) + "|"]
     for found in predictions:
         errors = [100 * p.error(quantity) for p in found]
-        mean = sum(map(abs, errors)) / len(errors)
         worst = [max((errors[i] for i in groups[name]), key=abs) for name in ("", *names)]
         cells = "".join(f" {error:+.1f} |" for error in worst)
-        lines.append(f"| {found[0].model} | {mean:.1f} |{cells}")
+        lines.append(f"| {found[0].model} | {_mean(found, quantity):.1f} |{cells}")
+    return lines
+
+
+def _by_load(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> list[str]:
+    loads: dict[float, list[int]] = {}
+    for i, prediction in enumerate(predictions[0]):
+        loads.setdefault(float(f"{prediction.contact.load:.3g}"), []).append(i)
+    ordered = sorted(loads)
+    head = "".join(f" {load:g} ({len(loads[load])}) |" for load in ordered)
+    lines = ["| correction |" + head, "| --- " * (len(ordered) + 1) + "|"]
+    for found in predictions:
+        errors = [100 * p.error(quantity) for p in found]
+        means = [sum(errors[i] for i in loads[load]) / len(loads[load]) for load in ordered]
+        lines.append(f"| {found[0].model} |" + "".join(f" {mean:+.1f} |" for mean in means))
     return lines
 
 
