@@ -92,7 +92,7 @@ void GaussPanels::fill(Panel& p) {
   const std::size_t n = rule.n;
   Nodes nodes;
   sample(p, p.upper, nodes);
-  double ratio[most];
+  double ratio[most] = {};
   const auto slopes = [&](const double* numerator, Panel::Row row, double& lower, double& upper) {
     for (std::size_t i = 0; i < n; ++i) ratio[i] = numerator[i] / nodes.i2[i];
     double* const result = &data_[p.data + row * n];
