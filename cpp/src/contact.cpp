@@ -114,7 +114,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
               factor = 0;
             } else if (s) {
               const double share = contact_share(g, model.form);
-              factor = (*s)(share)*share;
+              factor = share * (*s)(share);
             } else {
               factor = contact_share(area_g(g, model, surface, q[j]), model.form) / (shift.p * shift.p);
             }

@@ -38,7 +38,7 @@ def demo(args: Namespace) -> None:
         write_directory(Path(aside), files)
         scene = load_scene(Path(aside) / "scene.toml")
     scene = replace(scene, path=directory / "scene.toml")
-    table, curves = _friction_table([scene], bands=False)
+    table, curves = _friction_table([scene], bands=True)
     files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None

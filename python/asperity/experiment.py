@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import AdhesionFit, InvalidInput, NotConverged, fit_adhesion
+from asperity.draws import Generator
+from asperity.kinds import Rubber, Spectrum
 from asperity.read_friction import MeasuredFriction
 from asperity.scene import Curves, Progress, Scene
-from asperity.uncertainty import Generator, Rubber, Spectrum
 
 # arguments of Adhesion by the names that files give them
 PARAMETERS = {

@@ -28,19 +28,10 @@ from asperity.fields import (
     require,
     text,
 )
+from asperity.kinds import Correction, Spectrum
 from asperity.scan import Scan
-from asperity.uncertainty import Spectrum
 
 Values = dict[str, Any]
-Correction = (
-    SFactor
-    | NayakSFactor
-    | AffineShift
-    | LocalPeaks
-    | GreenwoodWilliamson
-    | PeaksThenGreenwoodWilliamson
-)
-
 _KIND = {"kind": Field(text)}
 _PEAKS = {
     **_KIND,

@@ -240,6 +240,17 @@ def lines(path: Path) -> Iterator[tuple[int, list[str]]]:
             yield number, text.split(separator)
 
 
+def filled_lines(path: Path) -> list[tuple[int, list[str]]]:
+    """`lines` without blank ones, of a file that is named where it cannot be read."""
+    try:
+        check_file(path)
+        return [(number, cells) for number, cells in lines(path) if cells]
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
+
+
 def cell(text: str) -> float:
     """The number in a cell of a table; NaN in an empty one."""
     text = text.strip()

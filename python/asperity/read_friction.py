@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.instrument import brief
-from asperity.read import cell, check_file, lines
+from asperity.read import cell, filled_lines
 
 # by the name of the column, which carries the unit
 _COLUMNS = {
@@ -49,13 +49,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         Naming file and line: no column of a known unit, a cell that is no positive number.
     """
     path = Path(path)
-    try:
-        check_file(path)
-        table = [(number, cells) for number, cells in lines(path) if cells]
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+    table = filled_lines(path)
     if len(table) < 2:
         raise InvalidInput(
             f"{path}: has {max(0, len(table) - 1)} rows below its header: must have 1 or more"

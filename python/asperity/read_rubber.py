@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, MasterCurve
 from asperity.instrument import brief
-from asperity.read import cell, check_file, lines
+from asperity.read import cell, filled_lines
 
 _MASTER_CURVE = ["angular_frequency_rad_s", "storage_modulus_pa", "loss_modulus_pa"]
 
@@ -16,13 +16,7 @@ def read_master_curve(
     path: Path, extrapolation: Literal["power-law", "clamp"] | None
 ) -> MasterCurve:
     """Master curve from a CSV file with a header line that names its three columns."""
-    try:
-        check_file(path)
-        table = [(number, cells) for number, cells in lines(path) if cells]
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+    table = filled_lines(path)
     header = ",".join(_MASTER_CURVE)
     if not table or [name.strip() for name in table[0][1]] != _MASTER_CURVE:
         found = brief(",".join(table[0][1])) if table else "nothing"

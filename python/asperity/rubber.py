@@ -1,5 +1,6 @@
 """Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,10 +10,13 @@ from asperity._core import (
     InvalidInput,
     MasterCurve,
     MasterCurveBuild,
+    PronyFit,
     PronySeries,
     ShiftFactors,
     build_master_curve,
+    fit_prony,
 )
+from asperity.draws import Drawn, Generator, draw_build
 from asperity.fields import (
     Field,
     arguments,
@@ -29,9 +33,9 @@ from asperity.fields import (
     texts,
     truth,
 )
+from asperity.kinds import Rubber
 from asperity.read_dma import read_isotherms, read_shift_factors
 from asperity.read_rubber import read_master_curve
-from asperity.uncertainty import DrawRubber, Generator, Rubber, draw_build, quiet_prony
 
 Values = dict[str, Any]
 
@@ -77,8 +81,8 @@ class BuiltRubber:
 
     rubber: Rubber
     values: Values  # the table as it was used
-    notes: Sequence[str] = ()
-    draw: DrawRubber | None = None  # one as its standard errors would have it, where they are known
+    notes: Sequence[str]
+    drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
 
 
 def build_rubber(path: Path, table: object) -> BuiltRubber:
@@ -109,9 +113,13 @@ def build_rubber(path: Path, table: object) -> BuiltRubber:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:
                 refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
-        return BuiltRubber(rubber, values)
+        return _without_errors(rubber, values)
     require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
-    return BuiltRubber(rubber.shifted(_shift_factor(path, shifts, values)), values)
+    return _without_errors(rubber.shifted(_shift_factor(path, shifts, values)), values)
+
+
+def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
+    return BuiltRubber(rubber, values, (), Drawn[Rubber](rubber))
 
 
 def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
@@ -134,7 +142,7 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     def draw(rng: Generator) -> Rubber:
         return _at_temperature(path, values, draw_build(build, rng))[0]
 
-    return BuiltRubber(rubber, values, [*build.notes, *notes], draw)
+    return BuiltRubber(rubber, values, [*build.notes, *notes], Drawn[Rubber](rubber, draw))
 
 
 def _at_temperature(
@@ -180,3 +188,10 @@ def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: V
         if not 0 < a_t < float("inf"):
             raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
         return a_t
+
+
+def quiet_prony(curve: MasterCurve | MasterCurveBuild) -> PronyFit:
+    """A Prony fit whose warning is left to the reader of its notes."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        return fit_prony(curve)

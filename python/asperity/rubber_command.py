@@ -1,6 +1,5 @@
 """The verb `rubber`: DMA sweeps to a master curve, shift factors and a Prony series."""
 
-import warnings
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
@@ -15,11 +14,11 @@ from asperity._core import (
     PronyFit,
     WlfFit,
     build_master_curve,
-    fit_prony,
 )
 from asperity.commands import check_outputs, deliver, spare
 from asperity.fields import named
 from asperity.read_dma import read_isotherms, read_shift_factors
+from asperity.rubber import quiet_prony
 from asperity.table import Table
 
 _FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for
@@ -106,9 +105,7 @@ def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list
     except (InvalidInput, NotConverged) as error:
         notes.append(f"no WLF fit: {error}")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # it is among the notes
-            prony = fit_prony(build)
+        prony = quiet_prony(build)
         notes += prony.notes
     except (InvalidInput, NotConverged) as error:
         notes.append(f"no Prony fit: {error}")

@@ -36,14 +36,11 @@ from asperity.fields import (
     sweep,
     text,
 )
-from asperity.parts import (
-    Correction,
-    build_adhesion,
-    build_correction,
-)
+from asperity.kinds import Correction, Rubber, Spectrum
+from asperity.parts import build_adhesion, build_correction
 from asperity.rubber import BuiltRubber, build_rubber
 from asperity.surface import Surface, build_surface
-from asperity.uncertainty import DrawAdhesion, Drawn, Rubber, Spectrum, coarse, swept_band
+from asperity.uncertainty import DrawAdhesion, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
@@ -148,7 +145,7 @@ class Scene:
     @property
     def has_measured_errors(self) -> bool:
         """Whether those of the surface or of the rubber are."""
-        return self.surface.draw is not None or self.built_rubber.draw is not None
+        return self.surface.drawn.draw is not None or self.built_rubber.drawn.draw is not None
 
     def band(
         self,
@@ -159,8 +156,8 @@ class Scene:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
         with named(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             lower, upper = swept_band(
-                Drawn(coarse(self.spectrum), self.surface.draw),
-                Drawn(self.rubber, self.built_rubber.draw),
+                self.surface.drawn,
+                self.built_rubber.drawn,
                 self.adhesion,
                 self.pressure,
                 self.velocity,
@@ -266,7 +263,7 @@ def load_scene(path: str | Path) -> Scene:
     if "uncertainty" in tables:
         sampling |= read_table(path, "uncertainty", tables["uncertainty"], _UNCERTAINTY)
         inputs["uncertainty"] = sampling
-        if surface.draw is None and rubber.draw is None:
+        if surface.drawn.draw is None and rubber.drawn.draw is None:
             problem = (
                 "no standard errors are known: the surface must be a file, or the rubber isotherms"
             )

@@ -14,6 +14,7 @@ from asperity._core import (
     TabulatedSpectrum,
     fit_self_affine,
 )
+from asperity.draws import Drawn, Generator, draw_fit, drawn_spectrum
 from asperity.fields import (
     Field,
     arguments,
@@ -28,15 +29,8 @@ from asperity.fields import (
     require,
     text,
 )
+from asperity.kinds import Spectrum
 from asperity.scan import Scan, nyquist, read_filled, surface_spectrum
-from asperity.uncertainty import (
-    DrawSpectrum,
-    Generator,
-    Spectrum,
-    draw_fit,
-    draw_spectrum,
-    has_errors,
-)
 
 Values = dict[str, Any]
 
@@ -79,9 +73,7 @@ class Surface:
     values: Values  # the table with its defaults
     derived: Values
     notes: Sequence[str]
-    draw: (
-        DrawSpectrum | None
-    )  # a spectrum as its standard errors would have it, where they are known
+    drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
 
 
 def build_surface(path: Path, table: object) -> Surface:
@@ -120,14 +112,12 @@ def build_surface(path: Path, table: object) -> Surface:
         "rms_slope": spectrum.rms_slope,
     }
     notes = _slope_notes(spectrum, values)
-    draw: DrawSpectrum | None = None
+    drawn = drawn_spectrum(spectrum)
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
         notes += _fit_notes(fit, spectrum)
-        draw = partial(_draw_fit, fit, spectrum.q0, spectrum.q1)
-    elif has_errors(spectrum):
-        draw = partial(draw_spectrum, spectrum)
-    return Surface(spectrum, scan, values, derived, notes, draw)
+        drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
+    return Surface(spectrum, scan, values, derived, notes, drawn)
 
 
 def _read_scan(path: Path, values: Values, derived: Values) -> Scan:

@@ -91,40 +91,21 @@ SEAMS = {
     "threads",
 }
 # Modules of the Python package, from the lowest to the highest: an import points down.
-LAYERS = ["_core", "fields", "table", "directory", "instrument", "read", "read_rubber", "read_dma"]
-LAYERS += [
-    "read_friction",
-    "scan",
-    "uncertainty",
-    "__init__",
-    "demo",
-    "surface",
-    "parts",
-    "rubber",
-    "scene",
-]
-LAYERS += ["plot", "plot_surface", "plot_rubber", "experiment", "plot_fit"]
-LAYERS += ["commands", "rubber_command", "fit_command"]
-LAYERS += ["validation.boundary_elements", "validation.contacts", "validation.predictions"]
-LAYERS += [
-    "validation.figures",
-    "validation.summary",
-    "validation.own",
-    "validation.command",
-    "validation",
-]
-LAYERS += ["article"]
-LAYERS += [
-    f"article.{name}"
-    for name in (
-        *("compounds", "readings", "inputs", "statement", "page", "surfaces", "affine", "peaks"),
-        *("persson", "shifts", "asperities", "factors", "matches", "igw", "printed"),
-        *("sliding", "friction"),
-        *("draw_surfaces", "draw_scales", "draw_factors", "draw_igw", "draw_friction"),
-        *("summary", "command"),
-    )
-]
-LAYERS += ["options", "verbs", "cli", "__main__"]
+LAYERS = ["_core", "kinds", "fields", "table", "directory", "instrument", "read"]
+LAYERS += ["read_rubber", "read_dma", "read_friction", "scan", "draws", "uncertainty"]
+LAYERS += ["__init__", "demo", "surface", "parts", "rubber", "scene", "plot"]
+LAYERS += ["plot_surface", "plot_rubber", "experiment", "plot_fit", "commands"]
+LAYERS += ["rubber_command", "fit_command", "validation.boundary_elements"]
+LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
+LAYERS += ["validation.summary", "validation.own", "validation.command", "validation"]
+LAYERS += ["article", "article.compounds", "article.readings", "article.inputs"]
+LAYERS += ["article.statement", "article.page", "article.surfaces", "article.affine"]
+LAYERS += ["article.peaks", "article.persson", "article.shifts", "article.asperities"]
+LAYERS += ["article.factors", "article.matches", "article.igw", "article.printed"]
+LAYERS += ["article.sliding", "article.friction", "article.draw_surfaces"]
+LAYERS += ["article.draw_scales", "article.draw_factors", "article.draw_igw"]
+LAYERS += ["article.draw_friction", "article.summary", "article.command", "options"]
+LAYERS += ["verbs", "cli", "__main__"]
 
 
 def includes(path):

@@ -209,6 +209,13 @@ def test_needed_shifts_give_the_exact_area_and_energy(index):
         assert energy(contact, asperity.AffineShift(p)) == pytest.approx(contact.energy, rel=3e-4)
 
 
+def test_a_shift_beyond_any_of_the_rows_is_found_too():
+    """At light loads the energy goes as 1 / p_T, so that any p_T can be asked for."""
+    contact = CONTACTS[0]
+    tenth = dataclasses.replace(contact, energy=energy(contact, asperity.AffineShift(25)))
+    assert needed_shift_for_energy(tenth) == pytest.approx(25, rel=3e-4)
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     pytest.importorskip("matplotlib", reason="its pictures need asperity[plot]")

@@ -27,7 +27,7 @@ from asperity.article.statement import (
     despite_tuning,
     percent,
 )
-from asperity.parts import Correction
+from asperity.kinds import Correction
 
 _Array = NDArray[np.float64]
 GAMMA = 0.5

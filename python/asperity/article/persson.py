@@ -25,7 +25,7 @@ from asperity.article.statement import (
     percent,
     unchecked,
 )
-from asperity.parts import Correction
+from asperity.kinds import Correction
 
 _Array = NDArray[np.float64]
 _ZETA = (1.1, 2.0, 10.0, 100.0, MAGNIFICATION)

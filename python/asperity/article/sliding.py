@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from asperity._core import Friction, GreenwoodWilliamson, SFactor, friction
 from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, MAGNIFICATION, Inputs, heights_of
 from asperity.article.readings import READINGS, Reading
-from asperity.parts import Correction
+from asperity.kinds import Correction
 
 _Array = NDArray[np.float64]
 # The article's q1, and that of the rule it cites.

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from importlib.resources import as_file, files
 from pathlib import Path
 
-from asperity._core import InvalidInput, SelfAffineSpectrum, TabulatedSpectrum
+from asperity._core import InvalidInput, SelfAffineSpectrum
+from asperity.kinds import Spectrum
 from asperity.read import cell, check_file
 
 _NUMBERS = (
@@ -26,7 +27,7 @@ class Contact:
     """
 
     case: str
-    spectrum: SelfAffineSpectrum | TabulatedSpectrum  # of the map's own rms slope
+    spectrum: Spectrum  # of the map's own rms slope
     hurst: float | None  # None of a measured surface
     q0: float | None  # [1/m] of the macro-asperities; None where nobody said
     rms_height: float  # [m]

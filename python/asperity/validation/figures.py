@@ -44,7 +44,7 @@ def error_figure(
         for i, band in enumerate(bands):
             for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
                 _draw_errors(axes, found, band, hurst, quantity, colours[i], mark)
-        axes.set_title(shown(found[0].model), fontsize="medium")
+        axes.set_title(shown(found[0].model.name), fontsize="medium")
         axes.tick_params(which="both", direction="in", top=True, right=True)
     for axes in panels[len(predictions) :]:
         axes.set_axis_off()
@@ -108,7 +108,7 @@ def shift_figure(
     it what the friction integrand makes of the energy."""
     figure, (left, right) = new_figure(2)
     figure.set_size_inches(12.5, 4.0)
-    by_name = {found[0].model: found for found in predictions}
+    by_name = {found[0].model.name: found for found in predictions}
 
     def draw(axes: "Axes", label: str, values: Sequence[float], colour: str, dashes: str) -> None:
         load, low, middle, high = _ranges(contacts, values)

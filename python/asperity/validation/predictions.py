@@ -16,24 +16,13 @@ from asperity._core import (
     NayakSFactor,
     PeaksThenGreenwoodWilliamson,
     PronySeries,
-    SelfAffineSpectrum,
     SFactor,
     TabulatedSpectrum,
     correction_factor,
     friction,
 )
+from asperity.kinds import Correction, Spectrum
 from asperity.validation.contacts import Contact
-
-Correction = (
-    SFactor
-    | NayakSFactor
-    | AffineShift
-    | LocalPeaks
-    | GreenwoodWilliamson
-    | PeaksThenGreenwoodWilliamson
-    | None
-)
-
 
 Quantity = Literal["area", "energy"]
 
@@ -44,16 +33,16 @@ class Model:
 
     name: str
     call: str  # how it is made
-    correction: Callable[[Contact], Correction]
+    correction: Callable[[Contact], Correction | None]
     asperities: bool = False  # needs the macro-asperities' wavenumber
 
 
-def _peaks(distance: str) -> Callable[[Contact], Correction]:
+def _peaks(distance: str) -> Callable[[Contact], Correction | None]:
     # only their mean enters Eq. 13
     return lambda c: LocalPeaks([c.peaks[distance]] * 3, z_max=c.z_max)
 
 
-def _greenwood_williamson(reading: str) -> Callable[[Contact], Correction]:
+def _greenwood_williamson(reading: str) -> Callable[[Contact], Correction | None]:
     return lambda c: GreenwoodWilliamson(
         z_max=c.z_max,
         z_min=c.z_min,
@@ -63,7 +52,7 @@ def _greenwood_williamson(reading: str) -> Callable[[Contact], Correction]:
     )
 
 
-def _both(distance: str) -> Callable[[Contact], Correction]:
+def _both(distance: str) -> Callable[[Contact], Correction | None]:
     return lambda c: PeaksThenGreenwoodWilliamson(
         [c.peaks[distance]] * 3, z_max=c.z_max, z_min=c.z_min, rms_height=c.rms_height, q0=c.q0
     )
@@ -124,8 +113,7 @@ class Prediction:
     """By one model for one contact; errors are relative."""
 
     contact: Contact
-    model: str
-    call: str
+    model: Model
     shift: float  # p_T, infinite without contact
     area: float
     energy: float  # [J/m^2]
@@ -162,8 +150,7 @@ def predict(contact: Contact, model: Model) -> Prediction:
     )
     return Prediction(
         contact,
-        model.name,
-        model.call,
+        model,
         shift=float(found.shift_factor),
         area=float(found.contact_area),
         energy=energy(contact, correction),
@@ -176,7 +163,7 @@ def _solid(contact: Contact) -> PronySeries:
     )
 
 
-def energy(contact: Contact, correction: Correction) -> float:
+def energy(contact: Contact, correction: Correction | None) -> float:
     """Elastic energy per area, (pi E* / 2) int q^2 C W dq [J/m^2].
 
     W is the weight of q^3 C in the integrand of Eq. 22, A/A0 times S or over p_T^2: with W = 1 the
@@ -198,9 +185,7 @@ def energy(contact: Contact, correction: Correction) -> float:
     return float(math.pi / 2 * contact.effective_modulus * total)
 
 
-def _nodes(
-    spectrum: SelfAffineSpectrum | TabulatedSpectrum,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _nodes(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Wavenumbers and weights of dq: Gauss points in ln q, in panels that are narrow near q0, where
     the contact breaks up, and end at the rows of a table."""
     length = math.log(spectrum.q1 / spectrum.q0)
@@ -227,9 +212,11 @@ def needed_shift(contact: Contact) -> float:
 
 def needed_shift_for_energy(contact: Contact) -> float:
     """The p_T with which the elastic energy is the exact one; NaN where that is below 1."""
-    low, high = 1.0, 10.0
     if energy(contact, None) < contact.energy:
         return math.nan
+    low, high = 1.0, 2.0
+    while energy(contact, AffineShift(high)) > contact.energy:
+        low, high = high, 2 * high
     while high / low > 1 + 1e-4:
         middle = math.sqrt(low * high)
         if energy(contact, AffineShift(middle)) > contact.energy:

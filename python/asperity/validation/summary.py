@@ -16,7 +16,7 @@ def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[An
         "hurst": ["" if p.contact.hurst is None else p.contact.hurst for p in flat],
         "q1_over_q0": [p.contact.band for p in flat],
         "p_over_Eh": [p.contact.load for p in flat],
-        "model": [p.model for p in flat],
+        "model": [p.model.name for p in flat],
         "shift_factor": [p.shift for p in flat],
         "contact_area": [p.area for p in flat],
         "contact_area_exact": [p.contact.area for p in flat],
@@ -46,9 +46,9 @@ def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
         best = min(predictions, key=lambda found: _mean(found, quantity))
         text += [f"## {title}", "", *_table(predictions, quantity), ""]
         text += ["Mean signed error by load p*:", "", *_by_load(predictions, quantity), ""]
-        text += [f"Least mean error: {best[0].model}, {_mean(best, quantity):.1f} %.", ""]
+        text += [f"Least mean error: {best[0].model.name}, {_mean(best, quantity):.1f} %.", ""]
     text += ["| name | in Python |", "| --- | --- |"]
-    text += [f"| {found[0].model} | `{found[0].call}` |" for found in predictions]
+    text += [f"| {found[0].model.name} | `{found[0].model.call}` |" for found in predictions]
     text += [
         "",
         "S in Eq. 22: on the friction integrand, with the uncorrected area. S in G: inside G, "
@@ -77,7 +77,7 @@ def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> l
         errors = [100 * p.error(quantity) for p in found]
         worst = [max((errors[i] for i in groups[name]), key=abs) for name in ("", *names)]
         cells = "".join(f" {error:+.1f} |" for error in worst)
-        lines.append(f"| {found[0].model} | {_mean(found, quantity):.1f} |{cells}")
+        lines.append(f"| {found[0].model.name} | {_mean(found, quantity):.1f} |{cells}")
     return lines
 
 
@@ -91,7 +91,7 @@ def _by_load(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) ->
     for found in predictions:
         errors = [100 * p.error(quantity) for p in found]
         means = [sum(errors[i] for i in loads[load]) / len(loads[load]) for load in ordered]
-        lines.append(f"| {found[0].model} |" + "".join(f" {mean:+.1f} |" for mean in means))
+        lines.append(f"| {found[0].model.name} |" + "".join(f" {mean:+.1f} |" for mean in means))
     return lines
 
 

@@ -1,0 +1,132 @@
+"""Measured inputs as their standard errors would have them, drawn at random."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from asperity._core import (
+    Adhesion,
+    AdhesionFit,
+    Isotherm,
+    MasterCurve,
+    MasterCurveBuild,
+    SelfAffineFit,
+    SelfAffineSpectrum,
+    TabulatedSpectrum,
+    build_master_curve,
+)
+from asperity.kinds import Rubber, Spectrum
+
+Generator = np.random.Generator
+Input = TypeVar("Input", Spectrum, Rubber)
+
+_ROWS_PER_DECADE = 10.0  # of a measured spectrum whose errors are carried through
+
+
+@dataclass(frozen=True)
+class Drawn(Generic[Input]):
+    """An input, and how it is drawn from its standard errors where it has any."""
+
+    plain: Input
+    draw: Callable[[Generator], Input] | None = None
+
+    def __call__(self, rng: Generator) -> Input:
+        return self.plain if self.draw is None else self.draw(rng)
+
+
+def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
+    """A fit from the covariance of its parameters; a table from the errors of its rows, in bins: a
+    band needs no more of them."""
+    if isinstance(source, SelfAffineFit):
+        return Drawn[Spectrum](source.spectrum, partial(draw_fit, source))
+    if isinstance(source, TabulatedSpectrum) and source.standard_error is not None:
+        table = source.log_binned(per_decade=_ROWS_PER_DECADE)
+        return Drawn[Spectrum](table, partial(_draw_rows, table))
+    return Drawn[Spectrum](source)
+
+
+def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
+    """Gamma, as means of squared amplitudes are: positive, of the row's mean and deviation."""
+    density, error = np.array(table.density), np.asarray(table.standard_error)
+    uncertain = (density > 0) & (error > 0)
+    shape = (density[uncertain] / error[uncertain]) ** 2
+    density[uncertain] *= rng.gamma(shape) / shape
+    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density)
+
+
+def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> SelfAffineSpectrum:
+    """Rms height and roll-off in the logarithm, where they stay positive; H until it is one."""
+    has_rolloff = fit.rolloff is not None
+    count = 3 if has_rolloff else 2
+    scale = np.array([fit.rms_height, 1, fit.rolloff or 1])[:count]
+    covariance = fit.covariance[:count, :count] / np.outer(scale, scale)
+    end = fit.q1 if q1 is None else min(q1, fit.q1)  # the band is to keep a self-affine part
+    while True:
+        drawn = rng.multivariate_normal(np.zeros(count), covariance, method="eigh")
+        hurst = fit.hurst + drawn[1]
+        rolloff = None if fit.rolloff is None else fit.rolloff * float(np.exp(drawn[2]))
+        if 0 < hurst <= 1 and (rolloff is None or fit.q0 < rolloff < end):
+            return SelfAffineSpectrum(
+                rms_height=fit.rms_height * float(np.exp(drawn[0])),
+                hurst=hurst,
+                q0=fit.q0,
+                q1=fit.q1,
+                rolloff=rolloff,
+            )
+
+
+def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
+    """Of a build, the master curve of isotherms that scatter as its own do."""
+    if not isinstance(source, MasterCurveBuild):
+        return Drawn[Rubber](source)
+
+    def draw(rng: Generator) -> MasterCurve:
+        return draw_build(source, rng).master_curve
+
+    return Drawn[Rubber](source.master_curve, draw)
+
+
+def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:
+    """The build of isotherms that scatter about its master spline as the measured ones do."""
+    points = build.points
+    isotherms = []
+    for i, temperature in enumerate(build.temperature):
+        mine = points.isotherm == i
+        noise = np.exp(build.residual * rng.normal(size=(2, int(mine.sum()))))
+        isotherms.append(
+            Isotherm(
+                temperature=temperature,
+                angular_frequency=points.angular_frequency[mine] / 10 ** build.log10_a_T[i],
+                storage_modulus=points.storage_modulus[mine] * build.b_T[i] * noise[0],
+                loss_modulus=points.loss_modulus[mine] * build.b_T[i] * noise[1],
+            )
+        )
+    given = not build.standard_deviation.any()  # then a_T came from a table
+    return build_master_curve(
+        isotherms,
+        reference_temperature=build.reference_temperature,
+        vertical_shift=build.b_T,
+        shift_factors=build if given else None,
+        smooth=True,
+        extrapolation="power-law",  # ends move with the shift factors
+    )
+
+
+def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:
+    """A fitted adhesion as its errors would have it, tau_f0 and v0 in the logarithm; c until it is
+    one."""
+    if not isinstance(source, AdhesionFit):
+        return source
+    scale = np.array([source.shear_stress, source.reference_velocity, 1])
+    covariance = source.covariance / np.outer(scale, scale)
+    while True:
+        drawn = rng.multivariate_normal(np.zeros(3), covariance, method="eigh")
+        if source.width + drawn[2] >= 0:
+            return Adhesion(
+                shear_stress=source.shear_stress * float(np.exp(drawn[0])),
+                reference_velocity=source.reference_velocity * float(np.exp(drawn[1])),
+                width=source.width + drawn[2],
+            )
