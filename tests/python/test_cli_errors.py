@@ -240,7 +240,7 @@ sys.exit(main(["friction", "long.toml", "--output", "mu.csv"]))
 
 
 def test_interrupt_ends_a_long_computation(folder: Path) -> None:
-    (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 100000"))
+    (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 3000000"))
     before = names(folder)
     command = [sys.executable, "-c", INTERRUPTED]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
