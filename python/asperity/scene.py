@@ -56,7 +56,7 @@ _TABLES = dict.fromkeys(
 )
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
-_CHUNK = 4  # points between two steps of a progress bar, or two looks at Ctrl-C
+_CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 

@@ -240,7 +240,9 @@ sys.exit(main(["friction", "long.toml", "--output", "mu.csv"]))
 
 
 def test_interrupt_ends_a_long_computation(folder: Path) -> None:
-    (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 3000000"))
+    pressures = ", ".join(str(1000.0 * (1 + i)) for i in range(100))
+    scene = SCENE.replace("points = 5", "points = 100000").replace("81e3, 2e5", pressures)
+    (folder / "long.toml").write_text(scene)
     before = names(folder)
     command = [sys.executable, "-c", INTERRUPTED]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
