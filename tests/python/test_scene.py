@@ -223,7 +223,10 @@ def test_both_combined(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("points", [1, 4, 11])
-def test_points_are_computed_in_chunks_that_change_nothing(folder: Path, points: int) -> None:
+def test_points_are_computed_in_chunks_that_change_nothing(
+    folder: Path, points: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asperity.scene._CHUNK", 4)
     seen: list[slice] = []
 
     def watch(chunks: list[slice]) -> nullcontext[list[slice]]:
