@@ -159,7 +159,7 @@ void GaussPanels::lay_out(std::span<const double> stops) {
       p.segment = &segment;
       p.start = from;
       p.at_front = here == 0;
-      p.twice = p.at_front && rate > 0;
+      p.twice = p.at_front && rate > 0 && !curve;
       if (here == 0 || (curve && behind > length / 4)) {
         p.square = 1;
         p.upper = std::sqrt(length);

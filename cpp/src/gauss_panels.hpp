@@ -23,7 +23,7 @@ struct Panel {
   double start, linear, square;
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
-  bool twice;           // and dG/ds is not, so that dR/dG is smooth
+  bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
   const LegendreRule* rule;
   double decay;            // at which coefficients of dG and R fall at least, from one degree to the next
   std::size_t data = 0;    // where its rows start

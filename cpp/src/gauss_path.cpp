@@ -62,7 +62,8 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
   }
 
   // F may fall slower than dG and R do
-  const double decay = std::clamp(std::sqrt(std::sqrt(larger(sums.f_tail, 0) / larger(sums.f_tail, 4))), p.decay, 0.9);
+  const double earlier = larger(sums.f_tail, 4), falling = earlier > 0 ? larger(sums.f_tail, 0) / earlier : 0;
+  const double decay = std::clamp(std::sqrt(std::sqrt(falling)), p.decay, 0.9);
   double effect[tails];
   for (std::size_t k = 0; k < tails; ++k) {
     const double at_lower = (n - 1 - k) % 2 ? -f_lower : f_lower;
