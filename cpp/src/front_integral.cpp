@@ -13,21 +13,16 @@ namespace {
 constexpr std::size_t steps = FrontTable::steps, terms = FrontTable::terms;
 using Samples = std::array<double, terms>;
 
-/// U of F and of F2 for P^power, on equal steps of y.
-struct Universal {
-  FrontTable::Steps first, second;
-};
-
 constexpr double chebyshev_angle(std::size_t j) { return std::numbers::pi * (static_cast<double>(j) + 0.5) / terms; }
 
 /// The polynomial in powers of u through samples at Chebyshev's points.
-void fit(const Samples& sample, double* power) {
+void fit(const Samples& sample, double (&power)[terms][FrontTable::functions], std::size_t function) {
   Samples last{1}, now{0, 1};
   for (std::size_t k = 0; k < terms; ++k) {
     double coefficient = 0;
     for (std::size_t j = 0; j < terms; ++j)
       coefficient += (k == 0 ? 1.0 : 2.0) / terms * sample[j] * std::cos(static_cast<double>(k) * chebyshev_angle(j));
-    for (std::size_t m = 0; m < terms; ++m) power[m] += coefficient * last[m];
+    for (std::size_t m = 0; m < terms; ++m) power[m][function] += coefficient * last[m];
     Samples next{};  // T_k+1 = 2 u T_k - T_k-1
     for (std::size_t m = 0; m < terms; ++m) {
       if (m + 1 < terms) next[m + 1] += 2 * now[m];
@@ -38,7 +33,8 @@ void fit(const Samples& sample, double* power) {
   }
 }
 
-Universal make_universal(Form form, int power) {
+/// U and V of P^power into a table.
+void tabulate(Form form, int power, FrontTable& table) {
   const LegendreRule& rule = legendre_rule(24);
   struct Integrals {
     double of_p, of_gp;  // int P^power dG, int G P^power dG
@@ -59,7 +55,6 @@ Universal make_universal(Form form, int power) {
     }
     return sum;
   };
-  Universal result{};
   Integrals before{};
   constexpr double width = 1.0 / steps;
   for (std::size_t i = 0; i < steps; ++i) {
@@ -72,30 +67,31 @@ Universal make_universal(Form form, int power) {
       first[j] = f / (y * y) * (power == 3 ? 1 : rest);
       second[j] = f2 / (y * y) / g * (power == 3 ? 1 : rest);
     }
-    fit(first, result.first[i]);
-    fit(second, result.second[i]);
+    const std::size_t function = power == 3 ? 1 : 0;
+    fit(first, table.power[i], function);
+    fit(second, table.power[i], function + 2);
     if (i + 1 == steps) break;
     const Integrals whole = integrals(lower, lower + width);
     before = {before.of_p + whole.of_p, before.of_gp + whole.of_gp};
   }
-  return result;
 }
 
-const Universal& universal(Form form, int power) {
-  static const std::array<Universal, 4> tables{make_universal(Form::exact, 1), make_universal(Form::exact, 3),
-                                               make_universal(Form::interpolated, 1),
-                                               make_universal(Form::interpolated, 3)};
-  return tables[(form == Form::exact ? 0u : 2u) + (power == 3 ? 1u : 0u)];
+const FrontTable& table_of(Form form) {
+  static const std::array<FrontTable, 2> tables = [] {
+    std::array<FrontTable, 2> made{};
+    for (const Form of : {Form::exact, Form::interpolated})
+      for (const int power : {1, 3}) tabulate(of, power, made[of == Form::exact ? 0 : 1]);
+    return made;
+  }();
+  return tables[form == Form::exact ? 0 : 1];
 }
 
 }  // namespace
 
-FrontIntegral::FrontIntegral(Form form, const std::optional<SFunction>& factor) {
-  const Universal &one = universal(form, 1), &three = universal(form, 3);
-  const double gamma = factor ? factor->gamma : 1;
-  first = {&one.first, &three.first, gamma, false};
-  whole = form == Form::exact ? 0.007 : 1e-11;
-  if (form == Form::exact) second = {&one.second, &three.second, gamma, true};
-}
+FrontIntegral::FrontIntegral(Form form, const std::optional<SFunction>& factor)
+    : table(table_of(form)),
+      gamma(factor ? factor->gamma : 1),
+      whole(form == Form::exact ? 0.007 : 1e-11),
+      has_second(form == Form::exact) {}
 
 }  // namespace asperity

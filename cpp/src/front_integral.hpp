@@ -11,9 +11,10 @@ namespace asperity {
 /// F and F2 for P of one form and S of Eq. 8 or none, good to 1e-15.
 struct FrontIntegral {
   FrontIntegral(Form form, const std::optional<SFunction>& factor);
-  FrontTable first;
-  double whole;  // G below which P S is 1 to rounding
-  std::optional<FrontTable> second;  // of the exact P: the other has a logarithm in it
+  const FrontTable& table;
+  double gamma;     // of S, 1 without
+  double whole;     // G below which P S is 1 to rounding
+  bool has_second;  // F2 of the interpolated P has a logarithm in it
 };
 
 }  // namespace asperity

@@ -46,10 +46,14 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
   const std::size_t n = rule.n;
   const Kernels& loops = kernels();
   const double *cumulative = panels_.row(p, Panel::cumulative), *slope = panels_.row(p, Panel::slope);
-  double g[most + lanes], f[most + lanes], passed[most];
-  for (std::size_t i = 0; i < n; ++i) g[i] = std::fmax(0, (visit.g_lower + cumulative[i]) * scale);
+  const bool twice = p.twice && front.has_second;
+  double g[most + lanes], f[most + lanes], f2[most + lanes], passed[most];
+  for (std::size_t i = 0; i < n; ++i) {
+    const double here = (visit.g_lower + cumulative[i]) * scale;
+    g[i] = here > 0 ? here : 0;  // an interpolated G may be below at the first nodes
+  }
   for (std::size_t i = n; i < n + lanes; ++i) g[i] = g_upper;
-  loops.front(front.first, g, n + lanes, f);
+  loops.front(front.table, front.gamma, g, n + lanes, f, twice ? f2 : nullptr);
   const double f_upper = f[n];
   for (std::size_t i = 0; i < n; ++i) passed[i] = slope[i] * (g[i] > 0 ? f[i] / g[i] : 1);  // F / G bounds P S
   PanelSums sums;
@@ -73,15 +77,14 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
   double digits = rounding * static_cast<double>(n) * larger_of(p.r_lower, p.r_upper) * f_upper;
   double f_size = f_upper, r_end = larger(p.r_tail, 0), r_middle = larger(p.r_tail, tails), missed = 0;
   const auto foot = [&](const Foot& error, double first_slope) {
-    return error(g[0], front.first.gamma) * std::fabs(first_slope) / rule.weight[0] * (1 + rule.node[0]) / g[0];
+    return error(g[0], front.gamma) * std::fabs(first_slope) / rule.weight[0] * (1 + rule.node[0]) / g[0];
   };
-  if (p.twice && front.second) {
+  if (twice) {
     // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
     const double* const curvature = panels_.row(p, Panel::curvature);
     const double per_g = 1 / scale;
-    loops.front(*front.second, g, n + lanes, f);
-    loops.sum(rule, curvature, f, passed, sums);
-    f_size = f[n];
+    loops.sum(rule, curvature, f2, passed, sums);
+    f_size = f2[n];
     visit.value = p.r_upper * f_upper - (p.curvature_upper * f_size - sums.value) * per_g;
     if (g[0] > 0) missed = foot(foot_of_f2, curvature[0]) * per_g;
     r_end = larger(p.curvature_tail, 0) * per_g;

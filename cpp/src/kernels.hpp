@@ -16,15 +16,12 @@ struct PronyTerms {
 };
 
 /// With z = sqrt(G), y = z / (1 + z), rest = 1 / (1 + z):
-///   F  = z y (gamma U1 + (1 - gamma) rest U3)            F = int P S dG
-///   F2 = z^3 y (gamma U1 + (1 - gamma) rest U3)          F2 = int F dG, with tables of its own
-/// U of P and of P^3, smooth in y on [0, 1], as polynomials on equal steps of it.
+///   F  = z y (gamma U1 + (1 - gamma) rest U3)          F = int P S dG
+///   F2 = z^3 y (gamma V1 + (1 - gamma) rest V3)        F2 = int F dG
+/// U1, U3, V1, V3, those of P and of P^3, are smooth in y on [0, 1]: polynomials on equal steps of it, side by side.
 struct FrontTable {
-  static constexpr std::size_t steps = 128, terms = 8;
-  using Steps = double[steps][terms];
-  const Steps *one, *three;
-  double gamma;
-  bool second;  // F2
+  static constexpr std::size_t steps = 128, terms = 8, functions = 4;
+  double power[steps][terms][functions];
 };
 
 /// What a panel adds: sum of `slope` f, sum of |slope|; and, for each of the last Legendre coefficients, how much those
@@ -45,8 +42,8 @@ struct Kernels {
   /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
   void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
                         double* tail);
-  /// F or F2 at n values of G, n a multiple of 4.
-  void (*front)(const FrontTable& table, const double* g, std::size_t n, double* f);
+  /// F, and F2 where there is room for it, at n values of G, n a multiple of 4.
+  void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
   /// f at the nodes with `slope`, and `passed`, how much a change of G matters at each.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, const double* passed,
               PanelSums& sums);
