@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -39,15 +40,19 @@ class Steffen {
     const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, at);
     return static_cast<std::size_t>(above - x_.begin()) - 1;
   }
-  [[nodiscard]] double in_interval(std::size_t i, double at) const {
-    const double h = x_[i + 1] - x_[i], t = at - x_[i], secant = (y_[i + 1] - y_[i]) / h;
-    const double cubic = (slope_[i] + slope_[i + 1] - 2 * secant) / (h * h);
-    const double square = (3 * secant - 2 * slope_[i] - slope_[i + 1]) / h;
-    return y_[i] + t * (slope_[i] + t * (square + t * cubic));
+  /// Coefficients of the powers of x - x_i between x_i and x_(i + 1), from the constant up.
+  [[nodiscard]] std::array<double, 4> cubic(std::size_t i) const {
+    const double h = x_[i + 1] - x_[i], secant = (y_[i + 1] - y_[i]) / h;
+    return {y_[i], slope_[i], (3 * secant - 2 * slope_[i] - slope_[i + 1]) / h,
+            (slope_[i] + slope_[i + 1] - 2 * secant) / (h * h)};
   }
-  double operator()(double at) const { return in_interval(interval(at), at); }
-  /// Slope at the end of the table that `at` is.
-  [[nodiscard]] double end_slope_at(double at) const { return at <= x_.front() ? slope_.front() : slope_.back(); }
+  double operator()(double at) const {
+    const std::size_t i = interval(at);
+    const auto [y, slope, square, cube] = cubic(i);
+    const double t = at - x_[i];
+    return y + t * (slope + t * (square + t * cube));
+  }
+  [[nodiscard]] double slope(std::size_t i) const { return slope_[i]; }
 
  private:
   static double end_slope(double secant, double next_secant, double step, double next_step) {

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "angular_cache.hpp"
+#include "angular_table.hpp"
 #include "asperity/rubber.hpp"
 #include "checks.hpp"
-#include "integrate.hpp"
 #include "interpolate.hpp"
 
 namespace asperity {
@@ -20,113 +18,63 @@ std::vector<double> logarithms(const std::vector<double>& values) {
   return result;
 }
 
-/// asin(c) - c sqrt(1 - c^2) for 0 <= c <= 1; it is x - sin x over 2 at x = 2 asin c and cancels for small x.
-double segment(double c) {
-  const double x = 2 * std::asin(std::fmin(c, 1));
-  if (x > 0.6) return (x - std::sin(x)) / 2;
-  double term = x * x * x / 6, sum = 0;
-  for (int n = 4; std::fabs(term) > 1e-18 * sum; n += 2) {
-    sum += term;
-    term *= -x * x / (n * (n + 1));
+/// E(w) from `far` times its lowest frequency up: the end of the tail, the table, and where asked for a decade before
+/// and after it.
+std::vector<ModulusPiece> pieces_of(const std::vector<double>& w, const std::vector<double>& storage,
+                                    const std::vector<double>& loss, std::optional<Extrapolation> extrapolation) {
+  const std::vector<double> x = logarithms(w);
+  const Steffen log_storage(x, logarithms(storage)), log_loss(x, logarithms(loss));
+  const auto beyond = [&](std::size_t row, double low, double high) {
+    const auto line = [&](const std::vector<double>& modulus, const Steffen& logarithm) {
+      return LogCubic{modulus[row], extrapolation == Extrapolation::power_law ? logarithm.slope(row) : 0};
+    };
+    const ModulusPiece piece{low, high, w[row], line(storage, log_storage), line(loss, log_loss), false};
+    for (const std::complex<double> e : {piece(low), piece(high)})
+      if (!(e.real() > 0 && e.imag() > 0 && std::isfinite(std::norm(e))))
+        throw InvalidInput("extrapolation: beyond angular_frequency = " + show(w[row]) +
+                           " rad/s the modulus leaves the range of numbers within its decade");
+    return piece;
+  };
+  std::vector<ModulusPiece> result(1);
+  if (extrapolation) result.push_back(beyond(0, w.front() / 10, w.front()));
+  for (std::size_t i = 0; i + 1 < w.size(); ++i) {
+    const auto [log_e1, slope1, square1, cubic1] = log_storage.cubic(i);
+    const auto [log_e2, slope2, square2, cubic2] = log_loss.cubic(i);
+    result.push_back(
+        {w[i], w[i + 1], w[i], {storage[i], slope1, square1, cubic1}, {loss[i], slope2, square2, cubic2}, true});
   }
-  return sum / 2;
+  if (extrapolation) result.push_back(beyond(w.size() - 1, w.back(), w.back() * 10));
+  const double lowest = result[1].low;
+  const std::complex<double> e = result[1](lowest);
+  result[0] = {AngularSums::far * lowest, lowest, lowest, {e.real(), 0}, {e.imag(), 1}, false};
+  return result;
 }
-
-/// z >= 0 with ln cosh z = u.
-double acosh_exp(double u) { return u <= 0 ? 0 : u + std::log1p(std::sqrt(-std::expm1(-2 * u))); }
 
 }  // namespace
 
-/// The interpolant over ln w with its extrapolation, if any, as one more interval at either end.
 struct MasterCurve::Table {
   std::vector<double> frequency, storage, loss;
   std::optional<Extrapolation> extrapolation;
-  Steffen log_storage, log_loss;
-  std::vector<double> knots;      // [rad/s], rising
-  std::vector<double> log_knots;  // ln of them
-  LazyPieces<4> cache;            // ln I1, ln I2 and the shares of both that come from outside
+  std::vector<ModulusPiece> pieces;
+  std::vector<double> knots;  // where they meet, and the ends [rad/s]
+  AngularTable angular;
 
   Table(std::vector<double> w, std::vector<double> e1, std::vector<double> e2, std::optional<Extrapolation> beyond)
       : frequency(std::move(w)),
         storage(std::move(e1)),
         loss(std::move(e2)),
         extrapolation(beyond),
-        log_storage(logarithms(frequency), logarithms(storage)),
-        log_loss(logarithms(frequency), logarithms(loss)),
-        knots(frequency),
-        cache(frequency.size() + 1) {
-    if (extrapolation) {
-      knots.insert(knots.begin(), frequency.front() / 10);
-      knots.push_back(frequency.back() * 10);
-    }
-    log_knots = logarithms(knots);
+        pieces(pieces_of(frequency, storage, loss, beyond)),
+        angular(pieces) {
+    for (const ModulusPiece& piece : pieces) knots.push_back(piece.high);
   }
 
-  [[nodiscard]] bool measured(double x) const { return x >= log_storage.x().front() && x <= log_storage.x().back(); }
-
-  /// ln E' or ln E'' at x = ln w.
-  [[nodiscard]] double beyond(const Steffen& log_modulus, double x) const {
-    const double lowest = log_modulus.x().front(), highest = log_modulus.x().back();
-    const double end = std::clamp(x, lowest, highest);
-    double value = log_modulus(end);
-    if (x != end && extrapolation == Extrapolation::power_law) value += log_modulus.end_slope_at(end) * (x - end);
-    return value;
-  }
-  [[nodiscard]] std::complex<double> modulus(double x) const {
-    return {std::exp(beyond(log_storage, x)), std::exp(beyond(log_loss, x))};
-  }
-
-  /// From the definition. With cos(phi) = sech(z) and dphi = sech(z) dz the integrals over a quadrant run over
-  /// all z > 0; the interpolant's knots are at z_k = acosh(w / w_k) and between them everything is analytic.
-  [[nodiscard]] AngularIntegrals integrate_angle(double x) const {
-    AngularIntegrals sum{0, 0};
-    const GaussRule& rule = gauss_rule();
-    const auto top = static_cast<std::size_t>(std::ranges::upper_bound(log_knots, x) - log_knots.begin());
-    for (std::size_t k = top; k-- > 0;) {  // from interval [x_k, x_k+1] down to the first
-      const double near = k + 1 < log_knots.size() ? acosh_exp(x - log_knots[k + 1]) : 0;
-      const double far = acosh_exp(x - log_knots[k]);
-      // short enough for the rule in z, and in the change of ln E' and ln E'' between two knots
-      const std::complex<double> low = modulus(log_knots[k]),
-                                 high = modulus(k + 1 < log_knots.size() ? std::min(x, log_knots[k + 1]) : x);
-      const double change =
-          std::fabs(std::log(high.real() / low.real())) + std::fabs(std::log(high.imag() / low.imag()));
-      const int parts = 1 + static_cast<int>(std::fmax((far - near) / 0.25, change));
-      const double half = (far - near) / (2 * parts);
-      for (int part = 0; part < parts; ++part)
-        for (std::size_t i = 0; i < GaussRule::size; ++i) {
-          const double z = near + half * (2 * part + 1 + rule.node[i]);
-          const double sech = 1 / std::cosh(z), at = x + std::log(sech);
-          const std::complex<double> e = modulus(at);
-          const double weight = 4 * half * rule.weight[i] * sech;
-          const double i1 = weight * sech * e.imag(), i2 = weight * std::norm(e);
-          sum.i1 += i1;
-          sum.i2 += i2;
-          if (!measured(at)) {
-            sum.i1_outside += i1;
-            sum.i2_outside += i2;
-          }
-        }
-    }
-    // Below the lowest knot E' is constant and E'' proportional to w; with c = w_0 / w
-    // I1 gets 2 E''_0 / c (asin c - c sqrt(1 - c^2)), I2 the same times E''_0 / c, and 4 E'_0^2 asin c.
-    const double c = std::fmin(std::exp(log_knots.front() - x), 1);
-    const std::complex<double> lowest = modulus(log_knots.front());
-    const double tail1 = 2 * lowest.imag() / c * segment(c);
-    const double tail2 = tail1 * lowest.imag() / c + 4 * lowest.real() * lowest.real() * std::asin(c);
-    sum.i1 += tail1;
-    sum.i2 += tail2;
-    sum.i1_outside += tail1;
-    sum.i2_outside += tail2;
-    return sum;
-  }
-
-  [[nodiscard]] double checked_logarithm(double w) const {
+  void check(double w) const {
     require_positive("angular_frequency", w);
     if (w < knots.front() * (1 - rounding) || w > knots.back() * (1 + rounding))
       throw OutOfRange("angular_frequency = " + show(w) + " rad/s: the master curve is known in [" +
                        show(knots.front()) + ", " + show(knots.back()) + "] rad/s" +
                        (extrapolation ? " with its extrapolation of one decade" : ""));
-    return std::clamp(std::log(w), log_knots.front(), log_knots.back());
   }
 };
 
@@ -158,24 +106,20 @@ double MasterCurve::highest_frequency() const { return table_->knots.back(); }
 std::span<const double> MasterCurve::knots() const { return table_->knots; }
 
 std::complex<double> MasterCurve::modulus(double angular_frequency) const {
-  return table_->modulus(table_->checked_logarithm(angular_frequency));
+  table_->check(angular_frequency);
+  const std::vector<double>& knots = table_->knots;
+  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, angular_frequency);
+  return table_->pieces[static_cast<std::size_t>(above - knots.begin())](angular_frequency);
 }
 
 AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const {
-  const Table& table = *table_;
-  const double x = table.checked_logarithm(angular_frequency);
-  const auto above = std::upper_bound(table.log_knots.begin() + 1, table.log_knots.end() - 1, x);
-  const auto interval = static_cast<std::size_t>(above - table.log_knots.begin()) - 1;
-  const double lower = table.log_knots[interval], upper = table.log_knots[interval + 1];
-  // of ln I1 and ln I2, and of the shares, which are told to a few digits only
-  constexpr std::array tolerance{1e-12, 1e-12, 1e-7, 1e-7};
-  const auto& pieces = table.cache.get(interval, lower, upper, tolerance, [&](double at) {
-    const AngularIntegrals exact = table.integrate_angle(at);
-    return std::array{std::log(exact.i1), std::log(exact.i2), exact.i1_outside / exact.i1, exact.i2_outside / exact.i2};
-  });
-  const auto [log_i1, log_i2, share1, share2] = pieces((x - lower) / (upper - lower));
-  const double i1 = std::exp(log_i1), i2 = std::exp(log_i2);
-  return {i1, i2, i1 * std::clamp(share1, 0.0, 1.0), i2 * std::clamp(share2, 0.0, 1.0)};
+  table_->check(angular_frequency);
+  return table_->angular(angular_frequency);
+}
+
+bool MasterCurve::angular_integrals(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+  for (const double one : w) table_->check(one);
+  return table_->angular(w, i1, i2, i1_outside);
 }
 
 MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {

@@ -60,6 +60,7 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
 }
 
 void PronySeries::angular_integrals(std::span<const double> w, double* i1, double* i2) const {
+  for (const double one : w) require_not_negative("angular_frequency", one);
   const std::size_t n = w.size();
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
   const auto overflows = [&](double tau) { return !(fastest * tau < 1e150); };
@@ -95,17 +96,7 @@ bool angular_integrals(const Rubber& rubber, std::span<const double> angular_fre
     series->angular_integrals(angular_frequency, i1, i2);
     return false;
   }
-  constexpr double worth_telling = 1e-7;
-  const auto& curve = std::get<MasterCurve>(rubber);
-  bool outside = false;
-  for (std::size_t i = 0; i < angular_frequency.size(); ++i) {
-    const AngularIntegrals one = curve.angular_integrals(angular_frequency[i]);
-    i1[i] = one.i1;
-    i2[i] = one.i2;
-    i1_outside[i] = one.i1_outside;
-    outside |= one.i1_outside > worth_telling * one.i1;
-  }
-  return outside;
+  return std::get<MasterCurve>(rubber).angular_integrals(angular_frequency, i1, i2, i1_outside);
 }
 
 double effective_modulus(double modulus, double poisson_ratio, double modulus_2, double poisson_ratio_2) {

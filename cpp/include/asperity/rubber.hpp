@@ -63,6 +63,8 @@ class ASPERITY_EXPORT MasterCurve {
   /// cos(phi) always runs through zero: below the lowest frequency E' is taken constant and E'' as
   /// proportional to w, and what comes from there is returned as the part outside.
   [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
+  /// At each of `w`, into arrays of as many entries; true where a part of I1 above 1e-7 comes from outside.
+  bool angular_integrals(std::span<const double> w, double* i1, double* i2, double* i1_outside = nullptr) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;
@@ -84,8 +86,8 @@ using Rubber = std::variant<PronySeries, MasterCurve>;
 ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
 ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);
 
-/// At each of `angular_frequency`, into arrays of as many entries; false, and `i1_outside` left as it was, where
-/// nothing comes from outside of the measured range.
+/// At each of `angular_frequency`, into arrays of as many entries; false, and nothing of use in `i1_outside`, where no
+/// part of I1 above 1e-7 comes from outside of the measured range.
 ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, double* i1,
                                        double* i2, double* i1_outside);
 
