@@ -48,8 +48,7 @@ void tabulate(Form form, int power, FrontTable& table) {
     for (std::size_t i = 0; i < rule.n; ++i) {
       const double at = lower + half * (1 + rule.node[i]), z = far ? std::exp(at) : at;
       const double share = contact_share(z * z, form);
-      const double part =
-          half * rule.weight[i] * 2 * z * (power == 3 ? share * share * share : share) * (far ? z : 1);
+      const double part = half * rule.weight[i] * 2 * z * (power == 3 ? share * share * share : share) * (far ? z : 1);
       sum.of_p += part;
       sum.of_gp += z * z * part;
     }

@@ -92,7 +92,8 @@ void GaussPanels::fill(Panel& p) {
   p.full_error = 2 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
   if (p.twice) {
     for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
-    loops.differentiate(rule, ratio, rows + Panel::curvature * n, &p.curvature_lower, &p.curvature_upper, p.curvature_tail);
+    loops.differentiate(rule, ratio, rows + Panel::curvature * n, &p.curvature_lower, &p.curvature_upper,
+                        p.curvature_tail);
   }
   if (p.any_outside) {
     p.full_outside = 0;
@@ -151,27 +152,35 @@ void GaussPanels::lay_out(std::span<const double> stops) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
     find_edges(segment, stops, knots);
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
-      const double from = edges_[i], length = edges_[i + 1] - from, q = segment.a * std::exp(from);
-      const double here = before + (from > 0 ? segment.moment(3, q) : 0);
-      const double rate = (q * q) * (q * q) * segment.density_at(from);
-      const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
-      Panel p{};
-      p.segment = &segment;
-      p.start = from;
-      p.at_front = here == 0;
-      p.twice = p.at_front && rate > 0 && !curve;
-      if (here == 0 || (curve && behind > length / 4)) {
-        p.square = 1;
-        p.upper = std::sqrt(length);
-      } else if (behind < 4 * length) {
-        p.linear = 2 * std::sqrt(behind);
-        p.square = 1;
-        p.upper = length / (std::sqrt(behind) + std::sqrt(behind + length));
-      } else {
-        p.linear = 1;
-        p.upper = length;
+      const double knot = edges_[i], end = edges_[i + 1];
+      for (double from = knot, to; from < end; from = to) {
+        const double length = end - from, q = segment.a * std::exp(from);
+        const double here = before + (from > 0 ? segment.moment(3, q) : 0);
+        const double rate = (q * q) * (q * q) * segment.density_at(from);
+        const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
+        Panel p{};
+        p.segment = &segment;
+        p.start = from;
+        p.at_front = here == 0;
+        p.twice = p.at_front && rate > 0 && !curve;
+        to = end;
+        // R of a table has a root in it at the knot, sqrt(G) one before: panels that grow away from both
+        if (curve && here > 0 && behind <= length / 4)
+          to = from > knot ? std::fmin(end, from + 3 * (from - knot)) : from + 2 * behind;
+        const double part = to - from;
+        if (here == 0 || (curve && from == knot)) {
+          p.square = 1;
+          p.upper = std::sqrt(part);
+        } else if (behind < 4 * part) {
+          p.linear = 2 * std::sqrt(behind);
+          p.square = 1;
+          p.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
+        } else {
+          p.linear = 1;
+          p.upper = part;
+        }
+        roots_.push_back(add(p));
       }
-      roots_.push_back(add(p));
     }
     before += segment.moment(3, segment.b);
   }

@@ -30,8 +30,8 @@ struct Panel {
   std::size_t child = 0;   // the first of two, 0 where it was not split
   std::size_t filled = 0;  // the start that what follows belongs to
   double g_total = 0, g_error = 0;
-  double r_lower = 0, r_upper = 0;  // R at the ends
-  double curvature_lower = 0, curvature_upper = 0;  // dR/dG at the ends
+  double r_lower = 0, r_upper = 0;                    // R at the ends
+  double curvature_lower = 0, curvature_upper = 0;    // dR/dG at the ends
   double full = 0, full_error = 0, full_outside = 0;  // int R dG, which the hysteresis is where P S is 1
   double outside_lower = 0, outside_upper = 0;
   bool any_outside = false;

@@ -17,7 +17,7 @@ namespace {
 namespace baseline {
 constexpr std::size_t width = 2;
 #include "kernel_loops.inc"
-}
+}  // namespace baseline
 
 #ifdef __x86_64__
 #ifdef __clang__
@@ -29,7 +29,7 @@ constexpr std::size_t width = 2;
 namespace avx2 {
 constexpr std::size_t width = 4;
 #include "kernel_loops.inc"
-}
+}  // namespace avx2
 #ifdef __clang__
 #pragma clang attribute pop
 #else

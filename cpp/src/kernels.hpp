@@ -45,8 +45,7 @@ struct Kernels {
   /// F, and F2 where there is room for it, at n values of G, n a multiple of 4.
   void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
   /// f at the nodes with `slope`, and `passed`, how much a change of G matters at each.
-  void (*sum)(const LegendreRule& rule, const double* slope, const double* f, const double* passed,
-              PanelSums& sums);
+  void (*sum)(const LegendreRule& rule, const double* slope, const double* f, const double* passed, PanelSums& sums);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.
