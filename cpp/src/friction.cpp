@@ -128,6 +128,9 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     worth = measured_worth(g, shift.p, model.form, surface, q1);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
+    if (!std::isfinite(f.mu[i]))
+      throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) +
+                         ": overflows over pressure = " + show(pressure[i]) + ", their ratio must be finite");
 
     const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
     const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
