@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
+import test_reference
 
 METHODS = ("qag", "qags", "cquad")
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
@@ -31,6 +32,11 @@ SCENES = {
 }
 
 
+def rubber_of(row):
+    part = test_reference.prony if row["moduli"].size else test_reference.master_curve
+    return part(row)
+
+
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
@@ -42,6 +48,21 @@ def test_methods_agree_within_their_estimates(scene, method, rtol):
     assert np.all(np.abs(ours.mu - other.mu) <= ours.error_estimate + other.error_estimate)
     assert np.all(other.error_estimate <= rtol * other.mu)
     np.testing.assert_allclose(ours.contact_area, other.contact_area, rtol=rtol)
+
+
+@pytest.mark.reference("friction_curves")
+@pytest.mark.parametrize("method", ["gauss", *METHODS])
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-10])
+def test_methods_meet_curves_known_to_sixteen_digits(row, method, rtol):
+    spectrum, rubber = test_reference.self_affine({**row, "rolloff": None}), rubber_of(row)
+    options = {"pressure": row["pressure"], "velocity": row["velocities"]}
+    correction = asperity.SFactor(gamma=row["gamma"])
+    found = asperity.friction(
+        spectrum, rubber, rtol=rtol, method=method, correction=correction, **options
+    )
+    rounding = row["rtol"] * found.mu
+    assert np.all(np.abs(found.mu - row["hystereses"]) <= found.error_estimate + rounding)
+    assert np.all(found.error_estimate <= rtol * found.mu)
 
 
 @pytest.mark.parametrize("method", METHODS)
