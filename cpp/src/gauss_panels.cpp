@@ -5,45 +5,37 @@
 #include <numbers>
 
 #include "checks.hpp"
+#include "kernels.hpp"
+#include "panel_error.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails;
-constexpr double longest = 4;  // in s: on longer ones the last coefficients told errors too small by up to 2000
+constexpr std::size_t most = LegendreRule::most;
+constexpr double longest = 4;  // in s: on longer ones the last coefficients tell errors too small
 constexpr double rounding = 4e-16;
-constexpr double front_share = 0.125;  // of a panel in t, for the panel within it that begins at the front
-constexpr double one_panel = 3e-7;     // the tolerance below which a front has a panel of its own from the start
+constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: most is to be resolved at its foot
 
-double dot(std::size_t n, const LegendreRule::Row& row, const double* values) {
-  double sum = 0;
-#pragma omp simd reduction(+ : sum)
-  for (std::size_t i = 0; i < n; ++i) sum += row[i] * values[i];
-  return sum;
+/// By how much coefficients fall from degree to degree: by what the ellipse about the panel allows that reaches the
+/// nearest singularity. That of a Prony series is pi / 2 off the real axis of ln w, that of a table at the knot before.
+double decay_of(const Panel& panel, bool tabulated) {
+  const double length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double decay = std::exp(-std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1));
+  constexpr double with_knots = 0.35;
+  return tabulated ? std::fmax(decay, with_knots) : decay;
 }
 
-void multiply(std::size_t n, const std::array<LegendreRule::Row, most>& columns, const double* values, double* result) {
-  for (std::size_t i = 0; i < n; ++i) result[i] = 0;
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) result[i] += columns[j][i] * values[j];
+/// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
+/// everywhere is done with fewer, but the last coefficients tell the error only from some on.
+std::size_t nodes_for(const Panel& panel, double rtol) {
+  const double digits = 1 - std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double nodes = 4 + digits * std::numbers::ln10 / (-2 * std::log(panel.decay));
+  const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
+  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
 }
 
 }  // namespace
-
-// The coefficients fall on from degree n - 1 to 2 n, at the rate of the last four or that from the first on, whichever
-// is slower. Two at a time, as one of a pair may vanish by symmetry, and two that are small by chance are seen by the
-// two before them.
-double gauss_error(const double* tail, double size, std::size_t n) {
-  const double end = std::fmax(std::fabs(tail[0]), std::fabs(tail[1]));
-  const double before = std::fmax(std::fabs(tail[2]), std::fabs(tail[3]));
-  if (end == 0) return 0;
-  const auto nodes = static_cast<double>(n);
-  const double falling = before > end ? std::pow(end / before, nodes / 2) : 1;
-  const double expected = before * std::pow(before / (size + before), 2 / (nodes - 3));
-  const double worst = std::fmax(end, expected);
-  return std::fmax(2 * end * falling, 4 * worst * (worst / size));
-}
 
 double Panel::t(double at) const {
   const double from_start = at - start, half = linear / 2;
@@ -56,84 +48,76 @@ GaussPanels::GaussPanels(std::span<const Segment> surface, const Rubber& rubber,
   g_factor_ = stiffening * stiffening / 8;
 }
 
-/// Nodes that carry the tolerance on most panels: I1 and I2 of a Prony series have their poles pi / 2 off the real
-/// axis of ln w, and convergence goes with the ellipse about the panel that reaches them.
-std::size_t GaussPanels::nodes_for(const Panel& panel) const {
-  const double length = panel.s(panel.upper) - panel.s(panel.lower);
-  const double convergence = std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1);
-  const double digits = 1 - std::log10(rtol_), smooth = 4 + digits * std::numbers::ln10 / (2 * convergence);
-  return static_cast<std::size_t>(panel.at_front ? std::fmax(smooth, 4 + 1.3 * digits) : smooth);
-}
-
-struct GaussPanels::Nodes {
-  double ds[most];  // ds/du, u from -1 to 1
-  double g[most];   // dG/du
-  double i1[most], i2[most], i1_outside[most];
-  bool outside;
-};
-
-/// The panel's rule from its lower end up to `upper`.
-void GaussPanels::sample(const Panel& p, double upper, Nodes& nodes) const {
-  const std::size_t n = p.rule->n;
+/// The nodes of the panel's rule from its lower end up to `upper`.
+void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double* roughness) const {
   const double middle = (p.lower + upper) / 2, half = (upper - p.lower) / 2;
-  double w[most];
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < p.rule->n; ++i) {
     const double t = middle + half * p.rule->node[i], s = p.s(t), q = p.segment->a * std::exp(s);
-    w[i] = velocity_ * q;
-    nodes.ds[i] = half * (p.linear + 2 * p.square * t);
-    nodes.g[i] = g_factor_ * (q * q) * (q * q) * p.segment->density_at(s) * nodes.ds[i];
+    wavenumber[i] = q;
+    roughness[i] = g_factor_ * (q * q) * (q * q) * p.segment->density_at(s) * (half * (p.linear + 2 * p.square * t));
   }
-  nodes.outside = angular_integrals(rubber_, {w, n}, nodes.i1, nodes.i2, nodes.i1_outside);
-  for (std::size_t i = 0; i < n; ++i) nodes.g[i] *= nodes.i2[i];
-}
-
-void GaussPanels::fill(Panel& p) {
-  const LegendreRule& rule = *p.rule;
-  const std::size_t n = rule.n;
-  Nodes nodes;
-  sample(p, p.upper, nodes);
-  double ratio[most] = {};
-  const auto slopes = [&](const double* numerator, Panel::Row row, double& lower, double& upper) {
-    for (std::size_t i = 0; i < n; ++i) ratio[i] = numerator[i] / nodes.i2[i];
-    double* const result = &data_[p.data + row * n];
-    multiply(n, rule.derivative, ratio, result);
-    for (std::size_t i = 0; i < n; ++i) result[i] *= rule.weight[i];
-    lower = dot(n, rule.at_lower, ratio);
-    upper = dot(n, rule.at_upper, ratio);
-  };
-  p.any_outside = nodes.outside;
-  if (p.any_outside) slopes(nodes.i1_outside, Panel::outside_slope, p.outside_lower, p.outside_upper);
-  slopes(nodes.i1, Panel::slope, p.r_lower, p.r_upper);
-  multiply(n, rule.cumulative, nodes.g, &data_[p.data + Panel::cumulative * n]);
-  p.g_total = dot(n, rule.weight, nodes.g);
-  for (std::size_t k = 0; k < tails; ++k) {
-    p.g_tail[k] = dot(n, rule.tail[k], nodes.g);
-    p.r_tail[k] = dot(n, rule.tail[k], ratio);
-  }
-  p.g_error = gauss_error(p.g_tail, *std::max_element(nodes.g, nodes.g + n), n) + rounding * p.g_total;
-  p.g_slope = nodes.g[n - 1] / nodes.ds[n - 1];
 }
 
 std::size_t GaussPanels::add(Panel panel) {
-  panel.rule = &legendre_rule(nodes_for(panel));
+  panel.decay = decay_of(panel, std::holds_alternative<MasterCurve>(rubber_));
+  panel.rule = &legendre_rule(nodes_for(panel, rtol_));
   panel.data = data_.size();
-  panel.child = 0;
+  panel.child = panel.filled = 0;
   data_.resize(data_.size() + Panel::rows * panel.rule->n);
-  fill(panel);
+  place(panel, panel.upper, &data_[panel.data + Panel::wavenumber * panel.rule->n],
+        &data_[panel.data + Panel::roughness * panel.rule->n]);
   panels_.push_back(panel);
   return panels_.size() - 1;
 }
 
+void GaussPanels::fill(Panel& p) {
+  if (p.filled == starts_) return;
+  p.filled = starts_;
+  const LegendreRule& rule = *p.rule;
+  const std::size_t n = rule.n;
+  const Kernels& loops = kernels();
+  double* const rows = &data_[p.data];
+  double w[most], i1[most], i2[most], i1_outside[most], dg[most], ratio[most], tail[LegendreRule::kept];
+  for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * rows[Panel::wavenumber * n + i];
+  p.any_outside = angular_integrals(rubber_, {w, n}, i1, i2, i1_outside);
+  for (std::size_t i = 0; i < n; ++i) {
+    dg[i] = rows[Panel::roughness * n + i] * i2[i];
+    ratio[i] = i1[i] / i2[i];
+  }
+  loops.integrate(rule, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
+  double* const slope = rows + Panel::slope * n;
+  loops.differentiate(rule, ratio, slope, &p.r_lower, &p.r_upper, p.r_tail);
+  for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
+  loops.add_up(rule, ratio, &p.full, tail);
+  p.full_error = 2 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
+  if (p.twice) {
+    for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
+    loops.differentiate(rule, ratio, rows + Panel::curvature * n, &p.curvature_lower, &p.curvature_upper, p.curvature_tail);
+  }
+  if (p.any_outside) {
+    p.full_outside = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      ratio[i] = i1_outside[i] / i2[i];
+      p.full_outside += rule.weight[i] * ratio[i] * dg[i];
+    }
+    loops.differentiate(rule, ratio, rows + Panel::outside_slope * n, &p.outside_lower, &p.outside_upper, tail);
+  }
+  p.g_error = 2 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
+}
+
 std::size_t GaussPanels::children(std::size_t index) {
-  if (panels_[index].child > 0) return panels_[index].child;
-  Panel first = panels_[index], second = first;
-  // at a front most of what is to be resolved is near the lower end
-  const double share = first.at_front ? front_share : 0.5;
-  first.upper = second.lower = first.lower + share * (first.upper - first.lower);
-  second.at_front = false;
-  const std::size_t child = add(first);
-  (void)add(second);
-  panels_[index].child = child;
+  if (panels_[index].child == 0) {
+    Panel first = panels_[index], second = first;
+    const double share = first.at_front && !first.twice ? front_share : 0.5;
+    first.upper = second.lower = first.lower + share * (first.upper - first.lower);
+    second.at_front = second.twice = false;
+    const std::size_t child = add(first);
+    (void)add(second);
+    panels_[index].child = child;
+  }
+  const std::size_t child = panels_[index].child;
+  fill(panels_[child]);
+  fill(panels_[child + 1]);
   return child;
 }
 
@@ -155,25 +139,28 @@ void GaussPanels::find_edges(const Segment& segment, std::span<const double> sto
   edges_.erase(repeated.begin(), repeated.end());
 }
 
-void GaussPanels::start(double velocity, std::span<const double> stops) {
-  velocity_ = velocity;
+/// Where the front lies is told by the roughness alone, as I2 changes slowly beside it.
+void GaussPanels::lay_out(std::span<const double> stops) {
   panels_.clear();
   data_.clear();
   roots_.clear();
-  double g = 0, g_slope = 0;
   const auto* curve = std::get_if<MasterCurve>(&rubber_);
   const std::span<const double> knots = curve ? curve->knots() : std::span<const double>{};
+  double before = 0;  // int q^4 C ds
   for (const Segment& segment : surface_) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
     find_edges(segment, stops, knots);
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
-      const double length = edges_[i + 1] - edges_[i];
-      const double behind = g == 0 ? 0 : g_slope > 0 ? g / g_slope : 1e300;  // how far back G would be 0
+      const double from = edges_[i], length = edges_[i + 1] - from, q = segment.a * std::exp(from);
+      const double here = before + (from > 0 ? segment.moment(3, q) : 0);
+      const double rate = (q * q) * (q * q) * segment.density_at(from);
+      const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
       Panel p{};
       p.segment = &segment;
-      p.start = edges_[i];
-      p.at_front = g == 0;
-      if (g == 0 || (curve && behind > length / 4)) {
+      p.start = from;
+      p.at_front = here == 0;
+      p.twice = p.at_front && rate > 0 && !curve;
+      if (here == 0 || (curve && behind > length / 4)) {
         p.square = 1;
         p.upper = std::sqrt(length);
       } else if (behind < 4 * length) {
@@ -184,28 +171,31 @@ void GaussPanels::start(double velocity, std::span<const double> stops) {
         p.linear = 1;
         p.upper = length;
       }
-      if (p.at_front && rtol_ < one_panel) {
-        const double end = p.upper;
-        p.upper *= front_share;
-        roots_.push_back(add(p));
-        g += panels_.back().g_total;
-        p.lower = p.upper;
-        p.upper = end;
-        p.at_front = false;
-      }
       roots_.push_back(add(p));
-      g += panels_.back().g_total;
-      g_slope = panels_.back().g_slope;
     }
+    before += segment.moment(3, segment.b);
   }
+  laid_out_ = !curve && stops.empty();
+}
+
+void GaussPanels::start(double velocity, std::span<const double> stops) {
+  velocity_ = velocity;
+  ++starts_;
+  if (!laid_out_ || !stops.empty()) lay_out(stops);
+  for (const std::size_t root : roots_) fill(panels_[root]);
 }
 
 double GaussPanels::g_to(const Panel& panel, double s) const {
   const double t = panel.t(s);
   if (!(t > panel.lower)) return 0;
-  Nodes nodes;
-  sample(panel, t, nodes);
-  return dot(panel.rule->n, panel.rule->weight, nodes.g);
+  const std::size_t n = panel.rule->n;
+  double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
+  place(panel, t, q, roughness);
+  for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
+  (void)angular_integrals(rubber_, {q, n}, i1, i2, i1_outside);
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += panel.rule->weight[i] * roughness[i] * i2[i];
+  return sum;
 }
 
 }  // namespace asperity

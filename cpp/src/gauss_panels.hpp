@@ -15,28 +15,32 @@ namespace asperity {
 /// R = I1 / I2, which is smooth wherever the rubber is. The variable of a panel is t with s = start + linear t +
 /// square t^2: the square root that F(G) has behind a front is smooth in it, and so is R above a knot of a table.
 struct Panel {
-  enum Row : std::size_t { cumulative, slope, outside_slope, rows };
+  /// Rows of numbers at the nodes: q [1/m]; dG/du at I2 = 1, u from -1 to 1; int dG up to the node; weight times dR/du;
+  /// weight times d(dR/dG)/du; weight times d(I1 outside / I2)/du. The first two know no velocity.
+  enum Row : std::size_t { wavenumber, roughness, cumulative, slope, curvature, outside_slope, rows };
 
   const Segment* segment;
   double start, linear, square;
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
+  bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
   const LegendreRule* rule;
-  std::size_t data = 0;             // where its rows start: int dG to the nodes, weight times dR and dR_outside
-  std::size_t child = 0;            // the first of two, 0 where it was not split
-  double g_total = 0, g_error = 0;  // int dG and its error
-  double g_slope = 0;               // dG/ds near the upper end
+  double decay;            // at which coefficients of dG and R fall at least, from one degree to the next
+  std::size_t data = 0;    // where its rows start
+  std::size_t child = 0;   // the first of two, 0 where it was not split
+  std::size_t filled = 0;  // the start that what follows belongs to
+  double g_total = 0, g_error = 0;
   double r_lower = 0, r_upper = 0;  // R at the ends
+  double curvature_lower = 0, curvature_upper = 0;  // dR/dG at the ends
+  double full = 0, full_error = 0, full_outside = 0;  // int R dG, which the hysteresis is where P S is 1
   double outside_lower = 0, outside_upper = 0;
   bool any_outside = false;
-  double g_tail[LegendreRule::tails] = {}, r_tail[LegendreRule::tails] = {};  // last coefficients of dG and R
+  // coefficients of dG, R and dR/dG
+  double g_tail[LegendreRule::kept] = {}, r_tail[LegendreRule::kept] = {}, curvature_tail[LegendreRule::kept] = {};
 
   [[nodiscard]] double s(double t) const { return start + t * (linear + square * t); }
   [[nodiscard]] double t(double s) const;
 };
-
-/// Error of the Gauss rule of n nodes, from the last Legendre coefficients of a function as large as `size`.
-double gauss_error(const double* tail, double size, std::size_t n);
 
 /// The panels of one velocity: `roots` in order, some of them split, down to where somebody asked. What a panel holds
 /// depends on its place alone, so that no result depends on what was asked before.
@@ -60,16 +64,17 @@ class GaussPanels {
   }
 
  private:
-  struct Nodes;
-  void sample(const Panel& panel, double upper, Nodes& nodes) const;
-  void fill(Panel& panel);
-  std::size_t add(Panel panel);
+  void lay_out(std::span<const double> stops);
   void find_edges(const Segment& segment, std::span<const double> stops, std::span<const double> knots);
-  [[nodiscard]] std::size_t nodes_for(const Panel& panel) const;
+  std::size_t add(Panel panel);
+  void place(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
+  void fill(Panel& panel);
 
   std::span<const Segment> surface_;
   const Rubber& rubber_;
   double g_factor_, rtol_, velocity_ = 0;
+  std::size_t starts_ = 0;
+  bool laid_out_ = false;  // once for all velocities
   std::vector<std::size_t> roots_;
   std::vector<Panel> panels_;
   std::vector<double> data_, edges_;

@@ -1,5 +1,6 @@
 #include "legendre.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -8,7 +9,6 @@ namespace asperity {
 
 namespace {
 
-using Row = LegendreRule::Row;
 using Real = long double;  // where it is longer the tables are good to the last digit
 using Polynomials = std::array<Real, LegendreRule::most + 1>;
 
@@ -46,7 +46,7 @@ LegendreRule make_rule(std::size_t n) {
     }
   }
   for (std::size_t j = 0; j < n; ++j) {
-    std::array<Real, LegendreRule::most> cumulative{}, derivative{};
+    std::array<Real, LegendreRule::most> cumulative{}, change{};
     Real lower = 0, upper = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const Real coefficient = (static_cast<Real>(k) + 0.5L) * weight[j] * p[j][k];
@@ -54,19 +54,20 @@ LegendreRule make_rule(std::size_t n) {
       lower += k % 2 ? -coefficient : coefficient;
       for (std::size_t i = 0; i < n; ++i) {
         cumulative[i] += coefficient * integral[i][k];
-        derivative[i] += coefficient * slope[i][k];
+        change[i] += coefficient * slope[i][k];
       }
+      if (k == n / 2 || k + 1 == n / 2) r.tail[LegendreRule::tails + n / 2 - k][j] = static_cast<double>(coefficient);
       const std::size_t from_last = n - 1 - k;
       if (from_last >= LegendreRule::tails) continue;
       r.tail[from_last][j] = static_cast<double>(coefficient);
       r.tail_integral[from_last][j] = static_cast<double>(integral[j][k]);
-      r.tail_derivative[from_last][j] = static_cast<double>(weight[j] * slope[j][k]);
+      r.tail_slope[from_last][j] = static_cast<double>(weight[j] * slope[j][k]);
     }
     r.at_lower[j] = static_cast<double>(lower);
     r.at_upper[j] = static_cast<double>(upper);
     for (std::size_t i = 0; i < n; ++i) {
       r.cumulative[j][i] = static_cast<double>(cumulative[i]);
-      r.derivative[j][i] = static_cast<double>(derivative[i]);
+      r.slope[j][i] = static_cast<double>(weight[i] * change[i]);
     }
   }
   return r;
@@ -77,7 +78,7 @@ LegendreRule make_rule(std::size_t n) {
 const LegendreRule& legendre_rule(std::size_t n) {
   static const std::vector<LegendreRule> rules = [] {
     std::vector<LegendreRule> made;
-    for (const std::size_t size : {6, 8, 10, 12, 14, 16, 20, 24, 28, 32}) made.push_back(make_rule(size));
+    for (const std::size_t size : {8, 12, 16, 20, 24, 28, 32}) made.push_back(make_rule(size));
     return made;
   }();
   for (const LegendreRule& rule : rules)

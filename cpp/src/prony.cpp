@@ -4,6 +4,7 @@
 
 #include "asperity/rubber.hpp"
 #include "checks.hpp"
+#include "kernels.hpp"
 
 namespace asperity {
 
@@ -62,7 +63,7 @@ void PronySeries::angular_integrals(std::span<const double> w, double* i1, doubl
   const std::size_t n = w.size();
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
   const auto overflows = [&](double tau) { return !(fastest * tau < 1e150); };
-  if (std::ranges::any_of(times_, overflows)) {
+  if (n % 4 != 0 || std::ranges::any_of(times_, overflows)) {
     for (std::size_t i = 0; i < n; ++i) {
       const AngularIntegrals one = angular_integrals(w[i]);
       i1[i] = one.i1;
@@ -70,20 +71,7 @@ void PronySeries::angular_integrals(std::span<const double> w, double* i1, doubl
     }
     return;
   }
-  std::fill_n(i1, n, 0.0);
-  std::fill_n(i2, n, equilibrium_ * equilibrium_);
-  for (std::size_t k = 0; k < moduli_.size(); ++k) {
-    const double tau = times_[k], modulus = moduli_[k], weight = weights_[k];
-    for (std::size_t i = 0; i < n; ++i) {
-      const double t = w[i] * tau, r = std::sqrt(1 + t * t), s_over_t = t / (r * (r + 1));
-      i1[i] += modulus * s_over_t;
-      i2[i] += weight * t * s_over_t;
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    i1[i] *= 2 * pi;
-    i2[i] *= 2 * pi;
-  }
+  kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n, i1, i2);
 }
 
 PronySeries PronySeries::shifted(double a_T) const {
