@@ -83,7 +83,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   const auto [q0, q1] = band(spectrum);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
 
-  const bool s_in_area = s_inside(model.correction, surface, q1).has_value();
+  AreaG area_g(model, surface, q1);
+  Worth worth_of(surface, model.form, q1);
   const std::optional<SFunction> factor = s_in_integrand(model.correction);
 
   const std::size_t n = velocity.size();
@@ -124,8 +125,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
 
     const double g = solver.g(q1);
-    f.contact_area[i] = contact_share(area_g(g, model, surface, q1), model.form);
-    worth = measured_worth(g, shift.p, model.form, surface, q1);
+    f.contact_area[i] = contact_share(area_g(g), model.form);
+    worth = worth_of(g, shift.p);
     if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
     if (!std::isfinite(f.mu[i]))
@@ -133,7 +134,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
                          ": overflows over pressure = " + show(pressure[i]) + ", their ratio must be finite");
 
     const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
-    const double area_error = sensitivity(false) * g_error + (s_in_area ? model.rtol / 100 : 0);
+    const double area_error = sensitivity(false) * g_error;
     f.error_estimate[i] =
         hysteresis.error +
         f.hysteresis[i] * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +

@@ -22,6 +22,17 @@ void check_scales(std::span<const Segment> surface) {
     }
 }
 
+Adaptive rule(Method method) {
+  switch (method) {
+    case Method::qags:
+      return Adaptive::qags;
+    case Method::cquad:
+      return Adaptive::cquad;
+    default:
+      return Adaptive::qag;
+  }
+}
+
 }  // namespace
 
 Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
@@ -53,7 +64,8 @@ void Solver::solve(double pressure, double shift) {
     return;
   }
   path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity_, shift}, stops_,
-                with_hysteresis_, model_.rtol);
+                with_hysteresis_, model_.rtol, rule(model_.method));
+  if (const double g = path_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;
   const Path::Hysteresis found = path_->hysteresis(model_.form, factor_);
   hysteresis_ = {found.value, found.error, found.outside};
