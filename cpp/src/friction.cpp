@@ -41,8 +41,8 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
   return s;
 }
 
-/// How an error of G passes on to P S: |d ln(P S) / d ln G| is 1/2 at most for P alone and 3/2 with S.
-double sensitivity(bool with_s) { return with_s ? 1.5 : 0.5; }
+/// How an error of G passes on: |d ln P / d ln G| is 1/2 at most, and d ln F / d ln G is 1 at most whatever S is.
+double sensitivity(bool with_s) { return with_s ? 1 : 0.5; }
 
 /// Row i of the tables of contributions, from the panels that `hysteresis` was summed over.
 void add_contributions(Contributions& c, std::size_t i, const Solver& solver, double velocity) {
