@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails, lanes = 4;
 constexpr double rounding = 1e-15;
 
-/// The further below the tolerance a sum of errors is, the more of that may be chance. Without it four of 10,000 random
-/// scenes (tests/stability) had an error above it, by 5 times at most.
+/// The further below the tolerance a sum of errors is, the more of that may be chance. With a power of 0.06 and less of
+/// the rule's, 16 of 40,000 random scenes (tests/stability) had an error above it, by 5 times at most.
 double cautious(double error, double tolerance) {
   return error > 0 && error < tolerance ? error * 1.25 * std::pow(tolerance / error, 0.15) : error;
 }
