@@ -19,7 +19,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of the biweight, in standard deviations: half of the points may be outliers; 95 % of the efficiency of least squares.
 constexpr double robust_cut = 1.5476, efficient_cut = 4.685;
-constexpr double run_away = 10;       // decades of v0 beyond the points
+constexpr double run_away = 10;  // decades of v0 beyond the points
 // Nodes that are tried, the steps that each takes, and how many of the best then go on.
 constexpr std::size_t many_starts = 32, few_starts = 8;
 constexpr int first_steps = 5, most_steps = 500;
