@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t most = LegendreRule::most;
 constexpr double longest = 4;  // in s: on longer ones the last coefficients tell errors too small
+constexpr double beside_front = 2.5;
 constexpr double rounding = 4e-16;
 constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: most is to be resolved at its foot
 
@@ -28,9 +29,11 @@ double decay_of(const Panel& panel, bool tabulated) {
 
 /// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
 /// everywhere is done with fewer, but the last coefficients tell the error only from some on.
-std::size_t nodes_for(const Panel& panel, double rtol) {
+std::size_t nodes_for(const Panel& panel, double rtol, bool tabulated) {
   const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
-  const double nodes = 4 + digits * std::numbers::ln10 / (-2 * std::log(panel.decay));
+  // at the front F is rougher, elsewhere the square root lies off the panel
+  const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : tabulated ? 1 : 1.2);
+  const double nodes = 4 + digits * std::numbers::ln10 / (2 * falling);
   const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
   return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
 }
@@ -59,8 +62,9 @@ void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double
 }
 
 std::size_t GaussPanels::add(Panel panel) {
-  panel.decay = decay_of(panel, std::holds_alternative<MasterCurve>(rubber_));
-  panel.rule = &legendre_rule(nodes_for(panel, rtol_));
+  const bool tabulated = std::holds_alternative<MasterCurve>(rubber_);
+  panel.decay = decay_of(panel, tabulated);
+  panel.rule = &legendre_rule(nodes_for(panel, rtol_, tabulated));
   panel.data = data_.size();
   panel.child = panel.filled = 0;
   data_.resize(data_.size() + Panel::rows * panel.rule->n);
@@ -122,14 +126,16 @@ std::size_t GaussPanels::children(std::size_t index) {
   return child;
 }
 
-void GaussPanels::find_edges(const Segment& segment, std::span<const double> stops, std::span<const double> knots) {
+void GaussPanels::find_edges(const Segment& segment, bool front, std::span<const double> stops,
+                             std::span<const double> knots) {
   const double end = segment.length();
   edges_.assign({0, end});
   const auto cut = [&](double s) {
     if (s > 0 && s < end) edges_.push_back(s);
   };
-  const double pieces = std::ceil(end / longest);
-  for (double i = 1; i < pieces; ++i) cut(end * i / pieces);
+  const double start = front ? beside_front : 0, pieces = std::ceil((end - start) / longest);
+  cut(start);
+  for (double i = 1; i < pieces; ++i) cut(start + (end - start) * i / pieces);
   for (const double q : stops)
     if (q > segment.a && q < segment.b) cut(segment.offset(q));
   const auto first = std::ranges::upper_bound(knots, velocity_ * segment.a);
@@ -150,7 +156,7 @@ void GaussPanels::lay_out(std::span<const double> stops) {
   double before = 0;  // int q^4 C ds
   for (const Segment& segment : surface_) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
-    find_edges(segment, stops, knots);
+    find_edges(segment, before == 0, stops, knots);
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
       const double knot = edges_[i], end = edges_[i + 1];
       for (double from = knot, to; from < end; from = to) {

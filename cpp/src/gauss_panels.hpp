@@ -65,7 +65,7 @@ class GaussPanels {
 
  private:
   void lay_out(std::span<const double> stops);
-  void find_edges(const Segment& segment, std::span<const double> stops, std::span<const double> knots);
+  void find_edges(const Segment& segment, bool front, std::span<const double> stops, std::span<const double> knots);
   std::size_t add(Panel panel);
   void place(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
   void fill(Panel& panel);
