@@ -27,6 +27,14 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   return {wavenumber.begin(), wavenumber.end()};
 }
 
+/// One for each wavenumber.
+std::vector<AreaG> area_gs(const ContactModel& model, std::span<const Segment> surface,
+                           std::span<const double> wavenumber) {
+  std::vector<AreaG> result;
+  for (const double q : wavenumber) result.emplace_back(model, surface, q);
+  return result;
+}
+
 /// Calls visit(index of point, index of wavenumber, uncorrected-by-S G, shift) for every combination; G is
 /// negative where there is no contact at all.
 template <class Visit>
@@ -60,9 +68,10 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size() * q.size());
+  std::vector<AreaG> area_g = area_gs(model, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift&) {
-            result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g(g, model, surface, q[j]), model.form);
+            result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g[j](g), model.form);
           });
   return result;
 }
@@ -73,6 +82,7 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   Notes notes(spectrum, model.correction);
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
+  Worth worth_of(surface, model.form, q1);
   Solver solver(surface, rubber, model, false, {});
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
@@ -82,7 +92,7 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
       at_point(pressure[i], velocity[i], [&] {
         solver.start(velocity[i], {});
         solver.solve(pressure[i], shift.p);
-        worth = measured_worth(solver.g(q1), shift.p, model.form, surface, q1);
+        worth = worth_of(solver.g(q1), shift.p);
       });
     }
     notes.add(shift, velocity[i], 0, worth);
@@ -107,6 +117,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
   const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size() * q.size());
   const std::optional<SFunction> s = s_in_integrand(model.correction);
+  std::vector<AreaG> area_g = area_gs(model, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
             double& factor = result[i * q.size() + j];
@@ -116,7 +127,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
               const double share = contact_share(g, model.form);
               factor = share * (*s)(share);
             } else {
-              factor = contact_share(area_g(g, model, surface, q[j]), model.form) / (shift.p * shift.p);
+              factor = contact_share(area_g[j](g), model.form) / (shift.p * shift.p);
             }
           });
   return result;
@@ -131,10 +142,11 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
   const std::vector<Segment> surface = segments(spectrum);
   std::vector<double> result(pressure.size());
+  AreaG area_g(model, surface, wavenumber);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
             if (uncorrected < 0) return;
-            const double g = area_g(uncorrected, model, surface, wavenumber), x = stress[i] / pressure[i];
+            const double g = area_g(uncorrected), x = stress[i] / pressure[i];
             const double from_nominal = (stress[i] - pressure[i]) / pressure[i];
             if (g == 0)
               throw InvalidInput("wavenumber = " + show(wavenumber) +

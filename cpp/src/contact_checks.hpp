@@ -19,6 +19,16 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   for (const double v : velocity) require_positive("velocity", v);
 }
 
+/// Whether products of a number keep all their digits.
+inline bool tellable(double value) { return value >= 1e-280 && value <= 1e280; }
+
+/// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
+inline void check_g(double g, double pressure) {
+  if (!(g >= 1e-280 && g <= 1e180))  // its square and its root are told too
+    throw InvalidInput("pressure = " + show(pressure) + ": leads to G = " + show(g) +
+                       ", must be such that G is in [1e-280, 1e180]");
+}
+
 /// work(), with the point added to what a NotConverged says.
 template <class Work>
 void at_point(double pressure, double velocity, Work work) {

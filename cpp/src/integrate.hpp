@@ -12,6 +12,10 @@ struct Integral {
   double magnitude;  // integral of |f|; only the fixed rule gives it, 0 otherwise
 };
 
+/// GSL's adaptive routines: QAG with the 21-point Gauss-Kronrod rule, QAGS, which extrapolates as well (Wynn's epsilon
+/// algorithm), and CQUAD, doubly adaptive Clenshaw-Curtis rules (Gonnet, ACM TOMS 37, 26 (2010)).
+enum class Adaptive { qag, qags, cquad };
+
 namespace detail {
 
 /// A callable that C can call: exceptions wait in `failure` until GSL has returned.
@@ -21,8 +25,8 @@ struct Callback {
 };
 /// One 21-point Gauss-Kronrod rule.
 Integral kronrod(const Callback& f, double lower, double upper);
-/// GSL's QAG with the 21-point rule. Throws NotConverged where neither tolerance is reached.
-Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol);
+/// Throws NotConverged where neither tolerance is reached.
+Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule);
 
 template <class F>
 struct Guarded {
@@ -65,8 +69,8 @@ Integral integrate_smooth(F&& f, double lower, double upper) {
 
 /// int_lower^upper f(x) dx to the looser of an absolute and a relative tolerance, by bisection.
 template <class F>
-Integral integrate(F&& f, double lower, double upper, double rtol, double atol = 0) {
-  return detail::run(f, [&](const detail::Callback& c) { return detail::adaptive(c, lower, upper, atol, rtol); });
+Integral integrate(F&& f, double lower, double upper, double rtol, double atol = 0, Adaptive rule = Adaptive::qag) {
+  return detail::run(f, [&](const detail::Callback& c) { return detail::adaptive(c, lower, upper, atol, rtol, rule); });
 }
 
 }  // namespace asperity

@@ -89,6 +89,12 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
   require_each_positive("storage_modulus", storage_modulus);
   require_each_positive("loss_modulus", loss_modulus);
   require_rising("angular_frequency", angular_frequency);
+  for (const auto& [name, moduli] :
+       {std::pair{"storage_modulus", &storage_modulus}, std::pair{"loss_modulus", &loss_modulus}})
+    for (std::size_t i = 0; i < moduli->size(); ++i)
+      if (const double e = (*moduli)[i]; !(e >= 1e-140 && e <= 1e140))
+        refuse(std::string(name) + "[" + std::to_string(i) + "]", e,
+               "in [1e-140, 1e140] Pa, so that its square can be told");
   for (std::size_t i = 1; i < angular_frequency.size(); ++i)
     if (!(std::log(angular_frequency[i]) > std::log(angular_frequency[i - 1])))
       refuse("angular_frequency[" + std::to_string(i) + "]", angular_frequency[i],

@@ -13,8 +13,8 @@ namespace asperity {
 using std::numbers::pi;
 
 Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
-           bool resolve_front, double rtol)
-    : rubber_(rubber), point_(point), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
+           bool resolve_front, double rtol, Adaptive rule)
+    : rubber_(rubber), point_(point), rule_(rule), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
   const double stiffening = 1 / (1 - point.poisson_ratio * point.poisson_ratio);
   const double ratio = stiffening / point.pressure / point.shift;
   g_factor_ = ratio * ratio / 8;
@@ -47,8 +47,8 @@ void Path::add_segment(const Segment& segment, std::vector<double> edges) {
   edges.erase(repeated.begin(), repeated.end());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     panels_.push_back({&segment, edges[i], edges[i + 1], g_end_});
-    const Integral step =
-        integrate([&](double s) { return g_rate(segment, s); }, edges[i], edges[i + 1], g_rtol_, g_rtol_ * g_end_);
+    const Integral step = integrate([&](double s) { return g_rate(segment, s); }, edges[i], edges[i + 1], g_rtol_,
+                                    g_rtol_ * g_end_, rule_);
     g_end_ += step.value;
     g_error_ += step.error;
     if (g_end_ > 0) relative_error_ = std::fmax(relative_error_, g_error_ / g_end_);
@@ -63,7 +63,7 @@ double Path::front(const Segment& segment) const {
 }
 
 double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point) {
-  return Path(surface.first(1), rubber, point, {}, false, 0.1).front(surface.front());
+  return Path(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::qag).front(surface.front());
 }
 
 double Path::g_rate(const Segment& segment, double s) const {
@@ -85,7 +85,7 @@ double Path::g_inside(const Panel& panel, double s) const {
   const auto rate = [&](double at) { return g_rate(*panel.segment, at); };
   Integral step = integrate_smooth(rate, panel.lower, s);
   if (step.error > g_rtol_ * (panel.g_lower + step.value))
-    step = integrate(rate, panel.lower, s, g_rtol_, g_rtol_ * panel.g_lower);
+    step = integrate(rate, panel.lower, s, g_rtol_, g_rtol_ * panel.g_lower, rule_);
   return panel.g_lower + step.value;
 }
 
@@ -123,7 +123,7 @@ Path::Hysteresis Path::hysteresis(Form form, const std::optional<SFunction>& fac
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
   for (const Panel& panel : panels_) {
     const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, factor, nullptr); },
-                                    panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value);
+                                    panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value, rule_);
     result.value += part.value;
     result.error += part.error;
     result.by_panel.push_back(part.value);
@@ -134,7 +134,8 @@ Path::Hysteresis Path::hysteresis(Form form, const std::optional<SFunction>& fac
       return rate;
     };
     constexpr double share_tolerance = 1e-4;  // a share is read to two or three digits
-    result.outside += integrate(outside, panel.lower, panel.upper, share_tolerance, share_tolerance * part.value).value;
+    result.outside +=
+        integrate(outside, panel.lower, panel.upper, share_tolerance, share_tolerance * part.value, rule_).value;
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "integrate.hpp"
 #include "partial_contact.hpp"
 
 namespace asperity {
@@ -21,8 +22,9 @@ class Path {
     double poisson_ratio, pressure, velocity, shift;
   };
   /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
+  /// `rule` computes all of them.
   Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
-       bool resolve_front, double rtol);
+       bool resolve_front, double rtol, Adaptive rule);
 
   /// G at a wavenumber, q0 to q1.
   [[nodiscard]] double g(double wavenumber) const;
@@ -59,6 +61,7 @@ class Path {
 
   const Rubber& rubber_;
   Point point_;
+  Adaptive rule_;
   double rtol_, g_rtol_, g_factor_, mu_factor_;
   double g_error_ = 0, relative_error_ = 0;
   std::vector<Panel> panels_;

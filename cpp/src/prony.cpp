@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "asperity/rubber.hpp"
 #include "checks.hpp"
@@ -17,6 +18,11 @@ PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli,
   require_each_positive("moduli", moduli_);
   require_each_positive("relaxation_times", times_);
   if (moduli_.empty() && equilibrium_ == 0) refuse("equilibrium_modulus", 0, "positive where there are no moduli");
+  longest_ = times_.empty() ? 0 : std::ranges::max(times_);
+  const double glassy = std::accumulate(moduli_.begin(), moduli_.end(), equilibrium_);
+  if (!(glassy >= 1e-140 && glassy <= 1e140))
+    refuse(moduli_.empty() ? "equilibrium_modulus" : "moduli: their sum with equilibrium_modulus", glassy,
+           "in [1e-140, 1e140] Pa, so that its square can be told");
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     double sum = equilibrium_;
     // tau_l / (tau_k + tau_l) as 1 / (1 + tau_k / tau_l): no overflow for far modes
@@ -47,7 +53,7 @@ std::complex<double> PronySeries::modulus(double w) const {
 //   I1 = 2 pi sum_k E_k s_k / (w tau_k),   I2 = 2 pi (E_inf^2 + sum_k w_k s_k).
 // All terms are positive and s_k in its second form does not cancel.
 AngularIntegrals PronySeries::angular_integrals(double w) const {
-  require_not_negative("angular_frequency", w);
+  check_frequency(w);
   double i1 = 0, i2 = equilibrium_ * equilibrium_;
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     const double t = w * times_[k];
@@ -59,12 +65,19 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
   return {2 * pi * i1, 2 * pi * i2};
 }
 
+// Beyond 1e300 w tau itself overflows.
+void PronySeries::check_frequency(double w) const {
+  require_not_negative("angular_frequency", w);
+  if (!(w * longest_ < 1e300))
+    refuse("angular_frequency", w, "below 1e300 / relaxation_times, " + show(1e300 / longest_) + " rad/s");
+}
+
 void PronySeries::angular_integrals(std::span<const double> w, double* i1, double* i2) const {
-  for (const double one : w) require_not_negative("angular_frequency", one);
   const std::size_t n = w.size();
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
-  const auto overflows = [&](double tau) { return !(fastest * tau < 1e150); };
-  if (n % 4 != 0 || std::ranges::any_of(times_, overflows)) {
+  for (const double one : w) require_not_negative("angular_frequency", one);
+  check_frequency(fastest);
+  if (n % 4 != 0 || !(fastest * longest_ < 1e150)) {
     for (std::size_t i = 0; i < n; ++i) {
       const AngularIntegrals one = angular_integrals(w[i]);
       i1[i] = one.i1;

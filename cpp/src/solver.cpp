@@ -1,9 +1,39 @@
 #include "solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "checks.hpp"
+#include "contact_checks.hpp"
+
 namespace asperity {
+
+namespace {
+
+/// Scales so absurd that q^4 C is lost on the way are refused.
+void check_scales(std::span<const Segment> surface) {
+  for (const Segment& segment : surface)
+    for (const auto& [q, c] : {std::pair{segment.a, segment.at_a}, std::pair{segment.b, segment.at_b}}) {
+      const double fourth = (q * q) * (q * q);
+      if (!tellable(fourth) || (c != 0 && (!tellable(c) || !tellable(fourth * c))))
+        throw InvalidInput("spectrum: density = " + show(c) + " m^4 at wavenumber = " + show(q) +
+                           " 1/m: must be such that C, q^4 and q^4 C are in [1e-280, 1e280]");
+    }
+}
+
+Adaptive rule(Method method) {
+  switch (method) {
+    case Method::qags:
+      return Adaptive::qags;
+    case Method::cquad:
+      return Adaptive::cquad;
+    default:
+      return Adaptive::qag;
+  }
+}
+
+}  // namespace
 
 Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
                const std::optional<SFunction>& factor)
@@ -13,6 +43,7 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
       factor_(factor),
       with_hysteresis_(with_hysteresis),
       gauss_(surface, rubber, model.poisson_ratio, model.rtol) {
+  check_scales(surface);
   if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
 }
 
@@ -33,7 +64,8 @@ void Solver::solve(double pressure, double shift) {
     return;
   }
   path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity_, shift}, stops_,
-                with_hysteresis_, model_.rtol);
+                with_hysteresis_, model_.rtol, rule(model_.method));
+  if (const double g = path_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;
   const Path::Hysteresis found = path_->hysteresis(model_.form, factor_);
   hysteresis_ = {found.value, found.error, found.outside};

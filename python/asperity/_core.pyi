@@ -20,7 +20,7 @@ _Correction: TypeAlias = (
 _Detrend: TypeAlias = Literal["offset", "plane", "quadratic"]
 _Window: TypeAlias = Literal["split-cosine-bell", "hann", "none"]
 _Form: TypeAlias = Literal["exact", "interpolated"]
-_Method: TypeAlias = Literal["gauss", "qag"]
+_Method: TypeAlias = Literal["gauss", "qag", "qags", "cquad"]
 _Reading: TypeAlias = Literal["implicit", "added"]
 
 __version__: str
@@ -657,6 +657,7 @@ def contact_notes(
     correction: _Correction = None,
     form: _Form = "exact",
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> tuple[str, ...]: ...
 def mean_pressure(
     spectrum: _Spectrum,
@@ -695,6 +696,7 @@ def pressure_distribution(
     poisson_ratio: float = 0.5,
     correction: _Correction = None,
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> _Result: ...
 
 class Adhesion:
@@ -794,4 +796,5 @@ def fit_adhesion(
     correction: _Correction = None,
     form: _Form = "exact",
     rtol: float = 1e-6,
+    method: _Method = "gauss",
 ) -> AdhesionFit: ...

@@ -44,7 +44,7 @@ from asperity.uncertainty import DrawAdhesion, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
-_SOLVER = {"rtol": Field(number, "rtol"), "form": Field(text, "form")}
+_SOLVER = {"rtol": Field(number, "rtol")} | {name: Field(text, name) for name in ("form", "method")}
 _NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
 _UNCERTAINTY = {
     "samples": Field(count, "samples"),
@@ -90,7 +90,7 @@ class Scene:
     velocity: NDArray[np.float64]  # [m/s], shape (m,)
     correction: Correction | None
     adhesion: Adhesion | None
-    options: Mapping[str, Any]  # poisson_ratio, rtol, form
+    options: Mapping[str, Any]  # poisson_ratio, rtol, form, method
     inputs: Mapping[str, Mapping[str, Any]]
     sampling: Mapping[str, Any]  # samples, seed and level of a band
 
@@ -237,7 +237,7 @@ def load_scene(path: str | Path) -> Scene:
     solver = read_table(path, "solver", tables.get("solver", {}), _SOLVER)
     points = {key: conditions.pop(key) for key in _POINTS}
     conditions = {"poisson_ratio": 0.5, **conditions}
-    solver = {"rtol": 1e-6, "form": "exact", **solver}
+    solver = {"rtol": 1e-6, "form": "exact", "method": "gauss", **solver}
 
     rows = points["pressure_pa"].size * points["velocity_m_s"].size
     if rows > MOST_ROWS:

@@ -12,7 +12,8 @@ namespace asperity::python {
 namespace {
 
 const auto forms = {std::pair{"exact", Form::exact}, std::pair{"interpolated", Form::interpolated}};
-const auto methods = {std::pair{"gauss", Method::gauss}, std::pair{"qag", Method::qag}};
+const auto methods = {std::pair{"gauss", Method::gauss}, std::pair{"qag", Method::qag}, std::pair{"qags", Method::qags},
+                      std::pair{"cquad", Method::cquad}};
 
 using Spans = std::vector<double> (*)(const Spectrum&, const Rubber&, const ContactModel&, std::span<const double>,
                                       std::span<const double>, std::span<const double>);
@@ -82,8 +83,8 @@ wavenumber : array_like, shape (n,) or (), optional
     Where the surface is cut [1/m], within its band: appended as last axis. By default q1.
 rtol : float
     Relative tolerance, 1e-12 to 0.1.
-method : {"gauss", "qag"}
-    Gauss-Legendre panels, or GSL's adaptive integration to check them with, slower by a hundred times.
+method : {"gauss", "qag", "qags", "cquad"}
+    Gauss-Legendre panels, or GSL's adaptive integration of that name to check them with, slower by hundreds of times.
 
 Returns
 -------
@@ -100,15 +101,16 @@ NotConverged
   m.def(
       "contact_notes",
       [](const py::object& spectrum, const py::object& rubber, const py::object& pressure, const py::object& velocity,
-         double poisson_ratio, const py::object& correction, const std::string& form, double rtol) {
+         double poisson_ratio, const py::object& correction, const std::string& form, double rtol,
+         const std::string& method) {
         const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-        return py::tuple(
-            py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
-                                   contact_model(poisson_ratio, correction, form, rtol), b.columns[0], b.columns[1])));
+        return py::tuple(py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
+                                                contact_model(poisson_ratio, correction, form, rtol, method),
+                                                b.columns[0], b.columns[1])));
       },
       py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
       py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(), py::arg("form") = "exact",
-      py::arg("rtol") = 1e-6,
+      py::arg("rtol") = 1e-6, py::arg("method") = "gauss",
       R"(Where the theory or its input leaves its range at these pressures [Pa] and velocities [m/s], in sentences.
 
 What `friction` returns as notes, for those who ask for the contact area alone. Arguments as for `contact_area`; a tuple
@@ -127,9 +129,9 @@ as for `contact_area`.
       "pressure_distribution",
       [](const py::object& stress, const py::object& spectrum, const py::object& rubber, const py::object& pressure,
          const py::object& velocity, std::optional<double> wavenumber, double poisson_ratio,
-         const py::object& correction, double rtol) {
+         const py::object& correction, double rtol, const std::string& method) {
         Broadcast b = broadcast({{"stress", stress}, {"pressure", pressure}, {"velocity", velocity}});
-        const ContactModel model = contact_model(poisson_ratio, correction, "exact", rtol);
+        const ContactModel model = contact_model(poisson_ratio, correction, "exact", rtol, method);
         const Spectrum surface = spectrum_of(spectrum);
         const Rubber material = rubber_of(rubber);
         std::vector<double> result;
@@ -142,7 +144,7 @@ as for `contact_area`.
       },
       py::arg("stress"), py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"),
       py::arg("velocity"), py::arg("wavenumber") = py::none(), py::arg("poisson_ratio") = 0.5,
-      py::arg("correction") = py::none(), py::arg("rtol") = 1e-6,
+      py::arg("correction") = py::none(), py::arg("rtol") = 1e-6, py::arg("method") = "gauss",
       R"(Probability density P(sigma) of the contact pressure [1/Pa], the solution of Eq. 4.
 
 A Gaussian of variance 2 G sigma0^2 about sigma0 minus its mirror image at -sigma0. Its integral over sigma > 0 is A/A0 and

@@ -9,6 +9,6 @@
 namespace asperity::python {
 
 ContactModel contact_model(double poisson_ratio, const pybind11::object& correction, const std::string& form,
-                           double rtol, const std::string& method = "gauss");
+                           double rtol, const std::string& method);
 
 }  // namespace asperity::python

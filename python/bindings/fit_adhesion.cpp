@@ -64,14 +64,14 @@ FixedAdhesion fixed_of(const py::object& found) {
 
 FittedAdhesion fit(const py::object& spectrum, const py::object& rubber, const py::object& velocity,
                    const py::object& mu, const py::object& pressure, const py::object& fixed, double poisson_ratio,
-                   const py::object& correction, const std::string& form, double rtol) {
+                   const py::object& correction, const std::string& form, double rtol, const std::string& method) {
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
   const Array measured = real_array(mu, "mu");
   if (Shape(measured.shape(), measured.shape() + measured.ndim()) != b.shape)
     throw InvalidInput("mu has shape " + py::str(measured.attr("shape")).cast<std::string>() +
                        ": must be that of pressure and velocity together, " +
                        py::str(py::tuple(py::cast(b.shape))).cast<std::string>());
-  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol);
+  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
   const FixedAdhesion held = fixed_of(fixed);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
@@ -124,6 +124,7 @@ An Adhesion like any other, tau_f0 [Pa], v0 [m/s], c [-], that also knows how we
   m.def("fit_adhesion", &fit, py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("velocity"), py::arg("mu"),
         py::arg("pressure"), py::arg("fixed") = py::dict(), py::arg("poisson_ratio") = 0.5,
         py::arg("correction") = py::none(), py::arg("form") = "exact", py::arg("rtol") = 1e-6,
+        py::arg("method") = "gauss",
         R"(tau_f0, v0 and c of Eq. 23 from measured friction.
 
 mu = mu_H + (tau_f0 / sigma0) (A/A0) exp(-c log10(v / v0)^2), with mu_H and A/A0 as `friction` computes them, is fitted
@@ -142,7 +143,7 @@ mu : array_like
     Measured, positive [-], in the broadcast shape of velocity and pressure. Repeats are entries of their own.
 fixed : dict
     Parameters to hold, up to two of shear_stress [Pa], reference_velocity [m/s], width [-]: {"width": 0.1}.
-poisson_ratio, correction, form, rtol
+poisson_ratio, correction, form, rtol, method
     As of `friction`.
 
 Returns

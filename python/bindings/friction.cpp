@@ -140,8 +140,8 @@ rtol : float
     Relative tolerance of mu, 1e-12 to 0.1.
 contributions : bool
     Also give dmu/dlnq and the share of each decade of frequency.
-method : {"gauss", "qag"}
-    As above, or GSL's adaptive Gauss-Kronrod integration to check it with, slower by a hundred times.
+method : {"gauss", "qag", "qags", "cquad"}
+    As above, or GSL's adaptive integration of that name to check it with, slower by hundreds of times.
 
 Returns
 -------

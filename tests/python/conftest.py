@@ -22,6 +22,7 @@ LISTS = {
     "table_density",
     "pressures",
     "velocities",
+    "hystereses",
     "measured",
     "outliers",
 }

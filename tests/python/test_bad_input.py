@@ -263,6 +263,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
             "poisson_ratio": [POISSON],
             "correction": [CORRECTION],
             "rtol": [RTOL],
+            "method": [NAME],
         }
         | ({} if name == "friction" else {"wavenumber": [POSITIVE]})
         | (

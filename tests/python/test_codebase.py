@@ -75,6 +75,8 @@ TOPIC = {
     "front_integral": "contact",
     "gauss_panels": "contact",
     "gauss_path": "contact",
+    "kernels": "rubber",
+    "panel_error": "contact",
     "persson": "contact",
     "solver": "contact",
     "notes": "contact",

@@ -67,7 +67,8 @@ def test_friction_is_that_of_the_core_with_its_defaults(folder: Path) -> None:
     assert curves.notes == list(expected.notes)
     assert any("flash heating" in note for note in curves.notes)
     recorded = {**scene.inputs["conditions"], **scene.inputs["solver"]}
-    assert (recorded["poisson_ratio"], recorded["rtol"], recorded["form"]) == (0.5, 1e-6, "exact")
+    defaults = {"poisson_ratio": 0.5, "rtol": 1e-6, "form": "exact", "method": "gauss"}
+    assert {name: recorded[name] for name in defaults} == defaults
 
 
 def test_everything_named_reaches_the_core(folder: Path) -> None:
@@ -79,7 +80,7 @@ def test_everything_named_reaches_the_core(folder: Path) -> None:
         + "poisson_ratio = 0.45\n"
         + "[correction]\nkind = 's-factor'\ngamma = 0.4\napplies_to = 'both'\n"
         + "[adhesion]\nshear_stress_pa = 8.3e6\nreference_velocity_m_s = 5e-3\nwidth = 0.2\n"
-        + "[solver]\nrtol = 1e-4\nform = 'interpolated'\n"
+        + "[solver]\nrtol = 1e-4\nform = 'interpolated'\nmethod = 'cquad'\n"
     )
     curves = load_scene(write(folder, text)).friction()
     expected = asperity.friction(
@@ -94,6 +95,7 @@ def test_everything_named_reaches_the_core(folder: Path) -> None:
         adhesion=asperity.Adhesion(shear_stress=8.3e6, reference_velocity=5e-3, width=0.2),
         rtol=1e-4,
         form="interpolated",
+        method="cquad",
     )
     np.testing.assert_array_equal(curves.mu, expected.mu)
     assert np.all(curves.adhesion > 0)

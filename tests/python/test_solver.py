@@ -4,7 +4,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import asperity
 
@@ -34,26 +33,3 @@ def test_a_point_does_not_depend_on_the_points_beside_it():
                     grid.mu[i, j],
                     grid.error_estimate[i, j],
                 )
-
-
-@pytest.mark.parametrize(
-    "call", [asperity.contact_area, asperity.mean_pressure, asperity.correction_factor]
-)
-def test_both_methods_agree_at_every_magnification(call):
-    options = {"pressure": 81e3, "velocity": [1e-4, 1.0], "wavenumber": np.geomspace(2000, 1e6, 7)}
-    gauss = call(ROAD, RUBBER, rtol=1e-9, **options)
-    qag = call(ROAD, RUBBER, rtol=1e-9, method="qag", **options)
-    np.testing.assert_allclose(gauss, qag, rtol=1e-9)
-
-
-def test_both_methods_agree_on_contributions():
-    options = {"pressure": 81e3, "velocity": [1e-4, 1.0], "contributions": True, "rtol": 1e-9}
-    gauss = asperity.friction(ROAD, RUBBER, **options)
-    qag = asperity.friction(ROAD, RUBBER, method="qag", **options)
-    np.testing.assert_allclose(gauss.decade_share, qag.decade_share, rtol=0, atol=1e-9)
-    np.testing.assert_allclose(gauss.dmu_dlnq, qag.dmu_dlnq, rtol=1e-8)
-
-
-def test_an_unknown_method_is_refused():
-    with pytest.raises(asperity.InvalidInput, match="method"):
-        asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=1.0, method="simpson")

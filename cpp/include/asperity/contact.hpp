@@ -16,9 +16,9 @@ namespace asperity {
 /// -2.8 % to +2.6 %.
 enum class Form { exact, interpolated };
 
-/// How integrals are computed: on Gauss-Legendre panels made for them, or by GSL's adaptive integration (QAG), which is
-/// slower by a hundred times and there to check the former. Both keep rtol or fail with NotConverged.
-enum class Method { gauss, qag };
+/// How integrals are computed: on Gauss-Legendre panels made for them, or by GSL's adaptive integration (QAG, QAGS,
+/// CQUAD), which is slower by hundreds of times and there to check the former. All keep rtol or fail with NotConverged.
+enum class Method { gauss, qag, qags, cquad };
 
 /// How the contact is computed.
 struct ContactModel {

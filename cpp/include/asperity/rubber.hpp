@@ -40,9 +40,12 @@ class ASPERITY_EXPORT PronySeries {
   bool operator==(const PronySeries&) const = default;
 
  private:
+  void check_frequency(double w) const;
+
   double equilibrium_;
   std::vector<double> moduli_, times_;
   std::vector<double> weights_;  // w_k = 2 E_k (E_inf + sum_l E_l tau_l / (tau_k + tau_l))
+  double longest_;               // relaxation time, 0 where there is none
 };
 
 enum class Extrapolation { power_law, clamp };

@@ -25,6 +25,7 @@ from asperity.kinds import Correction, Spectrum
 from asperity.validation.contacts import Contact
 
 Quantity = Literal["area", "energy"]
+Form = Literal["exact", "interpolated"]
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Model:
     call: str  # how it is made
     correction: Callable[[Contact], Correction | None]
     asperities: bool = False  # needs the macro-asperities' wavenumber
+    form: Form = "exact"
 
 
 def _peaks(distance: str) -> Callable[[Contact], Correction | None]:
@@ -147,13 +149,14 @@ def predict(contact: Contact, model: Model) -> Prediction:
         velocity=1.0,
         poisson_ratio=0.0,
         correction=correction,
+        form=model.form,
     )
     return Prediction(
         contact,
         model,
         shift=float(found.shift_factor),
         area=float(found.contact_area),
-        energy=energy(contact, correction),
+        energy=energy(contact, correction, model.form),
     )
 
 
@@ -163,7 +166,7 @@ def _solid(contact: Contact) -> PronySeries:
     )
 
 
-def energy(contact: Contact, correction: Correction | None) -> float:
+def energy(contact: Contact, correction: Correction | None, form: Form = "exact") -> float:
     """Elastic energy per area, (pi E* / 2) int q^2 C W dq [J/m^2].
 
     W is the weight of q^3 C in the integrand of Eq. 22, A/A0 times S or over p_T^2: with W = 1 the
@@ -179,6 +182,7 @@ def energy(contact: Contact, correction: Correction | None) -> float:
         velocity=1.0,
         poisson_ratio=0.0,
         correction=correction,
+        form=form,
         wavenumber=q,
     )
     total = np.sum(weight * q**2 * contact.spectrum.at(q) * factor)

@@ -1,0 +1,108 @@
+"""All charts of speed and exactness, and the README's table of them. Takes about three minutes:
+
+    python tests/benchmarks/charts.py
+
+Runs friction, point, scaling, work_precision and models one after the other and writes what they
+find to docs/benchmarks, and the table between its two marks in README.md. ASPERITY_LIBRARY as for
+point.py. pip install asperity[bem] scipy pybind11.
+"""
+
+import csv
+import io
+from pathlib import Path
+
+import friction
+import models
+import point
+import scaling
+import timing
+import work_precision
+
+from asperity.table import write_files
+
+ROOT = Path(__file__).parents[2]
+DOCS, README = ROOT / "docs" / "benchmarks", ROOT / "README.md"
+BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
+PARTS = (friction, point, scaling, work_precision, models)
+
+Rows = list[dict[str, str]]
+
+
+def rows_of(text: str) -> tuple[Rows, str]:
+    """Of a table, with the machine that it names."""
+    machine = next(line for line in text.splitlines() if line.startswith("# machine = "))
+    lines = io.StringIO("".join(line for line in text.splitlines(True) if line[0] != "#"))
+    return list(csv.DictReader(lines)), machine.partition(" = ")[2].strip('"')
+
+
+def page(tables: dict[str, str]) -> str:
+    """The README's table from the CSV files by their names."""
+    curve, machine = rows_of(tables["friction.csv"])
+    lines = [
+        [
+            row["method"],
+            timing.number(1e6 * float(row["time_s"])),
+            f"{float(row['error']):.1e}",
+            *(timing.number(float(row[f"{key}_ratio"])) for key in friction.YARDSTICKS),
+        ]
+        for row in curve
+    ]
+    header = ["60 velocities by", "time [us]", "worst error"]
+    header += [f"{key} NumPy over it" for key in friction.YARDSTICKS]
+    points = {row["quantity"]: float(row["time_s"]) for row in rows_of(tables["point.csv"])[0]}
+    table = {row["quantity"]: float(row["value"]) for row in rows_of(tables["tabulated.csv"])[0]}
+    sweeps = rows_of(tables["scaling.csv"])[0]
+    known = {(row["sweep"], int(row["count"])): float(row["time_s"]) for row in sweeps}
+    terms = {count: t for (sweep, count), t in known.items() if sweep == "terms"}
+    start, slope = scaling.straight(terms)
+    alone, grid = points["cpp, rtol 1e-06"], points["grid 1000 x 1000"]
+    more = [
+        [
+            "one point: in C++, from Python, an empty call with as many arguments",
+            ", ".join(f"{1e6 * points[f'{key}, rtol 1e-06']:.1f} us" for key in point.CALLS),
+        ],
+        [
+            "a grid of 1000 pressures x 1000 velocities",
+            f"{1e6 * grid / 1e6:.2g} us a point, {timing.number(grid / alone)} times one in C++",
+        ],
+        ["1 to 1e6 velocities", f"{known['velocities', 10**6]:.2g} s for the last"],
+        [
+            "1 to 200 Prony terms, 60 velocities",
+            f"{1e6 * start:.0f} us and {1e6 * slope:.1f} us a term",
+        ],
+        [
+            "23 rows of a table for 20 terms, rtol 1e-9",
+            f"{table['ratio']:.1f} times as long, {1e3 * table['once_s']:.2g} ms once before",
+        ],
+    ]
+    return (
+        f"{machine}, one thread:\n\n{timing.markdown(header, lines)}\n"
+        f"{timing.markdown(['at rtol 1e-6 unless said', 'found'], more)}"
+    )
+
+
+def with_page(readme: str, text: str) -> str:
+    """The README with `text` between its marks."""
+    before, begin, rest = readme.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise SystemExit(f"{README}: must have the lines {BEGIN!r} and {END!r}")
+    return before + begin + text + end + after
+
+
+def main() -> None:
+    timing.on_one_thread()
+    with_page(README.read_text(encoding="utf-8"), "")  # has it the marks?
+    files: dict[str, bytes] = {}
+    for part in PARTS:
+        elapsed, report = timing.timed(part.make)
+        files |= report.files
+        print(f"{report.text}\n{part.__name__}: {elapsed:.0f} s\n", flush=True)
+    tables = {name: data.decode() for name, data in files.items() if name.endswith(".csv")}
+    readme = with_page(README.read_text(encoding="utf-8"), page(tables))
+    contents = {DOCS / name: data for name, data in files.items()}
+    write_files({**contents, README: readme.encode()})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,124 @@
+"""One point from Python, over the C++ call and an empty call with as many arguments; and a grid.
+
+    python tests/benchmarks/point.py [--output DIR]
+
+The C++ call is timed by C++ (point.cpp), linked to the library of the `release` preset, which is
+built where that is missing or old: some minutes the first time. ASPERITY_LIBRARY names another one,
+a libasperity.a of this very source. The grid is 1000 pressures times 1000 velocities at rtol 1e-6,
+from Python, over that C++ call for one of its points: what it would take point by point.
+"""
+
+import importlib.util
+import os
+import subprocess
+import sysconfig
+import tempfile
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import timing
+from curves import curves
+
+import asperity
+
+ROOT = Path(__file__).parents[2]
+VELOCITY = 1e-2
+RTOLS = (1e-3, 1e-6, 1e-9)
+SIDE = 1000  # of the grid
+CALLS = ("cpp", "python", "empty")
+
+
+def library() -> Path:
+    """libasperity.a of this source."""
+    if given := os.environ.get("ASPERITY_LIBRARY"):
+        return Path(given)
+    for step in (
+        ["--preset", "release"],
+        ["--build", "--preset", "release", "--target", "asperity"],
+    ):
+        subprocess.run(["cmake", *step], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return ROOT / "build/release/cpp/libasperity.a"
+
+
+def module() -> Any:
+    """point.cpp, compiled."""
+    import pybind11
+
+    with tempfile.TemporaryDirectory() as folder:
+        built = Path(folder) / f"point_timing{sysconfig.get_config_var('EXT_SUFFIX')}"
+        headers = (ROOT / "cpp/include", pybind11.get_include(), sysconfig.get_path("include"))
+        includes = [f"-I{path}" for path in headers]
+        source = Path(__file__).with_suffix(".cpp")
+        command = ["c++", "-std=c++20", "-O3", "-shared", "-fPIC", *includes, source]
+        subprocess.run([*command, library(), "-o", built], check=True)
+        spec = importlib.util.spec_from_file_location("point_timing", built)
+        if spec is None or spec.loader is None:
+            raise SystemExit(f"{built}: cannot be loaded")
+        loaded = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(loaded)
+    return loaded
+
+
+def measure() -> dict[float, dict[str, float]]:
+    """Seconds by rtol and by CALLS."""
+    timed, curve = module(), curves()["Table 1"]
+    inputs, found = curve.inputs, {}
+    names = ("rms_height", "hurst", "q0", "q1", "equilibrium_modulus", "moduli", "relaxation_times")
+    for rtol in RTOLS:
+        options = {"velocity": VELOCITY, "correction": curve.correction, "rtol": rtol}
+        call = partial(
+            asperity.friction, curve.road, curve.rubber, pressure=inputs["pressure"], **options
+        )
+        empty = partial(
+            timed.empty, curve.road, curve.rubber, pressure=inputs["pressure"], **options
+        )
+        scene = [inputs[name] for name in (*names, "pressure")]
+        by_cpp = timed.seconds(*scene, VELOCITY, inputs["gamma"], rtol, 15, 200)
+        times = (timing.median(by_cpp), timing.typical(call, 15), timing.typical(empty, 15))
+        found[rtol] = dict(zip(CALLS, times, strict=True))
+    return found
+
+
+def grid(side: int) -> float:
+    """Seconds of a (v, p) grid from Python."""
+    curve = curves()["Table 1"]
+    conditions = {
+        "pressure": np.geomspace(1e4, 1e6, side),
+        "velocity": np.geomspace(1e-6, 10, side)[:, None],
+        "correction": curve.correction,
+    }
+    call = partial(asperity.friction, curve.road, curve.rubber, **conditions)
+    return timing.median([timing.seconds(call) for _ in range(3)])
+
+
+def make() -> timing.Report:
+    found, whole = measure(), grid(SIDE)
+    rows = [
+        [
+            f"{rtol:.0e}",
+            *(f"{1e6 * t:.2f}" for t in times.values()),
+            f"{times['python'] / (times['cpp'] + times['empty']):.2f}",
+        ]
+        for rtol, times in found.items()
+    ]
+    header = ["rtol", "C++ [us]", "Python [us]", "empty [us]", "Python / (C++ + empty)"]
+    alone = found[1e-6]["cpp"]
+    text = (
+        f"One point:\n\n{timing.markdown(header, rows)}\n"
+        f"Grid of {SIDE} x {SIDE} at rtol 1e-6: {whole:.3g} s, {1e6 * whole / SIDE**2:.3g} us a "
+        f"point, {timing.number(whole / alone)} times one point in C++ ({1e6 * alone:.3g} us).\n"
+    )
+    quantities = {
+        f"{name}, rtol {rtol:.0e}": seconds
+        for rtol, times in found.items()
+        for name, seconds in times.items()
+    }
+    quantities[f"grid {SIDE} x {SIDE}"] = whole
+    columns = {"quantity": list(quantities), "time_s": list(quantities.values())}
+    return timing.Report(text, {"point.csv": timing.table("benchmark point", columns)})
+
+
+if __name__ == "__main__":
+    timing.run(make, __doc__)

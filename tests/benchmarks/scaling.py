@@ -1,0 +1,121 @@
+"""Cost over the number of Prony terms and over the number of points: both linear.
+
+    python tests/benchmarks/scaling.py [--output DIR]
+
+Table 1's surface and conditions at rtol 1e-6: 60 velocities of series of 1 to 200 terms over the
+same range of relaxation times, and 1 to 1e6 points of 20 terms, each with a velocity of its own or
+as a grid of as many pressures as velocities.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import timing
+from curves import Curve, curves
+
+import asperity
+from asperity.plot import COLOURS, new_figure, picture
+
+TERMS = (1, 2, 5, 10, 20, 50, 100, 200)
+POINTS = tuple(10**k for k in range(7))
+SMALL = 100  # below this part of the largest count the call costs more than what is counted
+
+
+def series(curve: Curve, terms: int) -> asperity.PronySeries:
+    """With the curve's moduli at `terms` times, and their sum."""
+    log_times = np.log(curve.inputs["relaxation_times"])
+    at = np.linspace(log_times[0], log_times[-1], terms) if terms > 1 else log_times[[10]]
+    moduli = np.exp(np.interp(at, log_times, np.log(curve.inputs["moduli"])))
+    return asperity.PronySeries(
+        equilibrium_modulus=curve.inputs["equilibrium_modulus"],
+        moduli=moduli * curve.inputs["moduli"].sum() / moduli.sum(),
+        relaxation_times=np.exp(at),
+    )
+
+
+def seconds(curve: Curve, rubber: Any, pressure: Any, velocity: Any) -> float:
+    conditions = {"pressure": pressure, "velocity": velocity, "correction": curve.correction}
+    return timing.typical(lambda: asperity.friction(curve.road, rubber, **conditions), 9)
+
+
+def measure() -> dict[str, dict[int, float]]:
+    """Seconds by the number of terms, and by that of points."""
+    curve = curves()["Table 1"]
+    load = curve.inputs["pressure"]
+    found: dict[str, dict[int, float]] = {
+        "terms": {n: seconds(curve, series(curve, n), load, curve.velocity) for n in TERMS},
+        "velocities": {},
+        "grid": {},
+    }
+    for n in POINTS:
+        velocity, side = np.geomspace(1e-6, 10, n), round(n**0.5)
+        found["velocities"][n] = seconds(curve, curve.rubber, load, velocity)
+        pressure = np.geomspace(1e4, 1e6, side)[:, None]
+        found["grid"][side**2] = seconds(
+            curve, curve.rubber, pressure, np.geomspace(1e-6, 10, side)
+        )
+    return found
+
+
+def exponent(found: dict[int, float]) -> float:
+    """Of the power law through the larger counts."""
+    x, y = np.log([(n, t) for n, t in found.items() if n >= max(found) / SMALL]).T
+    return float(np.polyfit(x, y, 1)[0])
+
+
+def straight(found: dict[int, float]) -> tuple[float, float]:
+    """Seconds of none, and of each one more, by least squares of the relative error."""
+    n, t = np.array(list(found.items())).T
+    slope, start = np.polyfit(n, t, 1, w=1 / t)
+    return float(start), float(slope)
+
+
+def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
+    figure, (left, right) = new_figure(2)
+    start, slope = straight(found["terms"])
+    n = np.array([0, max(TERMS)])
+    left.plot(n, 1e3 * (start + slope * n), "--", color="0.5", linewidth=1, label="straight line")
+    terms, times = np.array(list(found["terms"].items())).T
+    left.plot(terms, 1e3 * times, "o", color=COLOURS[0], label="60 velocities")
+    left.set_ylim(bottom=0)
+    left.set_xlabel("Prony terms [-]")
+    left.set_ylabel("Time [ms]")
+    left.legend(loc="upper left", fontsize="small", frameon=False)
+    for name, label, colour in (
+        ("velocities", "each its own velocity", COLOURS[0]),
+        ("grid", "a grid, $\\sqrt{n}$ pressures x $\\sqrt{n}$ velocities", COLOURS[1]),
+    ):
+        right.plot(*zip(*found[name].items(), strict=True), "o-", color=colour, label=label)
+    most, longest = max(found["velocities"].items())
+    n = np.array([1, most])
+    right.plot(n, longest * n / most, "--", color="0.5", linewidth=1, label="slope 1", zorder=0)
+    right.set_xlabel("Points $n$ [-]")
+    right.set_ylabel("Time [s]")
+    right.set_xscale("log")
+    right.set_yscale("log")
+    right.legend(loc="upper left", fontsize="small", frameon=False)
+    return picture(figure, path)
+
+
+def make() -> timing.Report:
+    found = measure()
+    rows = [(name, n, t) for name, times in found.items() for n, t in sorted(times.items())]
+    columns = dict(zip(("sweep", "count", "time_s"), zip(*rows, strict=True), strict=True))
+    text = timing.markdown(
+        ["sweep", "count", "time [us]", "of one [us]"],
+        [[name, str(n), timing.number(1e6 * t), f"{1e6 * t / n:.3g}"] for name, n, t in rows],
+    )
+    start, slope = straight(found["terms"])
+    text += (
+        f"\n60 velocities take {1e6 * start:.0f} us and {1e6 * slope:.2f} us a term; time over the "
+        f"last two decades goes with velocities^{exponent(found['velocities']):.2f} and with the "
+        f"points of a grid^{exponent(found['grid']):.2f}.\n"
+    )
+    pictures = {f"scaling{end}": draw(found, Path(f"scaling{end}")) for end in (".png", ".svg")}
+    files = {"scaling.csv": timing.table("benchmark scaling", columns), **pictures}
+    return timing.Report(f"Scaling:\n\n{text}", files)
+
+
+if __name__ == "__main__":
+    timing.run(make, __doc__)

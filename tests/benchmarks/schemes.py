@@ -1,0 +1,174 @@
+"""Other ways to integrate a friction curve, vectorised in NumPy: without an error test, as written.
+
+With s = ln(q / q0) all of them compute, of a curve of `curves.py`,
+  G = int dG/ds ds, mu_H = int dmu/ds P S ds, P = erf(1 / (2 sqrt G)), S = gamma + (1 - gamma) P^2.
+"""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+from curves import Curve
+from moduli import Array
+from scipy.integrate import cumulative_trapezoid, quad, trapezoid
+from scipy.interpolate import make_interp_spline
+from scipy.special import erf
+
+
+def factors(curve: Curve) -> tuple[float, float]:
+    """Of dG/ds = g q^4 C I2 and dmu/ds = m q^4 C I1, with C(q0) q0^4 taken in."""
+    stiff = 1 / ((1 - curve.inputs["poisson_ratio"] ** 2) * curve.inputs["pressure"])
+    at_q0 = curve.inputs["q0"] ** 4 * curve.density
+    return at_q0 * stiff**2 / 8, at_q0 * stiff / 2
+
+
+def rates(curve: Curve, s: Array, velocity: Array) -> tuple[Array, Array]:
+    """dG/ds, and dmu/ds without P S; `velocity` goes with the first axis of s."""
+    g, m = factors(curve)
+    w = np.exp(s)
+    w *= (np.asarray(velocity) * curve.inputs["q0"]).reshape(-1, *[1] * (s.ndim - 1))
+    i1, i2 = (column.reshape(s.shape) for column in curve.modulus(w.ravel()))
+    power = np.exp((2 - 2 * curve.inputs["hurst"]) * s)
+    i2 *= power
+    i2 *= g
+    i1 *= power
+    i1 *= m
+    return i2, i1
+
+
+def weight(curve: Curve, g: Array) -> Array:
+    """P S."""
+    gamma = curve.inputs["gamma"]
+    with np.errstate(divide="ignore"):
+        p = erf(0.5 / np.sqrt(g))
+    s = p * p
+    s *= 1 - gamma
+    s += gamma
+    s *= p
+    return s
+
+
+@cache
+def gauss(count: int) -> tuple[Array, Array, Array]:
+    """Nodes, weights, and the matrix that integrates the interpolant from -1 to each node."""
+    x, w = np.polynomial.legendre.leggauss(count)
+    p = np.polynomial.legendre.legvander(x, count)
+    matrix = np.outer(1 + x, w / 2)
+    for k in range(1, count):
+        matrix += np.outer((p[:, k + 1] - p[:, k - 1]) / 2, p[:, k] * w)
+    return x, w, matrix.T.copy()
+
+
+def graded_panels(
+    curve: Curve, nodes: int = 16, growth: float = 4, first: float = 0.3, longest: float = 0.7
+) -> Array:
+    """Gauss-Legendre panels that grow from the front of each velocity, ending at the table's knots.
+
+    The first panel is `first` fronts long, the next grow by factors of about `growth` up to a
+    length `longest` in ln q; `nodes` in each.
+    """
+    front = first / rates(curve, np.zeros((curve.velocity.size, 1)), curve.velocity)[0]
+    front = np.minimum(front, longest)
+    grown = max(1, int(np.ceil(np.log(longest / front.min()) / np.log(growth))))
+    steps = (longest / front) ** (np.arange(grown + 1) / grown)
+    rest = np.linspace(0, curve.length, 1 + int(np.ceil(curve.length / longest)))
+    edges = np.sort(_merged(front * steps, rest, _knots(curve)).clip(0, curve.length), axis=1)
+    half = np.diff(edges)[:, :, None] / 2
+    x, w, matrix = gauss(nodes)
+    s = half * x
+    s += edges[:, :-1, None]
+    s += half
+    g_rate, mu_rate = rates(curve, s, curve.velocity)
+    g_rate *= half
+    mu_rate *= half
+    g = (g_rate.reshape(-1, nodes) @ matrix).reshape(s.shape)
+    g[:, 1:] += np.cumsum(g_rate @ w, axis=1)[:, :-1, None]
+    mu_rate *= weight(curve, g)
+    return (mu_rate.reshape(-1, nodes) @ w).reshape(s.shape[:2]).sum(axis=1)
+
+
+def _merged(front: Array, rest: Array, knots: Array) -> Array:
+    """Edges by velocity, not in order."""
+    grown = np.concatenate([np.zeros((len(front), 1)), front, knots], axis=1)
+    return np.concatenate([grown, np.tile(rest[1:], (len(front), 1))], axis=1)
+
+
+def _knots(curve: Curve) -> Array:
+    """Where w passes the knots of a table, s by velocity; 0 where outside of the band."""
+    if not hasattr(curve.modulus, "knots"):
+        return np.zeros((curve.velocity.size, 0))
+    s = np.log(curve.modulus.knots / (curve.velocity[:, None] * curve.inputs["q0"]))
+    s = np.sort(np.where((s > 0) & (s < curve.length), s, 0), axis=1)
+    return s[:, (s > 0).any(axis=0)]
+
+
+def by_parts(curve: Curve, nodes: int) -> Array:
+    """mu = 4 (1 - nu^2) sigma0 (R F at q1 - int R' F ds), R = I1 / I2, F = int_0^G P S dG.
+
+    One Gauss-Legendre rule in t, s = length t^2. G from the cumulative matrix can come out below
+    zero at the first nodes of a steep front, where it is taken as 0.
+    """
+    x, w, matrix = gauss(nodes)
+    t = (1 + x) / 2
+    s = curve.length * t * t
+    weights = w * curve.length * t
+    omega = (curve.velocity * curve.inputs["q0"])[:, None] * np.exp([*s, curve.length])
+    columns = [c.reshape(omega.shape) for c in curve.modulus.with_slopes(omega.ravel())]
+    i1, i2, slope1, slope2 = columns
+    r = i1 / i2
+    r_slope = ((slope1 - r * slope2) / i2)[:, :-1]
+    power = factors(curve)[0] * np.exp((2 - 2 * curve.inputs["hurst"]) * s)
+    g_rate = i2[:, :-1] * (power * curve.length * t)
+    f = friction_integral(curve.inputs["gamma"])
+    whole = r[:, -1] * f(g_rate @ w) - (r_slope * f(np.maximum(g_rate @ matrix, 0))) @ weights
+    stiff = (1 - curve.inputs["poisson_ratio"] ** 2) * curve.inputs["pressure"]
+    return 4 * stiff * whole
+
+
+@cache
+def friction_integral(gamma: float) -> Callable[[Array], Array]:
+    """F(G) = int_0^G P S dG: G below 1e-3, then a spline of ln(F / G) over ln G, good to 1e-14."""
+    low, high = np.log(1e-3), np.log(1e18)
+    x, w, _ = gauss(20)
+    knots = np.linspace(low, high, 6001)
+    half = (knots[1] - knots[0]) / 2
+    g = np.exp(knots[:-1, None] + half * (1 + x))
+    p = erf(0.5 / np.sqrt(g))
+    parts = (p * (gamma + (1 - gamma) * p * p) * g) @ w * half
+    values = np.exp(low) + np.concatenate([[0], np.cumsum(parts)])
+    spline = make_interp_spline(knots, np.log(values) - knots, k=5)
+
+    def integral(g: Array) -> Array:
+        result = g.copy()
+        big = g > 1e-3
+        result[big] *= np.exp(spline(np.log(g[big])))
+        return result
+
+    return integral
+
+
+def log_trapezoid(curve: Curve, points: int) -> Array:
+    """Both integrals by the trapezoidal rule on a logarithmic grid, as published programs do."""
+    s = np.linspace(0, curve.length, points)
+    found = []
+    for velocity in curve.velocity:  # a row at a time stays in the cache
+        g_rate, mu_rate = rates(curve, s[None], velocity)
+        g = cumulative_trapezoid(g_rate[0], s, initial=0)
+        found.append(trapezoid(mu_rate[0] * weight(curve, g), s))
+    return np.array(found)
+
+
+def nested_quad(curve: Curve, rtol: float) -> Array:
+    """scipy's quad of a quad, one velocity at a time."""
+
+    def mu(velocity: float) -> float:
+        def rate(s: float, k: int) -> float:
+            return float(rates(curve, np.array([[s]]), velocity)[k][0, 0])
+
+        def integrand(s: float) -> float:
+            g = quad(rate, 0, s, args=(0,), epsabs=0, epsrel=rtol)[0]
+            return rate(s, 1) * float(weight(curve, np.array(g)))
+
+        return quad(integrand, 0, curve.length, epsabs=0, epsrel=rtol)[0]
+
+    return np.array([mu(velocity) for velocity in curve.velocity])
