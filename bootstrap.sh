@@ -154,7 +154,7 @@ check() {
   "$@" || failed="$failed $name"
 }
 
-format_check() { find cpp python tests -name '*.[ch]pp' -exec clang-format --dry-run --Werror {} +; }
+format_check() { find cpp python tests \( -name '*.[ch]pp' -o -name '*.inc' \) -exec clang-format --dry-run --Werror {} +; }
 
 tests() {
   failed=

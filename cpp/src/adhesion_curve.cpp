@@ -19,8 +19,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of the biweight, in standard deviations: half of the points may be outliers; 95 % of the efficiency of least squares.
 constexpr double robust_cut = 1.5476, efficient_cut = 4.685;
-constexpr double no_smaller = 1e-10;  // scale: finer scatter than that is rounding
-constexpr double run_away = 10;       // decades of v0 beyond the points
+constexpr double run_away = 10;  // decades of v0 beyond the points
 // Nodes that are tried, the steps that each takes, and how many of the best then go on.
 constexpr std::size_t many_starts = 32, few_starts = 8;
 constexpr int first_steps = 5, most_steps = 500;
@@ -106,7 +105,8 @@ Eigen::MatrixX3d Fit::jacobian(const Vector3d& p) const {
 double Fit::scale_of(const Vector3d& at) const {
   const ArrayXd left = residual(at).abs();
   // rho is 0 to 1: where all are 1 the mean is too large, and as large as they are it is too small
-  double low = std::log(no_smaller), high = std::log(std::max(left.maxCoeff(), 2 * no_smaller)) + 5;
+  const double least = points_.tolerance;
+  double low = std::log(least), high = std::log(std::max(left.maxCoeff(), 2 * least)) + 5;
   while (high - low > 1e-11) {
     const double middle = (low + high) / 2;
     const double sum = (left / (robust_cut * std::exp(middle))).unaryExpr(&biweight_rho).sum();
@@ -211,7 +211,7 @@ Vector3d Fit::less_scale(Vector3d at) const {
     Vector3d next = at;
     if (!descend(next, robust_cut * scale, damping) || ran_away(next)) break;
     at = next;
-    scale = std::max(no_smaller, scale * std::sqrt(total(at, robust_cut * scale) / target()));
+    scale = std::max(points_.tolerance, scale * std::sqrt(total(at, robust_cut * scale) / target()));
   }
   return at;
 }

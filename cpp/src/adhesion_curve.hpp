@@ -13,6 +13,7 @@ struct AdhesionPoints {
   Eigen::ArrayXd log_mu;          // measured
   Eigen::ArrayXd log_hysteresis;  // ln mu_H, -infinity where there is none
   Eigen::ArrayXd log_share;       // ln((A / A0) / sigma0)
+  double tolerance;               // of the last two, relative: finer scatter is theirs
   [[nodiscard]] Eigen::Index size() const { return x.size(); }
 };
 

@@ -74,9 +74,10 @@ Contact contact(const Spectrum& spectrum, const Rubber& rubber, const ContactMod
 }
 
 AdhesionPoints logarithms(const Contact& contact, std::span<const double> pressure, std::span<const double> velocity,
-                          std::span<const double> mu) {
+                          std::span<const double> mu, double rtol) {
   const auto n = static_cast<Index>(mu.size());
-  AdhesionPoints points{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n)};
+  AdhesionPoints points{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n),
+                        std::fmax(rtol, 1e-10)};
   for (Index k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k), entry = contact.entry[i];
     const double area = contact.friction.contact_area[entry];
@@ -196,7 +197,7 @@ AdhesionFit fit_adhesion(const Spectrum& spectrum, const Rubber& rubber, const C
   check(fixed);
   check(velocity, mu, fixed);
   const Contact known = contact(spectrum, rubber, model, pressure, velocity);
-  const AdhesionPoints points = logarithms(known, pressure, velocity, mu);
+  const AdhesionPoints points = logarithms(known, pressure, velocity, mu, model.rtol);
   if ((points.log_mu <= points.log_hysteresis).all()) refuse_hysteresis(points, model);
 
   HeldParameters held;

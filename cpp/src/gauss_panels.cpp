@@ -29,7 +29,7 @@ double decay_of(const Panel& panel, bool tabulated) {
 /// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
 /// everywhere is done with fewer, but the last coefficients tell the error only from some on.
 std::size_t nodes_for(const Panel& panel, double rtol) {
-  const double digits = 1 - std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
   const double nodes = 4 + digits * std::numbers::ln10 / (-2 * std::log(panel.decay));
   const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
   return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));

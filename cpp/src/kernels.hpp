@@ -24,11 +24,10 @@ struct FrontTable {
   double power[steps][terms][functions];
 };
 
-/// What a panel adds: sum of `slope` f, sum of |slope|; and, for each of the last Legendre coefficients, how much those
-/// of dG and of R matter, and those of f.
+/// What a panel adds: sum of `slope` f, sum of |slope|, and coefficients of f.
 struct PanelSums {
   double value, change;
-  double by_g[LegendreRule::tails], by_r[LegendreRule::tails], f_tail[LegendreRule::kept];
+  double f_tail[LegendreRule::kept];
 };
 
 struct Kernels {
@@ -44,8 +43,9 @@ struct Kernels {
                         double* tail);
   /// F, and F2 where there is room for it, at n values of G, n a multiple of 4.
   void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
-  /// f at the nodes with `slope`, and `passed`, how much a change of G matters at each.
-  void (*sum)(const LegendreRule& rule, const double* slope, const double* f, const double* passed, PanelSums& sums);
+  void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
+  /// How much the last coefficients of dG and of R matter: f at the nodes, and `passed`, what a change of G does there.
+  void (*project)(const LegendreRule& rule, const double* f, const double* passed, double* by_g, double* by_r);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

@@ -1,0 +1,58 @@
+// What a call allocates does not grow with its points, but for the numbers that it returns.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "asperity/friction.hpp"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace asperity;
+
+namespace {
+
+/// Allocations of one call at as many velocities, after one that has filled all tables.
+long allocations_at(std::size_t points, const Rubber& rubber, const Correction& correction) {
+  const SelfAffineSpectrum road{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1e3, .q1 = 1e6};
+  const ContactModel model{.correction = correction};
+  std::vector<double> pressure(points, 1e5), velocity(points);
+  for (std::size_t i = 0; i < points; ++i)
+    velocity[i] = 1e-4 * std::pow(1e4, static_cast<double>(i) / static_cast<double>(points));
+  (void)friction(road, rubber, model, Adhesion{1e6}, pressure, velocity);
+  const long before = allocations;
+  (void)friction(road, rubber, model, Adhesion{1e6}, pressure, velocity);
+  return allocations - before;
+}
+
+}  // namespace
+
+TEST_CASE("a thousand points allocate no more often than a hundred") {
+  const PronySeries series(1e6, {1e7, 1e8}, {1e-2, 1e-5});
+  const MasterCurve table({1e-2, 1, 1e2, 1e4, 1e7}, {1e6, 2e6, 1e7, 1e8, 1e9}, {1e5, 4e5, 4e6, 3e7, 1e8});
+  for (const Rubber& rubber : {Rubber(series), Rubber(table)})
+    for (const Correction& correction :
+         {Correction(NoCorrection{}), Correction(SFactor{.applies_to = SFactor::AppliesTo::both}),
+          Correction(AffineShift{2}), Correction(NayakSFactor{})})
+      CHECK(allocations_at(1000, rubber, correction) - allocations_at(100, rubber, correction) <= 4);
+}
