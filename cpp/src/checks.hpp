@@ -34,6 +34,10 @@ inline void require_finite(std::string_view name, double value) {
 inline void require_not_negative(std::string_view name, double value) {
   if (!(value >= 0) || !std::isfinite(value)) refuse(name, value, "finite and not negative");
 }
+/// Of heights: what lies between them must be a double too.
+inline void require_span(std::string_view name, double highest, double lowest) {
+  if (!std::isfinite(highest - lowest)) refuse(name, highest, "less than 1.8e308 above the lowest, " + show(lowest));
+}
 inline void require_poisson(std::string_view name, double value) {
   if (!(value >= 0 && value <= 0.5)) refuse(name, value, "in [0, 0.5]");
 }
@@ -47,6 +51,10 @@ inline void require_rising(std::string_view name, std::span<const double> values
     if (!(values[i] > values[i - 1]))
       refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
              "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+}
+/// Beyond it ln(q1 / q0) cannot be told from a rounded quotient.
+inline void require_band(std::string_view name, double lowest, double highest) {
+  if (!(highest / lowest <= 1e300)) refuse(name, highest, "at most 1e300 times the lowest, " + show(lowest));
 }
 inline void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
   if (size != other_size)

@@ -37,11 +37,30 @@ double density_at_rolloff(const SelfAffineSpectrum& s) {
   return s.rms_height * s.rms_height / (2 * pi) / height_per_density(s);
 }
 
-/// 2 pi int q^n C dq
-double total_moment(const Spectrum& spectrum, int n) {
+/// Segments of a spectrum whose densities are numbers that can be told.
+std::vector<Segment> told_segments(const Spectrum& spectrum) {
+  std::vector<Segment> result = segments(spectrum);
+  const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum);
+  if (s && !std::isnormal(result.front().at_a))
+    throw InvalidInput("rms_height = " + show(s->rms_height) + ", q0 = " + show(s->q0) +
+                       ": C(q0) = " + show(result.front().at_a) + " m^4 leaves the range of a double");
+  return result;
+}
+
+/// sqrt(2 pi int q^n C dq)
+double root_of_moment(std::string_view name, const Spectrum& spectrum, int n) {
   double sum = 0;
-  for (const Segment& s : segments(spectrum)) sum += s.moment(n, s.b);
-  return 2 * pi * sum;
+  bool rough = false;
+  for (const Segment& s : told_segments(spectrum)) {
+    sum += 2 * pi * s.moment(n, s.b);
+    rough |= s.at_a > 0 || s.at_b > 0;
+  }
+  if (rough && !std::isnormal(sum)) {
+    const auto [q0, q1] = band(spectrum);
+    throw InvalidInput(std::string(name) + " of a spectrum from q0 = " + show(q0) + " to q1 = " + show(q1) +
+                       " 1/m: its square, " + show(sum) + ", leaves the range of a double");
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace
@@ -125,6 +144,7 @@ void validate(const SelfAffineSpectrum& s) {
   require_positive("q0", s.q0);
   require_finite("q1", s.q1);
   if (!(s.q1 > s.q0)) refuse("q1", s.q1, "above q0 = " + show(s.q0));
+  require_band("q1", s.q0, s.q1);
   if (s.rolloff && !(*s.rolloff > s.q0 && *s.rolloff < s.q1))
     refuse("rolloff", *s.rolloff, "between q0 = " + show(s.q0) + " and q1 = " + show(s.q1));
 }
@@ -134,7 +154,7 @@ double density(const Spectrum& spectrum, double wavenumber) {
 }
 
 std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber) {
-  const std::vector<Segment> pieces = segments(spectrum);
+  const std::vector<Segment> pieces = told_segments(spectrum);
   const auto [q0, q1] = band(spectrum);
   const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
   std::vector<double> result;
@@ -169,17 +189,17 @@ std::array<double, 2> band(const Spectrum& spectrum) {
 double rms_height(const Spectrum& spectrum) {
   validate(spectrum);
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) return s->rms_height;
-  return std::sqrt(total_moment(spectrum, 1));
+  return root_of_moment("rms_height", spectrum, 1);
 }
 
-double nayak_parameter(const Spectrum& spectrum) { return nayak_parameter(segments(spectrum), band(spectrum)[1]); }
+double nayak_parameter(const Spectrum& spectrum) { return nayak_parameter(told_segments(spectrum), band(spectrum)[1]); }
 
-double rms_slope(const Spectrum& spectrum) { return std::sqrt(total_moment(spectrum, 3)); }
+double rms_slope(const Spectrum& spectrum) { return root_of_moment("rms_slope", spectrum, 3); }
 
 double cutoff_for_slope(const Spectrum& spectrum, double slope) {
   require_positive("slope", slope);
   double left = slope * slope / (2 * pi);  // of int q^3 C dq
-  for (const Segment& s : segments(spectrum)) {
+  for (const Segment& s : told_segments(spectrum)) {
     const double here = s.moment(3, s.b);
     if (here < left) {
       left -= here;

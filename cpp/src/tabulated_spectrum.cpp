@@ -23,6 +23,7 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
     throw InvalidInput("wavenumber has " + std::to_string(wavenumber.size()) + " entries: must be 2 or more");
   require_each_positive("wavenumber", wavenumber);
   require_rising("wavenumber", wavenumber);
+  require_band("wavenumber: its last entry", wavenumber.front(), wavenumber.back());
   require_each_not_negative("density", density);
   const auto require_rows = [&](std::string_view name, std::size_t size) {
     if (size > 0) require_same_size(name, size, "wavenumber", wavenumber.size());

@@ -8,7 +8,7 @@ import pytest
 
 import asperity
 
-THREADS = 16
+THREADS = 80
 SURFACE = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=1e5)
 PRONY = asperity.PronySeries(
     equilibrium_modulus=1e6,
@@ -72,7 +72,7 @@ def test_many_threads_get_the_bits_that_one_gets(name):
 
 
 def test_transforms_of_new_sizes_are_planned_at_once_in_many_threads():
-    sizes = [(32 + i, 48 - i) for i in range(THREADS)]
+    sizes = [(32 + i, 88 - i) for i in range(THREADS)]
     maps = [asperity.HeightMap(MAP.heights[:y, :x], pixel_size=1e-6) for y, x in sizes]
     start = Barrier(THREADS)
 

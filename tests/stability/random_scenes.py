@@ -1,12 +1,13 @@
-"""Random scenes: the error estimate of friction against the error it has.
+"""Random scenes: the error estimates of friction and of the area against the errors they have.
 
     python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3]
 
 Surfaces, rubbers (Prony series of 1 to 20 terms, or tables of 4 to 40 rows with kinks), pressures,
-velocities, corrections, forms and tolerances are drawn over many decades, most of them absurd. The
-truth is GSL's adaptive integration (method="qag") at a hundredth of the tolerance. Printed: scenes
-whose estimate, with that of the truth, was exceeded, what did not converge, the median of estimate
-over error where the latter can be told. Exit status 1 where any scene failed.
+velocities, corrections of every kind, adhesion, forms and tolerances are drawn over many decades,
+most of them absurd. The truth is GSL's adaptive integration (method="qag") at a hundredth of the
+tolerance. Printed: scenes whose estimate, with that of the truth, was exceeded, or whose area is
+off by more than the tolerance, what did not converge, the median of estimate over error where the
+latter can be told. Exit status 1 where any scene failed.
 """
 
 import argparse
@@ -28,6 +29,9 @@ class Outcome:
     estimate: float  # of mu, absolute
     truth_estimate: float
     rtol: float
+    area: float
+    area_truth: float
+    kind: str  # of correction
 
     @property
     def error(self) -> float:
@@ -35,9 +39,10 @@ class Outcome:
 
     @property
     def kept(self) -> bool:
-        """Whether the error is within the estimates of both, and mu within rtol."""
+        """Whether the error is within the estimates of both, mu and the area within rtol."""
         allowed = self.estimate + self.truth_estimate
-        return self.error <= allowed and self.estimate <= self.rtol * self.mu
+        area = abs(self.area - self.area_truth) <= self.rtol * self.area_truth
+        return area and self.error <= allowed and self.estimate <= self.rtol * self.mu
 
 
 def _power(rng: Any, low: float, high: float, size: int | None = None) -> Any:
@@ -85,24 +90,62 @@ def _rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
     )
 
 
+def _correction(rng: Any, height: float) -> Any:
+    """Any of them; heights of macro-asperities follow the rms height of the surface."""
+    kind = rng.choice(
+        ["none", "friction", "area", "both", "nayak", "shift", "peaks", "igw", "peaks igw"],
+        p=[0.3, 0.2, 0.05, 0.1, 0.1, 0.1, 0.05, 0.05, 0.05],
+    )
+    if kind == "none":
+        return None
+    if kind in ("friction", "area", "both"):
+        return asperity.SFactor(gamma=rng.uniform(0, 1), applies_to=kind)
+    if kind == "nayak":
+        return asperity.NayakSFactor()
+    if kind == "shift":
+        return asperity.AffineShift(p=rng.uniform(1, 3))
+    peaks = height * rng.uniform(0.1, 2.5, int(rng.integers(3, 30)))
+    profile = {"z_max": height * rng.uniform(2.5, 5), "z_min": -height * rng.uniform(2, 5)}
+    reading = rng.choice(["implicit", "added"])
+    if kind == "peaks":
+        return asperity.LocalPeaks(peaks, z_max=profile["z_max"])
+    if kind == "peaks igw":
+        return asperity.PeaksThenGreenwoodWilliamson(peaks, reading=reading, **profile)
+    measured = peaks if rng.random() < 0.3 else None
+    return asperity.GreenwoodWilliamson(peaks=measured, reading=reading, **profile)
+
+
 def compute(seed: int, scene: int, tables: float) -> Outcome:
     """Scene number `scene` of a seed."""
     rng = np.random.default_rng([seed, scene])
     surface, q0, q1 = _surface(rng, tables)
     pressure, velocity, rtol = _power(rng, 3, 8), _power(rng, -6, 1), _power(rng, -10, -2)
     rubber = _rubber(rng, tables, velocity * q0, velocity * q1)
-    choice = rng.random()
-    correction: Any = None
-    if choice < 0.4:
-        correction = asperity.SFactor(gamma=rng.uniform(0, 1), applies_to="friction")
-    elif choice < 0.5:
-        correction = asperity.AffineShift(p=rng.uniform(1, 3))
-    form = "exact" if rng.random() < 0.8 else "interpolated"
-    options = {"pressure": pressure, "velocity": velocity, "correction": correction, "form": form}
+    correction = _correction(rng, surface.rms_height)
+    shear_stress = _power(rng, 3, 8)
+    options: dict[str, Any] = {
+        "pressure": pressure,
+        "velocity": velocity,
+        "correction": correction,
+        "adhesion": asperity.Adhesion(shear_stress=shear_stress) if rng.random() < 0.3 else None,
+        "form": "exact" if rng.random() < 0.8 else "interpolated",
+    }
     ours = asperity.friction(surface, rubber, rtol=rtol, **options)
     best = max(min(rtol / 100, 1e-9), 1e-11)
     truth = asperity.friction(surface, rubber, rtol=best, method="qag", **options)
-    return Outcome(ours.mu, truth.mu, ours.error_estimate, truth.error_estimate, rtol)
+    del options["adhesion"]
+    area = asperity.contact_area(surface, rubber, rtol=rtol, **options)
+    worse = max((ours.contact_area, area), key=lambda found: abs(found - truth.contact_area))
+    return Outcome(
+        ours.mu,
+        truth.mu,
+        ours.error_estimate,
+        truth.error_estimate,
+        rtol,
+        worse,
+        truth.contact_area,
+        type(correction).__name__,
+    )
 
 
 def main() -> int:
@@ -119,7 +162,7 @@ def main() -> int:
             unsolved += 1
             print(f"scene {scene}: {error}")
             continue
-        if outcome.error > outcome.truth_estimate:
+        if outcome.error > outcome.truth_estimate > 0:
             ratios.append(outcome.estimate / outcome.error)
         if not outcome.kept:
             exceeded += 1

@@ -1,0 +1,66 @@
+#!/bin/sh
+# The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
+#   scenes       ten thousand random scenes against GSL's adaptive integration, a thousand of them with tables
+#   properties   the property tests on 2000 drawn examples each
+#   catalogue    every regime in which methods fail
+#   sanitize     the C++ tests under the address and undefined behaviour sanitizers
+#   threads      the C++ tests under the thread sanitizer
+#   memcheck     the C++ tests under valgrind
+# JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
+set -u
+cd "$(dirname "$0")/../.."
+jobs=${JOBS:-1}
+python=${PYTHON:-.venv/bin/python}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+trap 'exit 1' HUP INT TERM
+failed=
+
+built() { # PRESET: a preset's build, with its log
+  cmake --preset "$1" >"$scratch/$1.log" 2>&1 && cmake --build --preset "$1" -j "$jobs" >>"$scratch/$1.log" 2>&1 || {
+    tail -n 40 "$scratch/$1.log"
+    return 1
+  }
+}
+
+# A stranger's project is built by the usual runs.
+ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consumer|install'; }
+
+scenes() {
+  "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
+    "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5
+}
+
+properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/test_properties.py; }
+
+catalogue() { "$python" tests/stability/catalogue.py; }
+
+sanitize() { ctests sanitize; }
+
+threads() { ctests threads; }
+
+# valgrind does not know AVX-512, which glibc picks for its string functions where the machine has it.
+memcheck() {
+  built memcheck || return
+  GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX512DQ
+  export GLIBC_TUNABLES
+  for test in build/memcheck/tests/test_*; do
+    [ -f "$test" ] && [ -x "$test" ] || continue
+    echo "valgrind $test"
+    valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite "$test" || return
+  done
+}
+
+[ $# -gt 0 ] || set -- catalogue scenes properties sanitize threads memcheck
+for step; do
+  case $step in
+    catalogue | scenes | properties | sanitize | threads | memcheck) ;;
+    *) sed -n '2,9s/^# //p' "$0" >&2; exit 2 ;;
+  esac
+done
+for step; do
+  printf '\n== %s\n' "$step"
+  "$step" || failed="$failed $step"
+done
+if [ -n "$failed" ]; then printf '\n== failed:%s\n' "$failed"; else printf '\n== all went well\n'; fi
+[ -z "$failed" ]
