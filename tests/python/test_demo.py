@@ -11,6 +11,7 @@ import pytest
 import asperity
 from asperity import demo
 from asperity.cli import main
+from asperity.scene import Curves
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +68,22 @@ def test_demo_curve_is_a_friction_curve(finished: Path) -> None:
     assert 0 < peak < 28  # bell-shaped
     assert 0.3 < table["mu"][peak] < 3
     assert np.all(np.diff(table["contact_area"]) < 0)  # stiffer with speed
+
+
+def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
+    drawn = []
+
+    def watch(_: object, results: list[Curves], __: object) -> bytes:
+        drawn.extend(results)  # the band is narrower than the line: no pixel shows it
+        return b""
+
+    monkeypatch.setattr("asperity.plot.friction_figure", watch)
+    assert main(["demo", "--output", str(tmp_path)]) == 0
+    (curves,) = drawn
+    assert curves.band is not None
+    lower, upper = curves.band
+    assert ((lower < curves.mu) & (curves.mu < upper)).all()
 
 
 def test_demo_runs_twice_and_prints_where(

@@ -7,6 +7,8 @@ import pytest
 
 import asperity
 from asperity.cli import main
+from asperity.scene import load_scene
+from scenes import CONDITIONS, SURFACE
 
 COLUMNS = {"frequency": "f", "storage": "a", "loss": "b"}
 UNITS = {"frequency": "rad/s", "temperature": "C", "modulus": "MPa"}
@@ -63,3 +65,28 @@ def test_a_column_or_temperatures_not_both_not_neither(
         asperity.read_isotherms(
             files, columns=columns, units=UNITS, modulus="E", temperatures=given
         )
+
+
+SCENE = """
+[rubber]
+isotherms = ["30.txt", "10.txt", "20.txt"]
+temperatures = [30, 10, 20]
+temperature_k = 293.15
+modulus = "E"
+columns = {frequency = "f", storage = "a", loss = "b"}
+units = {frequency = "rad/s", temperature = "C", modulus = "MPa"}
+"""
+
+
+def test_a_scene_takes_them_and_a_prony_series_through_them(files: list[Path]) -> None:
+    path = files[0].parent / "scene.toml"
+    rubber = {}
+    for more in ("", "prony = true\n"):
+        path.write_text(SURFACE + SCENE + more + CONDITIONS)
+        rubber[more] = load_scene(path).rubber
+    curve, series = rubber.values()
+    assert isinstance(curve, asperity.MasterCurve)
+    assert isinstance(series, asperity.PronyFit)
+    w = np.geomspace(0.1, 100, 9)
+    # read to 12 digits, smoothed and fitted: 0.0027 off
+    np.testing.assert_allclose(series.modulus(w), RUBBER.modulus(w), rtol=0.01)

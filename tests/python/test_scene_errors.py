@@ -134,6 +134,11 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
             BASE.replace("hurst = 0.7", "hurst = 0.7\nslope_cutoff = 0"),
             "[surface] slope_cutoff = 0",
         ),
+        (
+            BASE.replace("hurst = 0.7", "hurst = 0.7\ncontamination_size_m = 3.07e-3"),
+            "[surface] contamination_size_m = 0.00307: must leave a band, cuts at 2047 1/m, where "
+            "the spectrum begins at 2000: are the heights in another unit?",
+        ),
         (BASE.replace("[81e3, 2e5]", "-1"), "[conditions] pressure_pa = -1: must be positive"),
         (BASE.replace("[81e3, 2e5]", "[1e3, nan]"), "[conditions] pressure_pa = nan: must be"),
         (

@@ -19,6 +19,8 @@ from asperity import (
     friction_band,
 )
 from asperity.cli import main
+from asperity.draws import drawn_rubber, drawn_spectrum
+from asperity.uncertainty import relative_band, swept_band
 
 ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
 RUBBER = PronySeries(
@@ -239,6 +241,18 @@ def test_a_scene_that_asks_for_a_band_has_two_more_columns(scene, tmp_path):
     assert "# uncertainty.level = 0.9" in out.read_text()
 
 
+def test_between_its_velocities_a_band_runs_straight_over_ln_v():
+    velocity = np.geomspace(1e-6, 1e2, 25)  # every other one of the 13 that are computed
+    parts = drawn_spectrum(measured_spectrum(3)), drawn_rubber(RUBBER), None
+    how = {"samples": 20, "seed": 1, "level": 0.9}
+    points = {"pressure": np.full(25, 2e5), "velocity": velocity}
+    direct = relative_band(*parts, points, **how)
+    swept = swept_band(*parts, np.array([2e5]), velocity, {}, **how)
+    for exact, (found,) in zip(direct, swept, strict=True):
+        np.testing.assert_allclose(found[::2], exact[::2], rtol=1e-9)
+        np.testing.assert_allclose(found[1::2], (found[:-1:2] + found[2::2]) / 2, rtol=1e-12)
+
+
 def test_the_band_is_drawn_where_errors_are_known_and_only_there(scene, tmp_path):
     pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
     picture = tmp_path / "mu.svg"
@@ -261,8 +275,9 @@ def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_p
     assert isinstance(loaded.spectrum, SelfAffineSpectrum)
     assert loaded.spectrum.q1 == 1e6
     assert loaded.spectrum.hurst == pytest.approx(0.8, abs=0.05)
-    lower, upper = loaded.band(loaded.friction().mu)
-    assert (lower < upper).all()
+    mu = loaded.friction().mu
+    lower, upper = loaded.band(mu)
+    assert ((lower < mu) & (mu < upper)).all()  # the drawn laws go on as far
 
 
 def test_bad_uncertainty_in_a_scene(scene, capsys):

@@ -8,6 +8,7 @@ import pytest
 
 import asperity
 from asperity.cli import main
+from asperity.validation.own import own_contacts
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2.5e3, q1=2e4)
 SIDE = 256
@@ -55,6 +56,19 @@ def test_a_run_on_a_map_of_ones_own(scan, tmp_path):
     assert -0.36 < min(error["none"]) < -0.15
     assert np.abs(error["Nayak S"]).max() < 0.05
     assert np.mean(error["shift 2"]) > 0.25
+
+
+def test_the_theory_is_told_the_slope_and_energy_of_the_maps_own_modes():
+    wanted("tamaas", "boundary elements need asperity[bem]")
+    surface = asperity.synthesize(SURFACE, shape=(64, 64), pixel_size=PIXEL, seed=6)
+    (full,), _ = own_contacts(surface, "map", loads=[50.0], periodic=True)
+    q = 2 * np.pi * np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(64, PIXEL)]))
+    power = np.abs(np.fft.fft2(surface.heights) / 64**2) ** 2
+    assert full.area == 1
+    assert full.spectrum.rms_slope == pytest.approx(np.sqrt(np.sum(q**2 * power)), rel=1e-9)
+    assert full.pressure == pytest.approx(50 * full.spectrum.rms_slope, rel=1e-9)
+    # Johnson, Contact Mechanics, sect. 13.2: a wave pressed flat holds E* q |h_q|^2 / 4 an area
+    assert full.energy == pytest.approx(np.sum(q * power) / 4, rel=1e-9)
 
 
 def test_without_the_wavenumber_of_the_asperities_their_models_are_left_out(scan, tmp_path):
