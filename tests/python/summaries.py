@@ -7,8 +7,8 @@ ROOT = Path(__file__).parents[2]
 PUBLISHED = (ROOT / "docs/article/summary.md").read_text(encoding="utf-8")
 COLUMNS = ("id", "place", "claim", "criterion", "found", "verdict", "reason")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-# Rounding errors are printed as such, and are others on another machine.
-NOISE = 1e-12
+# Errors far below the tolerance of the solver are printed as such, and are others on another machine.
+NOISE = 1e-10
 
 
 def statements(summary: str) -> dict[str, dict[str, str]]:
