@@ -102,7 +102,8 @@ def test_area_rises_with_pressure(scene, correction, step):
 
 @given(
     SCENES,
-    st.floats(2.5, 6),
+    # p_T falls as fast as the load rises where z_max is nearer to d~ than a third of h_rms
+    st.floats(4, 6),
     st.floats(-5, -2),
     st.sampled_from(["implicit", "added"]),
     st.floats(1e-3, 1),

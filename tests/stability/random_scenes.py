@@ -122,6 +122,10 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
     pressure, velocity, rtol = _power(rng, 3, 8), _power(rng, -6, 1), _power(rng, -10, -2)
     rubber = _rubber(rng, tables, velocity * q0, velocity * q1)
     correction = _correction(rng, surface.rms_height)
+    if isinstance(correction, asperity.GreenwoodWilliamson | asperity.PeaksThenGreenwoodWilliamson):
+        rtol = max(
+            rtol, 1e-7
+        )  # p_T has digits lost where d~ comes near z_max, as many as it is near
     shear_stress = _power(rng, 3, 8)
     options: dict[str, Any] = {
         "pressure": pressure,
