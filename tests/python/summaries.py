@@ -7,7 +7,7 @@ ROOT = Path(__file__).parents[2]
 PUBLISHED = (ROOT / "docs/article/summary.md").read_text(encoding="utf-8")
 COLUMNS = ("id", "place", "claim", "criterion", "found", "verdict", "reason")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-# Errors far below the tolerance of the solver are printed as such, and are others on another machine.
+# What lies far below the tolerance of the solver is rounding, which is another on another machine.
 NOISE = 1e-10
 
 
