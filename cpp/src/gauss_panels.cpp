@@ -115,7 +115,7 @@ std::size_t GaussPanels::children(std::size_t index) {
     Panel first = panels_[index], second = first;
     const double share = first.at_front && !first.twice ? front_share : 0.5;
     first.upper = second.lower = first.lower + share * (first.upper - first.lower);
-    second.at_front = second.twice = false;
+    second.at_front = second.twice = second.rooted = false;
     const std::size_t child = add(first);
     (void)add(second);
     panels_[index].child = child;
@@ -185,6 +185,7 @@ void GaussPanels::lay_out(std::span<const double> stops) {
           p.linear = 1;
           p.upper = part;
         }
+        p.rooted = p.square > 0 && p.linear == 0 && rate > 0;
         roots_.push_back(add(p));
       }
     }
