@@ -107,7 +107,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
 
   Notes notes(spectrum, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
-  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 2e-12 : 1e-15;
+  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
   Solver solver(surface, rubber, model, true, factor);
   std::vector<double> stops;
   double started = 0;  // the velocity that the solver stands at

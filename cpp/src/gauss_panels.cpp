@@ -115,7 +115,7 @@ std::size_t GaussPanels::children(std::size_t index) {
     Panel first = panels_[index], second = first;
     const double share = first.at_front && !first.twice ? front_share : 0.5;
     first.upper = second.lower = first.lower + share * (first.upper - first.lower);
-    second.at_front = second.twice = false;
+    second.at_front = second.twice = second.rooted = false;
     const std::size_t child = add(first);
     (void)add(second);
     panels_[index].child = child;
@@ -159,6 +159,7 @@ void GaussPanels::lay_out(std::span<const double> stops) {
     find_edges(segment, before == 0, stops, knots);
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
       const double knot = edges_[i], end = edges_[i + 1];
+      bool on_ramp = false;
       for (double from = knot, to; from < end; from = to) {
         const double length = end - from, q = segment.a * std::exp(from);
         const double here = before + (from > 0 ? segment.moment(3, q) : 0);
@@ -170,9 +171,13 @@ void GaussPanels::lay_out(std::span<const double> stops) {
         p.at_front = here == 0;
         p.twice = p.at_front && rate > 0 && !curve;
         to = end;
-        // R of a table has a root in it at the knot, sqrt(G) one before: panels that grow away from both
-        if (curve && here > 0 && behind <= length / 4)
-          to = from > knot ? std::fmin(end, from + 3 * (from - knot)) : from + 2 * behind;
+        // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
+        // zero begins: panels that grow away from both
+        const double ramp =
+            from == 0 && rate == 0 && here > 0 ? length * std::sqrt(here / segment.moment(3, segment.b)) : 0;
+        if (ramp > 0 && ramp < length / 2) on_ramp = true;
+        if (on_ramp || (curve && here > 0 && behind <= length / 4))
+          to = std::fmin(end, from > knot ? from + 3 * (from - knot) : from + (on_ramp ? ramp : 2 * behind));
         const double part = to - from;
         if (here == 0 || (curve && from == knot)) {
           p.square = 1;
@@ -185,6 +190,7 @@ void GaussPanels::lay_out(std::span<const double> stops) {
           p.linear = 1;
           p.upper = part;
         }
+        p.rooted = p.square > 0 && p.linear == 0 && rate > 0;
         roots_.push_back(add(p));
       }
     }

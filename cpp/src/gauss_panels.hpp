@@ -23,6 +23,7 @@ struct Panel {
   double start, linear, square;
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
+  bool rooted;          // s - start = t^2 and dG/ds is not 0 there: sqrt(G - G at start) is smooth in t
   bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
   const LegendreRule* rule;
   double decay;            // at which coefficients of dG and R fall at least, from one degree to the next

@@ -97,7 +97,11 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
     digits += rounding * larger_of(p.curvature_lower, p.curvature_upper) * f_size * per_g;
   } else {
     visit.value = p.r_upper * rise - sums.value;
-    if (p.at_front && g[0] > 0) missed = foot(foot_of_f, slope[0]);
+    const double g_lower = visit.g_lower * scale;
+    const bool from_front = g_lower < 1 && g[0] > 4 * g_lower;  // where a spectrum jumps, G as good as begins there
+    // sqrt(G) is as the square root of s beside a front, and as s where the rate is 0 or the panel's variable is s
+    const double broader = p.rooted ? 1 : 7 * std::fmax(1, std::sqrt(g[0]));
+    if (from_front) missed = broader * foot(foot_of_f, slope[0]);
   }
   const bool breaks_up = g_upper > 0.03 && (p.at_front ? g[0] < 2e-4 : visit.g_lower * scale < 1);
   const BreakUp rough = breaks_up ? break_up(rule, g) : BreakUp{};
