@@ -184,7 +184,7 @@ def test_units_do_not_matter(scene, correction, length, pressure, time):
     options["pressure"] *= pressure
     options["velocity"] *= length / time
     there = asperity.friction(*in_units(surface, rubber, length, pressure, time), **options)
-    # rounding that is multiplied at the front of a weak contact, 2.2e-12 at worst, is in the estimate
+    # at the front of a weak contact rounding is multiplied, by 2e-12 at worst: the estimate says so
     assert there.mu == pytest.approx(here.mu, rel=1e-12, abs=here.error_estimate)
     assert there.contact_area == pytest.approx(here.contact_area, rel=1e-12)
 
