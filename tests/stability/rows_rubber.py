@@ -214,8 +214,8 @@ def many_terms() -> Iterator[Case]:
 
 @row(
     "modulus over 9 decades",
-    "E'^2 alone: where tan delta is above 1 it is the lesser part of |E|^2",
-    naive="E' for |E| in G",
+    "E'^2 alone: where tan delta is above 1 it is the lesser part of E E*",
+    naive="E' for the absolute modulus in G",
     truth="brute force",
     allowed=1e-11,
 )

@@ -215,3 +215,33 @@ def outside() -> Iterator[Case]:
     q, c = law(5)
     spectrum = asperity.TabulatedSpectrum(wavenumber=q, density=c)
     yield lambda: np.interp(1e9, q, c), lambda: spectrum.at(1e9), asperity.OutOfRange
+
+
+@row(
+    "zeros after a trace: a ramp where G is 1e-9 already",
+    "G is not 0 there, and yet nothing before the ramp matters",
+    naive="numpy.interp of C in q, log-trapezoid of 1000 points",
+    truth=BRUTE,
+    allowed=1e-10,
+    fails=1e-6,
+)
+def ramp_after_trace() -> Iterator[Case]:
+    q, velocity, pressure = [1.971e6, 3.379e6, 5.794e6], 5.65e-2, 8.6e5
+    terms = (5.8e6, [2.5e8], [1.2e-4])
+    rubber = asperity.PronySeries(
+        equilibrium_modulus=terms[0], moduli=terms[1], relaxation_times=terms[2]
+    )
+    integrals = truth.prony(*terms)
+    for trace in (5e-31, 1e-40, 1e-28):
+        c = [trace, 0.0, 3.7e-25]
+        spectrum = asperity.TabulatedSpectrum(wavenumber=q, density=c)
+        options = {"pressure": pressure, "velocity": velocity, "rtol": 1e-10}
+        yield (
+            lambda c=c: naive.log_trapezoid(
+                lambda at: np.interp(at, q, c), integrals, q[0], q[-1], pressure, velocity
+            )[0],
+            lambda spectrum=spectrum, options=options: (
+                asperity.friction(spectrum, rubber, **options).mu
+            ),
+            truth.contact(truth.table(q, c), integrals, pressure, velocity).mu,
+        )
