@@ -142,7 +142,7 @@ void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, st
       double per_x = 1;
       for (std::size_t p = 0; p < 4; ++p, per_x /= hx) {
         double scale = per_x;
-        for (std::size_t j = 0; j < 4; ++j, scale /= hz) leaf.polynomial[8 * p + 4 * k + j] = m[p][j] * scale;
+        for (std::size_t j = 0; j < 4; ++j, scale /= hz) leaf.polynomial[8 * j + 2 * p + k] = m[p][j] * scale;
       }
     }
   }
@@ -151,9 +151,9 @@ void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, st
 std::array<double, 2> MapTree::value(const Leaf& leaf, double dx, double dz) {
   std::array<double, 2> result{};
   for (std::size_t k = 0; k < 2; ++k) {
-    const double* const c = &leaf.polynomial[4 * k];
+    const double* const c = &leaf.polynomial[k];
     for (std::size_t j = 4; j-- > 0;)
-      result[k] = result[k] * dz + (((c[24 + j] * dx + c[16 + j]) * dx + c[8 + j]) * dx + c[j]);
+      result[k] = result[k] * dz + (((c[8 * j + 6] * dx + c[8 * j + 4]) * dx + c[8 * j + 2]) * dx + c[8 * j]);
   }
   return result;
 }

@@ -45,8 +45,8 @@
 //            that of band k
 //        e x i32 row by row, the row the faster index: a cell, or -1 - k for grid k, which comes after the grid it
 //            is in
-//        c x 34 f64 x, z of a corner, then 4 x 8: coefficient of (x - x0)^i (z - z0)^j at 8 i + j for ln mu_H, at
-//            8 i + 4 + j for ln A/A0
+//        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
+//            8 j + 2 i + 1 for ln A/A0
 //        t   text, UTF-8, JSON: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
@@ -83,47 +83,63 @@ inline double from_bits(std::uint64_t u) noexcept {
   return result;
 }
 
-/// ln of a positive normal number to 2 ulp, the same digits on every host: x = 2^k m with m in [sqrt(1/2), sqrt(2)),
-/// ln m = 2 artanh((m - 1) / (m + 1)).
+/// ln c and 1 / c for c = (i + 1/2) / 128, i from 128 to 255, and 2^(i / 128): the tables of ln and exp below.
+struct Tables {
+  double ln[128], inverse[128], power[128];
+
+  constexpr Tables() : ln(), inverse(), power() {
+    for (int i = 0; i < 128; ++i) {
+      const double c = (128.5 + i) / 128, s = (c - 1) / (c + 1);
+      double sum = 0;
+      for (int k = 39; k > 0; k -= 2) sum = sum * s * s + 2.0 / k;
+      ln[i] = sum * s;  // 2 artanh s
+      inverse[i] = 1 / c;
+      double factor = 1;  // e^(i ln(2) / 128)
+      for (int k = 20; k > 0; --k) factor = 1 + factor * i * (0.693147180559945309417 / 128) / k;
+      power[i] = factor;
+    }
+  }
+};
+inline constexpr Tables tables;
+
+/// ln of a positive normal number, to 4e-16 of the larger of it and 1, the same digits on every host:
+/// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
 inline double ln(double x) noexcept {
-  constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcd, one = 0x3ff0000000000000;
-  const std::uint64_t shifted = bits(x) - root_half + one;
-  const double k = static_cast<double>(static_cast<std::int32_t>(shifted >> 52) - 1023);
-  const double m = from_bits((shifted & 0x000fffffffffffff) + root_half);
-  const double s = (m - 1) / (m + 1), t = s * s;
-  double sum = 2.0 / 19;
-  sum = sum * t + 2.0 / 17;
-  sum = sum * t + 2.0 / 15;
-  sum = sum * t + 2.0 / 13;
-  sum = sum * t + 2.0 / 11;
-  sum = sum * t + 2.0 / 9;
-  sum = sum * t + 2.0 / 7;
-  sum = sum * t + 2.0 / 5;
-  sum = sum * t + 2.0 / 3;
-  return k * 0.693147180369123816490 + (2 * s + (s * t * sum + k * 1.90821492927058770002e-10));
+  const std::uint64_t u = bits(x);
+  const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
+  const std::size_t i = (u >> 45) & 127;
+  const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
+  const double r = m * tables.inverse[i] - 1, r2 = r * r;
+  const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
+  return (k * 0.693147180559945309417 + tables.ln[i]) + (r + r2 * tail);
 }
 
-/// e^x to 2 ulp for |x| < 700, beyond which x is held there: e^x = 2^k e^r, |r| <= ln(2) / 2, by its Taylor series.
+/// e^x to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r, |r| < ln(2) / 256.
 inline double exp(double x) noexcept {
   x = x < -700 ? -700 : x > 700 ? 700 : x;
-  const std::int32_t k = static_cast<std::int32_t>(x * 1.44269504088896340736 + (x < 0 ? -0.5 : 0.5));
-  const double n = static_cast<double>(k);
-  const double r = (x - n * 0.693147180369123816490) - n * 1.90821492927058770002e-10;
-  double sum = 1.0 / 6227020800;
-  sum = sum * r + 1.0 / 479001600;
-  sum = sum * r + 1.0 / 39916800;
-  sum = sum * r + 1.0 / 3628800;
-  sum = sum * r + 1.0 / 362880;
-  sum = sum * r + 1.0 / 40320;
-  sum = sum * r + 1.0 / 5040;
-  sum = sum * r + 1.0 / 720;
-  sum = sum * r + 1.0 / 120;
-  sum = sum * r + 1.0 / 24;
-  sum = sum * r + 1.0 / 6;
-  sum = sum * r + 1.0 / 2;
-  sum = sum * r + 1;
-  return (sum * r + 1) * from_bits(static_cast<std::uint64_t>(k + 1023) << 52);
+  const auto k = static_cast<std::int32_t>(x * (128 / 0.693147180559945309417) + (x < 0 ? -0.5 : 0.5));
+  const auto steps = static_cast<double>(k);
+  // the first part of ln(2) / 128 has zeros enough to be multiplied exactly
+  const double r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128),
+               r2 = r * r;
+  const double tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
+  const double scale = from_bits(static_cast<std::uint64_t>((k >> 7) + 1023) << 52);
+  return (1 + (r + r2 * tail)) * (tables.power[k & 127] * scale);
 }
+
+/// Two numbers that a vector unit takes at once.
+#ifdef __GNUC__
+using Pair = double __attribute__((vector_size(16)));
+inline Pair pair(const double* x) noexcept { return Pair{x[0], x[1]}; }
+#else
+struct Pair {
+  double two[2];
+  double operator[](int i) const noexcept { return two[i]; }
+};
+inline Pair pair(const double* x) noexcept { return {{x[0], x[1]}}; }
+inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[1]}}; }
+inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
+#endif
 
 /// Cubic b[0] + b[1] t + b[2] t^2 + b[3] t^3.
 inline double cubic(const double* b, double t) noexcept { return ((b[3] * t + b[2]) * t + b[1]) * t + b[0]; }
@@ -178,10 +194,9 @@ class FrictionMap {
             const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);
     if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    double f[8];
-    for (int k = 0; k < 8; ++k) f[k] = row(at.cell + 2 + k, at.dx);
-    double mu = info_.hysteresis ? map_detail::exp(map_detail::cubic(f, at.dz)) : 0;
-    if (info_.shear_stress > 0) mu += map_detail::exp(map_detail::cubic(f + 4, at.dz) + sticking(at));
+    const map_detail::Pair f = bicubic(at.cell + 2, at.dx, at.dz);
+    double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + sticking(at));
     return mu;
   }
 
@@ -194,22 +209,23 @@ class FrictionMap {
       point = {nan, nan, nan, nan, nan, nan};
       return at.status;
     }
-    double f[8], g[8];  // and its slope in x
-    for (int k = 0; k < 8; ++k) {
-      f[k] = row(at.cell + 2 + k, at.dx);
-      g[k] = row_slope(at.cell + 2 + k, at.dx);
-    }
-    const double z_h = map_detail::cubic_slope(f, at.dz), z_a = map_detail::cubic_slope(f + 4, at.dz);
-    const double x_h = map_detail::cubic(g, at.dz) - at.slope * z_h,
-                 x_a = map_detail::cubic(g + 4, at.dz) - at.slope * z_a;
-    const double ln_area = map_detail::cubic(f + 4, at.dz);
-    point.hysteresis = info_.hysteresis ? map_detail::exp(map_detail::cubic(f, at.dz)) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(ln_area + sticking(at)) : 0;
-    point.contact_area = map_detail::exp(ln_area);
+    double fx[2] = {0, 0}, fz[2] = {0, 0};
+    const double* const c = at.cell + 2;
+    const map_detail::Pair f = bicubic(c, at.dx, at.dz);
+    for (int j = 4; j-- > 0;)
+      for (int k = 0; k < 2; ++k) {
+        const double* const row = c + 8 * j + k;
+        fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
+        if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
+      }
+    for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
+    point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + sticking(at)) : 0;
+    point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
-    point.dmu_dlnp = at.free_p ? point.hysteresis * z_h + point.adhesion * (z_a - 1) : 0;
-    point.dmu_dlnv = at.free_v ? point.hysteresis * x_h + point.adhesion * (x_a + falling) : 0;
+    point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
+    point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
     return at.status;
   }
 
@@ -237,8 +253,15 @@ class FrictionMap {
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
 
-  static double row(const double* c, double t) noexcept { return ((c[24] * t + c[16]) * t + c[8]) * t + c[0]; }
-  static double row_slope(const double* c, double t) noexcept { return (3 * c[24] * t + 2 * c[16]) * t + c[8]; }
+  /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
+  static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
+    using map_detail::pair;
+    const double x2 = x * x, z2 = z * z;
+    const auto row = [=](const double* r) {
+      return (pair(r) + pair(r + 2) * x) + (pair(r + 4) + pair(r + 6) * x) * x2;
+    };
+    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
+  }
 
   /// ln of mu_A over A/A0.
   double sticking(const Where& at) const noexcept {
@@ -246,10 +269,11 @@ class FrictionMap {
     return ln_shear_stress_ - at.ln_p - width_ * off * off;
   }
 
+  /// The loader has seen to it that `at` is far below the largest integer.
   static std::uint32_t index(double at, std::uint32_t n) noexcept {
-    if (!(at >= 0)) return 0;
-    const std::uint32_t i = at < 2147483647.0 ? static_cast<std::uint32_t>(at) : n;
-    return i < n ? i : n - 1;
+    const auto i = static_cast<std::int64_t>(at);
+    const std::int64_t last = std::int64_t{n} - 1;
+    return static_cast<std::uint32_t>(i < 0 ? 0 : i > last ? last : i);
   }
 
   Where where(double pressure, double velocity, Outside outside, const MapTemperature& temperature) const noexcept {
