@@ -102,7 +102,7 @@ struct Tables {
 };
 inline constexpr Tables tables;
 
-/// ln of a positive normal number, to 4e-16 of the larger of it and 1, the same digits on every host:
+/// ln of a positive normal number, to 5e-16 of the larger of it and 1, the same digits on every host:
 /// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
 inline double ln(double x) noexcept {
   const std::uint64_t u = bits(x);
