@@ -222,7 +222,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       .def_static(
           "from_bytes", [](const py::bytes& content) { return from_python_bytes(content, "content"); },
           py::arg("content"), "From the bytes of a file.")
-      .def("__bytes__", &to_bytes)
+      .def("to_bytes", &to_bytes, "The bytes of a file.")
       .def("__reduce__",
            [](const py::object& self) {
              return py::make_tuple(self.attr("from_bytes"), py::make_tuple(to_bytes(self.cast<const Map&>())));
