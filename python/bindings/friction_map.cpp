@@ -50,8 +50,16 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
           double rtol, double poisson_ratio, const py::object& correction, const py::object& adhesion,
           const std::string& form, const std::string& method, py::ssize_t checked, const std::string& text) {
   if (checked < 0) throw InvalidInput("checked = " + std::to_string(checked) + ": must be 0 or more");
-  const MapRequest request{box(pressure, "pressure"), box(velocity, "velocity"), rtol,
-                           static_cast<std::size_t>(checked), text};
+  const auto heed_interrupts = [] {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
+  const MapRequest request{box(pressure, "pressure"),
+                           box(velocity, "velocity"),
+                           rtol,
+                           static_cast<std::size_t>(checked),
+                           text,
+                           heed_interrupts};
   const ContactModel model = contact_model(poisson_ratio, correction, form, 1e-6, method);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
@@ -223,10 +231,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
           "from_bytes", [](const py::bytes& content) { return from_python_bytes(content, "content"); },
           py::arg("content"), "From the bytes of a file.")
       .def("to_bytes", &to_bytes, "The bytes of a file.")
-      .def("__reduce__",
-           [](const py::object& self) {
-             return py::make_tuple(self.attr("from_bytes"), py::make_tuple(to_bytes(self.cast<const Map&>())));
-           })
+      .def(py::pickle(&to_bytes, [](const py::bytes& state) { return from_python_bytes(state, "state"); }))
       .def(
           "__eq__", [](const Map& self, const Map& other) { return self.file == other.file; }, py::is_operator())
       .def("__repr__", [](const Map& self) {
@@ -264,7 +269,8 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       "notes", [](const Info& i) { return py::tuple(py::cast(notes_of(i.text))); },
       "Where the theory or its input leaves its range, as `friction` notes it on 81 points of the map.");
   property(
-      "text", [](const Info& i) { return i.text; }, "What the map was made of, in lines.");
+      "text", [](const Info& i) { return py::bytes(i.text).attr("decode")("utf-8", "replace"); },
+      "What the map was made of, in lines.");
   property(
       "adhesion_law",
       [](const Info& i) -> py::object {
