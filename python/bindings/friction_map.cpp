@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <sstream>
 
 #include "arguments.hpp"
@@ -107,6 +107,10 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
 
 enum class Policy { error, nan, clamp };
 
+Policy policy_of(const std::string& outside) {
+  return choice<Policy>("outside", outside, {{"error", Policy::error}, {"nan", Policy::nan}, {"clamp", Policy::clamp}});
+}
+
 /// Values of `get` at every point, several a point.
 template <std::size_t N, class Get>
 std::array<py::object, N> look_up(const Map& m, const py::object& pressure, const py::object& velocity,
@@ -135,6 +139,34 @@ std::array<py::object, N> look_up(const Map& m, const py::object& pressure, cons
   std::array<py::object, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = shaped(std::move(columns[k]), b.shape);
   return result;
+}
+
+/// mu alone, by the vector units.
+py::object mu_of(const Map& m, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
+                 bool shift_adhesion, const std::string& outside) {
+  const auto policy = policy_of(outside);
+  const Views b = views({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
+  const MapColumns points{b.view(0), b.view(1), b.view(2)};
+  Array mu(b.shape);
+  const std::span<double> all(mu.mutable_data(), static_cast<std::size_t>(mu.size()));
+  {
+    const py::gil_scoped_release release;
+    const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
+    look_up(m.map, points, how, shift_adhesion, all);
+    if (policy != Policy::nan) {
+      const auto bad = std::ranges::find_if(all, [](double x) { return std::isnan(x); });
+      if (bad != all.end()) {
+        const auto i = static_cast<std::size_t>(bad - all.begin());
+        const auto at = [&](std::span<const double> column) { return column[column.size() > 1 ? i : 0]; };
+        const double p = at(points.pressure), v = at(points.velocity), shift = at(points.shift);
+        MapPoint point;
+        const auto status = m.map.at(p, v, point, how, {shift, shift_adhesion});
+        refuse(m.map.info(), status, i, p, v, shift, b.shape.empty());
+      }
+    }
+  }
+  if (b.shape.empty()) return py::float_(all[0]);
+  return mu;
 }
 
 struct SlopesTag {
@@ -191,8 +223,9 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
         py::arg("shift_adhesion") = false, py::arg("outside") = "error", doc);
   };
   using One = std::array<double, 1>;
-  query(
-      "mu", [](const MapPoint& at) { return One{at.mu}; }, "Friction coefficient, hysteresis + adhesion [-].");
+  map.def("mu", &mu_of, py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
+          py::arg("shift_adhesion") = false, py::arg("outside") = "error",
+          "Friction coefficient, hysteresis + adhesion [-].");
   query(
       "hysteresis", [](const MapPoint& at) { return One{at.hysteresis}; }, "mu_H (Eq. 22) [-].");
   query(
