@@ -14,39 +14,53 @@ namespace asperity {
 namespace {
 
 struct MapLoops {
+  bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* shift,
+                  std::size_t n, double* speed, double* shifted);
   void (*logarithms)(const double* x, double* ln, std::size_t n);
+  bool (*entries)(const map_detail::Grid& grid, const std::int32_t* all, const double* x, const double* z,
+                  std::size_t n, std::int32_t* entry);
+  void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
+                      double* h, double* a);
+  void (*stick)(const double* ln_p, const double* ln_v, double ln_shear_stress, double ln_reference, double width,
+                std::size_t n, double* a);
   void (*exponentials)(const double* x, double* e, std::size_t n);
-  void (*polynomials)(const double* const* cell, const double* dx, const double* dz, std::size_t n, double* h,
-                      double* a);
 };
 
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wpsabi"  // nothing with more than two numbers in it leaves this file
+#endif
+
 namespace baseline {
+constexpr std::size_t width = 2;
 #include "map_loops.inc"
 }  // namespace baseline
 
-#ifdef __x86_64__
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
+#if defined(__x86_64__) && !defined(__clang__)
 #pragma GCC push_options
 #pragma GCC target("avx2")
-#endif
 namespace avx2 {
+constexpr std::size_t width = 4;
 #include "map_loops.inc"
 }  // namespace avx2
-#ifdef __clang__
-#pragma clang attribute pop
-#else
+#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+namespace avx512 {
+constexpr std::size_t width = 4;
+#include "map_loops.inc"
+}  // namespace avx512
 #pragma GCC pop_options
-#endif
+
+MapLoops choose() {
+  if (std::strcmp(kernels().name, "avx2") != 0) return baseline::loops();
+  const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512vl") && !std::getenv("ASPERITY_VECTORS");
+  return wider ? avx512::loops() : avx2::loops();
+}
+#else
+MapLoops choose() { return baseline::loops(); }
 #endif
 
 const MapLoops& map_loops() {
-#ifdef __x86_64__
-  static const MapLoops chosen = std::strcmp(kernels().name, "avx2") == 0 ? avx2::loops() : baseline::loops();
-#else
-  static const MapLoops chosen = baseline::loops();
-#endif
+  static const MapLoops chosen = choose();
   return chosen;
 }
 
@@ -64,13 +78,7 @@ class FrictionMapBatch {
     const double* const pressure = column(points.pressure, begin, n, pressure_);
     const double* const velocity = column(points.velocity, begin, n, velocity_);
     const double* const shift = column(points.shift, begin, n, shift_);
-    bool within = !map_.cells_.empty(), shifted = false;
-    for (std::size_t i = 0; i < n; ++i) {
-      speed_[i] = std::fabs(velocity[i]);
-      x_[i] = speed_[i] * shift[i];
-      shifted |= shift[i] != 1;
-      within &= map_detail::within(pressure[i], map_.info_.pressure) & map_detail::within(x_[i], map_.info_.velocity);
-    }
+    const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, shift, n, speed_, x_);
     if (!within) {  // rare: one by one
       for (std::size_t i = 0; i < n; ++i)
         mu[i] = map_.mu(pressure[i], velocity[i], outside_, {shift[i], shifts_adhesion_});
@@ -78,35 +86,37 @@ class FrictionMapBatch {
     }
     loops_.logarithms(x_, x_, n);
     loops_.logarithms(pressure, ln_p_, n);
-    const bool adhesion = map_.info_.shear_stress > 0;
-    const double* ln_v = x_;
-    if (adhesion && shifted && !shifts_adhesion_) {
-      loops_.logarithms(speed_, speed_, n);
-      ln_v = speed_;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      double slope;
-      const double z = ln_p_[i] - map_.shear(x_[i], slope);
-      cell_[i] = map_.cell_at(x_[i], z);
-      dx_[i] = x_[i] - cell_[i][0];
-      dz_[i] = z - cell_[i][1];
-    }
-    loops_.polynomials(cell_, dx_, dz_, n, h_, a_);
+    find_cells(n);
+    loops_.polynomials(map_.cells_.data(), cell_, x_, z_, n, h_, a_);
     if (map_.info_.hysteresis) {
       loops_.exponentials(h_, mu, n);
     } else {
       std::fill_n(mu, n, 0.0);
     }
-    if (!adhesion) return;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double off = ln_v[i] - map_.ln_reference_;
-      a_[i] += map_.ln_shear_stress_ - ln_p_[i] - map_.width_ * off * off;
-    }
+    if (map_.info_.shear_stress == 0) return;
+    const bool unshifted = shifts_adhesion_ || (points.shift.size() == 1 && points.shift[0] == 1);
+    if (!unshifted) loops_.logarithms(speed_, speed_, n);
+    loops_.stick(ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n, a_);
     loops_.exponentials(a_, a_, n);
     for (std::size_t i = 0; i < n; ++i) mu[i] += a_[i];
   }
 
  private:
+  /// z_ and cell_ of x_ and ln_p_.
+  void find_cells(std::size_t n) {
+    if (map_.shear_.empty()) {
+      std::copy_n(ln_p_, n, z_);
+    } else {
+      double slope;
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.shear(x_[i], slope);
+    }
+    const bool one_band = map_.cuts_.size() == 2;
+    if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;
+    for (std::size_t i = 0; i < n; ++i)
+      cell_[i] = static_cast<std::int32_t>((map_.cell_at(x_[i], z_[i]) - map_.cells_.data()) /
+                                           static_cast<std::ptrdiff_t>(map_detail::cell_size));
+  }
+
   /// A column's part, or its only entry as often as it is needed.
   static const double* column(std::span<const double> all, std::size_t begin, std::size_t n, double* room) {
     if (all.size() > 1) return &all[begin];
@@ -119,8 +129,8 @@ class FrictionMapBatch {
   bool shifts_adhesion_;
   const MapLoops& loops_;
   double pressure_[block], velocity_[block], shift_[block];
-  double x_[block], speed_[block], ln_p_[block], dx_[block], dz_[block], h_[block], a_[block];
-  const double* cell_[block];
+  double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
+  std::int32_t cell_[block];
 };
 
 void look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside, bool shifts_adhesion,
