@@ -7,19 +7,12 @@
 #include <string>
 
 #include "checks.hpp"
-#include "integrate.hpp"
 #include "roots.hpp"
 
 namespace asperity {
 
 using std::numbers::pi;
 using std::numbers::sqrt2;
-
-namespace {
-
-constexpr double deep = -100;  // rms heights below the mean plane: the moments are exact to rounding
-
-}  // namespace
 
 double hertz_penetration(double force, double effective_modulus, double radius) {
   require_not_negative("force", force);
@@ -30,42 +23,16 @@ double hertz_penetration(double force, double effective_modulus, double radius) 
   return std::cbrt(9.0 / 16) * ratio * ratio / std::cbrt(radius);
 }
 
-// With s = x - t the integrand is exp(g(s)), g = 1.5 ln s - (s + t)^2 / 2, largest at s* = (sqrt(t^2 + 6) - t) / 2.
-// Scaled by its maximum it neither under- nor overflows. Deep in contact the whole Gaussian counts, and
-// <(1 + x / |t|)^1.5> is summed in its even moments 1, 3, 15: the next term is 0.34 / t^8.
-double log_gaussian_moment(double t) {
-  require_finite("t", t);
-  if (t < deep) {
-    const double u = 1 / t / t;
-    return 1.5 * std::log(-t) + std::log1p(u * (3.0 / 8 + u * (9.0 / 128 + u * (105.0 / 1024))));
-  }
-  const double root = std::hypot(t, std::sqrt(6.0));
-  const double peak = t > 0 ? 3 / (root + t) : (root - t) / 2;  // the two forms of s*, each where it does not cancel
-  const double width = 1 / std::sqrt(1 + 1.5 / (peak * peak));
-  // g(s) - g(s*) with r = s / s* - 1: 1.5 (ln(1 + r) - r) - (r s*)^2 / 2, since g' vanishes at s*
-  const auto shape = [&](double s) {
-    const double r = s / peak - 1;
-    return s > 0 ? std::exp(1.5 * (std::log1p(r) - r) - r * peak * r * peak / 2) : 0.0;
-  };
-  // On either side of the peak, in units of its width; u^2 tames the s^1.5 at the lower end.
-  constexpr double rtol = 1e-13, reach = 40;
-  const double bottom = std::fmax(0, peak - reach * width);
-  const auto left =
-      integrate([&](double u) { return 2 * u * shape(bottom + u * u); }, 0, std::sqrt(peak - bottom), rtol);
-  const auto right = integrate(shape, peak, peak + 4 * width, rtol);
-  const auto tail = integrate(shape, peak + 4 * width, peak + reach * width, rtol, rtol * right.value);
-  const double at_peak = 1.5 * std::log(peak) - (peak + t) * (peak + t) / 2;
-  return at_peak + std::log(left.value + right.value + tail.value) - std::log(2 * pi) / 2;
-}
-
 namespace {
 
 /// ln of the mean of max(z - d, 0)^1.5 over the peaks, d = highest - depth.
 double log_peak_moment(std::span<const double> peaks, double highest, double log_depth) {
   const double depth = std::exp(log_depth);
   double sum = 0;
-  for (const double z : peaks)
-    if (highest - z < depth) sum += std::pow(1 - (highest - z) / depth, 1.5);
+  for (const double z : peaks) {
+    const double share = std::fmax(0, 1 - (highest - z) / depth);  // of the depth that a peak reaches into
+    sum += share * std::sqrt(share);
+  }
   return 1.5 * log_depth + std::log(sum / static_cast<double>(peaks.size()));
 }
 

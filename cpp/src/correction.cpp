@@ -6,6 +6,7 @@
 #include <string>
 
 #include "checks.hpp"
+#include "macro_modulus.hpp"
 #include "overloaded.hpp"
 
 namespace asperity {
@@ -44,10 +45,27 @@ void validate_peaks(const LocalPeaks& peaks) {
   if (top == lowest) refuse("heights: their mean", mean, "below z_max = " + show(top));
 }
 
-/// Of the macro-asperities where the caller names none: the roll-off, where there is one.
-double macro_wavenumber(const Spectrum& spectrum) {
-  const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum);
-  return s && s->rolloff ? *s->rolloff : band(spectrum)[0];
+/// Of the macro-asperities; where the caller names none the roll-off, where there is one.
+template <class GreenwoodWilliamsonKind>
+double macro_wavenumber(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum) {
+  if (s.q0) return *s.q0;
+  const auto* self_affine = std::get_if<SelfAffineSpectrum>(&spectrum);
+  return self_affine && self_affine->rolloff ? *self_affine->rolloff : band(spectrum)[0];
+}
+
+/// E* of the macro-asperities.
+template <class GreenwoodWilliamsonKind>
+double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, const Rubber& rubber, double velocity,
+                  double poisson_ratio) {
+  const double q0 = macro_wavenumber(s, spectrum), w = q0 * velocity;
+  if (const auto* curve = std::get_if<MasterCurve>(&rubber); curve && s.q0) {
+    const double lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
+    if (w < lowest || w > highest)
+      throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) +
+                       " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
+                       show(lowest) + ", " + show(highest) + "] rad/s");
+  }
+  return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }
 
 /// p_T2 and its state for a profile between z_min and z_max.
@@ -118,16 +136,8 @@ double shift_factor(const LocalPeaks& peaks) {
 Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber, double pressure,
                    double velocity, double poisson_ratio) {
   const auto gw = [&](const auto& s, double divisor, std::span<const double> peaks) {
-    const double q0 = s.q0 ? *s.q0 : macro_wavenumber(spectrum);
-    const double rms = s.rms_height ? *s.rms_height : rms_height(spectrum);
-    if (const auto* curve = std::get_if<MasterCurve>(&rubber); curve && s.q0) {
-      const double w = *s.q0 * velocity, lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
-      if (w < lowest || w > highest)
-        throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(*s.q0) +
-                         " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
-                         show(lowest) + ", " + show(highest) + "] rad/s");
-    }
-    const double modulus = effective_modulus(std::abs(asperity::modulus(rubber, q0 * velocity)), poisson_ratio);
+    const double q0 = macro_wavenumber(s, spectrum), rms = s.rms_height ? *s.rms_height : rms_height(spectrum);
+    const double modulus = modulus_at(s, spectrum, rubber, velocity, poisson_ratio);
     return greenwood_williamson_shift({rms / divisor, q0, peaks}, s.z_max / divisor, s.z_min / divisor, s.reading,
                                       pressure, modulus);
   };
@@ -146,6 +156,16 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
                         },
                     },
                     correction);
+}
+
+std::optional<double> macro_modulus(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
+                                    double velocity, double poisson_ratio) {
+  return std::visit(
+      [&](const auto& s) -> std::optional<double> {
+        if constexpr (requires { s.reading; }) return modulus_at(s, spectrum, rubber, velocity, poisson_ratio);
+        return std::nullopt;
+      },
+      correction);
 }
 
 }  // namespace asperity

@@ -1,4 +1,5 @@
 from collections.abc import Iterable
+from os import PathLike
 from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
@@ -809,3 +810,103 @@ def fit_adhesion(
     rtol: float = 1e-6,
     method: _Method = "gauss",
 ) -> AdhesionFit: ...
+
+@final
+class FrictionSlopes:
+    def __init__(self, **kwargs: Any) -> None: ...
+    @property
+    def dmu_dlnp(self) -> Any: ...
+    @property
+    def dmu_dlnv(self) -> Any: ...
+
+@final
+class FrictionMap:
+    def mu(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> Any: ...
+    def hysteresis(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> Any: ...
+    def adhesion(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> Any: ...
+    def contact_area(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> Any: ...
+    def derivatives(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> FrictionSlopes: ...
+    def save(self, path: str | PathLike[str]) -> None: ...
+    @staticmethod
+    def load(path: str | PathLike[str]) -> FrictionMap: ...
+    @staticmethod
+    def from_bytes(content: bytes) -> FrictionMap: ...
+    def to_bytes(self) -> bytes: ...
+    @property
+    def pressure(self) -> tuple[float, float]: ...
+    @property
+    def velocity(self) -> tuple[float, float]: ...
+    @property
+    def rtol(self) -> float: ...
+    @property
+    def max_error(self) -> float: ...
+    @property
+    def checked(self) -> int: ...
+    @property
+    def exceeded(self) -> int: ...
+    @property
+    def largest_checked_error(self) -> float: ...
+    @property
+    def cells(self) -> int: ...
+    @property
+    def notes(self) -> tuple[str, ...]: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def adhesion_law(self) -> Adhesion | None: ...
+
+def friction_map(
+    spectrum: _Spectrum,
+    rubber: _Rubber,
+    *,
+    pressure: tuple[float, float],
+    velocity: tuple[float, float],
+    rtol: float = 1e-4,
+    poisson_ratio: float = 0.5,
+    correction: _Correction = None,
+    adhesion: Adhesion | None = None,
+    form: _Form = "exact",
+    method: _Method = "gauss",
+    checked: int = 1_000_000,
+    text: str = "",
+) -> FrictionMap: ...

@@ -27,4 +27,5 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_contact(m);
   bind_friction(m);
   bind_fit_adhesion(m);
+  bind_friction_map(m);
 }

@@ -21,5 +21,6 @@ void bind_asperity_correction(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_friction(pybind11::module_& m);
 void bind_fit_adhesion(pybind11::module_& m);
+void bind_friction_map(pybind11::module_& m);
 
 }  // namespace asperity::python

@@ -65,6 +65,8 @@ inline constexpr const char* kind<std::array<long long, 2>> = "two whole numbers
 template <>
 inline constexpr const char* kind<bool> = "True or False";
 template <>
+inline constexpr const char* kind<std::string> = "a str";
+template <>
 inline constexpr const char* kind<std::vector<std::string>> = "a tuple of str";
 template <>
 inline constexpr const char* kind<std::optional<std::vector<std::string>>> = "a tuple of str or None";
@@ -131,7 +133,8 @@ struct type_caster<asperity::python::Named<T, argument>> {
   bool load(handle from, bool) {
     make_caster<T> caster;
     constexpr bool flag = std::is_same_v<T, bool>;  // of which pybind11 takes whatever has a truth
-    if (!caster.load(from, !flag || PyLong_Check(from.ptr())))
+    const bool known = !std::is_same_v<T, std::string> || PyUnicode_Check(from.ptr());  // not bytes
+    if (!known || !caster.load(from, !flag || PyLong_Check(from.ptr())))
       throw asperity::InvalidInput(std::string(argument.text) + " = " + asperity::python::brief(from) + ": must be " +
                                    asperity::python::kind<T>);
     found_.emplace(Found{cast_op<T>(std::move(caster))});

@@ -77,6 +77,15 @@ def isotherm(temperature, log10_a_T):  # noqa: N803
 
 SWEPT = [isotherm(283.0, 1.0), isotherm(293.0, 0.0), isotherm(303.0, -0.8)]
 BUILD = asperity.build_master_curve(SWEPT, reference_temperature=293.0)
+FMAP = asperity.friction_map(
+    ROAD,
+    RUBBER,
+    pressure=(1e5, 2e5),
+    velocity=(1e-2, 1.0),
+    rtol=1e-3,
+    checked=100,
+    text="of this",
+)
 SEPARATION = {"pressure": [1e5, 1e6], "effective_modulus": 1e7, "rms_height": 1e-4, "q0": 1e3}
 # class, the arguments it is made from, one argument changed
 MADE = [
@@ -138,6 +147,7 @@ RESULTS = {
     "MasterCurveBuild": BUILD,
     "MasterPoints": BUILD.points,
     "PronyFit of a build": asperity.fit_prony(BUILD),
+    "FrictionSlopes": FMAP.derivatives([1.5e5, 1.8e5], 0.1),
     "FrictionBand": asperity.friction_band(FITTED_ROAD, RUBBER, **SLIDING, samples=20),
     "LocalPeaks of a map": asperity.LocalPeaks(
         asperity.synthesize(ROAD, shape=(40, 40), pixel_size=3e-4, seed=1), min_distance=1e-3

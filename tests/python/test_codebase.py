@@ -32,6 +32,8 @@ MAY_INCLUDE["correction"] = {*MAY_INCLUDE}
 MAY_INCLUDE["contact"] = {*MAY_INCLUDE}
 MAY_INCLUDE["friction"] = {*MAY_INCLUDE}
 MAY_INCLUDE["version"] = set()
+MAY_INCLUDE["friction_map"] = set()
+MAY_INCLUDE["build_friction_map"] = {*MAY_INCLUDE}
 EVERYWHERE = {"export"}
 # Files of cpp/src by topic; a file of the topic's own name needs no entry.
 TOPIC = {
@@ -57,6 +59,11 @@ TOPIC = {
     "angular_sums": "rubber",
     "angular_table": "rubber",
     "modulus_piece": "rubber",
+    "macro_modulus": "correction",
+    "map_builder": "build_friction_map",
+    "map_file": "build_friction_map",
+    "map_frame": "build_friction_map",
+    "map_tree": "build_friction_map",
     "master_curve": "rubber",
     "at_strain": "dma",
     "build_master_curve": "dma",
@@ -72,6 +79,7 @@ TOPIC = {
     "fit_adhesion": "friction",
     "front_integral": "contact",
     "gauss_panels": "contact",
+    "gaussian_moment": "asperities",
     "gauss_path": "contact",
     "kernels": "rubber",
     "panel_error": "contact",
@@ -83,6 +91,7 @@ SEAMS = {
     "checks",
     "integrate",
     "fourier",
+    "hermite",
     "interpolate",
     "legendre",
     "minimum",
@@ -145,7 +154,8 @@ def test_includes_run_one_way(path):
 @pytest.mark.parametrize("path", HEADERS, ids=lambda p: p.name)
 def test_public_headers_need_the_standard_library_alone(path):
     for name in includes(path):
-        assert name.startswith("asperity/") or re.fullmatch(r"[a-z_]+", name), name
+        of_c = path.name == "friction_map.hpp" and name == "stddef.h"
+        assert name.startswith("asperity/") or re.fullmatch(r"[a-z_]+", name) or of_c, name
 
 
 SEAM_OF = {"gsl/": {"integrate.cpp"}, "fftw3": {"fourier.cpp"}}

@@ -12,7 +12,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, _core
-from examples import BUILD, CURVE, EVERY, ROAD, RUBBER, SHIFTS, SWEPT
+from examples import BUILD, CURVE, EVERY, FMAP, ROAD, RUBBER, SHIFTS, SWEPT
 
 PROTOCOLS = range(2, pickle.HIGHEST_PROTOCOL + 1)
 ROUGH = asperity.synthesize(ROAD, shape=(48, 40), pixel_size=1e-4, seed=2)
@@ -90,7 +90,7 @@ DERIVED = {
         correction=asperity.GreenwoodWilliamson(z_max=1e-5, z_min=-1e-3),
     ),
 }
-ALL = EVERY | DERIVED
+ALL = EVERY | DERIVED | {"FrictionMap": FMAP}
 
 
 def bits(value):
@@ -109,16 +109,16 @@ def bits(value):
             for cls in type(value).__mro__
             for name, member in vars(cls).items()
             if isinstance(member, property)
-        } | set(type(value).__match_args__)
+        } | set(getattr(type(value), "__match_args__", ()))
         return type(value), {name: bits(getattr(value, name)) for name in sorted(shown)}
-    assert isinstance(value, str | int | None), type(value)
+    assert isinstance(value, str | bytes | int | None), type(value)
     return value
 
 
 def test_every_public_class_has_an_example():
     public = {name for name in asperity.__all__ if inspect.isclass(getattr(asperity, name))}
     values = {name for name in public if not issubclass(getattr(asperity, name), Exception)}
-    assert {type(value).__name__ for value in EVERY.values()} == values
+    assert {type(value).__name__ for value in ALL.values()} == values
     bound = {name for name, member in vars(_core).items() if inspect.isclass(member)}
     assert {name for name in bound if not name.startswith("_")} <= public
 
@@ -182,6 +182,8 @@ def used(value):
             return value.shift_factor([275.0, 300.0]), value.fit_arrhenius()
         case asperity.StrainSweep():
             return large_strain(5e-3, [value])
+        case asperity.FrictionMap():
+            return value.mu([1.2e5, 1.9e5], [0.02, 0.9]), value.to_bytes()
         case _ if isinstance(value, CORRECTIONS):
             return asperity.friction(ROAD, RUBBER, **SLIDING, correction=value)
         case _:
@@ -189,7 +191,7 @@ def used(value):
 
 
 RESULTS = {"Friction", "Separation", "WlfFit", "ArrheniusFit", "Anisotropy", "SpectralDensity"}
-RESULTS |= {"MasterPoints", "FrictionBand"}
+RESULTS |= {"MasterPoints", "FrictionBand", "FrictionSlopes"}
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -277,7 +279,7 @@ class Forged:
         return self.call
 
 
-FORGED_CLASSES = {type(value) for value in EVERY.values()} - {asperity.FrictionBand}
+FORGED_CLASSES = {type(value) for value in ALL.values()} - {asperity.FrictionBand}
 
 
 def forgeries():
@@ -300,6 +302,9 @@ def forgeries():
         }
         for what, forged in bad.items():
             yield f"{cls.__name__}: {what}", Forged(rebuild, cls, forged)
+    whole = FMAP.to_bytes()
+    for what, forged in {"cut": whole[:-9], "altered": whole[:200] + b"\x01" + whole[201:]}.items():
+        yield f"FrictionMap: {what}", Forged(FMAP.__reduce__()[0], forged)
     yield "no class", Forged(rebuild, 3, {})
     yield "another class", Forged(rebuild, int, {})
 

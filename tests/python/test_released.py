@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
-from examples import BUILD, CURVE, ROAD, RUBBER, SWEPT
+from examples import BUILD, CURVE, FMAP, ROAD, RUBBER, SWEPT
 from test_pickles import SLOW, SWEEPS, large_strain
 
 V = np.geomspace(1e-3, 0.9, 300)
@@ -41,6 +41,15 @@ FUNCTIONS = {
     "fit_prony": partial(asperity.fit_prony, BUILD),
     "fit_self_affine": partial(asperity.fit_self_affine, LONG),
     "friction": partial(asperity.friction, ROAD, RUBBER, **SCENE, contributions=True),
+    "friction_map": partial(
+        asperity.friction_map,
+        ROAD,
+        RUBBER,
+        pressure=(1e5, 2e5),
+        velocity=(0.01, 0.1),
+        rtol=1e-2,
+        checked=100,
+    ),
     "line_spectrum": partial(asperity.line_spectrum, MAP),
     "mean_pressure": partial(asperity.mean_pressure, ROAD, SLOW, **SCENE),
     "merge_spectra": partial(asperity.merge_spectra, [LONG, LONG], per_decade=10),
@@ -72,6 +81,7 @@ METHODS = {
     "line_density": partial(ROAD.line_density, Q),
     "local_peaks": partial(MAP.local_peaks, min_distance=1e-4),
     "log_binned": LONG.log_binned,
+    "mu": partial(FMAP.mu, 1.5e5, np.linspace(0.02, 0.9, 10_000)),
     "modulus": partial(SLOW.modulus, W),
     "modulus, Prony": partial(RUBBER.modulus, W),
     "nayak_parameter": partial(getattr, LONG, "nayak_parameter"),

@@ -12,36 +12,35 @@ from examples import EVERY, RUBBER
 from test_codebase import STUB, signature
 from test_released import FUNCTIONS, MAP, METHODS
 
-SIGNATURES = {
-    node.name: signature(node) for node in ast.walk(STUB) if isinstance(node, ast.FunctionDef)
+
+def signatures(body):
+    return {node.name: signature(node) for node in body if isinstance(node, ast.FunctionDef)}
+
+
+SIGNATURES = signatures(STUB.body)
+METHODS_OF = {
+    node.name: signatures(node.body) for node in STUB.body if isinstance(node, ast.ClassDef)
 }
 
 
 def calls():
     """(name, argument, call with it alone left to give)"""
-    for name, call in FUNCTIONS.items():
-        positional, keywords, _ = SIGNATURES[name]
+    for name, call in (FUNCTIONS | METHODS).items():
+        function = getattr(call, "func", call)
+        owner = type(getattr(function, "__self__", None)).__name__
+        known = METHODS_OF.get(owner, SIGNATURES).get(function.__name__)
+        if known is None or not isinstance(call, partial):
+            continue
+        positional, keywords, _ = known
         for place, argument in enumerate(positional):
-            given = call.args[:place], call.args[place + 1 :]
+            before, after = call.args[:place], call.args[place + 1 :]
             yield (
                 name,
                 argument,
-                lambda v, c=call, g=given: c.func(*g[0], v, *g[1], **c.keywords),
+                lambda v, c=call, b=before, a=after: c.func(*b, v, *a, **c.keywords),
             )
         for argument in keywords:
             yield name, argument, lambda v, c=call, a=argument: c(**{a: v})
-    for call in METHODS.values():
-        name = getattr(call, "func", call).__name__
-        if name in SIGNATURES and isinstance(call, partial):
-            positional, keywords, _ = SIGNATURES[name]
-            for argument in positional:
-                yield name, argument, call.func
-            for argument in keywords:
-                yield (
-                    name,
-                    argument,
-                    lambda v, c=call, a=argument: c.func(*c.args, **c.keywords | {a: v}),
-                )
     for value in {type(v): v for v in EVERY.values()}.values():
         cls = type(value)
         if cls.__module__ == _core.__name__:
@@ -60,7 +59,7 @@ def test_another_kind_is_refused_in_a_line_that_names_the_argument(name):
     for value in WRONG:
         if isinstance(value, dict) and argument in {"fixed", "standard_errors"}:
             continue  # which are dicts, of other keys
-        if isinstance(value, str) and argument == "state":
+        if isinstance(value, str) and argument in {"state", "text"}:
             continue
         with pytest.raises(InvalidInput) as refused:
             call(value)

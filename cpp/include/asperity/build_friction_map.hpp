@@ -1,0 +1,38 @@
+// The friction map of friction_map.hpp, built to a tolerance and certified.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/export.hpp"
+#include "asperity/friction.hpp"
+
+namespace asperity {
+
+/// What a map shall cover and how well.
+struct MapRequest {
+  std::array<double, 2> pressure, velocity;  // lo, hi [Pa], [m/s]
+  double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion
+  std::size_t checked = 1'000'000;           // random points on which the finished map is checked
+  std::string_view text = "";                // lines for whoever reads the file, UTF-8
+};
+
+/// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in
+/// bicubic cells, split where they are off by more than rtol / 2 (relative, the solver's own estimate included) on
+/// lattices of 5 x 5 or on random points unseen before, 12 a cell; `max_error` is twice the largest error of the
+/// latter. OutOfRange where the rubber is not known, InvalidInput where there is no contact in a part of the box,
+/// NotConverged with what was reached where 100,000 cells are too few.
+ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
+                                                              const ContactModel& model,
+                                                              const std::optional<Adhesion>& adhesion,
+                                                              const MapRequest& request);
+
+/// Writes a file whole or not at all; InvalidInput with the path and the reason where it cannot be written.
+ASPERITY_EXPORT void write_whole(const std::string& path, std::span<const unsigned char> bytes);
+
+}  // namespace asperity

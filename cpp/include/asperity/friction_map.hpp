@@ -1,0 +1,556 @@
+// Copyright (c) 2026 the asperity authors
+// SPDX-License-Identifier: 0BSD
+// Permission to use, copy, modify, and/or distribute this file for any purpose with or without fee is hereby granted.
+// THE SOFTWARE IS PROVIDED "AS IS" AND THE AUTHOR DISCLAIMS ALL WARRANTIES WITH REGARD TO THIS SOFTWARE INCLUDING ALL
+// IMPLIED WARRANTIES OF MERCHANTABILITY AND FITNESS. IN NO EVENT SHALL THE AUTHOR BE LIABLE FOR ANY SPECIAL, DIRECT,
+// INDIRECT, OR CONSEQUENTIAL DAMAGES OR ANY DAMAGES WHATSOEVER RESULTING FROM LOSS OF USE, DATA OR PROFITS, WHETHER IN
+// AN ACTION OF CONTRACT, NEGLIGENCE OR OTHER TORTIOUS ACTION, ARISING OUT OF OR IN CONNECTION WITH THE USE OR
+// PERFORMANCE OF THIS SOFTWARE.
+//
+// Rubber friction looked up in a map, for simulators: this file and the standard library of C++17, nothing else, under
+// the notice above, which holds for this file alone. Queries allocate nothing, throw nothing, change nothing: any
+// number of threads may share a map. C, Fortran and Simulink: see the end of the file.
+//
+//   asperity::FrictionMap map;
+//   std::string why;
+//   if (!map.load("road.fmap", why)) ...                        // `why` says in a line what is wrong with the file
+//   double mu = map.mu(2e5, 0.3);                               // pressure [Pa], velocity [m/s]
+//
+// What a map holds: ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
+// cell, with continuous first derivatives (C1) but where a correction changes its state, at a constant z. s is zero,
+// or ln E* of the Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
+//   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
+// The temperature shifts the velocity of mu_H and A/A0 by a_T; the adhesion takes the true velocity.
+//
+// mu is even in v: mu(p, -v) = mu(p, v); the traction is odd, and 0 at v = 0 and where p <= 0, whatever the map's box.
+// Elsewhere in front of or behind the box, and with v = 0 or p <= 0, the caller chooses (Outside): a status that names
+// what is outside, NaN, or the nearest point of the box, whose derivatives across the box's side are 0. Numbers that
+// are NaN give NaN (status not_a_number) always.
+//
+// The file, little-endian, doubles as IEEE 754, offsets in bytes:
+//     0  8   "ASPERMAP"
+//     8  u32 0x01020304, which a file of the other byte order has reversed
+//    12  u32 version of this layout, 1
+//    16  u64 size of the file
+//    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s]: the box
+//    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 that the points gave on which
+//            the map was certified; the largest error of the points it was then checked on
+//    80  u64 number of points of that check; how many were off by more than max_error
+//    96  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
+//   120  u32 1 with hysteresis, 0 without (a rubber that loses nothing); n bands; s nodes of s(x), 0 or from 2 on;
+//            g grids, from n on; e entries; c cells, from 1 on; t bytes of text; 0
+//   152  f64 n + 1 values of z, rising: where bands begin, and the end
+//        f64 2 s: s(x) and s'(x) at s nodes, equal steps of x from ln v lo to ln v hi; cubic Hermite between them
+//        g x (f64 x, z of a corner; f64 columns per x, rows per z; u32 columns, rows, first entry, 0): grid k < n is
+//            that of band k
+//        e x i32 row by row, the row the faster index: a cell, or -1 - k for grid k, which comes after the grid it
+//            is in
+//        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
+//            8 j + 2 i + 1 for ln A/A0
+//        t   text, UTF-8, JSON: what the map was made of
+//        zeros up to a multiple of 8 after the entries and after the text
+//        u32 CRC-32 (that of zip and PNG) of all before; u32 0
+#ifndef ASPERITY_FRICTION_MAP_HPP
+#define ASPERITY_FRICTION_MAP_HPP
+
+#ifdef __cplusplus
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+namespace map_detail {
+
+inline std::uint64_t bits(double x) noexcept {
+  std::uint64_t result;
+  std::memcpy(&result, &x, sizeof x);
+  return result;
+}
+
+inline double from_bits(std::uint64_t u) noexcept {
+  double result;
+  std::memcpy(&result, &u, sizeof u);
+  return result;
+}
+
+/// ln c and 1 / c for c = (i + 1/2) / 128, i from 128 to 255, and 2^(i / 128): the tables of ln and exp below.
+struct Tables {
+  double ln[128], inverse[128], power[128];
+
+  constexpr Tables() : ln(), inverse(), power() {
+    for (int i = 0; i < 128; ++i) {
+      const double c = (128.5 + i) / 128, s = (c - 1) / (c + 1);
+      double sum = 0;
+      for (int k = 39; k > 0; k -= 2) sum = sum * s * s + 2.0 / k;
+      ln[i] = sum * s;  // 2 artanh s
+      inverse[i] = 1 / c;
+      double factor = 1;  // e^(i ln(2) / 128)
+      for (int k = 20; k > 0; --k) factor = 1 + factor * i * (0.693147180559945309417 / 128) / k;
+      power[i] = factor;
+    }
+  }
+};
+inline constexpr Tables tables;
+
+/// ln of a positive normal number, to 5e-16 of the larger of it and 1, the same digits on every host:
+/// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
+inline double ln(double x) noexcept {
+  const std::uint64_t u = bits(x);
+  const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
+  const std::size_t i = (u >> 45) & 127;
+  const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
+  const double r = m * tables.inverse[i] - 1, r2 = r * r;
+  const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
+  return (k * 0.693147180559945309417 + tables.ln[i]) + (r + r2 * tail);
+}
+
+/// e^x to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r, |r| < ln(2) / 256.
+inline double exp(double x) noexcept {
+  x = x < -700 ? -700 : x > 700 ? 700 : x;
+  const auto k = static_cast<std::int32_t>(x * (128 / 0.693147180559945309417) + (x < 0 ? -0.5 : 0.5));
+  const auto steps = static_cast<double>(k);
+  // the first part of ln(2) / 128 has zeros enough to be multiplied exactly
+  const double r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128),
+               r2 = r * r;
+  const double tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
+  const double scale = from_bits(static_cast<std::uint64_t>((k >> 7) + 1023) << 52);
+  return (1 + (r + r2 * tail)) * (tables.power[k & 127] * scale);
+}
+
+/// Two numbers that a vector unit takes at once.
+#ifdef __GNUC__
+using Pair = double __attribute__((vector_size(16)));
+inline Pair pair(const double* x) noexcept { return Pair{x[0], x[1]}; }
+#else
+struct Pair {
+  double two[2];
+  double operator[](int i) const noexcept { return two[i]; }
+};
+inline Pair pair(const double* x) noexcept { return {{x[0], x[1]}}; }
+inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[1]}}; }
+inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
+#endif
+
+/// Cubic b[0] + b[1] t + b[2] t^2 + b[3] t^3.
+inline double cubic(const double* b, double t) noexcept { return ((b[3] * t + b[2]) * t + b[1]) * t + b[0]; }
+inline double cubic_slope(const double* b, double t) noexcept { return (3 * b[3] * t + 2 * b[2]) * t + b[1]; }
+
+inline bool is_nan(double x) noexcept { return (bits(x) & 0x7fffffffffffffff) > 0x7ff0000000000000; }
+
+/// Comparisons of bits instead of numbers hold under a host's -ffast-math too.
+inline bool within(double x, const std::array<double, 2>& box) noexcept {
+  return bits(x) - bits(box[0]) <= bits(box[1]) - bits(box[0]);
+}
+
+struct Grid {
+  double x, z, columns_per_x, rows_per_z;
+  std::uint32_t columns, rows, first;
+};
+
+constexpr std::size_t cell_size = 34, head_size = 152;
+
+}  // namespace map_detail
+
+/// What a file says of its map.
+struct FrictionMapInfo {
+  std::array<double, 2> pressure{}, velocity{};               // the box [Pa], [m/s]
+  double rtol = 0, max_error = 0, largest_checked_error = 0;  // relative, of mu
+  std::uint64_t checked = 0, exceeded = 0;  // random points of the last check, and those beyond max_error
+  double shear_stress = 0, reference_velocity = 0, width = 0;  // tau_f0 [Pa], v0 [m/s], c of the adhesion
+  bool hysteresis = false;                                     // false: mu_H is 0 everywhere
+  std::size_t cells = 0;
+  std::string text;  // JSON
+};
+
+/// Of a temperature, beside the one that the map was made for.
+struct MapTemperature {
+  double shift = 1;              // a_T: mu_H and A/A0 are those at the velocity a_T v
+  bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
+};
+
+struct MapPoint {
+  double mu, hysteresis, adhesion, contact_area;  // [-]
+  double dmu_dlnp, dmu_dlnv;                      // d mu / d ln p, d mu / d ln |v|
+};
+
+class FrictionMap {
+ public:
+  /// Of points outside of the box. To treat them as errors, look at the status of `at`.
+  enum class Outside { nan, clamp };
+  enum class Status { ok, pressure_outside, velocity_outside, not_a_number };
+
+  /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
+  double mu(double pressure, double velocity, Outside outside = Outside::nan,
+            const MapTemperature& temperature = {}) const noexcept {
+    const Where at = where(pressure, velocity, outside, temperature);
+    if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    const map_detail::Pair f = bicubic(at.cell + 2, at.dx, at.dz);
+    double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + sticking(at));
+    return mu;
+  }
+
+  /// Everything at a point. What is outside of the box is told by the status, whatever `outside` says.
+  Status at(double pressure, double velocity, MapPoint& point, Outside outside = Outside::nan,
+            const MapTemperature& temperature = {}) const noexcept {
+    const Where at = where(pressure, velocity, outside, temperature);
+    if (at.cell == nullptr) {
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      point = {nan, nan, nan, nan, nan, nan};
+      return at.status;
+    }
+    double fx[2] = {0, 0}, fz[2] = {0, 0};
+    const double* const c = at.cell + 2;
+    const map_detail::Pair f = bicubic(c, at.dx, at.dz);
+    for (int j = 4; j-- > 0;)
+      for (int k = 0; k < 2; ++k) {
+        const double* const row = c + 8 * j + k;
+        fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
+        if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
+      }
+    for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
+    point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + sticking(at)) : 0;
+    point.contact_area = map_detail::exp(f[1]);
+    point.mu = point.hysteresis + point.adhesion;
+    const double falling = -2 * width_ * (at.ln_v - ln_reference_);
+    point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
+    point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
+    return at.status;
+  }
+
+  /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
+  double traction(double pressure, double velocity, Outside outside = Outside::nan,
+                  const MapTemperature& temperature = {}) const noexcept {
+    if (map_detail::is_nan(pressure) || map_detail::is_nan(velocity)) return std::numeric_limits<double>::quiet_NaN();
+    if (pressure <= 0 || velocity == 0) return 0;
+    const double size = mu(pressure, velocity, outside, temperature) * pressure;
+    return velocity < 0 ? -size : size;
+  }
+
+  const FrictionMapInfo& info() const noexcept { return info_; }
+
+  /// From the bytes of a file. False with the reason, and the map as it was, where they are not those of a map.
+  bool read(const void* data, std::size_t size, std::string& why);
+  bool load(const char* path, std::string& why);
+
+ private:
+  struct Where {
+    const double* cell = nullptr;
+    double dx = 0, dz = 0, slope = 0;  // s'(x)
+    double ln_p = 0, ln_v = 0;         // as the adhesion takes them
+    Status status = Status::ok;
+    bool free_p = true, free_v = true;  // not held at a side of the box
+  };
+
+  /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
+  static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
+    using map_detail::pair;
+    const double x2 = x * x, z2 = z * z;
+    const auto row = [=](const double* r) {
+      return (pair(r) + pair(r + 2) * x) + (pair(r + 4) + pair(r + 6) * x) * x2;
+    };
+    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
+  }
+
+  /// ln of mu_A over A/A0.
+  double sticking(const Where& at) const noexcept {
+    const double off = at.ln_v - ln_reference_;
+    return ln_shear_stress_ - at.ln_p - width_ * off * off;
+  }
+
+  /// The loader has seen to it that `at` is far below the largest integer.
+  static std::uint32_t index(double at, std::uint32_t n) noexcept {
+    const auto i = static_cast<std::int64_t>(at);
+    const std::int64_t last = std::int64_t{n} - 1;
+    return static_cast<std::uint32_t>(i < 0 ? 0 : i > last ? last : i);
+  }
+
+  Where where(double pressure, double velocity, Outside outside, const MapTemperature& temperature) const noexcept {
+    Where at;
+    double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
+    double shifted = speed * temperature.shift;
+    if (!map_detail::within(pressure, info_.pressure) || !map_detail::within(shifted, info_.velocity)) {
+      if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) || cells_.empty()) {
+        at.status = Status::not_a_number;
+        return at;
+      }
+      at.free_p = map_detail::within(pressure, info_.pressure);
+      at.free_v = map_detail::within(shifted, info_.velocity);
+      at.status = at.free_p ? Status::velocity_outside : Status::pressure_outside;
+      if (outside == Outside::nan) return at;
+      if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
+      if (!at.free_v) {
+        shifted = info_.velocity[shifted > info_.velocity[0]];
+        speed = shifted / temperature.shift;
+      }
+    }
+    const double x = map_detail::ln(shifted);
+    at.ln_p = map_detail::ln(pressure);
+    at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
+    double z = at.ln_p;
+    if (!shear_.empty()) {
+      const auto steps = static_cast<std::uint32_t>(shear_.size() / 2 - 1);
+      const double scaled = (x - shear_x_) * shear_per_x_;
+      const std::uint32_t i = index(scaled, steps);
+      const double t = scaled - i, h = 1 / shear_per_x_;
+      const double* const s = &shear_[2 * i];
+      const double rise = s[2] - s[0], b2 = 3 * rise - h * (2 * s[1] + s[3]), b3 = h * (s[1] + s[3]) - 2 * rise;
+      const double b[] = {s[0], h * s[1], b2, b3};
+      z -= map_detail::cubic(b, t);
+      at.slope = map_detail::cubic_slope(b, t) * shear_per_x_;
+    }
+    std::size_t g = 0;
+    while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
+    std::int32_t entry;
+    while ((entry = entries_[entry_of(grids_[g], x, z)]) < 0) g = static_cast<std::size_t>(-1 - entry);
+    at.cell = &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
+    at.dx = x - at.cell[0];
+    at.dz = z - at.cell[1];
+    return at;
+  }
+
+  static std::size_t entry_of(const map_detail::Grid& grid, double x, double z) noexcept {
+    const std::size_t column = index((x - grid.x) * grid.columns_per_x, grid.columns);
+    return grid.first + column * grid.rows + index((z - grid.z) * grid.rows_per_z, grid.rows);
+  }
+
+  FrictionMapInfo info_;
+  double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
+  std::vector<double> cuts_, shear_;
+  double shear_x_ = 0, shear_per_x_ = 0;
+  std::vector<map_detail::Grid> grids_;
+  std::vector<std::int32_t> entries_;
+  std::vector<double> cells_;
+};
+
+namespace map_detail {
+
+inline std::uint32_t crc32(const unsigned char* data, std::size_t size) noexcept {
+  std::uint32_t table[256];
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    std::uint32_t r = i;
+    for (int k = 0; k < 8; ++k) r = (r >> 1) ^ ((r & 1) != 0 ? 0xedb88320u : 0u);
+    table[i] = r;
+  }
+  std::uint32_t crc = 0xffffffff;
+  for (std::size_t i = 0; i < size; ++i) crc = (crc >> 8) ^ table[(crc ^ data[i]) & 0xff];
+  return ~crc;
+}
+
+/// Little-endian numbers one after another; the caller has made sure that they are there.
+class Reader {
+ public:
+  explicit Reader(const unsigned char* at) noexcept : at_(at) {}
+  std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(number(4)); }
+  std::uint64_t u64() noexcept { return number(8); }
+  double f64() noexcept { return from_bits(number(8)); }
+  const unsigned char* skip(std::size_t n) noexcept { return std::exchange(at_, at_ + n); }
+
+  /// False where one is not finite or larger than `most`.
+  bool numbers(std::vector<double>& to, std::size_t n, double most) {
+    to.resize(n);
+    bool good = true;
+    for (double& x : to) {
+      x = f64();
+      good = good && !is_nan(x) && x >= -most && x <= most;
+    }
+    return good;
+  }
+
+ private:
+  std::uint64_t number(int n) noexcept {
+    std::uint64_t result = 0;
+    for (int i = n; i-- > 0;) result = (result << 8) | at_[i];
+    at_ += n;
+    return result;
+  }
+  const unsigned char* at_;
+};
+
+}  // namespace map_detail
+
+inline bool FrictionMap::read(const void* data, std::size_t size, std::string& why) {
+  using map_detail::is_nan;
+  const auto refuse = [&](std::string reason) {
+    why = std::move(reason);
+    return false;
+  };
+  const auto* const bytes = static_cast<const unsigned char*>(data);
+  if (size < 8 || std::memcmp(bytes, "ASPERMAP", 8) != 0) return refuse("is no friction map: it begins otherwise");
+  if (size < map_detail::head_size + 8) return refuse("is truncated: " + std::to_string(size) + " bytes");
+  map_detail::Reader in(bytes + 8);
+  const std::uint32_t order = in.u32();
+  if (order == 0x04030201) return refuse("was written in the other byte order: must be little-endian");
+  if (order != 0x01020304) return refuse("is damaged: bytes 8 to 11");
+  const std::uint32_t version = in.u32();
+  if (version != 1) return refuse("has layout version " + std::to_string(version) + ": must be 1");
+  const std::uint64_t stated = in.u64();
+  if (stated != size)
+    return refuse(std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) +
+                  " bytes, must be " + std::to_string(stated));
+  if (map_detail::Reader(bytes + size - 8).u32() != map_detail::crc32(bytes, size - 8))
+    return refuse("is damaged: its checksum is not that of its contents");
+
+  FrictionMap map;
+  FrictionMapInfo& info = map.info_;
+  bool good = true;
+  for (std::array<double, 2>* const box : {&info.pressure, &info.velocity}) {
+    for (double& side : *box) side = in.f64();
+    good = good && !is_nan((*box)[0]) && (*box)[0] >= 1e-300 && (*box)[1] > (*box)[0] && (*box)[1] <= 1e300;
+  }
+  for (double* const x : {&info.rtol, &info.max_error, &info.largest_checked_error}) *x = in.f64();
+  info.checked = in.u64();
+  info.exceeded = in.u64();
+  for (double* const x : {&info.shear_stress, &info.reference_velocity, &info.width}) {
+    *x = in.f64();
+    good = good && !is_nan(*x) && *x >= 0 && *x <= 1e300;
+  }
+  good = good && (info.shear_stress == 0 || (info.shear_stress >= 1e-300 && info.reference_velocity >= 1e-300));
+  const std::uint32_t flags = in.u32();
+  info.hysteresis = flags == 1;
+  std::uint32_t count[6];  // bands, nodes, grids, entries, cells, bytes of text
+  for (std::uint32_t& n : count) n = in.u32();
+  const auto [bands, nodes, grids, entries, cells, text] =
+      std::array{count[0], count[1], count[2], count[3], count[4], count[5]};
+  const auto padded = [](std::uint64_t n) { return (n + 7) / 8 * 8; };
+  const std::uint64_t needed = map_detail::head_size + 8 * (bands + 1ull) + 16ull * nodes + 48ull * grids +
+                               padded(4ull * entries) + 8ull * map_detail::cell_size * cells + padded(text) + 8;
+  good = good && flags < 2 && bands > 0 && nodes != 1 && grids >= bands && entries > 0 && cells > 0 && needed == size;
+  if (!good || in.u32() != 0) return refuse("is damaged: its head contradicts itself");
+
+  good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
+  for (std::size_t i = 0; i < bands; ++i) good = good && map.cuts_[i] < map.cuts_[i + 1];
+  good = in.numbers(map.shear_, 2 * std::size_t{nodes}, 1e6) && good;
+  map.grids_.resize(grids);
+  for (map_detail::Grid& grid : map.grids_) {
+    std::vector<double> place;
+    good = in.numbers(place, 4, 1e12) && good;
+    grid = {place[0], place[1], place[2], place[3], in.u32(), in.u32(), in.u32()};
+    in.u32();
+    good = good && grid.columns > 0 && grid.rows > 0 && grid.first < entries &&
+           std::uint64_t{grid.columns} * grid.rows <= entries - grid.first;
+  }
+  map.entries_.resize(entries);
+  for (std::int32_t& entry : map.entries_) {
+    entry = static_cast<std::int32_t>(in.u32());
+    good = good && entry < static_cast<std::int64_t>(cells) && -1 - static_cast<std::int64_t>(entry) < grids;
+  }
+  in.skip(padded(4ull * entries) - 4ull * entries);
+  for (std::size_t k = 0; good && k < grids; ++k)  // no grid leads back to itself
+    for (std::size_t i = 0; i < std::size_t{map.grids_[k].columns} * map.grids_[k].rows; ++i)
+      good = good && (map.entries_[map.grids_[k].first + i] >= 0 ||
+                      static_cast<std::size_t>(-1 - map.entries_[map.grids_[k].first + i]) > k);
+  good = good && in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100);
+  if (!good) return refuse("is damaged: its tables contradict each other");
+  info.cells = cells;
+  info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
+
+  map.shear_x_ = map_detail::ln(info.velocity[0]);
+  if (nodes != 0) map.shear_per_x_ = (nodes - 1) / (map_detail::ln(info.velocity[1]) - map.shear_x_);
+  map.ln_shear_stress_ = info.shear_stress > 0 ? map_detail::ln(info.shear_stress) : 0;
+  map.ln_reference_ = info.shear_stress > 0 ? map_detail::ln(info.reference_velocity) : 0;
+  map.width_ = info.width / (2.302585092994045684 * 2.302585092994045684);
+  *this = std::move(map);
+  return true;
+}
+
+inline bool FrictionMap::load(const char* path, std::string& why) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path, "rb"), &std::fclose);
+  std::vector<unsigned char> bytes;
+  bool whole = false;
+  if (file) {
+    unsigned char block[65536];
+    std::size_t n;
+    while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) bytes.insert(bytes.end(), block, block + n);
+    whole = std::ferror(file.get()) == 0;
+  }
+  if (!whole) {
+    why = std::string(path) + ": cannot be read: " + std::strerror(errno);
+    return false;
+  }
+  if (read(bytes.data(), bytes.size(), why)) return true;
+  why = std::string(path) + ": " + why;
+  return false;
+}
+
+}  // namespace asperity
+
+extern "C" {
+#else
+#include <stddef.h>
+#endif
+
+// The same for C, Fortran (iso_c_binding) and Simulink (S-functions, coder.ceval). One C++ file of the host holds
+//   #define ASPERITY_FRICTION_MAP_C
+//   #include <asperity/friction_map.hpp>
+// and thereby the definitions; C files include this header for the declarations alone.
+
+typedef struct asperity_map asperity_map;
+
+/// A map, or NULL and in `why`, of `size` bytes, a line that says why not.
+asperity_map* asperity_map_load(const char* path, char* why, size_t size);
+void asperity_map_free(asperity_map* map);
+
+/// mu [-] at pressure [Pa], velocity [m/s] and a_T (1: the map's own temperature). Outside of the box NaN, or with
+/// `clamp` other than 0 the value at the nearest point of the box.
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp);
+
+/// `out` receives mu, hysteresis, adhesion, contact area, dmu/dlnp, dmu/dlnv. Returns 0, 1 or 2 where the pressure or
+/// the velocity is outside of the box, 3 where a number is NaN.
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]);
+
+/// Relative error that the map was certified for.
+double asperity_map_max_error(const asperity_map* map);
+
+#ifdef __cplusplus
+}  // extern "C"
+
+#ifdef ASPERITY_FRICTION_MAP_C
+
+struct asperity_map {
+  asperity::FrictionMap map;
+};
+
+asperity_map* asperity_map_load(const char* path, char* why, size_t size) {
+  auto* const loaded = new asperity_map;
+  std::string reason;
+  if (loaded->map.load(path, reason)) return loaded;
+  delete loaded;
+  if (size > 0) std::snprintf(why, size, "%s", reason.c_str());
+  return nullptr;
+}
+
+void asperity_map_free(asperity_map* map) { delete map; }
+
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp) {
+  using Outside = asperity::FrictionMap::Outside;
+  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+}
+
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]) {
+  using Outside = asperity::FrictionMap::Outside;
+  asperity::MapPoint point;
+  const auto status =
+      map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+  const double values[] = {point.mu,           point.hysteresis, point.adhesion,
+                           point.contact_area, point.dmu_dlnp,   point.dmu_dlnv};
+  for (int i = 0; i < 6; ++i) out[i] = values[i];
+  return static_cast<int>(status);
+}
+
+double asperity_map_max_error(const asperity_map* map) { return map->map.info().max_error; }
+
+#endif  // ASPERITY_FRICTION_MAP_C
+#endif  // __cplusplus
+#endif  // ASPERITY_FRICTION_MAP_HPP

@@ -1,0 +1,15 @@
+// The modulus that decides the state of the Greenwood-Williamson corrections.
+#pragma once
+
+#include <optional>
+
+#include "asperity/correction.hpp"
+
+namespace asperity {
+
+/// E* = |E(q0 v)| / (1 - nu^2) [Pa], q0 of the macro-asperities: p_T depends on sigma0 / E* alone. None for corrections
+/// that know no such model.
+std::optional<double> macro_modulus(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
+                                    double velocity, double poisson_ratio);
+
+}  // namespace asperity

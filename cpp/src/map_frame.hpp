@@ -1,0 +1,54 @@
+// The coordinates of a friction map, x = ln v and z = ln p - s(x), and what is sampled in them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "asperity/build_friction_map.hpp"
+
+namespace asperity {
+
+struct MapPlace {
+  double x, z;
+};
+
+struct MapSample {
+  std::array<double, 2> f;  // ln mu_H (0 without hysteresis), ln A/A0
+  double error;             // of f, the solver's estimate
+};
+
+class MapFrame {
+ public:
+  /// Refuses a box in which a part has no contact.
+  MapFrame(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const MapRequest& request);
+
+  [[nodiscard]] std::array<double, 2> x() const { return {x_lo_, x_hi_}; }
+  [[nodiscard]] double ln_pressure(int side) const { return side == 0 ? y_lo_ : y_hi_; }
+  /// Where bands of one state begin and end, in z, rising: all of the box lies between the first and the last.
+  [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }
+  /// s(x): 0, or ln E* of the Greenwood-Williamson correction as a cubic spline.
+  [[nodiscard]] double shear(double x) const;
+  /// s and s' at nodes, for the file; empty where s is 0.
+  [[nodiscard]] const std::vector<double>& shear_nodes() const { return shear_; }
+  [[nodiscard]] bool hysteresis() const { return hysteresis_; }
+
+  [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places) const;
+
+ private:
+  void make_shear(double tolerance);
+  void cut_bands();
+
+  const Spectrum& spectrum_;
+  const Rubber& rubber_;
+  ContactModel model_;
+  std::array<double, 2> velocity_;
+  double x_lo_, x_hi_, y_lo_, y_hi_;
+  std::vector<double> shear_, cuts_;
+  bool hysteresis_ = true;
+};
+
+/// Weights of the derivative at point k of five points a unit apart (exact for polynomials of degree 4).
+std::array<double, 5> derivative_weights(std::size_t k);
+
+}  // namespace asperity

@@ -1,0 +1,78 @@
+// The cells of a friction map: a rectangle cut into bands, each halved again and again in x or in z, with a bicubic
+// polynomial a leaf and continuous first derivatives across every side that is not a cut between bands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace asperity {
+
+/// Two functions with their derivatives at a corner of a leaf. At a cut, derivatives in z differ below [0] and above
+/// [1]; elsewhere the two are equal.
+struct MapCorner {
+  std::array<double, 2> f, x;
+  std::array<std::array<double, 2>, 2> z, xz;
+};
+
+class MapTree {
+ public:
+  /// Places are whole numbers: x in [0, unit], z in [k unit, (k + 1) unit] for band k.
+  static constexpr std::uint32_t unit = 1u << 20;
+
+  struct Leaf {
+    std::uint32_t x, z, wide, high;
+    std::int32_t child = -1;  // the first of two; -1: a leaf indeed
+    bool in_x = false;        // which way it was halved
+    bool needed = true;
+    std::array<double, 32> polynomial{};  // as in the file
+  };
+
+  MapTree(std::array<double, 2> x, std::vector<double> cuts);
+
+  [[nodiscard]] double x(std::uint32_t at) const { return x_[0] + at * ((x_[1] - x_[0]) / unit); }
+  [[nodiscard]] double z(std::uint32_t at) const;
+  /// Of a leaf, in x and in z.
+  [[nodiscard]] std::array<double, 2> size(const Leaf& leaf) const;
+  [[nodiscard]] bool on_cut(std::uint32_t z) const { return z % unit == 0 && z != 0 && z != bands() * unit; }
+  [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }
+  [[nodiscard]] std::uint32_t bands() const { return static_cast<std::uint32_t>(cuts_.size() - 1); }
+
+  /// Nodes of the tree, leaves and halved ones; those of the bands come first.
+  [[nodiscard]] std::vector<Leaf>& nodes() { return nodes_; }
+  [[nodiscard]] const std::vector<Leaf>& nodes() const { return nodes_; }
+  [[nodiscard]] static bool can_halve(const Leaf& leaf, bool in_x) { return (in_x ? leaf.wide : leaf.high) > 16; }
+  void halve(std::size_t node, bool in_x);
+
+  /// The leaf around a place given in halves of a step, so that a place beside a side is in one leaf only.
+  [[nodiscard]] std::size_t leaf_around(std::uint32_t half_x, std::uint32_t half_z) const;
+
+  /// Corners of needed leaves whose values must come from outside: those that are a corner of every leaf they touch,
+  /// and those on a cut.
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> free_corners() const;
+  /// Leaves in the middle of whose sides a leaf has a corner.
+  [[nodiscard]] std::vector<std::size_t> holders(const Leaf& leaf) const;
+  /// Makes the polynomial of every needed leaf. A corner in the middle of another leaf's side has its values from that
+  /// side, so that both leaves agree along it.
+  void interpolate(const std::function<const MapCorner&(std::uint32_t x, std::uint32_t z)>& free_corner);
+
+  /// The two functions at a distance from a leaf's lower corner.
+  static std::array<double, 2> value(const Leaf& leaf, double dx, double dz);
+
+ private:
+  struct Side {  // that a corner is in the middle of
+    std::size_t leaf;
+    bool along_x, leaf_above;
+  };
+  [[nodiscard]] std::optional<Side> side_through(std::uint32_t x, std::uint32_t z) const;
+
+  std::array<double, 2> x_;
+  std::vector<double> cuts_;
+  std::vector<Leaf> nodes_;
+};
+
+}  // namespace asperity
