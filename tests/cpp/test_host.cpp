@@ -1,5 +1,6 @@
 // A host with a GSL error handler, FFTW plans, a locale, a rounding mode, traps and signal handlers of its own calls
 // from sixteen threads: all of it stays, nothing is printed, nothing leaks, and the bits are those of one thread.
+#include <doctest/doctest.h>
 #include <fftw3.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
@@ -21,16 +22,14 @@
 #include <thread>
 #include <vector>
 
-#if __has_include(<sanitizer/allocator_interface.h>)
-#include <sanitizer/allocator_interface.h>
-#endif
-
-#include <doctest/doctest.h>
-
 #include "asperity/dma.hpp"
 #include "asperity/friction.hpp"
 #ifndef ASPERITY_SHARED
 #include "integrate.hpp"
+#endif
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // whose header not every compiler brings
 #endif
 
 using namespace asperity;
