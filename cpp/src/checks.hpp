@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <locale>
 #include <span>
 #include <sstream>
 #include <string>
@@ -15,6 +16,7 @@ namespace asperity {
 /// A number as a person would write it, with all the digits that matter.
 inline std::string show(double value, int digits = 12) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());  // a host may have made a decimal comma the default of its streams
   text.precision(digits);
   text << value;
   return text.str();

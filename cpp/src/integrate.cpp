@@ -3,6 +3,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
+#include <cfenv>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -56,6 +57,21 @@ using Intervals = Borrowed<gsl_integration_workspace, gsl_integration_workspace_
 using Polynomials = Borrowed<gsl_integration_cquad_workspace, gsl_integration_cquad_workspace_alloc,
                              gsl_integration_cquad_workspace_free>;
 
+/// GSL divides by zero on its way (CQUAD), which ends a process whose host has floating-point traps on: off meanwhile.
+/// The flags are left as they were found too.
+class Untrapped {
+ public:
+  Untrapped() { std::feholdexcept(&host_); }
+  ~Untrapped() { std::fesetenv(&host_); }
+  Untrapped(const Untrapped&) = delete;
+  Untrapped& operator=(const Untrapped&) = delete;
+  Untrapped(Untrapped&&) = delete;
+  Untrapped& operator=(Untrapped&&) = delete;
+
+ private:
+  std::fenv_t host_;
+};
+
 int call(Adaptive rule, const gsl_function& f, double lower, double upper, double atol, double rtol, Integral& result) {
   switch (rule) {
     case Adaptive::qag:
@@ -83,6 +99,7 @@ Integral kronrod(const Callback& f, double lower, double upper) {
 
 Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule) {
   silence_private_gsl();
+  const Untrapped here;
   Integral result{};
   const int status = call(rule, gsl_function{f.call, f.self}, lower, upper, atol, rtol, result);
   const double allowed = std::fmax(atol, rtol * std::fabs(result.value));

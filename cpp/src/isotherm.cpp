@@ -18,18 +18,41 @@ void require_kelvin(double temperature) {
     refuse("temperature", temperature, "in kelvin, " + show(coldest) + " or more (Celsius + 273.15)");
 }
 
+void require_rows(double temperature, const std::vector<double>& angular_frequency,
+                  const std::vector<double>& storage_modulus, const std::vector<double>& loss_modulus) {
+  require_kelvin(temperature);
+  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", angular_frequency.size());
+  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", angular_frequency.size());
+  require_each_positive("angular_frequency", angular_frequency);
+  require_each_positive("storage_modulus", storage_modulus);
+  require_each_positive("loss_modulus", loss_modulus);
+}
+
+void require_enough(std::size_t different, double temperature) {
+  if (different < 4)
+    throw InvalidInput("angular_frequency has " + std::to_string(different) + " different entries at temperature = " +
+                       show(temperature, 6) + ": must have 4 or more for an isotherm");
+}
+
 }  // namespace
+
+Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+                   std::vector<double> loss_modulus, std::vector<std::string> notes)
+    : temperature_(temperature),
+      frequency_(std::move(angular_frequency)),
+      storage_(std::move(storage_modulus)),
+      loss_(std::move(loss_modulus)),
+      notes_(std::move(notes)) {
+  require_rows(temperature, frequency_, storage_, loss_);
+  require_rising("angular_frequency", frequency_);
+  require_enough(frequency_.size(), temperature);
+}
 
 Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
                    std::vector<double> loss_modulus)
     : temperature_(temperature) {
-  require_kelvin(temperature);
+  require_rows(temperature, angular_frequency, storage_modulus, loss_modulus);
   const std::size_t n = angular_frequency.size();
-  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", n);
-  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", n);
-  require_each_positive("angular_frequency", angular_frequency);
-  require_each_positive("storage_modulus", storage_modulus);
-  require_each_positive("loss_modulus", loss_modulus);
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return angular_frequency[i]; });
@@ -54,10 +77,7 @@ Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, st
     }
     first = last;
   }
-  if (frequency_.size() < 4)
-    throw InvalidInput("angular_frequency has " + std::to_string(frequency_.size()) +
-                       " different entries at temperature = " + show(temperature, 6) +
-                       ": must have 4 or more for an isotherm");
+  require_enough(frequency_.size(), temperature);
 }
 
 StrainSweep::StrainSweep(double temperature, double angular_frequency, std::vector<double> strain,

@@ -265,6 +265,7 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
     SelfAffineSpectrum result = *s;
     result.rms_height *= std::sqrt(factor);
+    validate(result);
     return result;
   }
   return scaled_table(std::get<TabulatedSpectrum>(spectrum), factor);

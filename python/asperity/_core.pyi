@@ -349,6 +349,7 @@ class Isotherm:
         angular_frequency: ArrayLike,
         storage_modulus: ArrayLike,
         loss_modulus: ArrayLike,
+        notes: Iterable[str] | None = None,
     ) -> None: ...
     @property
     def temperature(self) -> float: ...
@@ -420,6 +421,16 @@ class MasterPoints:
 
 @final
 class MasterCurveBuild:
+    def __init__(
+        self,
+        *,
+        master_curve: MasterCurve,
+        shift_factors: ShiftFactors,
+        b_T: ArrayLike,
+        points: MasterPoints,
+        residual: float,
+        notes: Iterable[str] = (),
+    ) -> None: ...
     @property
     def master_curve(self) -> MasterCurve: ...
     @property

@@ -261,4 +261,6 @@ def cell(text: str) -> float:
             raise ValueError
         return float(text)
     except ValueError:
-        raise ValueError(f"{brief(text)!r} is not a number") from None
+        comma = re.fullmatch(r"[-+]?\d*,\d+([eE][-+]?\d+)?", text)
+        hint = ": its decimal comma must be a point" if comma else ""
+        raise ValueError(f"{brief(text)!r} is not a number{hint}") from None

@@ -88,6 +88,8 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, float] | Non
 def _value(path: Path, number: int, cells: list[str], header: list[str], place: int) -> float:
     if len(cells) != len(header):
         problem = f"has {len(cells)} cells: must be {len(header)}, as the header"
+        if len(cells) == 2 * len(header):  # which decimal commas among commas make
+            problem += " (numbers have a decimal point)"
         raise InvalidInput(f"{path}: line {number} {problem}")
     try:
         value = cell(cells[place])

@@ -36,6 +36,15 @@ class FrictionBand:
     level: float
     samples: int
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FrictionBand):
+            return NotImplemented
+        same = self.level == other.level and self.samples == other.samples
+        bounds = (self.lower, other.lower), (self.upper, other.upper)
+        return same and all(np.array_equal(mine, theirs) for mine, theirs in bounds)
+
+    __hash__ = None  # type: ignore[assignment]  # as of every value that holds arrays
+
 
 def friction_band(
     spectrum: Spectrum | SelfAffineFit,

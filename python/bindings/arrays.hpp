@@ -21,7 +21,7 @@ using Shape = std::vector<py::ssize_t>;
 
 /// What was found, in one short line.
 inline std::string brief(const py::handle& found) {
-  std::string text = py::repr(found).cast<std::string>().substr(0, 60);
+  auto text = py::repr(found)[py::slice(0, 60, 1)].cast<std::string>();  // characters, which are never cut apart
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
@@ -150,33 +150,35 @@ inline py::object flat(std::vector<double> values) {
   return frozen(shaped(std::move(values), shape));
 }
 
-/// f over every entry, in the shape of the argument.
+/// A property or a method without arguments, computed with the GIL released.
+template <class S, class F>
+auto released(F f) {
+  return [f](const S& self) {
+    const py::gil_scoped_release release;
+    return f(self);
+  };
+}
+
+/// f of all entries, in the shape of the argument; computed with the GIL released.
 template <class F>
-py::object map_array(const py::handle& values, const std::string& name, F f) {
+py::object over_array(const py::handle& values, const std::string& name, F f) {
   const Array array = real_array(values, name);
-  std::vector<decltype(f(0.0))> result(static_cast<std::size_t>(array.size()));
-  for (py::ssize_t i = 0; i < array.size(); ++i) result[static_cast<std::size_t>(i)] = f(array.data()[i]);
+  auto result = [&] {
+    const std::span<const double> entries(array.data(), static_cast<std::size_t>(array.size()));
+    const py::gil_scoped_release release;
+    return f(entries);
+  }();
   return shaped(std::move(result), Shape(array.shape(), array.shape() + array.ndim()));
 }
 
-/// An option given by name.
-template <class T>
-T choice(const std::string& argument, const std::string& found,
-         std::initializer_list<std::pair<const char*, T>> allowed) {
-  std::string names;
-  for (const auto& [name, value] : allowed) {
-    if (found == name) return value;
-    names += (names.empty() ? "\"" : ", \"") + std::string(name) + "\"";
-  }
-  throw InvalidInput(argument + " = \"" + found + "\": must be one of " + names);
-}
-
-/// The name of an option.
-template <class T>
-const char* name_of(T found, std::initializer_list<std::pair<const char*, T>> allowed) {
-  for (const auto& [name, value] : allowed)
-    if (found == value) return name;
-  return "";
+/// f of each entry, likewise.
+template <class F>
+py::object map_array(const py::handle& values, const std::string& name, F f) {
+  return over_array(values, name, [&](std::span<const double> entries) {
+    std::vector<decltype(f(0.0))> result(entries.size());
+    std::ranges::transform(entries, result.begin(), f);
+    return result;
+  });
 }
 
 }  // namespace asperity::python

@@ -12,7 +12,8 @@ namespace asperity::python {
 namespace {
 
 struct SeparationTag {
-  static constexpr const char* names[] = {"effective", "rigid", "state"};
+  static constexpr Field fields[] = {
+      {"effective", Holds::numbers}, {"rigid", Holds::numbers}, {"state", Holds::names_or_none}};
 };
 
 const char* name(ContactState state) {
@@ -26,9 +27,11 @@ const char* name(ContactState state) {
   }
 }
 
-Record<SeparationTag> separations(const py::object& pressure, const py::object& modulus, double rms_height, double q0,
-                                  const py::object& peaks, const std::string& reading, std::optional<double> z_max,
-                                  std::optional<double> z_min) {
+Record<SeparationTag> separations(const py::object& pressure, const py::object& modulus,
+                                  Number<"rms_height"> rms_height, Number<"q0"> q0, const py::object& peaks,
+                                  const Option& reading, OptionalNumber<"z_max"> highest,
+                                  OptionalNumber<"z_min"> lowest) {
+  const std::optional<double> z_max = highest, z_min = lowest;
   if (z_max.has_value() != z_min.has_value())
     throw InvalidInput(std::string(z_max ? "z_min" : "z_max") + ": must be given with the other of z_max, z_min");
   const Broadcast b = broadcast({{"pressure", pressure}, {"effective_modulus", modulus}});
@@ -65,8 +68,11 @@ Record<SeparationTag> separations(const py::object& pressure, const py::object& 
 
 void bind_asperities(py::module_& m) {
   m.def(
-      "hertz_penetration", &hertz_penetration, py::kw_only(), py::arg("force"), py::arg("effective_modulus"),
-      py::arg("radius"),
+      "hertz_penetration",
+      [](Number<"force"> force, Number<"effective_modulus"> modulus, Number<"radius"> radius) {
+        return hertz_penetration(force, modulus, radius);
+      },
+      py::kw_only(), py::arg("force"), py::arg("effective_modulus"), py::arg("radius"),
       "delta = (9 F^2 / (16 E*^2 R))^(1/3) [m] of a sphere of `radius` [m] under `force` [N], `effective_modulus` "
       "[Pa]: Hertz, Eq. 14 with the square of F that it lost in print. InvalidInput where the force is negative or one "
       "of the others not positive.");

@@ -40,8 +40,8 @@ Profile profile_of(const py::object& source, std::optional<double> min_distance,
       throw InvalidInput("min_distance = " + py::str(py::cast(*min_distance)).cast<std::string>() + ": leaves " +
                          std::to_string(found) + " peaks on this map, must leave 3 or more");
   } else {
-    if (min_distance) throw InvalidInput("min_distance: only goes with a HeightMap, these are the peaks' heights");
     profile.peaks.heights = vector_of(source, "heights_or_map");
+    if (min_distance) throw InvalidInput("min_distance: only goes with a HeightMap, these are the peaks' heights");
     profile.peaks.z_max = z_max;
     if (profile.peaks.heights.size() < 3)
       throw InvalidInput("heights_or_map has " + std::to_string(profile.peaks.heights.size()) +
@@ -84,7 +84,8 @@ On the contacts of SFactor, peaks no closer than lambda0 / 2: p_T1 from 1.7 to 2
 -94 %. Knowing neither load nor rubber it is right at one load alone.
 )");
   peaks
-      .def(py::init([](const py::object& source, std::optional<double> min_distance, std::optional<double> z_max) {
+      .def(py::init([](const py::object& source, OptionalNumber<"min_distance"> min_distance,
+                       OptionalNumber<"z_max"> z_max) {
              return BoundLocalPeaks{profile_of(source, min_distance, z_max).peaks, kept(source), min_distance};
            }),
            py::arg("heights_or_map"), py::kw_only(), py::arg("min_distance") = py::none(),
@@ -127,8 +128,8 @@ On the contacts of SFactor, mean error and the worst. Area: 16 %, +48 % implicit
 reading is in full conformity, no correction at all, on all but 5 of 104 contacts from p / (E* h') = 0.1
 on, the added one turns back above 0.5.
 )");
-  gw.def(py::init([](double z_max, double z_min, const py::object& heights, const std::string& reading,
-                     std::optional<double> rms_height, std::optional<double> q0) {
+  gw.def(py::init([](Number<"z_max"> z_max, Number<"z_min"> z_min, const py::object& heights, const Option& reading,
+                     OptionalNumber<"rms_height"> rms_height, OptionalNumber<"q0"> q0) {
            GreenwoodWilliamson s{z_max, z_min, {}, reading_of(reading), rms_height, q0};
            if (!heights.is_none()) {
              s.peaks = vector_of(heights, "peaks");
@@ -172,11 +173,11 @@ Notes
 On the contacts of SFactor (maps of little skewness, not those it is meant for), peaks no closer than lambda0 / 2, mean
 error and the worst: area 67 %, +182 %; elastic energy 45 %, -82 %.
 )");
-  both.def(py::init([](const py::object& source, std::optional<double> min_distance, std::optional<double> z_max,
-                       std::optional<double> z_min, const std::string& reading, std::optional<double> rms_height,
-                       std::optional<double> q0) {
+  both.def(py::init([](const py::object& source, OptionalNumber<"min_distance"> min_distance,
+                       OptionalNumber<"z_max"> z_max, OptionalNumber<"z_min"> given_z_min, const Option& reading,
+                       OptionalNumber<"rms_height"> rms_height, OptionalNumber<"q0"> q0) {
              const Profile profile = profile_of(source, min_distance, z_max);
-             if (!z_min) z_min = profile.z_min;
+             const std::optional<double> z_min = given_z_min.value ? given_z_min.value : profile.z_min;
              if (!z_min) throw InvalidInput("z_min: must be given where heights_or_map is no HeightMap");
              Both s{{profile.peaks, *profile.peaks.z_max, *z_min, reading_of(reading), rms_height, q0},
                     kept(source),

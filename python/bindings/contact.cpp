@@ -22,10 +22,10 @@ using Spans = std::vector<double> (*)(const Spectrum&, const Rubber&, const Cont
 template <Spans function>
 void bind_over_wavenumber(py::module_& m, const char* name, bool wavenumber_required, const char* doc) {
   const auto call = [](const py::object& spectrum, const py::object& rubber, const py::object& pressure,
-                       const py::object& velocity, double poisson_ratio, const py::object& correction,
-                       const std::string& form, const py::object& wavenumber, double rtol, const std::string& method) {
+                       const py::object& velocity, Number<"poisson_ratio"> poisson_ratio, const py::object& correction,
+                       const Option& form, const py::object& wavenumber, Number<"rtol"> rtol, const Option& method) {
     Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-    const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
+    const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), rtol, method);
     std::vector<double> q, result;
     if (!wavenumber.is_none()) {
       const Array array = real_array(wavenumber, "wavenumber");
@@ -55,10 +55,11 @@ void bind_over_wavenumber(py::module_& m, const char* name, bool wavenumber_requ
 
 }  // namespace
 
-ContactModel contact_model(double poisson_ratio, const py::object& correction, const std::string& form, double rtol,
-                           const std::string& method) {
-  return {poisson_ratio, correction_of(correction), choice<Form>("form", form, forms), rtol,
-          choice<Method>("method", method, methods)};
+Form form_of(const Option& name) { return choice<Form>("form", name, forms); }
+
+ContactModel contact_model(double poisson_ratio, const py::object& correction, Form form, double rtol,
+                           const Option& method) {
+  return {poisson_ratio, correction_of(correction), form, rtol, choice<Method>("method", method, methods)};
 }
 
 void bind_contact(py::module_& m) {
@@ -101,12 +102,18 @@ NotConverged
   m.def(
       "contact_notes",
       [](const py::object& spectrum, const py::object& rubber, const py::object& pressure, const py::object& velocity,
-         double poisson_ratio, const py::object& correction, const std::string& form, double rtol,
-         const std::string& method) {
+         Number<"poisson_ratio"> poisson_ratio, const py::object& correction, const Option& form, Number<"rtol"> rtol,
+         const Option& method) {
         const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-        return py::tuple(py::cast(contact_notes(spectrum_of(spectrum), rubber_of(rubber),
-                                                contact_model(poisson_ratio, correction, form, rtol, method),
-                                                b.columns[0], b.columns[1])));
+        const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), rtol, method);
+        const Spectrum surface = spectrum_of(spectrum);
+        const Rubber material = rubber_of(rubber);
+        std::vector<std::string> notes;
+        {
+          const py::gil_scoped_release release;
+          notes = contact_notes(surface, material, model, b.columns[0], b.columns[1]);
+        }
+        return py::tuple(py::cast(notes));
       },
       py::arg("spectrum"), py::arg("rubber"), py::kw_only(), py::arg("pressure"), py::arg("velocity"),
       py::arg("poisson_ratio") = 0.5, py::arg("correction") = py::none(), py::arg("form") = "exact",
@@ -128,17 +135,17 @@ as for `contact_area`.
   m.def(
       "pressure_distribution",
       [](const py::object& stress, const py::object& spectrum, const py::object& rubber, const py::object& pressure,
-         const py::object& velocity, std::optional<double> wavenumber, double poisson_ratio,
-         const py::object& correction, double rtol, const std::string& method) {
+         const py::object& velocity, OptionalNumber<"wavenumber"> wavenumber, Number<"poisson_ratio"> poisson_ratio,
+         const py::object& correction, Number<"rtol"> rtol, const Option& method) {
         Broadcast b = broadcast({{"stress", stress}, {"pressure", pressure}, {"velocity", velocity}});
-        const ContactModel model = contact_model(poisson_ratio, correction, "exact", rtol, method);
+        const ContactModel model = contact_model(poisson_ratio, correction, Form::exact, rtol, method);
         const Spectrum surface = spectrum_of(spectrum);
         const Rubber material = rubber_of(rubber);
         std::vector<double> result;
         {
           const py::gil_scoped_release release;
           result = pressure_distribution(surface, material, model, b.columns[0], b.columns[1], b.columns[2],
-                                         wavenumber ? *wavenumber : band(surface)[1]);
+                                         wavenumber.value.value_or(band(surface)[1]));
         }
         return shaped(std::move(result), b.shape);
       },

@@ -1,14 +1,14 @@
 // The contact model from its arguments.
 #pragma once
 
-#include <string>
-
 #include "asperity/contact.hpp"
 #include "correction.hpp"
+#include "scalars.hpp"
 
 namespace asperity::python {
 
-ContactModel contact_model(double poisson_ratio, const pybind11::object& correction, const std::string& form,
-                           double rtol, const std::string& method);
+Form form_of(const Option& name);
+ContactModel contact_model(double poisson_ratio, const pybind11::object& correction, Form form, double rtol,
+                           const Option& method);
 
 }  // namespace asperity::python

@@ -29,7 +29,7 @@ Correction correction_of(const py::object& found) {
                      "PeaksThenGreenwoodWilliamson");
 }
 
-Reading reading_of(const std::string& name) {
+Reading reading_of(const Option& name) {
   return choice<Reading>("reading", name, {{"implicit", Reading::implicit}, {"added", Reading::added}});
 }
 
@@ -58,7 +58,7 @@ load results carry a note.
 `asperity validate` makes the table.
 )");
   s_factor
-      .def(py::init([](double gamma, const std::string& where) {
+      .def(py::init([](Number<"gamma"> gamma, const Option& where) {
              const SFactor s{gamma, choice<SFactor::AppliesTo>("applies_to", where, places)};
              validate(Correction(s));
              return s;
@@ -91,7 +91,7 @@ off by 1.0 % and 8.9 %, ten maps unknown to the fit, with H 0.3, 0.5 and 0.9, by
 and below this load results carry a note.
 )");
   nayak
-      .def(py::init([](double friction_gamma) {
+      .def(py::init([](Number<"friction_gamma"> friction_gamma) {
              const NayakSFactor s{friction_gamma};
              validate(Correction(s));
              return s;
@@ -115,7 +115,7 @@ to 1.05 at 1, the exact energy for one from 2.8 to 1: no single p serves either.
 truth than no correction would, results carry a note.
 )");
   shift
-      .def(py::init([](double p) {
+      .def(py::init([](Number<"p"> p) {
              const AffineShift s{p};
              validate(Correction(s));
              return s;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asperity/correction.hpp"
+#include "scalars.hpp"
 
 namespace asperity::python {
 
@@ -23,7 +24,7 @@ struct BoundPeaksThenGreenwoodWilliamson : PeaksThenGreenwoodWilliamson {
 /// None is NoCorrection.
 Correction correction_of(const pybind11::object& found);
 
-Reading reading_of(const std::string& name);
+Reading reading_of(const Option& name);
 const char* name_of_reading(Reading reading);
 
 }  // namespace asperity::python

@@ -23,17 +23,20 @@ void warn(const std::vector<std::string>& notes) {
 
 }  // namespace
 
-MasterCurve large_strain(const MasterCurve& curve, double strain, const py::iterable& sweeps,
+MasterCurve large_strain(const MasterCurve& curve, Number<"strain"> strain, const Many<"sweeps">& sweeps,
                          const py::object& shift_factors) {
   if (shift_factors.is_none() && !curve.shifts())
     throw InvalidInput("shift_factors: is missing, the curve does not know at which temperature it holds");
   std::vector<StrainSweep> all;
-  for (const py::handle& one : sweeps) {
+  for (const py::handle& one : sweeps.value) {
     const std::string name = "sweeps[" + std::to_string(all.size()) + "]";
     all.push_back(object_of<StrainSweep>(py::reinterpret_borrow<py::object>(one), name.c_str(), "a StrainSweep"));
   }
-  const LargeStrain result =
-      at_strain(curve, shift_factors.is_none() ? *curve.shifts() : shifts_of(shift_factors), strain, all);
+  const ShiftTable& shifts = shift_factors.is_none() ? *curve.shifts() : shifts_of(shift_factors);
+  const LargeStrain result = [&] {
+    const py::gil_scoped_release release;
+    return at_strain(curve, shifts, strain, all);
+  }();
   warn(result.notes);
   return result.master_curve;
 }
@@ -44,8 +47,9 @@ void bind_prony_fit(py::module_& m) {
 A rubber like any other [Pa], that also knows how well it follows the measurement.
 )");
   fitted
-      .def(py::init([](double e, const py::object& moduli, const py::object& times, double storage_residual,
-                       double loss_residual, bool causal, const std::vector<std::string>& notes) {
+      .def(py::init([](Number<"equilibrium_modulus"> e, const py::object& moduli, const py::object& times,
+                       Number<"storage_residual"> storage_residual, Number<"loss_residual"> loss_residual,
+                       Flag<"causal"> causal, const Sentences<"notes">& notes) {
              return FittedProny{PronySeries(e, vector_of(moduli, "moduli"), vector_of(times, "relaxation_times")),
                                 storage_residual, loss_residual, causal, notes};
            }),
@@ -61,7 +65,8 @@ A rubber like any other [Pa], that also knows how well it follows the measuremen
                            "causal", "notes"});
   m.def(
       "fit_prony",
-      [](const py::object& master_curve, std::optional<double> modes_per_decade, std::optional<double> residual) {
+      [](const py::object& master_curve, OptionalNumber<"modes_per_decade"> modes_per_decade,
+         OptionalNumber<"residual"> residual) {
         const MasterCurve& curve = py::isinstance<Built>(master_curve)
                                        ? master_curve.cast<const Built&>().build.master_curve
                                        : object_of<MasterCurve>(master_curve, "master_curve", "a MasterCurve");
@@ -121,8 +126,8 @@ Raises
 InvalidInput
 )");
   sweep
-      .def(py::init([](double temperature, double w, const py::object& strain, const py::object& storage,
-                       const py::object& loss) {
+      .def(py::init([](Number<"temperature"> temperature, Number<"angular_frequency"> w, const py::object& strain,
+                       const py::object& storage, const py::object& loss) {
              return StrainSweep(temperature, w, vector_of(strain, "strain"), vector_of(storage, "storage_modulus"),
                                 vector_of(loss, "loss_modulus"));
            }),

@@ -26,15 +26,12 @@ struct FittedAdhesion : Adhesion {
   [[nodiscard]] double error(std::size_t i) const { return std::sqrt(covariance[4 * i]); }
 };
 
-FittedAdhesion made(double tau, double v0, double c, const py::object& covariance, double residual,
-                    const py::object& outliers, const std::vector<std::string>& notes) {
-  FittedAdhesion fit{{tau, v0, c}, {}, residual, {}, {}, notes};
+FittedAdhesion made(Number<"shear_stress"> tau, Number<"reference_velocity"> v0, Number<"width"> c,
+                    const py::object& covariance, Number<"residual"> residual, const py::object& outliers,
+                    const Sentences<"notes">& notes) {
+  FittedAdhesion fit{{tau, v0, c}, covariance_of(covariance), residual, {}, {}, notes};
   validate(fit);
-  const Array matrix = real_array(covariance, "covariance"), aside = real_array(outliers, "outliers");
-  if (matrix.ndim() != 2 || matrix.shape(0) != 3 || matrix.shape(1) != 3)
-    throw InvalidInput("covariance has shape " + py::str(matrix.attr("shape")).cast<std::string>() +
-                       ": must be (3, 3)");
-  std::copy(matrix.data(), matrix.data() + 9, fit.covariance.begin());
+  const Array aside = real_array(outliers, "outliers");
   fit.outliers.assign(aside.data(), aside.data() + aside.size());
   fit.shape.assign(aside.shape(), aside.shape() + aside.ndim());
   return fit;
@@ -50,7 +47,7 @@ FixedAdhesion fixed_of(const py::object& found) {
   if (!py::isinstance<py::dict>(found)) throw InvalidInput("fixed = " + brief(found) + ": must be a dict");
   FixedAdhesion fixed;
   for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(found)) {
-    std::optional<double>& place = *choice<std::optional<double>*>("fixed", py::str(key).cast<std::string>(),
+    std::optional<double>& place = *choice<std::optional<double>*>("fixed", {py::reinterpret_borrow<py::object>(key)},
                                                                    {{"shear_stress", &fixed.shear_stress},
                                                                     {"reference_velocity", &fixed.reference_velocity},
                                                                     {"width", &fixed.width}});
@@ -63,15 +60,16 @@ FixedAdhesion fixed_of(const py::object& found) {
 }
 
 FittedAdhesion fit(const py::object& spectrum, const py::object& rubber, const py::object& velocity,
-                   const py::object& mu, const py::object& pressure, const py::object& fixed, double poisson_ratio,
-                   const py::object& correction, const std::string& form, double rtol, const std::string& method) {
+                   const py::object& mu, const py::object& pressure, const py::object& fixed,
+                   Number<"poisson_ratio"> poisson_ratio, const py::object& correction, const Option& form,
+                   Number<"rtol"> rtol, const Option& method) {
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
   const Array measured = real_array(mu, "mu");
   if (Shape(measured.shape(), measured.shape() + measured.ndim()) != b.shape)
     throw InvalidInput("mu has shape " + py::str(measured.attr("shape")).cast<std::string>() +
                        ": must be that of pressure and velocity together, " +
                        py::str(py::tuple(py::cast(b.shape))).cast<std::string>());
-  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
+  const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), rtol, method);
   const FixedAdhesion held = fixed_of(fixed);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);

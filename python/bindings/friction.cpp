@@ -13,18 +13,28 @@ namespace asperity::python {
 namespace {
 
 struct FrictionTag {
-  static constexpr const char* names[] = {
-      "mu",         "hysteresis", "adhesion",       "contact_area",       "shift_factor",
-      "pressure",   "velocity",   "error_estimate", "extrapolated_share", "notes",
-      "wavenumber", "dmu_dlnq",   "decade_edges",   "decade_share"};
+  static constexpr Field fields[] = {{"mu", Holds::numbers},
+                                     {"hysteresis", Holds::numbers},
+                                     {"adhesion", Holds::numbers},
+                                     {"contact_area", Holds::numbers},
+                                     {"shift_factor", Holds::numbers},
+                                     {"pressure", Holds::numbers},
+                                     {"velocity", Holds::numbers},
+                                     {"error_estimate", Holds::numbers},
+                                     {"extrapolated_share", Holds::numbers},
+                                     {"notes", Holds::sentences},
+                                     {"wavenumber", Holds::numbers_or_none},
+                                     {"dmu_dlnq", Holds::numbers_or_none},
+                                     {"decade_edges", Holds::numbers_or_none},
+                                     {"decade_share", Holds::numbers_or_none}};
 };
 
 Record<FrictionTag> compute(const py::object& spectrum, const py::object& rubber, const py::object& pressure,
-                            const py::object& velocity, double poisson_ratio, const py::object& correction,
-                            const py::object& adhesion, const std::string& form, double rtol, bool contributions,
-                            const std::string& method) {
+                            const py::object& velocity, Number<"poisson_ratio"> poisson_ratio,
+                            const py::object& correction, const py::object& adhesion, const Option& form,
+                            Number<"rtol"> rtol, Flag<"contributions"> contributions, const Option& method) {
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}});
-  const ContactModel model = contact_model(poisson_ratio, correction, form, rtol, method);
+  const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), rtol, method);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
   std::optional<Adhesion> sticking;
@@ -83,7 +93,7 @@ Raises
 InvalidInput
 )");
   adhesion
-      .def(py::init([](double tau, double v0, double c) {
+      .def(py::init([](Number<"shear_stress"> tau, Number<"reference_velocity"> v0, Number<"width"> c) {
              const Adhesion a{tau, v0, c};
              validate(a);
              return a;

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <locale>
 #include <sstream>
 
 #include "arguments.hpp"
@@ -15,6 +15,14 @@
 namespace asperity::python {
 
 namespace {
+
+/// A stream whose decimal point no locale changes.
+std::ostringstream plain_text() {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  return text;
+}
 
 /// A map and the bytes that it was read from.
 struct Map {
@@ -47,9 +55,10 @@ std::array<double, 2> box(const py::object& given, const char* name) {
 }
 
 Map build(const py::object& spectrum, const py::object& rubber, const py::object& pressure, const py::object& velocity,
-          double rtol, double poisson_ratio, const py::object& correction, const py::object& adhesion,
-          const std::string& form, const std::string& method, py::ssize_t checked, const std::string& text) {
-  if (checked < 0) throw InvalidInput("checked = " + std::to_string(checked) + ": must be 0 or more");
+          Number<"rtol"> rtol, Number<"poisson_ratio"> poisson_ratio, const py::object& correction,
+          const py::object& adhesion, const Option& form, const Option& method, Whole<"checked"> checked,
+          const Named<std::string, "text">& text) {
+  if (checked < 0) throw InvalidInput("checked = " + std::to_string(checked.value) + ": must be 0 or more");
   const auto heed_interrupts = [] {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -57,10 +66,10 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
   const MapRequest request{box(pressure, "pressure"),
                            box(velocity, "velocity"),
                            rtol,
-                           static_cast<std::size_t>(checked),
-                           text,
+                           static_cast<std::size_t>(checked.value),
+                           text.value,
                            heed_interrupts};
-  const ContactModel model = contact_model(poisson_ratio, correction, form, 1e-6, method);
+  const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), 1e-6, method);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
   std::optional<Adhesion> sticking;
@@ -77,15 +86,13 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
 [[noreturn]] void refuse(const FrictionMapInfo& info, FrictionMap::Status status, std::size_t i, double pressure,
                          double velocity, double shift, bool scalar) {
   const auto named = [&](const char* name, double value) {
-    std::ostringstream text;
-    text.precision(12);
+    std::ostringstream text = plain_text();
     text << name;
     if (!scalar) text << '[' << i << ']';
     text << " = " << value;
     return text.str();
   };
-  std::ostringstream allowed;
-  allowed.precision(12);
+  std::ostringstream allowed = plain_text();
   if (status == FrictionMap::Status::pressure_outside) {
     allowed << ": the map covers [" << info.pressure[0] << ", " << info.pressure[1] << "] Pa";
     throw OutOfRange(named("pressure", pressure) + allowed.str());
@@ -107,17 +114,15 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
 
 enum class Policy { error, nan, clamp };
 
-Policy policy_of(const std::string& outside) {
+Policy policy_of(const Option& outside) {
   return choice<Policy>("outside", outside, {{"error", Policy::error}, {"nan", Policy::nan}, {"clamp", Policy::clamp}});
 }
 
 /// Values of `get` at every point, several a point.
 template <std::size_t N, class Get>
 std::array<py::object, N> look_up(const Map& m, const py::object& pressure, const py::object& velocity,
-                                  const py::object& shift_factor, bool shift_adhesion, const std::string& outside,
-                                  Get get) {
-  const auto policy =
-      choice<Policy>("outside", outside, {{"error", Policy::error}, {"nan", Policy::nan}, {"clamp", Policy::clamp}});
+                                  const py::object& shift_factor, bool shift_adhesion, const Option& outside, Get get) {
+  const auto policy = policy_of(outside);
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
   const auto& [p, v, shift] = std::tie(b.columns[0], b.columns[1], b.columns[2]);
   std::array<std::vector<double>, N> columns;
@@ -143,7 +148,7 @@ std::array<py::object, N> look_up(const Map& m, const py::object& pressure, cons
 
 /// mu alone, by the vector units.
 py::object mu_of(const Map& m, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
-                 bool shift_adhesion, const std::string& outside) {
+                 Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
   const auto policy = policy_of(outside);
   const Views b = views({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
   const MapColumns points{b.view(0), b.view(1), b.view(2)};
@@ -166,7 +171,7 @@ py::object mu_of(const Map& m, const py::object& pressure, const py::object& vel
 }
 
 struct SlopesTag {
-  static constexpr const char* names[] = {"dmu_dlnp", "dmu_dlnv"};
+  static constexpr Field fields[] = {{"dmu_dlnp", Holds::numbers}, {"dmu_dlnv", Holds::numbers}};
 };
 
 /// Lines of the text that begin with "note: ".
@@ -212,7 +217,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
     map.def(
         name,
         [get](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
-              bool shift_adhesion, const std::string& outside) {
+              Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
           return look_up<1>(self, pressure, velocity, shift_factor, shift_adhesion, outside, get)[0];
         },
         py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
@@ -231,13 +236,13 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
   map.def(
          "derivatives",
          [](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
-            bool shift_adhesion, const std::string& outside) {
+            Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
            auto found =
                look_up<2>(self, pressure, velocity, shift_factor, shift_adhesion, outside, [](const MapPoint& at) {
                  return std::array{at.dmu_dlnp, at.dmu_dlnv};
                });
            Record<SlopesTag> slopes;
-           for (std::size_t k = 0; k < 2; ++k) slopes.values[SlopesTag::names[k]] = std::move(found[k]);
+           for (std::size_t k = 0; k < 2; ++k) slopes.values[SlopesTag::fields[k].name] = std::move(found[k]);
            return slopes;
          },
          py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
@@ -260,17 +265,24 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
           "from_bytes", [](const py::bytes& content) { return from_python_bytes(content, "content"); },
           py::arg("content"), "From the bytes of a file.")
       .def("to_bytes", &to_bytes, "The bytes of a file.")
-      .def(py::pickle(&to_bytes, [](const py::bytes& state) { return from_python_bytes(state, "state"); }))
+      .def("__reduce__",
+           [](const py::object& self) {
+             // a function of the module: pickle finds no static method of a class of C++
+             return py::make_tuple(py::module_::import("asperity._core").attr("_map_of"),
+                                   py::make_tuple(to_bytes(self.cast<const Map&>())));
+           })
       .def(
           "__eq__", [](const Map& self, const Map& other) { return self.file == other.file; }, py::is_operator())
       .def("__repr__", [](const Map& self) {
         const FrictionMapInfo& i = self.map.info();
-        std::ostringstream text;
+        std::ostringstream text = plain_text();
         text << "FrictionMap(pressure=(" << i.pressure[0] << ", " << i.pressure[1] << "), velocity=(" << i.velocity[0]
              << ", " << i.velocity[1] << "), max_error=" << i.max_error << ", cells=" << i.cells << ")";
         return text.str();
       });
+  m.def("_map_of", [](const py::bytes& content) { return from_python_bytes(content, "content"); });
   py::setattr(map, "__hash__", py::none());
+  made_by_call_alone(map);
   const auto property = [&](const char* name, auto get, const char* doc) {
     map.def_property_readonly(
         name, [get](const Map& self) { return get(self.map.info()); }, doc);

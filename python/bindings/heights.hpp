@@ -10,15 +10,6 @@
 
 namespace asperity::python {
 
-/// One of the statistics, computed without the GIL.
-template <class S, class F>
-auto statistic(F f) {
-  return [f](const S& surface) {
-    const py::gil_scoped_release release;
-    return f(surface);
-  };
-}
-
 /// An array's numbers, strides in elements, and what keeps them alive.
 struct HeightArray {
   HeightMap::Data data;

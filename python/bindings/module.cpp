@@ -2,6 +2,7 @@
 
 #include "asperity/version.hpp"
 #include "parts.hpp"
+#include "value.hpp"
 
 namespace py = pybind11;
 
@@ -9,7 +10,7 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   using namespace asperity::python;
   m.doc() = "The compiled core of asperity.";
   m.attr("__version__") = asperity::version();
-  m.def("_rebuild", [](const py::object& cls, const py::dict& fields) { return cls(**fields); });
+  m.def("_rebuild", &rebuilt);
   bind_errors(m);
   bind_surface(m);
   bind_spectrum(m);
@@ -17,6 +18,7 @@ PYBIND11_MODULE(_core, m, py::mod_gil_not_used()) {
   bind_self_affine(m);
   bind_rubber(m);
   bind_dma(m);
+  bind_master_curve_build(m);
   bind_prony_fit(m);
   bind_strain_sweep(m);
   bind_asperities(m);

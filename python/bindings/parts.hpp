@@ -12,6 +12,7 @@ void bind_scan_spectrum(pybind11::module_& m);
 void bind_self_affine(pybind11::module_& m);
 void bind_rubber(pybind11::module_& m);
 void bind_dma(pybind11::module_& m);
+void bind_master_curve_build(pybind11::module_& m);
 void bind_prony_fit(pybind11::module_& m);
 void bind_strain_sweep(pybind11::module_& m);
 void bind_asperities(pybind11::module_& m);

@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "asperity/spectrum.hpp"
+#include "scalars.hpp"
 #include "value.hpp"
 
 namespace asperity::python {
@@ -64,8 +65,8 @@ void bind_rows(py::classh<S>& cls, const std::string& density) {
           },
           "Where no flag stands, bool, shape (n,).")
       .def(
-          "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, py::kw_only(),
-          py::arg("per_decade") = 10.0,
+          "log_binned", [](const S& s, Number<"per_decade"> per_decade) { return log_binned(s, per_decade); },
+          py::kw_only(), py::arg("per_decade") = 10.0, py::call_guard<py::gil_scoped_release>(),
           "Count-weighted means over bins of equal width in ln q, from the lowest row on; a new spectrum. Each row is "
           "brought to the bin's mean wavenumber along the local power law. Flagged rows are left out of bins that have "
           "others. Under a Hann window neighbouring rows are alike: the errors of bins are then a quarter too small.");

@@ -49,8 +49,10 @@ void bind_common(py::classh<R>& cls) {
           py::arg("angular_frequency"),
           "(I1 [Pa], I2 [Pa^2]) at `angular_frequency` w = v q [rad/s], any shape: I1 = int_0^2pi cos(phi) "
           "Im E(w cos phi) dphi of Eq. 22, I2 = int_0^2pi |E(w cos phi)|^2 dphi of Eq. 7.")
-      .def("shifted", &R::shifted, py::arg("a_T"),
-           "The rubber at another temperature: E(w) becomes E(a_T w), so that a_T > 1 is colder; a new rubber.");
+      .def(
+          "shifted", [](const R& r, Number<"a_T"> a_T) { return r.shifted(a_T); }, py::arg("a_T"),
+          py::call_guard<py::gil_scoped_release>(),
+          "The rubber at another temperature: E(w) becomes E(a_T w), so that a_T > 1 is colder; a new rubber.");
 }
 
 }  // namespace
@@ -81,7 +83,7 @@ Examples
 (501000000+500000000j)
 )");
   prony
-      .def(py::init([](double e, const py::object& moduli, const py::object& times) {
+      .def(py::init([](Number<"equilibrium_modulus"> e, const py::object& moduli, const py::object& times) {
              return PronySeries(e, vector_of(moduli, "moduli"), vector_of(times, "relaxation_times"));
            }),
            py::kw_only(), py::arg("equilibrium_modulus"), py::arg("moduli"), py::arg("relaxation_times"))
@@ -117,9 +119,14 @@ OutOfRange
 )");
   curve
       .def(py::init([](const py::object& w, const py::object& storage, const py::object& loss,
-                       const std::optional<std::string>& extrapolation, const py::object& shifts) {
-             MasterCurve curve(vector_of(w, "angular_frequency"), vector_of(storage, "storage_modulus"),
-                               vector_of(loss, "loss_modulus"), extrapolation_of(extrapolation));
+                       const Option& extrapolation, const py::object& shifts) {
+             const auto frequency = vector_of(w, "angular_frequency"), e1 = vector_of(storage, "storage_modulus"),
+                        e2 = vector_of(loss, "loss_modulus");
+             const std::optional<Extrapolation> beyond = extrapolation_of(extrapolation);
+             const MasterCurve curve = [&] {
+               const py::gil_scoped_release release;
+               return MasterCurve(frequency, e1, e2, beyond);
+             }();
              if (shifts.is_none()) return curve;
              return curve.with_shifts(std::make_shared<const ShiftTable>(shifts_of(shifts)));
            }),
@@ -189,8 +196,11 @@ InvalidInput, OutOfRange
                                        {"modulus_2", modulus_2},
                                        {"poisson_ratio_2", poisson_ratio_2}});
         std::vector<double> result;
-        for (std::size_t i = 0; i < b.columns[0].size(); ++i)
-          result.push_back(effective_modulus(b.columns[0][i], b.columns[1][i], b.columns[2][i], b.columns[3][i]));
+        {
+          const py::gil_scoped_release release;
+          for (std::size_t i = 0; i < b.columns[0].size(); ++i)
+            result.push_back(effective_modulus(b.columns[0][i], b.columns[1][i], b.columns[2][i], b.columns[3][i]));
+        }
         return shaped(std::move(result), b.shape);
       },
       py::kw_only(), py::arg("modulus"), py::arg("poisson_ratio"),

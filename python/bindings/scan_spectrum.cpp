@@ -15,10 +15,11 @@ const auto windows = {std::pair{"split-cosine-bell", Window::split_cosine_bell},
 const auto parts = {std::pair{"all", Part::all}, std::pair{"top", Part::top}, std::pair{"bottom", Part::bottom}};
 
 struct SpectralDensityTag {
-  static constexpr const char* names[] = {"wavenumber_y", "wavenumber_x", "density"};
+  static constexpr Field fields[] = {
+      {"wavenumber_y", Holds::numbers}, {"wavenumber_x", Holds::numbers}, {"density", Holds::numbers}};
 };
 struct AnisotropyTag {
-  static constexpr const char* names[] = {"across", "along", "direction"};
+  static constexpr Field fields[] = {{"across", Holds::number}, {"along", Holds::number}, {"direction", Holds::number}};
 };
 
 /// What every transform of a map takes.
@@ -26,9 +27,8 @@ struct How {
   Window window;
   std::optional<Detrend> detrend;
 };
-How how(const std::string& window, const std::optional<std::string>& detrend) {
-  return {choice<Window>("window", window, windows),
-          detrend ? std::optional(detrend_of("detrend", *detrend)) : std::nullopt};
+How how(const Option& window, const Option& detrend) {
+  return {choice<Window>("window", window, windows), choice_or_none<Detrend>("detrend", detrend, detrends)};
 }
 
 const HeightMap& map_of(const py::object& surface) {
@@ -42,15 +42,15 @@ const HeightMap& map_of(const py::object& surface) {
 void bind_scan_spectrum(py::module_& m) {
   m.def(
       "power_spectrum",
-      [](const py::object& surface, const std::string& window, const std::optional<std::string>& detrend,
-         long long threads, const std::string& part) {
+      [](const py::object& surface, const Option& window, const Option& detrend, Whole<"threads"> threads,
+         const Option& part) {
         if (threads < 1 || threads > 1024)
-          throw InvalidInput("threads = " + std::to_string(threads) + ": must be from 1 to 1024");
+          throw InvalidInput("threads = " + std::to_string(threads.value) + ": must be from 1 to 1024");
         const HeightMap& map = map_of(surface);
         const How h = how(window, detrend);
         const auto side = choice<Part>("part", part, parts);
         const py::gil_scoped_release release;
-        return power_spectrum(map, h.window, h.detrend, static_cast<unsigned>(threads), side);
+        return power_spectrum(map, h.window, h.detrend, static_cast<unsigned>(threads.value), side);
       },
       py::arg("surface"), py::kw_only(), py::arg("window") = "split-cosine-bell", py::arg("detrend") = "plane",
       py::arg("threads") = 1, py::arg("part") = "all",
@@ -97,7 +97,7 @@ density : C [m^4], shape (ny, nx).
 )");
   m.def(
       "spectral_density",
-      [](const py::object& surface, const std::string& window, const std::optional<std::string>& detrend) {
+      [](const py::object& surface, const Option& window, const Option& detrend) {
         const HeightMap& map = map_of(surface);
         const How h = how(window, detrend);
         SpectralDensity found;
@@ -143,8 +143,8 @@ direction : of the lay, along which the slope is least [-]: the angle in radians
           "across / along, 1 for an isotropic surface.");
   m.def(
       "anisotropy",
-      [](const py::object& surface, const std::string& window, const std::optional<std::string>& detrend,
-         std::optional<double> q_min, std::optional<double> q_max) {
+      [](const py::object& surface, const Option& window, const Option& detrend, OptionalNumber<"q_min"> q_min,
+         OptionalNumber<"q_max"> q_max) {
         const HeightMap& map = map_of(surface);
         const How h = how(window, detrend);
         Anisotropy found;
@@ -203,9 +203,9 @@ InvalidInput
            py::arg("count") = py::none(), py::arg("standard_error") = py::none(), py::arg("flag") = py::none())
       .def(
           "isotropic",
-          [](const LineSpectrum& s, std::optional<double> per_decade) {
+          [](const LineSpectrum& s, OptionalNumber<"per_decade"> per_decade) {
             const py::gil_scoped_release release;
-            return isotropic(per_decade ? log_binned(s, *per_decade) : s);
+            return isotropic(per_decade.value ? log_binned(s, *per_decade.value) : s);
           },
           py::kw_only(), py::arg("per_decade") = 10.0,
           R"(The spectrum C [m^4] of the isotropic surface that has such profiles, a TabulatedSpectrum.
@@ -223,7 +223,7 @@ InvalidInput
   bind_rows(line, "C1D [m^3]");
   m.def(
       "line_spectrum",
-      [](const py::object& surface, const std::string& window, const std::optional<std::string>& detrend) {
+      [](const py::object& surface, const Option& window, const Option& detrend) {
         const How h = how(window, detrend);
         if (py::isinstance<LineScan>(surface)) {
           const auto& scan = surface.cast<const LineScan&>();
@@ -259,9 +259,9 @@ InvalidInput
 )");
   m.def(
       "merge_spectra",
-      [](const py::iterable& spectra, std::optional<double> per_decade) {
+      [](const Many<"spectra">& spectra, OptionalNumber<"per_decade"> per_decade) {
         std::vector<TabulatedSpectrum> all;
-        for (const py::handle& one : spectra)
+        for (const py::handle& one : spectra.value)
           all.push_back(object_of<TabulatedSpectrum>(py::reinterpret_borrow<py::object>(one),
                                                      ("spectra[" + std::to_string(all.size()) + "]").c_str(),
                                                      "a TabulatedSpectrum"));

@@ -22,14 +22,13 @@ std::map<std::string, double> standard_errors(const SelfAffineFit& f) {
   return errors;
 }
 
-SelfAffineFit make_fit(const SelfAffineSpectrum& spectrum, const py::object& covariance, double residual,
-                       std::size_t rows) {
-  const Array given = real_array(covariance, "covariance");
-  if (given.ndim() != 2 || given.shape(0) != 3 || given.shape(1) != 3)
-    throw InvalidInput("covariance: must have shape (3, 3)");
-  SelfAffineFit fit{spectrum, {}, residual, rows};
-  for (py::ssize_t i = 0; i < 9; ++i)
-    fit.covariance[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] = given.data()[i];
+SelfAffineFit make_fit(const py::object& spectrum, const py::object& covariance, Number<"residual"> residual,
+                       Whole<"rows"> rows) {
+  if (rows < 0) throw InvalidInput("rows = " + std::to_string(rows.value) + ": must not be negative");
+  const auto& law = object_of<SelfAffineSpectrum>(spectrum, "spectrum", "a SelfAffineSpectrum");
+  SelfAffineFit fit{law, {}, residual, static_cast<std::size_t>(rows.value)};
+  const std::array<double, 9> given = covariance_of(covariance);
+  for (std::size_t i = 0; i < 9; ++i) fit.covariance[i / 3][i % 3] = given[i];
   return fit;
 }
 
@@ -68,8 +67,8 @@ void bind_self_affine(py::module_& m) {
 
   m.def(
       "fit_self_affine",
-      [](const py::object& measured, std::optional<double> q_min, std::optional<double> q_max,
-         const std::string& method, const std::string& rolloff) {
+      [](const py::object& measured, OptionalNumber<"q_min"> q_min, OptionalNumber<"q_max"> q_max, const Option& method,
+         const Option& rolloff) {
         const auto& spectrum = object_of<TabulatedSpectrum>(measured, "spectrum", "a TabulatedSpectrum");
         const FitOptions options{q_min, q_max, choice<FitMethod>("method", method, methods),
                                  choice<Rolloff>("rolloff", rolloff, rolloffs)};
@@ -107,16 +106,16 @@ InvalidInput
 )");
   m.def(
       "synthesize",
-      [](const py::object& spectrum, const std::array<long long, 2>& shape, const PixelSizeArgument& pixel_size,
-         long long seed, double skewness) {
-        if (shape[0] < 0 || shape[1] < 0)
-          throw InvalidInput("shape = (" + std::to_string(shape[0]) + ", " + std::to_string(shape[1]) +
-                             "): must be 2 x 2 or more");
-        if (seed < 0) throw InvalidInput("seed = " + std::to_string(seed) + ": must not be negative");
-        const HeightMap::Shape grid{static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1])};
+      [](const py::object& spectrum, const Named<std::array<long long, 2>, "shape">& shape,
+         const Named<PixelSizeArgument, "pixel_size">& pixel_size, Whole<"seed"> seed, Number<"skewness"> skewness) {
+        const auto [ny, nx] = shape.value;
+        if (ny < 0 || nx < 0)
+          throw InvalidInput("shape = (" + std::to_string(ny) + ", " + std::to_string(nx) + "): must be 2 x 2 or more");
+        if (seed < 0) throw InvalidInput("seed = " + std::to_string(seed.value) + ": must not be negative");
+        const HeightMap::Shape grid{static_cast<std::size_t>(ny), static_cast<std::size_t>(nx)};
         const Spectrum target = spectrum_of(spectrum);
         const py::gil_scoped_release release;
-        return synthesize(target, grid, pixel_size_of(pixel_size), static_cast<std::uint64_t>(seed), skewness);
+        return synthesize(target, grid, pixel_size_of(pixel_size), static_cast<std::uint64_t>(seed.value), skewness);
       },
       py::arg("spectrum"), py::kw_only(), py::arg("shape"), py::arg("pixel_size"), py::arg("seed"),
       py::arg("skewness") = 0.0,

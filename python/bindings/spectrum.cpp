@@ -15,25 +15,24 @@ namespace {
 /// What both spectra can do.
 template <class S>
 void bind_common(py::classh<S>& cls) {
-  cls.def_property_readonly(
-         "rms_slope", [](const S& s) { return rms_slope(s); }, "h' = sqrt(2 pi int q^3 C dq) [-].")
+  cls.def_property_readonly("rms_slope", released<S>([](const S& s) { return rms_slope(s); }),
+                            "h' = sqrt(2 pi int q^3 C dq) [-].")
       .def_property_readonly(
-          "nayak_parameter", [](const S& s) { return nayak_parameter(s); },
+          "nayak_parameter", released<S>([](const S& s) { return nayak_parameter(s); }),
           "Nayak's parameter m0 m4 / m2^2 of a profile [-] (P. R. Nayak, J. Lubr. Technol. 93, 398 (1971)): 1.5 for a "
           "single wavenumber, the larger the wider the band.")
       .def(
           "at",
           [](const S& s, const py::object& q) {
-            const Array array = real_array(q, "wavenumber");
-            auto values = density(s, std::span(array.data(), static_cast<std::size_t>(array.size())));
-            return shaped(std::move(values), Shape(array.shape(), array.shape() + array.ndim()));
+            return over_array(q, "wavenumber", [&](std::span<const double> at) { return density(s, at); });
           },
           py::arg("wavenumber"),
           "C(q) [m^4] at `wavenumber` [1/m], any shape. A self-affine spectrum is 0 outside its band; a table "
           "raises OutOfRange.")
       .def(
           "truncated",
-          [](const S& s, std::optional<double> q0, std::optional<double> q1) {
+          [](const S& s, OptionalNumber<"q0"> q0, OptionalNumber<"q1"> q1) {
+            const py::gil_scoped_release release;
             return std::get<S>(truncated(Spectrum(s), q0, q1));
           },
           py::kw_only(), py::arg("q0") = py::none(), py::arg("q1") = py::none(),
@@ -41,36 +40,27 @@ void bind_common(py::classh<S>& cls) {
       .def(
           "line_density",
           [](const S& s, const py::object& q) {
-            const Array array = real_array(q, "wavenumber");
-            auto values = line_density(s, std::span(array.data(), static_cast<std::size_t>(array.size())));
-            return shaped(std::move(values), Shape(array.shape(), array.shape() + array.ndim()));
+            return over_array(q, "wavenumber", [&](std::span<const double> at) { return line_density(s, at); });
           },
           py::arg("wavenumber"),
           "C1D(q) = int C(sqrt(q^2 + k^2)) dk over all k [m^3] at `wavenumber` [1/m], any shape: the two-sided "
           "spectrum "
           "of a profile of this surface.")
       .def(
-          "cutoff_for_slope", [](const S& s, double slope) { return cutoff_for_slope(s, slope); },
-          py::arg("slope") = 1.3,
+          "cutoff_for_slope", [](const S& s, Number<"slope"> slope) { return cutoff_for_slope(s, slope); },
+          py::arg("slope") = 1.3, py::call_guard<py::gil_scoped_release>(),
           "The wavenumber [1/m] up to which the cumulative rms slope is `slope`, the upper cut-off of the text below "
           "Eq. 22; q1 where the whole spectrum has less.")
       .def(
-          "cutoff_for_contamination", [](const S& s, double size) { return cutoff_for_contamination(s, size); },
+          "cutoff_for_contamination", [](const S& s, Number<"size"> size) { return cutoff_for_contamination(s, size); },
           py::arg("size"), "2 pi / `size` of the contamination particles [m], at most q1 [1/m].")
       .def(
-          "scaled", [](const S& s, double factor) { return std::get<S>(scaled(Spectrum(s), factor)); },
-          py::arg("factor"), "All densities times `factor`; a new spectrum.")
+          "scaled", [](const S& s, Number<"factor"> factor) { return std::get<S>(scaled(Spectrum(s), factor)); },
+          py::arg("factor"), py::call_guard<py::gil_scoped_release>(), "All densities times `factor`; a new spectrum.")
       .def(
           "autocorrelation",
           [](const S& s, const py::object& distance) {
-            const Array array = real_array(distance, "distance");
-            std::vector<double> values;
-            {
-              const std::span<const double> r(array.data(), static_cast<std::size_t>(array.size()));
-              const py::gil_scoped_release release;
-              values = autocorrelation(s, r);
-            }
-            return shaped(std::move(values), Shape(array.shape(), array.shape() + array.ndim()));
+            return over_array(distance, "distance", [&](std::span<const double> r) { return autocorrelation(s, r); });
           },
           py::arg("distance"),
           "<h(x) h(0)> = 2 pi int q C J0(q |x|) dq [m^2] at `distance` |x| [m], any shape (Eqs 5-6); good to 1e-8 of "
@@ -110,17 +100,22 @@ Table 1's asphalt; its rms slope is above the 1.3 at which the cut-off rule ends
 (2.76, 11.7)
 )");
   self_affine
-      .def(py::init([](double h, double hurst, double q0, double q1, std::optional<double> rolloff) {
+      .def(py::init([](Number<"rms_height"> h, Number<"hurst"> hurst, Number<"q0"> q0, Number<"q1"> q1,
+                       OptionalNumber<"rolloff"> rolloff) {
              const SelfAffineSpectrum s{h, hurst, q0, q1, rolloff};
              validate(s);
              return s;
            }),
            py::kw_only(), py::arg("rms_height"), py::arg("hurst"), py::arg("q0"), py::arg("q1"),
            py::arg("rolloff") = py::none())
-      .def_static("from_article", &SelfAffineSpectrum::from_article, py::kw_only(), py::arg("h0"), py::arg("hurst"),
-                  py::arg("q0"), py::arg("q1"),
-                  "Eq. 12 as printed, C = (h0 / q0)^2 (H / 2 pi) (q / q0)^(-2 (H + 1)), cut at q1. Its rms height is "
-                  "not h0 but h0 / sqrt(2) for q1 >> q0: for reproducing the article only.")
+      .def_static(
+          "from_article",
+          [](Number<"h0"> h0, Number<"hurst"> hurst, Number<"q0"> q0, Number<"q1"> q1) {
+            return SelfAffineSpectrum::from_article(h0, hurst, q0, q1);
+          },
+          py::kw_only(), py::arg("h0"), py::arg("hurst"), py::arg("q0"), py::arg("q1"),
+          "Eq. 12 as printed, C = (h0 / q0)^2 (H / 2 pi) (q / q0)^(-2 (H + 1)), cut at q1. Its rms height is "
+          "not h0 but h0 / sqrt(2) for q1 >> q0: for reproducing the article only.")
       .def_readonly("rms_height", &SelfAffineSpectrum::rms_height, "h_rms [m].")
       .def_readonly("hurst", &SelfAffineSpectrum::hurst, "Hurst exponent H [-].")
       .def_readonly("q0", &SelfAffineSpectrum::q0, "Lower cut-off [1/m].")
@@ -128,9 +123,7 @@ Table 1's asphalt; its rms slope is above the 1.3 at which the cut-off rule ends
       .def_readonly("rolloff", &SelfAffineSpectrum::rolloff, "Roll-off [1/m] or None.");
   self_affine.def(
       "extended",
-      [](const SelfAffineSpectrum& s, std::optional<double> q0, std::optional<double> q1) {
-        return extended(s, q0, q1);
-      },
+      [](const SelfAffineSpectrum& s, OptionalNumber<"q0"> q0, OptionalNumber<"q1"> q1) { return extended(s, q0, q1); },
       py::kw_only(), py::arg("q0") = py::none(), py::arg("q1") = py::none(),
       "The same law on another band [1/m], wider or narrower: beyond the old ends the power law goes on, and below a "
       "roll-off the flat part. C(q) stays, the rms height follows; a new spectrum.");
@@ -163,8 +156,9 @@ InvalidInput
   table
       .def(py::init(&make_rows<TabulatedSpectrum>), py::kw_only(), py::arg("wavenumber"), py::arg("density"),
            py::arg("count") = py::none(), py::arg("standard_error") = py::none(), py::arg("flag") = py::none())
-      .def_property_readonly(
-          "rms_height", [](const TabulatedSpectrum& s) { return rms_height(s); }, "sqrt(2 pi int q C dq) [m].")
+      .def_property_readonly("rms_height",
+                             released<TabulatedSpectrum>([](const TabulatedSpectrum& s) { return rms_height(s); }),
+                             "sqrt(2 pi int q C dq) [m].")
       .def_property_readonly(
           "q0", [](const TabulatedSpectrum& s) { return band(s)[0]; }, "First row [1/m].")
       .def_property_readonly(

@@ -18,35 +18,36 @@ namespace {
 template <class S>
 void bind_heights(py::classh<S>& cls) {
   cls.def_property_readonly("dropout_fraction", &S::dropout_fraction, "Share of points not measured.")
-      .def_property_readonly("rms_height", statistic<S>([](const S& s) { return s.statistics().rms_height; }),
+      .def_property_readonly("rms_height", released<S>([](const S& s) { return s.statistics().rms_height; }),
                              "Root mean square height [m].")
-      .def_property_readonly("rms_slope", statistic<S>([](const S& s) { return s.rms_slope(); }),
+      .def_property_readonly("rms_slope", released<S>([](const S& s) { return s.rms_slope(); }),
                              "sqrt(<(dh/dx)^2> + <(dh/dy)^2>) [-], central differences at inner points.")
-      .def_property_readonly("skewness", statistic<S>([](const S& s) { return s.statistics().skewness; }),
+      .def_property_readonly("skewness", released<S>([](const S& s) { return s.statistics().skewness; }),
                              "<z^3> / rms^3 [-].")
-      .def_property_readonly("kurtosis", statistic<S>([](const S& s) { return s.statistics().kurtosis; }),
+      .def_property_readonly("kurtosis", released<S>([](const S& s) { return s.statistics().kurtosis; }),
                              "<z^4> / rms^4 [-]; 3 for Gaussian heights.")
-      .def_property_readonly("z_max", statistic<S>([](const S& s) { return s.statistics().z_max; }),
+      .def_property_readonly("z_max", released<S>([](const S& s) { return s.statistics().z_max; }),
                              "Highest point above the mean plane [m].")
-      .def_property_readonly("z_min", statistic<S>([](const S& s) { return s.statistics().z_min; }),
+      .def_property_readonly("z_min", released<S>([](const S& s) { return s.statistics().z_min; }),
                              "Lowest point, negative [m].")
       .def(
           "height_histogram",
-          [](const S& s, long long bins) {
-            if (bins < 1) throw InvalidInput("bins = " + std::to_string(bins) + ": must be from 1 to 10^6");
+          [](const S& s, Whole<"bins"> bins) {
+            if (bins < 1) throw InvalidInput("bins = " + std::to_string(bins.value) + ": must be from 1 to 10^6");
             HeightHistogram histogram;
             {
               const py::gil_scoped_release release;
-              histogram = s.height_histogram(static_cast<std::size_t>(bins));
+              histogram = s.height_histogram(static_cast<std::size_t>(bins.value));
             }
             return py::make_tuple(flat(std::move(histogram.edges)), flat(std::move(histogram.density)));
           },
           py::kw_only(), py::arg("bins") = 100,
           "(edges, density) of the heights about their mean in equal `bins`: [m], shape (bins + 1,), and [1/m], shape "
           "(bins,), whose integral is 1. InvalidInput where all heights are the same.")
-      .def("fill_dropouts", &S::fill_dropouts, py::kw_only(), py::arg("max_fraction") = 0.10,
-           py::call_guard<py::gil_scoped_release>(),
-           R"(Drop-outs replaced by linear interpolation; a new object.
+      .def(
+          "fill_dropouts", [](const S& s, Number<"max_fraction"> most) { return s.fill_dropouts(most); }, py::kw_only(),
+          py::arg("max_fraction") = 0.10, py::call_guard<py::gil_scoped_release>(),
+          R"(Drop-outs replaced by linear interpolation; a new object.
 
 On a map between measured points along the row and along the column, weighted by the cube of (1 / a + 1 / b), a and b the
 distances to the two; where neither has both immediate neighbours along the diagonals too. A plane comes back exactly. On a
@@ -65,8 +66,8 @@ InvalidInput
 )")
       .def(
           "detrend",
-          [](const S& s, const std::string& order) {
-            const Detrend d = detrend_of("order", order);
+          [](const S& s, const Option& order) {
+            const auto d = choice<Detrend>("order", order, detrends);
             const py::gil_scoped_release release;
             return s.detrend(d);
           },
@@ -77,14 +78,16 @@ Of a line scan: offset, straight line, parabola.
 
 Fitted to the measured points; drop-outs stay drop-outs.
 )")
-      .def("affine_shift", &S::affine_shift, py::arg("p"), py::call_guard<py::gil_scoped_release>(),
-           R"(h_T = (h - z_max) / p + z_max (the article's Eq. 9) of heights above the mean plane; a new object.
+      .def(
+          "affine_shift", [](const S& s, Number<"p"> p) { return s.affine_shift(p); }, py::arg("p"),
+          py::call_guard<py::gil_scoped_release>(),
+          R"(h_T = (h - z_max) / p + z_max (the article's Eq. 9) of heights above the mean plane; a new object.
 
 Its mean is z_max (1 - 1/p), its highest point stays, its spectrum is C / p^2. `p` >= 1 [-].
 )")
       .def(
           "local_peaks",
-          [](const S& s, double min_distance, bool periodic) {
+          [](const S& s, Number<"min_distance"> min_distance, Flag<"periodic"> periodic) {
             std::vector<double> peaks;
             {
               const py::gil_scoped_release release;
@@ -105,8 +108,9 @@ InvalidInput
 )");
 }
 
-HeightMap make_map(const py::object& heights, const PixelSizeArgument& pixel_size) {
+HeightMap make_map(const py::object& heights, const Named<PixelSizeArgument, "pixel_size">& pixel_size) {
   const HeightArray h = height_array(heights, 2, "(ny, nx)");
+  const py::gil_scoped_release release;  // every height is looked at
   return {h.data, {h.strides[0], h.strides[1]}, h.owner, {h.shape[0], h.shape[1]}, pixel_size_of(pixel_size)};
 }
 
@@ -122,18 +126,11 @@ void require_spacing(double spacing) {
                        ": must be positive and finite");
 }
 
-const auto detrends = {std::pair{"offset", Detrend::offset}, std::pair{"plane", Detrend::plane},
-                       std::pair{"quadratic", Detrend::quadratic}};
-
 }  // namespace
 
 HeightMap::PixelSize pixel_size_of(const PixelSizeArgument& pixel_size) {
   if (const auto* one = std::get_if<double>(&pixel_size)) return {*one, *one};
   return std::get<std::array<double, 2>>(pixel_size);
-}
-
-Detrend detrend_of(const std::string& argument, const std::string& name) {
-  return choice<Detrend>(argument, name, detrends);
 }
 
 void bind_surface(py::module_& m) {
@@ -188,9 +185,10 @@ Raises
 InvalidInput
     Not one-dimensional, empty, infinite heights, every point a drop-out, spacing not positive.
 )");
-  line.def(py::init([](const py::object& heights, double spacing) {
+  line.def(py::init([](const py::object& heights, Number<"spacing"> spacing) {
              const HeightArray h = height_array(heights, 1, "(n,)");
              require_spacing(spacing);
+             const py::gil_scoped_release release;
              return LineScan(h.data, h.strides[0], h.owner, h.shape[0], spacing);
            }),
            py::arg("heights"), py::kw_only(), py::arg("spacing"))

@@ -1,18 +1,16 @@
 // Arguments that several parts of the module read alike.
 #pragma once
 
-#include <array>
-#include <string>
-#include <variant>
+#include <utility>
 
 #include "asperity/surface.hpp"
+#include "scalars.hpp"
 
 namespace asperity::python {
 
-/// One number, or (dy, dx).
-using PixelSizeArgument = std::variant<double, std::array<double, 2>>;
 HeightMap::PixelSize pixel_size_of(const PixelSizeArgument& pixel_size);
 
-Detrend detrend_of(const std::string& argument, const std::string& name);
+inline const auto detrends = {std::pair{"offset", Detrend::offset}, std::pair{"plane", Detrend::plane},
+                              std::pair{"quadratic", Detrend::quadratic}};
 
 }  // namespace asperity::python

@@ -218,12 +218,16 @@ def test_figure_15_adds_up_and_shows_no_measured_points(remade: Path) -> None:
     assert set(columns["theory"]) == {"original", "modified, implicit", "modified, added"}
 
 
+BY = f"{asperity.__version__} article"
+
+
 def stub(mark: str) -> Callable[[], tuple[dict[str, bytes], list[object]]]:
-    tables = {
-        n: f"# asperity 0.1.0 article {n[:-4]}\n{mark}" for n in command.MARKS if n[-4:] == ".csv"
-    }
+    tables = {n: f"# asperity {BY} {n[:-4]}\n{mark}" for n in command.MARKS if n[-4:] == ".csv"}
     files = {name: tables.get(name, mark).encode() for name in command.MARKS}
-    return lambda: (files | {"summary.md": f"{OPENING}0.1.0 article`. {mark}".encode()}, [])
+    return lambda: (
+        files | {"summary.md": f"{OPENING}{BY}`. {mark}".encode()},
+        [],
+    )
 
 
 def test_it_writes_over_its_own_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

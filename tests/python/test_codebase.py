@@ -1,7 +1,6 @@
 """The code base as a subject: one-way dependencies, seams, stubs, versions, checkers."""
 
 import ast
-import importlib.metadata
 import importlib.util
 import inspect
 import re
@@ -12,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-import asperity
 from asperity import _core
 
 ROOT = Path(__file__).parents[2]
@@ -224,13 +222,6 @@ def test_numpy_is_all_that_the_package_imports_at_once():
     loaded = subprocess.run(run, check=True, capture_output=True, text=True).stdout.split()
     assert "numpy" in loaded
     assert not {"matplotlib", "scipy", "SurfaceTopography", "tqdm", "tamaas"} & set(loaded)
-
-
-def test_the_version_is_the_same_everywhere():
-    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
-    version = re.search(r"project\(asperity VERSION ([0-9.]+)", text)[1]
-    assert asperity.__version__ == _core.__version__ == version
-    assert importlib.metadata.version("asperity") == version
 
 
 STUB = ast.parse((ROOT / "python/asperity/_core.pyi").read_text(encoding="utf-8"))

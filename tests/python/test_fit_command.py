@@ -216,6 +216,8 @@ BAD = {
     "line 3: mu = -0.1: must be positive and finite": "velocity_m_s,mu\n1,1\n2,-0.1",
     "line 3: mu = nothing: must be positive and finite": "velocity_m_s,mu\n1,1\n2,",
     "line 2: velocity_m_s: 'fast' is not a number": "velocity_m_s,mu\nfast,1\n2,1",
+    "line 2: mu: '0,5' is not a number: its decimal comma must": "velocity_m_s;mu\n1;0,5\n2;0,6",
+    "line 2 has 4 cells: must be 2, as the header (numbers": "velocity_m_s,mu\n1,0,0,5\n2,0,0,6",
     "line 3 has 1 cells: must be 2, as the header": "velocity_m_s,mu\n1,1\n2",
     "has 0 rows below its header: must have 1 or more": "velocity_m_s,mu",
     "has two columns of velocity": "velocity_m_s,velocity_mm_s,mu\n1,1,1",

@@ -19,6 +19,9 @@ class ASPERITY_EXPORT Isotherm {
   /// temperature [K], angular frequency [rad/s] in any order, storage and loss modulus [Pa].
   Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
            std::vector<double> loss_modulus);
+  /// Rows of an isotherm as they are, its notes with them: frequencies that rise, none averaged again.
+  Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+           std::vector<double> loss_modulus, std::vector<std::string> notes);
   [[nodiscard]] double temperature() const { return temperature_; }
   [[nodiscard]] const std::vector<double>& angular_frequency() const { return frequency_; }
   [[nodiscard]] const std::vector<double>& storage_modulus() const { return storage_; }
