@@ -36,7 +36,7 @@ std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber
     return i == steps ? box[1] : box[0] * std::pow(box[1] / box[0], static_cast<double>(i) / steps);
   };
   std::vector<double> pressure, velocity;
-  for (int i = 0; i <= steps; ++i)
+  for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
     for (int j = 0; j <= steps; ++j) {
       velocity.push_back(between(request.velocity, i));
       pressure.push_back(between(request.pressure, j));
@@ -88,7 +88,8 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   check_request(request);
   std::string text = "asperity " + std::string(version()) + "\n";
-  for (const std::string& note : notes_of(spectrum, rubber, model, adhesion, request)) text += "note: " + note + "\n";
+  for (const std::string& note : notes_of(spectrum, rubber, model, adhesion, request))
+    text.append("note: ").append(note).append("\n");
   text += request.text;
   MapRequest whole = request;
   whole.text = text;

@@ -177,7 +177,12 @@ class Builder {
           places.push_back({tree_.x(x), tree_.z(z)});
         });
     const std::vector<MapSample> found = frame_.sample(places);
-    for (std::size_t i = 0; i < keys.size(); ++i) lattice_[keys[i]] = found[i];
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      lattice_[keys[i]] = found[i];
+      if (found[i].error > lattice_share * rtol_)  // no number of cells would help
+        throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * found[i].error, 3) +
+                           " was reached, twice the solver's own estimate of its error");
+    }
   }
 
   /// Values and derivatives at new corners, from 5 x 5 points around them: on a cut from either side, at the edges from

@@ -60,6 +60,7 @@ TOPIC = {
     "angular_table": "rubber",
     "modulus_piece": "rubber",
     "macro_modulus": "correction",
+    "map_batch": "build_friction_map",
     "map_builder": "build_friction_map",
     "map_file": "build_friction_map",
     "map_frame": "build_friction_map",

@@ -406,7 +406,8 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (stated != size)
     return refuse(std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) +
                   " bytes, must be " + std::to_string(stated));
-  if (map_detail::Reader(bytes + size - 8).u32() != map_detail::crc32(bytes, size - 8))
+  map_detail::Reader end(bytes + size - 8);
+  if (end.u32() != map_detail::crc32(bytes, size - 8) || end.u32() != 0)
     return refuse("is damaged: its checksum is not that of its contents");
 
   FrictionMap map;

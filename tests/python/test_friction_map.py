@@ -1,0 +1,315 @@
+"""Friction maps: the certified error, smoothness, other temperatures, what is outside."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import (
+    Adhesion,
+    AffineShift,
+    GreenwoodWilliamson,
+    InvalidInput,
+    LocalPeaks,
+    NayakSFactor,
+    NotConverged,
+    OutOfRange,
+    PeaksThenGreenwoodWilliamson,
+    PronySeries,
+    SelfAffineSpectrum,
+    SFactor,
+    friction,
+    friction_map,
+)
+
+ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+RUBBER = PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=[1e9, 3e8, 1e8, 1e7],
+    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
+)
+ADHESION = Adhesion(shear_stress=8.3e6)
+BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
+PEAKS = [1.1e-4, 2.9e-4, 4.2e-4, 0.3e-4, 2.2e-4]
+
+
+def random_points(count, box=BOX, seed=1):
+    draws = np.random.default_rng(seed)
+    return [np.exp(draws.uniform(*np.log(box[name]), count)) for name in ("pressure", "velocity")]
+
+
+def made(correction=None, rubber=RUBBER, adhesion=ADHESION, road=ROAD, box=BOX, **options):
+    options = {"checked": 0, **options}
+    return friction_map(road, rubber, correction=correction, adhesion=adhesion, **box, **options)
+
+
+@pytest.fixture(scope="module")
+def road_map():
+    return made(SFactor())
+
+
+def master_curve():
+    w = np.geomspace(1e-3, 1e7, 200)
+    e = RUBBER.modulus(w)
+    return asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+
+
+SCENES = {
+    "none": {},
+    "s-factor": {"correction": SFactor(applies_to="both")},
+    "nayak": {"correction": NayakSFactor()},
+    "shift": {"correction": AffineShift(2.0)},
+    "peaks": {"correction": LocalPeaks(PEAKS)},
+    "gw": {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)},
+    "gw added": {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4, reading="added")},
+    "gw peaks": {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4, peaks=PEAKS)},
+    "combined": {"correction": PeaksThenGreenwoodWilliamson(PEAKS, z_max=9e-4, z_min=-8e-4)},
+    "interpolated": {"form": "interpolated"},
+    "master curve": {"rubber": master_curve()},
+    "elastic": {"rubber": PronySeries(equilibrium_modulus=1e7, moduli=[], relaxation_times=[])},
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
+def test_a_map_is_as_good_as_it_says(name, rtol):
+    scene = {"rubber": RUBBER, "correction": None, "form": "exact", **SCENES[name]}
+    found = made(**scene, rtol=rtol)
+    assert 0 < found.max_error <= rtol
+    p, v = random_points(3000)
+    rubber = scene.pop("rubber")
+    truth = friction(ROAD, rubber, pressure=p, velocity=v, adhesion=ADHESION, rtol=1e-10, **scene)
+    for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
+        exact = getattr(truth, quantity)
+        error = np.abs(getattr(found, quantity)(p, v) - exact)
+        assert (error <= found.max_error * exact).all(), quantity
+
+
+def test_the_check_counts_what_is_beyond_the_certified_error():
+    found = made(checked=20_000)
+    assert found.checked == 20_000
+    assert found.exceeded == 0
+    # twice the largest error on unseen points: what 20,000 others show is near half of it
+    assert 0.3 * found.max_error < found.largest_checked_error <= found.max_error
+
+
+def test_cells_are_as_many_as_the_tolerance_needs():
+    # bicubic cells: the error falls as the fourth power of a side, the square of an area
+    cells = [made(rtol=rtol).cells for rtol in (1e-3, 1e-4, 1e-5, 1e-6)]
+    growth = np.array(cells[1:]) / cells[:-1]
+    assert (growth > 2).all()
+    assert (growth < 5).all()  # sqrt(10), and what single halvings add
+    assert cells[1] < 250
+
+
+@pytest.mark.parametrize("name", ["none", "s-factor", "master curve"])
+def test_values_and_slopes_have_no_steps(name):
+    found = made(**SCENES[name])
+    p, v = random_points(40_000, seed=2)
+    step = 1e-7  # so many of them cross a side of a cell
+    for dp, dv in ((step, 0.0), (0.0, step)):
+        there = p * np.exp(dp), v * np.exp(dv)
+        inside = (there[0] < BOX["pressure"][1]) & (there[1] < BOX["velocity"][1])
+        here = p[inside], v[inside]
+        there = there[0][inside], there[1][inside]
+        a, b = found.derivatives(*here), found.derivatives(*there)
+        mu_a, mu_b = found.mu(*here), found.mu(*there)
+        slope = a.dmu_dlnp if dp else a.dmu_dlnv
+        other = b.dmu_dlnp if dp else b.dmu_dlnv
+        # second derivatives are of the order of mu: over a step they change mu by step^2
+        assert np.abs(mu_b - mu_a - step * (slope + other) / 2).max() < 1e-14 + 10 * step**2
+        assert np.abs(b.dmu_dlnp - a.dmu_dlnp).max() < 10 * step
+        assert np.abs(b.dmu_dlnv - a.dmu_dlnv).max() < 10 * step
+
+
+def test_slopes_are_those_of_the_solver(road_map):
+    p, v = random_points(200, {"pressure": (6e4, 9e5), "velocity": (1.2e-5, 2.5)})
+    options = {"correction": SFactor(), "adhesion": ADHESION, "rtol": 1e-11}
+    step = 1e-3
+    slopes = road_map.derivatives(p, v)
+    for name, dp, dv in (("dmu_dlnp", step, 0), ("dmu_dlnv", 0, step)):
+        up, down = (
+            friction(
+                ROAD, RUBBER, pressure=p * np.exp(s * dp), velocity=v * np.exp(s * dv), **options
+            )
+            for s in (1, -1)
+        )
+        exact = (up.mu - down.mu) / (2 * step)
+        # of a cubic that is off by 5e-5 over a cell about 1 wide in ln
+        assert np.abs(getattr(slopes, name) - exact).max() < 1e-3 * road_map.mu(p, v).max()
+
+
+def test_newton_in_the_host_converges(road_map):
+    target, p = 2e5, np.full(50, 2e5)  # the pressure at which mu p is the target [Pa]
+    v = np.geomspace(2e-5, 2, 50)
+    for _ in range(12):
+        mu, slope = road_map.mu(p, v), road_map.derivatives(p, v).dmu_dlnp
+        p = np.clip(p * np.exp((target / (mu * p) - 1) / (1 + slope / mu)), *BOX["pressure"])
+    inside = (p > BOX["pressure"][0]) & (p < BOX["pressure"][1])
+    assert inside.sum() > 25
+    assert np.abs(road_map.mu(p, v) * p / target - 1)[inside].max() < 1e-12
+
+
+def test_another_temperature_shifts_the_velocity(road_map):
+    p, a_t = 2e5, 30.0
+    v = np.array([1e-5, 1e-3, 0.09])
+    other = friction(
+        ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=ADHESION
+    )
+    for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
+        found = getattr(road_map, quantity)(p, v, shift_factor=a_t)
+        np.testing.assert_allclose(found, getattr(other, quantity), rtol=1e-4)
+    # on request as if v0 were v0 / a_T
+    moved = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3 / a_t)
+    other = friction(
+        ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=moved
+    )
+    found = road_map.mu(p, v, shift_factor=a_t, shift_adhesion=True)
+    np.testing.assert_allclose(found, other.mu, rtol=1e-4)
+    # a temperature for each point
+    several = road_map.mu(p, 1e-3, shift_factor=[1.0, 10.0])
+    np.testing.assert_array_equal(
+        several, [road_map.mu(p, 1e-3), road_map.mu(p, 1e-3, shift_factor=10.0)]
+    )
+
+
+def test_arrays_hold_what_points_do(road_map):
+    p, v = random_points(1500)
+    whole = road_map.mu(p, v)
+    single = [road_map.mu(float(a), float(b)) for a, b in zip(p, v, strict=True)]
+    # each is a sum of two exponentials, rounded differently
+    np.testing.assert_allclose(whole, single, rtol=1e-14)
+    np.testing.assert_allclose(
+        whole, road_map.hysteresis(p, v) + road_map.adhesion(p, v), rtol=1e-14
+    )
+    assert road_map.mu(p[:5, None], v[None, :7]).shape == (5, 7)
+    np.testing.assert_allclose(
+        road_map.mu(p[:5, None], v[None, :7])[3, 6], road_map.mu(p[3], v[6]), rtol=1e-14
+    )
+    assert isinstance(road_map.mu(2e5, 0.1), float)
+    assert road_map.mu(np.empty(0), 0.1).shape == (0,)
+
+
+def test_mu_is_even_in_the_velocity(road_map):
+    p, v = random_points(20)
+    np.testing.assert_array_equal(road_map.mu(p, -v), road_map.mu(p, v))
+    np.testing.assert_array_equal(
+        road_map.derivatives(p, -v).dmu_dlnv, road_map.derivatives(p, v).dmu_dlnv
+    )
+
+
+OUTSIDE = [(4.9e4, 0.1), (1.1e6, 0.1), (0.0, 0.1), (-1e5, 0.1), (2e5, 0.0), (2e5, 9e-6), (2e5, 3.1)]
+OUTSIDE += [(2e5, -3.1), (2e5, np.inf), (np.inf, 0.1), (0.0, 0.0), (1e9, 1e9)]
+
+
+@pytest.mark.parametrize("point", OUTSIDE)
+def test_outside_of_the_box_the_caller_chooses(road_map, point):
+    nearest = np.clip(point[0], *BOX["pressure"]), np.clip(abs(point[1]), *BOX["velocity"])
+    for look_up in (road_map.mu, road_map.hysteresis, road_map.adhesion, road_map.contact_area):
+        with pytest.raises(OutOfRange, match=r"(pressure|velocity) = .*: the map covers \["):
+            look_up(*point)
+        assert np.isnan(look_up(*point, outside="nan"))
+        assert look_up(*point, outside="clamp") == pytest.approx(look_up(*nearest), rel=1e-14)
+    with pytest.raises(
+        OutOfRange, match=r"pressure\[1\] = 1000: the map covers \[50000, 1000000\] Pa"
+    ):
+        road_map.mu([1e5, 1e3], 0.1)
+    slopes = road_map.derivatives(*point, outside="clamp")
+    if point[0] != nearest[0]:
+        assert slopes.dmu_dlnp == 0
+    if abs(point[1]) != nearest[1]:
+        assert slopes.dmu_dlnv == 0
+
+
+@pytest.mark.parametrize("outside", ["error", "clamp"])
+def test_what_is_no_number_is_refused(road_map, outside):
+    for arguments, name in (
+        ((np.nan, 0.1), "pressure"),
+        ((2e5, [0.1, np.nan]), r"velocity\[1\]"),
+    ):
+        with pytest.raises(InvalidInput, match=name + " = nan: must be a number"):
+            road_map.mu(*arguments, outside=outside)
+    for shift in (np.nan, 0.0, -1.0, np.inf):
+        with pytest.raises(InvalidInput, match=r"shift_factor = \S+: must be positive and finite"):
+            road_map.mu(2e5, 0.1, shift_factor=shift, outside=outside)
+    assert np.isnan(road_map.mu(np.nan, 0.1, outside="nan"))
+
+
+FULL = {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-4e-4)}
+
+
+def test_the_map_is_split_where_contact_becomes_full():
+    found = made(**FULL, rtol=1e-5)
+    v = np.geomspace(1.1e-5, 2.9, 23)
+    fine = np.geomspace(*BOX["pressure"], 20_001)
+    crossed = 0
+    for velocity in v:
+        scene = {"velocity": velocity, **FULL, "adhesion": ADHESION, "rtol": 1e-11}
+        shift = friction(ROAD, RUBBER, pressure=fine[::50], **scene).shift_factor
+        if shift[0] == 1 or shift[-1] > 1:
+            continue
+        crossed += 1
+        low, high = fine[::50][shift > 1][-1], fine[::50][shift == 1][0]
+        for _ in range(60):
+            middle = np.sqrt(low * high)
+            full = friction(ROAD, RUBBER, pressure=middle, **scene).shift_factor == 1
+            low, high = (low, middle) if full else (middle, high)
+        # no step at the kink, and the slope of either side right up to it
+        assert found.mu(low, velocity) == pytest.approx(found.mu(high, velocity), rel=1e-9)
+        for edge, sign in ((low * (1 - 1e-4), -1), (high * (1 + 1e-4), 1)):
+            h = 1e-3
+            values = friction(
+                ROAD, RUBBER, pressure=edge * np.exp([0, sign * h, sign * 2 * h]), **scene
+            ).mu
+            exact = sign * (-3 * values[0] + 4 * values[1] - values[2]) / (2 * h)
+            slope = found.derivatives(edge, velocity).dmu_dlnp
+            assert slope == pytest.approx(exact, abs=2e-3 * values[0])
+    assert crossed > 5
+
+
+def test_a_box_with_a_part_without_contact_is_refused():
+    lifted = GreenwoodWilliamson(z_max=4e-4, z_min=-8e-4)
+    with pytest.raises(InvalidInput, match="finds no contact"):
+        made(lifted, box={"pressure": (10.0, 1e6), "velocity": (1e-5, 3.0)})
+
+
+def test_bad_boxes_and_tolerances_are_refused():
+    for box, message in (
+        ({"pressure": (2e5, 1e5)}, r"pressure = \(200000, 100000\): must be \(lo, hi\)"),
+        ({"velocity": (0.1, 0.1)}, r"velocity = \(0.1, 0.1\): must be \(lo, hi\)"),
+        ({"velocity": (0.0, 0.1)}, "velocity = 0: must be positive"),
+        ({"pressure": (1e5, np.inf)}, "pressure = inf: must be positive and finite"),
+        ({"pressure": 1e5}, "pressure has 0 dimensions"),
+        ({"pressure": (1e5, 2e5, 3e5)}, r"pressure = .*: must be \(lo, hi\)"),
+    ):
+        with pytest.raises(InvalidInput, match=message):
+            made(box={**BOX, **box})
+    for rtol in (0.0, 0.2, np.nan):
+        with pytest.raises(InvalidInput, match="rtol = "):
+            made(rtol=rtol)
+    with pytest.raises(NotConverged, match=r"rtol = 1e-12: \S+ was reached"):
+        made(rtol=1e-12)
+    with pytest.raises(InvalidInput, match="checked = -1"):
+        made(checked=-1)
+
+
+def test_a_box_beyond_the_measured_range_is_refused():
+    with pytest.raises(OutOfRange, match=r"velocity = 10000: .* velocities from 5e-07 to 500 m/s"):
+        made(rubber=master_curve(), box={**BOX, "velocity": (1e-5, 1e4)})
+
+
+def test_an_elastic_rubber_has_area_and_adhesion_alone():
+    found = made(**SCENES["elastic"])
+    p, v = random_points(10)
+    np.testing.assert_array_equal(found.hysteresis(p, v), 0)
+    np.testing.assert_allclose(found.mu(p, v), found.adhesion(p, v), rtol=1e-14)
+    bare = made(**SCENES["elastic"], adhesion=None)
+    np.testing.assert_array_equal(bare.mu(p, v), 0)
+    assert bare.adhesion_law is None
+    assert found.adhesion_law == ADHESION
+
+
+def test_notes_are_those_of_friction():
+    box = {"pressure": (1e5, 2e5), "velocity": (1e-3, 1.0)}
+    noted = friction(ROAD, RUBBER, pressure=1e5, velocity=1.0, adhesion=ADHESION).notes
+    assert noted
+    assert set(noted) <= set(made(box=box).notes)

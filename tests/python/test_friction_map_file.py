@@ -1,0 +1,181 @@
+"""Files of friction maps: read by their documentation alone, and refused where they are damaged."""
+
+import os
+import pickle
+import struct
+import zlib
+
+import numpy as np
+import pytest
+
+from asperity import (
+    Adhesion,
+    FrictionMap,
+    GreenwoodWilliamson,
+    InvalidInput,
+    PronySeries,
+    SelfAffineSpectrum,
+    friction_map,
+)
+
+ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+RUBBER = PronySeries(equilibrium_modulus=3e6, moduli=[1e9, 1e7], relaxation_times=[1e-8, 1e-4])
+BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
+KINDS = {
+    "plain": {"adhesion": Adhesion(shear_stress=8.3e6, width=0.2), "rtol": 1e-3},
+    "split": {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-4e-4), "rtol": 1e-4},
+}
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def found(request):
+    return friction_map(ROAD, RUBBER, **BOX, checked=1000, text="# µ\n", **KINDS[request.param])
+
+
+class ByDocumentation:
+    """What asperity/friction_map.hpp says of the file, and nothing else."""
+
+    def __init__(self, content):
+        assert content[:8] == b"ASPERMAP"
+        order, version, size = struct.unpack_from("<IIQ", content, 8)
+        assert (order, version, size) == (0x01020304, 1, len(content))
+        assert struct.unpack_from("<II", content, size - 8) == (zlib.crc32(content[:-8]), 0)
+        self.box = struct.unpack_from("<4d", content, 24)
+        self.rtol, self.max_error, self.largest = struct.unpack_from("<3d", content, 56)
+        self.checked, self.exceeded = struct.unpack_from("<2Q", content, 80)
+        self.tau, self.v0, self.width = struct.unpack_from("<3d", content, 96)
+        counts = struct.unpack_from("<8I", content, 120)
+        self.hysteresis, bands, nodes, grids, entries, cells, text, zero = counts
+        assert zero == 0
+        at = 152
+
+        def take(kind, count):
+            nonlocal at
+            values = np.frombuffer(content, kind, count, at)
+            at += values.nbytes
+            return values
+
+        self.cuts = take("<f8", bands + 1)
+        self.shear = take("<f8", 2 * nodes).reshape(-1, 2)
+        self.grids = []
+        for _ in range(grids):
+            place, (columns, rows, first, zero) = take("<f8", 4), take("<u4", 4)
+            assert zero == 0
+            self.grids.append((*place, int(columns), int(rows), int(first)))
+        self.entries = take("<i4", entries)
+        at = -(-at // 8) * 8
+        self.cells = take("<f8", 34 * cells).reshape(-1, 34)
+        self.text = bytes(take("u1", text)).decode()
+        assert -(-at // 8) * 8 + 8 == size
+
+    def shear_at(self, x):
+        if self.shear.size == 0:
+            return 0.0
+        lo, hi = np.log(self.box[2:])
+        h = (hi - lo) / (len(self.shear) - 1)
+        i = min(int((x - lo) / h), len(self.shear) - 2)
+        (a, da), (b, db) = self.shear[i : i + 2]
+        t = (x - lo) / h - i
+        return (
+            a * (1 + 2 * t) * (1 - t) ** 2
+            + da * h * t * (1 - t) ** 2
+            + b * t**2 * (3 - 2 * t)
+            - db * h * t**2 * (1 - t)
+        )
+
+    def look_up(self, pressure, velocity):
+        x = np.log(velocity)
+        z = np.log(pressure) - self.shear_at(x)
+        k = int(np.searchsorted(self.cuts[1:-1], z, side="right"))
+        while True:
+            gx, gz, per_x, per_z, columns, rows, first = self.grids[k]
+            i = min(max(int((x - gx) * per_x), 0), columns - 1)
+            j = min(max(int((z - gz) * per_z), 0), rows - 1)
+            entry = int(self.entries[first + i * rows + j])
+            if entry >= 0:
+                break
+            assert -1 - entry > k
+            k = -1 - entry
+        x0, z0, *c = self.cells[entry]
+        powers = [(x - x0) ** i * (z - z0) ** j for j in range(4) for i in range(4)]
+        hysteresis = np.exp(np.dot(c[0::2], powers)) if self.hysteresis else 0.0
+        area = np.exp(np.dot(c[1::2], powers))
+        falling = np.exp(-self.width * np.log10(velocity / self.v0) ** 2)
+        return hysteresis, area, self.tau / pressure * area * falling
+
+
+def test_the_documentation_is_enough_to_read_a_file(found):
+    read = ByDocumentation(found.to_bytes())
+    assert read.box == (*found.pressure, *found.velocity)
+    assert (read.rtol, read.max_error) == (found.rtol, found.max_error)
+    assert (read.checked, read.exceeded) == (found.checked, found.exceeded) == (1000, 0)
+    assert read.largest == found.largest_checked_error
+    assert read.text == found.text
+    assert read.text.endswith("# µ\n")
+    assert len(read.cells) == found.cells
+    draws = np.random.default_rng(3)
+    for _ in range(300):
+        p, v = (np.exp(draws.uniform(*np.log(sides))) for sides in (found.pressure, found.velocity))
+        exact = read.look_up(p, v)
+        # ln mu is up to 10 in size: its rounding is 1e-15
+        for name, value in zip(("hysteresis", "contact_area", "adhesion"), exact, strict=True):
+            assert getattr(found, name)(p, v) == pytest.approx(value, rel=2e-14, abs=0)
+
+
+def test_a_file_comes_back_as_it_was(found, tmp_path):
+    path = tmp_path / "röad.fmap"
+    found.save(path)
+    assert path.read_bytes() == found.to_bytes()
+    for same in (
+        FrictionMap.load(path),
+        FrictionMap.load(str(path)),
+        FrictionMap.from_bytes(found.to_bytes()),
+        pickle.loads(pickle.dumps(found)),
+    ):
+        assert same == found
+        assert same.mu(2e5, 0.1) == found.mu(2e5, 0.1)
+    assert os.listdir(tmp_path) == [path.name]
+
+
+def test_every_truncated_file_is_refused(found):
+    content = found.to_bytes()
+    for size in [*range(0, 200), *range(200, len(content), 997), len(content) - 1]:
+        with pytest.raises(InvalidInput, match=r"is truncated|is no friction map"):
+            FrictionMap.from_bytes(content[:size])
+    with pytest.raises(InvalidInput, match=r"is too long: .* bytes, must be"):
+        FrictionMap.from_bytes(content + b"\0" * 8)
+
+
+def test_every_altered_byte_is_refused(found):
+    content = found.to_bytes()
+    for at in [
+        *range(0, 160),
+        *range(160, len(content), 101),
+        *range(len(content) - 8, len(content)),
+    ]:
+        altered = bytearray(content)
+        altered[at] ^= 0x10
+        with pytest.raises(InvalidInput, match=r"content: (is|has|was) "):
+            FrictionMap.from_bytes(bytes(altered))
+
+
+def test_other_versions_and_byte_orders_are_named(found):
+    content = found.to_bytes()
+    other = content[:12] + struct.pack("<I", 2) + content[16:]
+    with pytest.raises(InvalidInput, match="has layout version 2: must be 1"):
+        FrictionMap.from_bytes(other)
+    other = content[:8] + struct.pack(">I", 0x01020304) + content[12:]
+    with pytest.raises(InvalidInput, match="was written in the other byte order"):
+        FrictionMap.from_bytes(other)
+
+
+def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"none\.fmap"):
+        FrictionMap.load(tmp_path / "none.fmap")
+    (tmp_path / "other.fmap").write_bytes(b"no map")
+    with pytest.raises(InvalidInput, match=r"other\.fmap: is no friction map"):
+        FrictionMap.load(tmp_path / "other.fmap")
+    for path in (tmp_path / "none" / "road.fmap", tmp_path):
+        with pytest.raises(InvalidInput, match=r"path = .*: cannot be written: \w"):
+            found.save(path)
+    assert sorted(os.listdir(tmp_path)) == ["other.fmap"]
