@@ -108,30 +108,25 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Notes notes(spectrum, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
-  Solver solver(surface, rubber, model, true, factor);
-  std::vector<double> stops;
-  double started = 0;  // the velocity that the solver stands at
+  std::span<const double> stops;
+  if (f.contributions) stops = f.contributions->decade_edges;
+  Solver solver(surface, rubber, model, true, factor, stops);
   const auto compute = [&](std::size_t i, const Shift& shift, MeasuredWorth& worth) {
-    if (velocity[i] != started) {
-      stops.clear();
-      if (f.contributions)
-        for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
-      solver.start(velocity[i], stops);
-      started = velocity[i];
-    }
-    solver.solve(pressure[i], shift.p);
-    const Solver::Hysteresis hysteresis = solver.hysteresis();
+    solver.solve(pressure[i], velocity[i], shift.p);
+    const Solver::Hysteresis& hysteresis = solver.hysteresis();
     f.hysteresis[i] = hysteresis.value;
     if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
 
     const double g = solver.g(q1);
     f.contact_area[i] = contact_share(area_g(g), model.form);
     worth = worth_of(g, shift.p);
-    if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
+    if (adhesion) {
+      f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
+      if (!std::isfinite(f.adhesion[i]))
+        throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) +
+                           ": overflows over pressure = " + show(pressure[i]) + ", their ratio must be finite");
+    }
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
-    if (!std::isfinite(f.mu[i]))
-      throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) +
-                         ": overflows over pressure = " + show(pressure[i]) + ", their ratio must be finite");
 
     const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
     const double area_error = sensitivity(false) * g_error;
@@ -139,7 +134,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
         hysteresis.error +
         f.hysteresis[i] * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
         f.adhesion[i] * area_error;
-    if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
+    if (!(f.error_estimate[i] <= model.rtol * f.mu[i] && std::isfinite(f.mu[i])))
       throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
                          " where rtol = " + show(model.rtol) + " was asked for");
     if (f.contributions) add_contributions(*f.contributions, i, solver, velocity[i]);

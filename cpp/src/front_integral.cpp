@@ -90,7 +90,7 @@ const FrontTable& table_of(Form form) {
 FrontIntegral::FrontIntegral(Form form, const std::optional<SFunction>& factor)
     : table(table_of(form)),
       gamma(factor ? factor->gamma : 1),
-      whole(form == Form::exact ? 0.007 : 1e-11),
+      whole(full_contact_g(form)),
       has_second(form == Form::exact) {}
 
 }  // namespace asperity

@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails, lanes = 4;
+constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails;
 constexpr double rounding = 1e-15;
 
 /// The further below the tolerance a sum of errors is, the more of that may be chance. With a power of 0.06 and less of
@@ -33,84 +33,100 @@ GaussPath::GaussPath(std::span<const Segment> surface, const Rubber& rubber, dou
       stiffening_(1 / (1 - poisson_ratio * poisson_ratio)),
       rtol_(rtol) {}
 
-/// Value and error of one panel; gives F at its upper end. Three errors add up: what the coefficients of dG and R after
-/// the last ones do to the value; that of the rule on F dR, as F may be rougher than either; and the foot of a front.
+/// F on a panel: at its nodes, then at its upper end; what follows of it for the value and its error.
+struct GaussPath::Sample {
+  double g[most + lanes], f[most + lanes], f2[most + lanes];  // F less that at the lower end
+  double g_lower, g_upper, f_upper, rise;                     // `rise` of F over the panel
+  double change;                                              // int |dR|
+  PanelSums sums;                                             // of F dR, or of F2 d(dR/dG)
+};
+
+/// Value of one panel; gives F at its upper end.
 double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const {
   const Panel& p = panels_[visit.panel];
-  const double g_upper = (visit.g_lower + p.g_total) * scale;
-  if (g_upper < front.whole) {  // F = G
+  Sample at;
+  at.g_lower = visit.g_lower * scale;
+  at.g_upper = (visit.g_lower + p.g_total) * scale;
+  if (at.g_upper < front.whole) {  // F = G
     visit.value = p.full * scale;
     visit.error = p.full_error * scale;
     visit.outside = p.any_outside ? p.full_outside * scale : 0;
-    return g_upper;
+    return at.g_upper;
   }
   const LegendreRule& rule = *p.rule;
   const std::size_t n = rule.n;
   const Kernels& loops = kernels();
   const double *cumulative = panels_.row(p, Panel::cumulative), *slope = panels_.row(p, Panel::slope);
   const bool twice = p.twice && front.has_second;
-  double g[most + lanes], f[most + lanes], f2[most + lanes], passed[most];
   for (std::size_t i = 0; i < n; ++i) {
     const double here = (visit.g_lower + cumulative[i]) * scale;
-    g[i] = here > 0 ? here : 0;  // an interpolated G may be below at the first nodes
+    at.g[i] = here > 0 ? here : 0;  // an interpolated G may be below at the first nodes
   }
-  for (std::size_t i = n; i < n + lanes; ++i) g[i] = g_upper;
-  loops.front(front.table, front.gamma, g, n + lanes, f, twice ? f2 : nullptr);
-  const double f_upper = f[n];
-  for (std::size_t i = 0; i < n; ++i) passed[i] = slope[i] * (g[i] > 0 ? f[i] / g[i] : 1);  // F / G bounds P S
-  for (std::size_t i = 0; i < n; ++i) f[i] -= f_lower;  // a constant falls out, and takes its rounding along
-  const double rise = f_upper - f_lower;
-  double by_g[tails], by_r[tails];
-  loops.project(rule, f, passed, by_g, by_r);
-  PanelSums sums;
-  loops.sum(rule, slope, f, sums);
+  for (std::size_t i = n; i < n + lanes; ++i) at.g[i] = at.g_upper;
+  loops.front(front.table, front.gamma, at.g, n + lanes, at.f, twice ? at.f2 : nullptr);
+  at.f_upper = at.f[n];
+  at.rise = at.f_upper - f_lower;
+  double passed[most], by_g[tails], by_r[tails];
+  for (std::size_t i = 0; i < n; ++i) passed[i] = slope[i] * (at.g[i] > 0 ? at.f[i] / at.g[i] : 1);  // F / G bounds P S
+  for (std::size_t i = 0; i < n; ++i) at.f[i] -= f_lower;  // a constant falls out, and takes its rounding along
+  loops.project(rule, at.f, passed, by_g, by_r);
+  loops.sum(rule, slope, at.f, at.sums);
+  at.change = at.sums.change;
   if (p.any_outside) {
     const double* outside = panels_.row(p, Panel::outside_slope);
     double part = 0;
-    for (std::size_t i = 0; i < n; ++i) part += outside[i] * f[i];
-    visit.outside = p.outside_upper * rise - part;
+    for (std::size_t i = 0; i < n; ++i) part += outside[i] * at.f[i];
+    visit.outside = p.outside_upper * at.rise - part;
   }
-
-  // F may fall slower than dG and R do
-  const double earlier = larger(sums.f_tail, 4), falling = earlier > 0 ? larger(sums.f_tail, 0) / earlier : 0;
-  const double decay = std::clamp(std::sqrt(std::sqrt(falling)), p.decay, 0.9);
   double effect[tails];
   for (std::size_t k = 0; k < tails; ++k)
-    effect[k] = std::fabs(p.g_tail[k] * scale * by_g[k]) + std::fabs(p.r_tail[k] * (rise - by_r[k]));
-  double digits =
-      rounding * (static_cast<double>(n) * larger_of(p.r_lower, p.r_upper) * rise + 4 * sums.change * f_upper);
-  double f_size = rise, r_end = larger(p.r_tail, 0), r_middle = larger(p.r_tail, tails), missed = 0;
-  const auto foot = [&](const Foot& error, double first_slope) {
-    return error(g[0], front.gamma) * std::fabs(first_slope) / rule.weight[0] * (1 + rule.node[0]) / g[0];
-  };
+    effect[k] = std::fabs(p.g_tail[k] * scale * by_g[k]) + std::fabs(p.r_tail[k] * (at.rise - by_r[k]));
+  // F may fall slower than dG and R do
+  const double earlier = larger(at.sums.f_tail, 4), falling = earlier > 0 ? larger(at.sums.f_tail, 0) / earlier : 0;
+  const double decay = std::clamp(std::sqrt(std::sqrt(falling)), p.decay, 0.9);
   if (twice) {
     // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
-    const double* const curvature = panels_.row(p, Panel::curvature);
+    loops.sum(rule, panels_.row(p, Panel::curvature), at.f2, at.sums);
+    visit.value = p.r_upper * at.f_upper - (p.curvature_upper * at.f2[n] - at.sums.value) * (1 / scale);
+  } else {
+    visit.value = p.r_upper * at.rise - at.sums.value;
+  }
+  visit.error = 3 * following(effect, p.decay * decay) + error_of_rule(p, at, scale, front.gamma, decay, twice);
+  return at.f_upper;
+}
+
+/// Of the rule on F dR (or F2 d(dR/dG)), as F may be rougher than either, and on the foot of a front; of rounding.
+double GaussPath::error_of_rule(const Panel& p, const Sample& at, double scale, double gamma, double decay,
+                                bool twice) const {
+  const LegendreRule& rule = *p.rule;
+  double digits =
+      rounding * (static_cast<double>(rule.n) * larger_of(p.r_lower, p.r_upper) * at.rise + 4 * at.change * at.f_upper);
+  double f_size = at.rise, r_change = at.sums.change, missed = 0;
+  double r_end = larger(p.r_tail, 0), r_middle = larger(p.r_tail, tails);
+  const auto foot = [&](const Foot& error, double first_slope) {
+    return error(at.g[0], gamma) * std::fabs(first_slope) / rule.weight[0] * (1 + rule.node[0]) / at.g[0];
+  };
+  if (twice) {
     const double per_g = 1 / scale;
-    loops.sum(rule, curvature, f2, sums);
-    f_size = f2[n];
-    visit.value = p.r_upper * f_upper - (p.curvature_upper * f_size - sums.value) * per_g;
-    if (g[0] > 0) missed = foot(foot_of_f2, curvature[0]) * per_g;
+    f_size = at.f2[rule.n];
+    if (at.g[0] > 0) missed = foot(foot_of_f2, panels_.row(p, Panel::curvature)[0]) * per_g;
     r_end = larger(p.curvature_tail, 0) * per_g;
     r_middle = larger(p.curvature_tail, tails) * per_g;
-    sums.change *= per_g;
+    r_change *= per_g;
     digits += rounding * larger_of(p.curvature_lower, p.curvature_upper) * f_size * per_g;
   } else {
-    visit.value = p.r_upper * rise - sums.value;
-    const double g_lower = visit.g_lower * scale;
-    const bool from_front = g_lower < 1 && g[0] > 4 * g_lower;  // where a spectrum jumps, G as good as begins there
+    const bool from_front = at.g_lower < 1 && at.g[0] > 4 * at.g_lower;  // where a spectrum jumps, G as good as begins
     // sqrt(G) is as the square root of s beside a front, and as s where the rate is 0 or the panel's variable is s
-    const double broader = p.rooted ? 1 : 7 * std::fmax(1, std::sqrt(g[0]));
-    if (from_front) missed = broader * foot(foot_of_f, slope[0]);
+    const double broader = p.rooted ? 1 : 7 * std::fmax(1, std::sqrt(at.g[0]));
+    if (from_front) missed = broader * foot(foot_of_f, panels_.row(p, Panel::slope)[0]);
   }
-  const bool breaks_up = g_upper > 0.03 && (p.at_front ? g[0] < 2e-4 : visit.g_lower * scale < 1);
-  const BreakUp rough = breaks_up ? break_up(rule, g) : BreakUp{};
-  const double f_end = larger(sums.f_tail, 0);
-  const double beyond = std::fmax(beyond_rule(f_size, sums.f_tail, decay, rough.growth), f_end * rough.least);
+  const bool breaks_up = at.g_upper > 0.03 && (p.at_front ? at.g[0] < 2e-4 : at.g_lower < 1);
+  const BreakUp rough = breaks_up ? break_up(rule, at.g) : BreakUp{};
+  const double f_end = larger(at.sums.f_tail, 0);
+  const double beyond = std::fmax(beyond_rule(f_size, at.sums.f_tail, decay, rough.growth), f_end * rough.least);
   // pairs of a coefficient of F from n on and one of dR before n: the last, the middle, the first
-  const double of_rule = f_end * r_end + 2 * std::sqrt(f_end) * std::sqrt(beyond) * r_middle + beyond * sums.change;
-  visit.error = 3 * following(effect, p.decay * decay) + of_rule + 5 * (missed + digits);
-  return f_upper;
+  const double of_rule = f_end * r_end + 2 * std::sqrt(f_end) * std::sqrt(beyond) * r_middle + beyond * r_change;
+  return of_rule + 5 * (missed + digits);
 }
 
 void GaussPath::evaluate(double scale, const FrontIntegral* front) {

@@ -48,7 +48,10 @@ class GaussPath {
     double value = 0, error = 0, outside = 0;
   };
   void evaluate(double scale, const FrontIntegral* front);
+  struct Sample;
   double add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const;
+  [[nodiscard]] double error_of_rule(const Panel& p, const Sample& at, double scale, double gamma, double decay,
+                                     bool twice) const;
   void refine(bool hysteresis_good, bool g_good);
   [[nodiscard]] const Visit& visit_at(double wavenumber) const;
 

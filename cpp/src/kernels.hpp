@@ -8,6 +8,9 @@
 
 namespace asperity {
 
+/// Numbers that the loops take at a time, whatever the vector unit; counts are multiples of it.
+inline constexpr std::size_t lanes = 4;
+
 /// E_k, w_k and tau_k of a Prony series, and E_inf.
 struct PronyTerms {
   const double *modulus, *weight, *time;
@@ -32,7 +35,7 @@ struct PanelSums {
 
 struct Kernels {
   const char* name;
-  /// I1 and I2 of a Prony series at n frequencies, n a multiple of 4; no (w tau)^2 may overflow.
+  /// I1 and I2 of a Prony series at n frequencies, n a multiple of `lanes`; no (w tau)^2 may overflow.
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
   /// Integral of the polynomial through f, and its last coefficients.
   void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
@@ -41,8 +44,9 @@ struct Kernels {
   /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
   void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
                         double* tail);
-  /// F, and F2 where there is room for it, at n values of G, n a multiple of 4.
+  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`.
   void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
+  /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
   /// How much the last coefficients of dG and of R matter: f at the nodes, and `passed`, what a change of G does there.
   void (*project)(const LegendreRule& rule, const double* f, const double* passed, double* by_g, double* by_r);

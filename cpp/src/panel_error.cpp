@@ -36,7 +36,6 @@ BreakUp break_up(const LegendreRule& rule, const double* g) {
 }
 
 double Foot::operator()(double g, double gamma) const {
-  if (!(g > 0)) return 0;
   const double z = std::sqrt(g), root = 1 / std::cbrt(z);
   const double exponent = std::fmin(a / z, std::fmin(b * root * root, c * root));
   return (gamma * one + (1 - gamma) * three) * std::exp(-exponent);

@@ -30,7 +30,8 @@ BreakUp break_up(const LegendreRule& rule, const double* g);
 
 /// Error of a rule in t on the foot of a front, where F (or F2) leaves the law that it follows above G = 1. It depends
 /// on G at the first node alone, whatever the number of nodes: `one` and `three` at most, for P and for P^3, as much
-/// less as the exponent says. Measured at n = 12, 20 and 32 against mpmath, G from 1e-7 to 1600.
+/// less as the exponent says. Measured at n = 12, 20 and 32 against mpmath, G from 1e-7 to 1600; that G must be
+/// above 0.
 struct Foot {
   double one, three;
   double a, b, c;  // exponent: the least of a / z, b / z^(2/3), c / z^(1/3), with z = sqrt(G)
