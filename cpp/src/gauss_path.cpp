@@ -33,26 +33,31 @@ GaussPath::GaussPath(std::span<const Segment> surface, const Rubber& rubber, dou
       stiffening_(1 / (1 - poisson_ratio * poisson_ratio)),
       rtol_(rtol) {}
 
-/// F on a panel: at its nodes, then at its upper end; what follows of it for the value and its error.
+/// F at the nodes of a panel; what follows of it for the value and its error.
 struct GaussPath::Sample {
-  double g[most + lanes], f[most + lanes], f2[most + lanes];  // F less that at the lower end
-  double g_lower, g_upper, f_upper, rise;                     // `rise` of F over the panel
-  double change;                                              // int |dR|
-  PanelSums sums;                                             // of F dR, or of F2 d(dR/dG)
+  double g[most], f[most], f2[most];       // F less that at the lower end
+  double g_lower, g_upper, f_upper, rise;  // `rise` of F over the panel
+  double f2_upper;
+  double change;   // int |dR|
+  PanelSums sums;  // of F dR, or of F2 d(dR/dG)
 };
 
-/// Value of one panel; gives F at its upper end.
-double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const {
+/// Value of one panel and its error.
+void GaussPath::add_hysteresis(std::size_t index, double scale, const FrontIntegral& front) {
+  Visit& visit = visits_[index];
   const Panel& p = panels_[visit.panel];
   Sample at;
-  at.g_lower = visit.g_lower * scale;
-  at.g_upper = (visit.g_lower + p.g_total) * scale;
+  at.g_upper = ends_.g[index];
   if (at.g_upper < front.whole) {  // F = G
     visit.value = p.full * scale;
     visit.error = p.full_error * scale;
     visit.outside = p.any_outside ? p.full_outside * scale : 0;
-    return at.g_upper;
+    return;
   }
+  const double f_lower = index == 0 ? 0 : ends_.f[index - 1];
+  at.g_lower = visit.g_lower * scale;
+  at.f_upper = ends_.f[index];
+  at.f2_upper = ends_.f2[index];
   const LegendreRule& rule = *p.rule;
   const std::size_t n = rule.n;
   const Kernels& loops = kernels();
@@ -62,9 +67,7 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
     const double here = (visit.g_lower + cumulative[i]) * scale;
     at.g[i] = here > 0 ? here : 0;  // an interpolated G may be below at the first nodes
   }
-  for (std::size_t i = n; i < n + lanes; ++i) at.g[i] = at.g_upper;
-  loops.front(front.table, front.gamma, at.g, n + lanes, at.f, twice ? at.f2 : nullptr);
-  at.f_upper = at.f[n];
+  loops.front(front.table, front.gamma, at.g, n, at.f, twice ? at.f2 : nullptr);
   at.rise = at.f_upper - f_lower;
   double passed[most], by_g[tails], by_r[tails];
   for (std::size_t i = 0; i < n; ++i) passed[i] = slope[i] * (at.g[i] > 0 ? at.f[i] / at.g[i] : 1);  // F / G bounds P S
@@ -87,12 +90,11 @@ double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral
   if (twice) {
     // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
     loops.sum(rule, panels_.row(p, Panel::curvature), at.f2, at.sums);
-    visit.value = p.r_upper * at.f_upper - (p.curvature_upper * at.f2[n] - at.sums.value) * (1 / scale);
+    visit.value = p.r_upper * at.f_upper - (p.curvature_upper * at.f2_upper - at.sums.value) * (1 / scale);
   } else {
     visit.value = p.r_upper * at.rise - at.sums.value;
   }
   visit.error = 3 * following(effect, p.decay * decay) + error_of_rule(p, at, scale, front.gamma, decay, twice);
-  return at.f_upper;
 }
 
 /// Of the rule on F dR (or F2 d(dR/dG)), as F may be rougher than either, and on the foot of a front; of rounding.
@@ -108,7 +110,7 @@ double GaussPath::error_of_rule(const Panel& p, const Sample& at, double scale, 
   };
   if (twice) {
     const double per_g = 1 / scale;
-    f_size = at.f2[rule.n];
+    f_size = at.f2_upper;
     if (at.g[0] > 0) missed = foot(foot_of_f2, panels_.row(p, Panel::curvature)[0]) * per_g;
     r_end = larger(p.curvature_tail, 0) * per_g;
     r_middle = larger(p.curvature_tail, tails) * per_g;
@@ -130,22 +132,31 @@ double GaussPath::error_of_rule(const Panel& p, const Sample& at, double scale, 
 }
 
 void GaussPath::evaluate(double scale, const FrontIntegral* front) {
-  double g = 0, g_error = 0, f = 0;
+  double g = 0, g_error = 0;
   g_relative_error_ = 0;
   hysteresis_ = {};
-  for (Visit& visit : visits_) {
+  const std::size_t n = visits_.size(), room = (n + lanes - 1) / lanes * lanes;
+  for (auto* const column : {&ends_.g, &ends_.f, &ends_.f2}) column->resize(room);
+  for (std::size_t i = 0; i < n; ++i) {
+    Visit& visit = visits_[i];
     const Panel& p = panels_[visit.panel];
     visit.g_lower = g;
-    if (front) {
-      f = add_hysteresis(visit, scale, *front, f);
-      hysteresis_.value += visit.value;
-      hysteresis_.error += visit.error;
-      hysteresis_.outside += visit.outside;
-    }
     g += p.g_total;
     g_error += p.g_error;
     visit.g_part = p.g_error / g;
     g_relative_error_ = std::fmax(g_relative_error_, g_error / g);
+    ends_.g[i] = g * scale;
+  }
+  if (!front) return;
+  std::fill(ends_.g.begin() + static_cast<std::ptrdiff_t>(n), ends_.g.end(), 1.0);
+  kernels().front(front->table, front->gamma, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
+  for (std::size_t i = 0; i < n; ++i)
+    if (ends_.g[i] < front->whole) ends_.f[i] = ends_.g[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    add_hysteresis(i, scale, *front);
+    hysteresis_.value += visits_[i].value;
+    hysteresis_.error += visits_[i].error;
+    hysteresis_.outside += visits_[i].outside;
   }
 }
 

@@ -49,7 +49,7 @@ class GaussPath {
   };
   void evaluate(double scale, const FrontIntegral* front);
   struct Sample;
-  double add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const;
+  void add_hysteresis(std::size_t index, double scale, const FrontIntegral& front);
   [[nodiscard]] double error_of_rule(const Panel& p, const Sample& at, double scale, double gamma, double decay,
                                      bool twice) const;
   void refine(bool hysteresis_good, bool g_good);
@@ -60,6 +60,9 @@ class GaussPath {
   double scale_ = 0, mu_factor_ = 0, density_factor_ = 0, g_relative_error_ = 0;
   Hysteresis hysteresis_;
   std::vector<Visit> visits_, next_;
+  struct {
+    std::vector<double> g, f, f2;
+  } ends_;  // at the upper end of each visit
 };
 
 }  // namespace asperity
