@@ -75,6 +75,7 @@ TOPIC = {
     "front_integral": "contact",
     "gauss_panels": "contact",
     "gauss_path": "contact",
+    "hysteresis_error": "contact",
     "kernels": "rubber",
     "panel_error": "contact",
     "persson": "contact",
