@@ -44,7 +44,6 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   check_contact(model, pressure, velocity);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
   Solver solver(surface, rubber, model, false, {});
-  double started = 0;
   for (const std::size_t i : by_velocity(velocity)) {
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     if (shift.state == ContactState::no_contact) {
@@ -52,9 +51,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
       continue;
     }
     at_point(pressure[i], velocity[i], [&] {
-      if (velocity[i] != started) solver.start(velocity[i], {});
-      started = velocity[i];
-      solver.solve(pressure[i], shift.p);
+      solver.solve(pressure[i], velocity[i], shift.p);
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, solver.g(wavenumber[j]), shift);
     });
   }
@@ -80,23 +77,17 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, model.correction);
+  if (std::holds_alternative<NoCorrection>(model.correction)) {
+    for (const double v : velocity) notes.add({}, v, 0, {});
+    return notes.texts();
+  }
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
   Worth worth_of(surface, model.form, q1);
-  Solver solver(surface, rubber, model, false, {});
-  for (std::size_t i = 0; i < pressure.size(); ++i) {
-    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
-    MeasuredWorth worth;
-    if (!std::holds_alternative<NoCorrection>(model.correction) && shift.state != ContactState::no_contact) {
-      check_frequencies(spectrum, rubber, velocity[i]);
-      at_point(pressure[i], velocity[i], [&] {
-        solver.start(velocity[i], {});
-        solver.solve(pressure[i], shift.p);
-        worth = worth_of(solver.g(q1), shift.p);
-      });
-    }
-    notes.add(shift, velocity[i], 0, worth);
-  }
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
+          [&](std::size_t i, std::size_t, double g, const Shift& shift) {
+            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+          });
   return notes.texts();
 }
 

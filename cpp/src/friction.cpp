@@ -41,6 +41,12 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
   return s;
 }
 
+/// What is computed at one pressure and velocity; nothing where there is no contact.
+struct Point {
+  double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
+  MeasuredWorth worth;
+};
+
 /// How an error of G passes on: |d ln P / d ln G| is 1/2 at most, and d ln F / d ln G is 1 at most whatever S is.
 double sensitivity(bool with_s) { return with_s ? 1 : 0.5; }
 
@@ -108,48 +114,55 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Notes notes(spectrum, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
-  Solver solver(surface, rubber, model, true, factor);
-  std::vector<double> stops;
-  double started = 0;  // the velocity that the solver stands at
-  const auto compute = [&](std::size_t i, const Shift& shift, MeasuredWorth& worth) {
-    if (velocity[i] != started) {
-      stops.clear();
-      if (f.contributions)
-        for (const double w : f.contributions->decade_edges) stops.push_back(w / velocity[i]);
-      solver.start(velocity[i], stops);
-      started = velocity[i];
-    }
-    solver.solve(pressure[i], shift.p);
-    const Solver::Hysteresis hysteresis = solver.hysteresis();
-    f.hysteresis[i] = hysteresis.value;
-    if (hysteresis.value > 0) f.extrapolated_share[i] = hysteresis.outside / hysteresis.value;
+  std::span<const double> stops;
+  if (f.contributions) stops = f.contributions->decade_edges;
+  Solver solver(surface, rubber, model, true, factor, stops);
+  const auto compute = [&](double p, double v, const Shift& shift) {
+    Point at;
+    solver.solve(p, v, shift.p);
+    const Solver::Hysteresis& hysteresis = solver.hysteresis();
+    at.hysteresis = hysteresis.value;
+    if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
 
     const double g = solver.g(q1);
-    f.contact_area[i] = contact_share(area_g(g), model.form);
-    worth = worth_of(g, shift.p);
-    if (adhesion) f.adhesion[i] = f.contact_area[i] * adhesion_per_share(*adhesion, pressure[i], velocity[i]);
-    f.mu[i] = f.hysteresis[i] + f.adhesion[i];
-    if (!std::isfinite(f.mu[i]))
-      throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) +
-                         ": overflows over pressure = " + show(pressure[i]) + ", their ratio must be finite");
+    at.contact_area = contact_share(area_g(g), model.form);
+    at.worth = worth_of(g, shift.p);
+    if (adhesion) {
+      at.adhesion = at.contact_area * adhesion_per_share(*adhesion, p, v);
+      if (!std::isfinite(at.adhesion))
+        throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) + ": overflows over pressure = " + show(p) +
+                           ", their ratio must be finite");
+    }
+    const double mu = at.hysteresis + at.adhesion;
 
     const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
     const double area_error = sensitivity(false) * g_error;
-    f.error_estimate[i] =
+    at.error_estimate =
         hysteresis.error +
-        f.hysteresis[i] * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
-        f.adhesion[i] * area_error;
-    if (!(f.error_estimate[i] <= model.rtol * f.mu[i]))
-      throw NotConverged("mu = " + show(f.mu[i]) + " with error " + show(f.error_estimate[i]) +
+        at.hysteresis * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
+        at.adhesion * area_error;
+    if (!(at.error_estimate <= model.rtol * mu && std::isfinite(mu)))
+      throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
                          " where rtol = " + show(model.rtol) + " was asked for");
-    if (f.contributions) add_contributions(*f.contributions, i, solver, velocity[i]);
+    return at;
   };
   for (const std::size_t i : by_velocity(velocity)) {
-    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    const double p = pressure[i], v = velocity[i];
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, p, v, model.poisson_ratio);
+    Point at;
+    if (shift.state != ContactState::no_contact) {
+      at_point(p, v, [&] { at = compute(p, v, shift); });
+      if (f.contributions) add_contributions(*f.contributions, i, solver, v);
+    }
+    notes.add(shift, v, at.extrapolated_share, at.worth);
+    // all at once, as in a grid each of them waits for memory
+    f.mu[i] = at.hysteresis + at.adhesion;
+    f.hysteresis[i] = at.hysteresis;
+    f.adhesion[i] = at.adhesion;
+    f.contact_area[i] = at.contact_area;
     f.shift_factor[i] = shift.p;
-    MeasuredWorth worth;
-    if (shift.state != ContactState::no_contact) at_point(pressure[i], velocity[i], [&] { compute(i, shift, worth); });
-    notes.add(shift, velocity[i], f.extrapolated_share[i], worth);
+    f.error_estimate[i] = at.error_estimate;
+    f.extrapolated_share[i] = at.extrapolated_share;
   }
   f.notes = notes.texts();
   return f;

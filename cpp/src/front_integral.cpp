@@ -75,11 +75,21 @@ void tabulate(Form form, int power, FrontTable& table) {
   }
 }
 
+/// y = 1, where z is beyond all, is the start of one step more.
+void close(FrontTable& table) {
+  for (std::size_t m = 0; m < terms; ++m)
+    for (std::size_t function = 0; function < FrontTable::functions; ++function)
+      table.power[steps][0][function] += table.power[steps - 1][m][function];
+}
+
 const FrontTable& table_of(Form form) {
   static const std::array<FrontTable, 2> tables = [] {
     std::array<FrontTable, 2> made{};
-    for (const Form of : {Form::exact, Form::interpolated})
-      for (const int power : {1, 3}) tabulate(of, power, made[of == Form::exact ? 0 : 1]);
+    for (const Form of : {Form::exact, Form::interpolated}) {
+      FrontTable& table = made[of == Form::exact ? 0 : 1];
+      for (const int power : {1, 3}) tabulate(of, power, table);
+      close(table);
+    }
     return made;
   }();
   return tables[form == Form::exact ? 0 : 1];
@@ -90,7 +100,7 @@ const FrontTable& table_of(Form form) {
 FrontIntegral::FrontIntegral(Form form, const std::optional<SFunction>& factor)
     : table(table_of(form)),
       gamma(factor ? factor->gamma : 1),
-      whole(form == Form::exact ? 0.007 : 1e-11),
+      whole(full_contact_g(form)),
       has_second(form == Form::exact) {}
 
 }  // namespace asperity

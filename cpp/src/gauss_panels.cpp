@@ -20,19 +20,19 @@ constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: m
 
 /// By how much coefficients fall from degree to degree: by what the ellipse about the panel allows that reaches the
 /// nearest singularity. That of a Prony series is pi / 2 off the real axis of ln w, that of a table at the knot before.
-double decay_of(const Panel& panel, bool tabulated) {
+double decay_of(const Panel& panel) {
   const double length = panel.s(panel.upper) - panel.s(panel.lower);
   const double decay = std::exp(-std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1));
   constexpr double with_knots = 0.35;
-  return tabulated ? std::fmax(decay, with_knots) : decay;
+  return panel.tabulated ? std::fmax(decay, with_knots) : decay;
 }
 
 /// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
 /// everywhere is done with fewer, but the last coefficients tell the error only from some on.
-std::size_t nodes_for(const Panel& panel, double rtol, bool tabulated) {
+std::size_t nodes_for(const Panel& panel, double rtol) {
   const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
   // at the front F is rougher, elsewhere the square root lies off the panel
-  const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : tabulated ? 1 : 1.2);
+  const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : panel.tabulated ? 1 : 1.2);
   const double nodes = 4 + digits * std::numbers::ln10 / (2 * falling);
   const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
   return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
@@ -62,9 +62,10 @@ void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double
 }
 
 std::size_t GaussPanels::add(Panel panel) {
-  const bool tabulated = std::holds_alternative<MasterCurve>(rubber_);
-  panel.decay = decay_of(panel, tabulated);
-  panel.rule = &legendre_rule(nodes_for(panel, rtol_, tabulated));
+  panel.tabulated = std::holds_alternative<MasterCurve>(rubber_);
+  panel.decay = decay_of(panel);
+  panel.rule = &legendre_rule(nodes_for(panel, rtol_));
+  panel.fading = std::pow(panel.decay, static_cast<double>(panel.rule->n));
   panel.data = data_.size();
   panel.child = panel.filled = 0;
   data_.resize(data_.size() + Panel::rows * panel.rule->n);
@@ -72,6 +73,15 @@ std::size_t GaussPanels::add(Panel panel) {
         &data_[panel.data + Panel::roughness * panel.rule->n]);
   panels_.push_back(panel);
   return panels_.size() - 1;
+}
+
+void GaussPanels::differentiate(const Panel& p, const double* f, double* slope, Panel::Smooth& of) const {
+  const std::size_t n = p.rule->n;
+  kernels().differentiate(*p.rule, f, slope, &of.lower, &of.upper, of.tail);
+  of.change = 0;
+  for (std::size_t i = 0; i < n; ++i) of.change += std::fabs(slope[i]);
+  const double last = std::fmax(larger(of.tail, 0), larger(of.tail, 1) * p.decay);
+  of.far = last * p.fading;
 }
 
 void GaussPanels::fill(Panel& p) {
@@ -90,14 +100,13 @@ void GaussPanels::fill(Panel& p) {
   }
   loops.integrate(rule, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
   double* const slope = rows + Panel::slope * n;
-  loops.differentiate(rule, ratio, slope, &p.r_lower, &p.r_upper, p.r_tail);
+  differentiate(p, ratio, slope, p.r);
   for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
   loops.add_up(rule, ratio, &p.full, tail);
-  p.full_error = 2 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
+  p.full_error = 4 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
   if (p.twice) {
     for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
-    loops.differentiate(rule, ratio, rows + Panel::curvature * n, &p.curvature_lower, &p.curvature_upper,
-                        p.curvature_tail);
+    differentiate(p, ratio, rows + Panel::curvature * n, p.dr_dg);
   }
   if (p.any_outside) {
     p.full_outside = 0;

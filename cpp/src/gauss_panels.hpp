@@ -24,20 +24,24 @@ struct Panel {
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
   bool rooted;          // s - start = t^2 and dG/ds is not 0 there: sqrt(G - G at start) is smooth in t
+  bool tabulated;       // R has knots
   bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
   const LegendreRule* rule;
   double decay;            // at which coefficients of dG and R fall at least, from one degree to the next
+  double fading;           // decay over as many degrees as there are nodes
   std::size_t data = 0;    // where its rows start
   std::size_t child = 0;   // the first of two, 0 where it was not split
   std::size_t filled = 0;  // the start that what follows belongs to
   double g_total = 0, g_error = 0;
-  double r_lower = 0, r_upper = 0;                    // R at the ends
-  double curvature_lower = 0, curvature_upper = 0;    // dR/dG at the ends
   double full = 0, full_error = 0, full_outside = 0;  // int R dG, which the hysteresis is where P S is 1
   double outside_lower = 0, outside_upper = 0;
   bool any_outside = false;
-  // coefficients of dG, R and dR/dG
-  double g_tail[LegendreRule::kept] = {}, r_tail[LegendreRule::kept] = {}, curvature_tail[LegendreRule::kept] = {};
+  double g_tail[LegendreRule::kept] = {};  // coefficients of dG
+  /// What is differentiated: at the ends, int |d| of it, its last coefficients, and about that of twice their degree.
+  struct Smooth {
+    double lower, upper, change, far, tail[LegendreRule::kept];
+  };
+  Smooth r = {}, dr_dg = {};  // R, and dR/dG
 
   [[nodiscard]] double s(double t) const { return start + t * (linear + square * t); }
   [[nodiscard]] double t(double s) const;
@@ -70,6 +74,7 @@ class GaussPanels {
   std::size_t add(Panel panel);
   void place(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
   void fill(Panel& panel);
+  void differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of) const;
 
   std::span<const Segment> surface_;
   const Rubber& rubber_;

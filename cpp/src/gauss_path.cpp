@@ -7,24 +7,14 @@
 
 #include "checks.hpp"
 #include "contact_checks.hpp"
+#include "hysteresis_error.hpp"
 #include "kernels.hpp"
-#include "panel_error.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t most = LegendreRule::most, tails = LegendreRule::tails, lanes = 4;
-constexpr double rounding = 1e-15;
-
-/// The further below the tolerance a sum of errors is, the more of that may be chance. With a power of 0.06 and less of
-/// the rule's, 16 of 40,000 random scenes (tests/stability) had an error above it, by 5 times at most.
-double cautious(double error, double tolerance) {
-  if (!(error > 0 && error < tolerance)) return error;
-  return std::fmax(1.25 * error * std::pow(tolerance / error, 0.15), 1e-7 * tolerance);
-}
-
-double larger_of(double a, double b) { return std::fmax(std::fabs(a), std::fabs(b)); }
+constexpr double least_share = 8e-7;  // of the tolerance: an error of G below it would be chance
 
 }  // namespace
 
@@ -33,103 +23,77 @@ GaussPath::GaussPath(std::span<const Segment> surface, const Rubber& rubber, dou
       stiffening_(1 / (1 - poisson_ratio * poisson_ratio)),
       rtol_(rtol) {}
 
-/// Value and error of one panel; gives F at its upper end. Three errors add up: what the coefficients of dG and R after
-/// the last ones do to the value; that of the rule on F dR, as F may be rougher than either; and the foot of a front.
-double GaussPath::add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const {
+/// Value of a panel and its error.
+void GaussPath::add_hysteresis(std::size_t index, double scale, const FrontIntegral& front) {
+  Visit& visit = visits_[index];
   const Panel& p = panels_[visit.panel];
-  const double g_upper = (visit.g_lower + p.g_total) * scale;
-  if (g_upper < front.whole) {  // F = G
+  OnPanel at;
+  at.g_upper = ends_.g[index];
+  if (at.g_upper < front.whole) {  // F = G
     visit.value = p.full * scale;
     visit.error = p.full_error * scale;
     visit.outside = p.any_outside ? p.full_outside * scale : 0;
-    return g_upper;
+    return;
   }
   const LegendreRule& rule = *p.rule;
   const std::size_t n = rule.n;
   const Kernels& loops = kernels();
-  const double *cumulative = panels_.row(p, Panel::cumulative), *slope = panels_.row(p, Panel::slope);
-  const bool twice = p.twice && front.has_second;
-  double g[most + lanes], f[most + lanes], f2[most + lanes], passed[most];
-  for (std::size_t i = 0; i < n; ++i) {
-    const double here = (visit.g_lower + cumulative[i]) * scale;
-    g[i] = here > 0 ? here : 0;  // an interpolated G may be below at the first nodes
+  const double* const slope = panels_.row(p, Panel::slope);
+  const double f_lower = index == 0 ? 0 : ends_.f[index - 1];
+  at.twice = p.twice && front.has_second;
+  at.g_lower = visit.g_lower * scale;
+  at.f_upper = ends_.f[index];
+  at.f2_upper = ends_.f2[index];
+  at.rise = at.f_upper - f_lower;
+  loops.place(visit.g_lower, panels_.row(p, Panel::cumulative), scale, n, at.g);
+  loops.front(front.table, front.gamma, at.g, n, at.f, at.twice ? at.f2 : nullptr);
+  loops.project(rule, slope, at.g, f_lower, at.f, at.by_g, at.by_r);
+  if (at.twice) {
+    // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
+    const double* const curvature = panels_.row(p, Panel::curvature);
+    loops.sum(rule, curvature, at.f2, at.sums);
+    at.first_slope = curvature[0];
+    visit.value = p.r.upper * at.f_upper - (p.dr_dg.upper * at.f2_upper - at.sums.value) * (1 / scale);
+  } else {
+    loops.sum(rule, slope, at.f, at.sums);
+    at.first_slope = slope[0];
+    visit.value = p.r.upper * at.rise - at.sums.value;
   }
-  for (std::size_t i = n; i < n + lanes; ++i) g[i] = g_upper;
-  loops.front(front.table, front.gamma, g, n + lanes, f, twice ? f2 : nullptr);
-  const double f_upper = f[n];
-  for (std::size_t i = 0; i < n; ++i) passed[i] = slope[i] * (g[i] > 0 ? f[i] / g[i] : 1);  // F / G bounds P S
-  for (std::size_t i = 0; i < n; ++i) f[i] -= f_lower;  // a constant falls out, and takes its rounding along
-  const double rise = f_upper - f_lower;
-  double by_g[tails], by_r[tails];
-  loops.project(rule, f, passed, by_g, by_r);
-  PanelSums sums;
-  loops.sum(rule, slope, f, sums);
   if (p.any_outside) {
     const double* outside = panels_.row(p, Panel::outside_slope);
     double part = 0;
-    for (std::size_t i = 0; i < n; ++i) part += outside[i] * f[i];
-    visit.outside = p.outside_upper * rise - part;
+    for (std::size_t i = 0; i < n; ++i) part += outside[i] * at.f[i];
+    visit.outside = p.outside_upper * at.rise - part;
   }
-
-  // F may fall slower than dG and R do
-  const double earlier = larger(sums.f_tail, 4), falling = earlier > 0 ? larger(sums.f_tail, 0) / earlier : 0;
-  const double decay = std::clamp(std::sqrt(std::sqrt(falling)), p.decay, 0.9);
-  double effect[tails];
-  for (std::size_t k = 0; k < tails; ++k)
-    effect[k] = std::fabs(p.g_tail[k] * scale * by_g[k]) + std::fabs(p.r_tail[k] * (rise - by_r[k]));
-  double digits =
-      rounding * (static_cast<double>(n) * larger_of(p.r_lower, p.r_upper) * rise + 4 * sums.change * f_upper);
-  double f_size = rise, r_end = larger(p.r_tail, 0), r_middle = larger(p.r_tail, tails), missed = 0;
-  const auto foot = [&](const Foot& error, double first_slope) {
-    return error(g[0], front.gamma) * std::fabs(first_slope) / rule.weight[0] * (1 + rule.node[0]) / g[0];
-  };
-  if (twice) {
-    // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
-    const double* const curvature = panels_.row(p, Panel::curvature);
-    const double per_g = 1 / scale;
-    loops.sum(rule, curvature, f2, sums);
-    f_size = f2[n];
-    visit.value = p.r_upper * f_upper - (p.curvature_upper * f_size - sums.value) * per_g;
-    if (g[0] > 0) missed = foot(foot_of_f2, curvature[0]) * per_g;
-    r_end = larger(p.curvature_tail, 0) * per_g;
-    r_middle = larger(p.curvature_tail, tails) * per_g;
-    sums.change *= per_g;
-    digits += rounding * larger_of(p.curvature_lower, p.curvature_upper) * f_size * per_g;
-  } else {
-    visit.value = p.r_upper * rise - sums.value;
-    const double g_lower = visit.g_lower * scale;
-    const bool from_front = g_lower < 1 && g[0] > 4 * g_lower;  // where a spectrum jumps, G as good as begins there
-    // sqrt(G) is as the square root of s beside a front, and as s where the rate is 0 or the panel's variable is s
-    const double broader = p.rooted ? 1 : 7 * std::fmax(1, std::sqrt(g[0]));
-    if (from_front) missed = broader * foot(foot_of_f, slope[0]);
-  }
-  const bool breaks_up = g_upper > 0.03 && (p.at_front ? g[0] < 2e-4 : visit.g_lower * scale < 1);
-  const BreakUp rough = breaks_up ? break_up(rule, g) : BreakUp{};
-  const double f_end = larger(sums.f_tail, 0);
-  const double beyond = std::fmax(beyond_rule(f_size, sums.f_tail, decay, rough.growth), f_end * rough.least);
-  // pairs of a coefficient of F from n on and one of dR before n: the last, the middle, the first
-  const double of_rule = f_end * r_end + 2 * std::sqrt(f_end) * std::sqrt(beyond) * r_middle + beyond * sums.change;
-  visit.error = 3 * following(effect, p.decay * decay) + of_rule + 5 * (missed + digits);
-  return f_upper;
+  visit.error = hysteresis_error(p, at, scale, front.gamma);
 }
 
 void GaussPath::evaluate(double scale, const FrontIntegral* front) {
-  double g = 0, g_error = 0, f = 0;
+  double g = 0, g_error = 0;
   g_relative_error_ = 0;
   hysteresis_ = {};
-  for (Visit& visit : visits_) {
+  const std::size_t n = visits_.size(), room = (n + lanes - 1) / lanes * lanes;
+  for (auto* const column : {&ends_.g, &ends_.f, &ends_.f2}) column->resize(room);
+  for (std::size_t i = 0; i < n; ++i) {
+    Visit& visit = visits_[i];
     const Panel& p = panels_[visit.panel];
     visit.g_lower = g;
-    if (front) {
-      f = add_hysteresis(visit, scale, *front, f);
-      hysteresis_.value += visit.value;
-      hysteresis_.error += visit.error;
-      hysteresis_.outside += visit.outside;
-    }
     g += p.g_total;
     g_error += p.g_error;
     visit.g_part = p.g_error / g;
-    g_relative_error_ = std::fmax(g_relative_error_, g_error / g);
+    g_relative_error_ = std::max(g_error / g, g_relative_error_);
+    ends_.g[i] = g * scale;
+  }
+  if (!front) return;
+  std::fill(ends_.g.begin() + static_cast<std::ptrdiff_t>(n), ends_.g.end(), 1.0);
+  kernels().front(front->table, front->gamma, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
+  for (std::size_t i = 0; i < n; ++i)
+    if (ends_.g[i] < front->whole) ends_.f[i] = ends_.g[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    add_hysteresis(i, scale, *front);
+    hysteresis_.value += visits_[i].value;
+    hysteresis_.error += visits_[i].error;
+    hysteresis_.outside += visits_[i].outside;
   }
 }
 
@@ -169,7 +133,6 @@ void GaussPath::solve(double pressure, double shift, const FrontIntegral* front)
   const std::size_t most_panels = 20000 + 4 * visits_.size();
   for (int round = 0;; ++round) {
     evaluate(scale_, front);
-    hysteresis_.error = cautious(hysteresis_.error, rtol_ * hysteresis_.value);
     const bool good = hysteresis_.error <= 0.85 * rtol_ * hysteresis_.value, g_good = g_relative_error_ <= rtol_ / 16;
     if (good && g_good) break;
     if (round == most_rounds || visits_.size() > most_panels)
@@ -194,12 +157,16 @@ const GaussPath::Visit& GaussPath::visit_at(double wavenumber) const {
 
 double GaussPath::g(double wavenumber) const {
   if (visits_.empty()) return 0;
+  if (const Visit& last = visits_.back(); wavenumber >= panels_[last.panel].segment->b)
+    return (last.g_lower + panels_[last.panel].g_total) * scale_;
   const Visit& visit = visit_at(wavenumber);
   const Panel& p = panels_[visit.panel];
   const double s = p.segment->offset(wavenumber);
   const bool whole = wavenumber >= p.segment->b || s >= p.s(p.upper);
   return (visit.g_lower + (whole ? p.g_total : panels_.g_to(p, s))) * scale_;
 }
+
+double GaussPath::relative_error() const { return std::max(g_relative_error_, least_share * rtol_); }
 
 double GaussPath::full_density(double wavenumber) const {
   if (visits_.empty()) return 0;

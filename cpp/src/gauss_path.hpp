@@ -30,7 +30,7 @@ class GaussPath {
   [[nodiscard]] const Hysteresis& hysteresis() const { return hysteresis_; }
   /// G at a wavenumber, q0 to q1, and the relative error of every such G.
   [[nodiscard]] double g(double wavenumber) const;
-  [[nodiscard]] double relative_error() const { return g_relative_error_; }
+  [[nodiscard]] double relative_error() const;
   /// dmu_H / dln q where P S is 1.
   [[nodiscard]] double full_density(double wavenumber) const;
 
@@ -48,7 +48,7 @@ class GaussPath {
     double value = 0, error = 0, outside = 0;
   };
   void evaluate(double scale, const FrontIntegral* front);
-  double add_hysteresis(Visit& visit, double scale, const FrontIntegral& front, double f_lower) const;
+  void add_hysteresis(std::size_t index, double scale, const FrontIntegral& front);
   void refine(bool hysteresis_good, bool g_good);
   [[nodiscard]] const Visit& visit_at(double wavenumber) const;
 
@@ -57,6 +57,9 @@ class GaussPath {
   double scale_ = 0, mu_factor_ = 0, density_factor_ = 0, g_relative_error_ = 0;
   Hysteresis hysteresis_;
   std::vector<Visit> visits_, next_;
+  struct Ends {
+    std::vector<double> g, f, f2;
+  } ends_;  // at the upper end of each visit
 };
 
 }  // namespace asperity

@@ -56,12 +56,12 @@ LegendreRule make_rule(std::size_t n) {
         cumulative[i] += coefficient * integral[i][k];
         change[i] += coefficient * slope[i][k];
       }
-      if (k == n / 2 || k + 1 == n / 2) r.tail[LegendreRule::tails + n / 2 - k][j] = static_cast<double>(coefficient);
+      if (k == n / 2 || k + 1 == n / 2) r.tail[j][LegendreRule::tails + n / 2 - k] = static_cast<double>(coefficient);
       const std::size_t from_last = n - 1 - k;
       if (from_last >= LegendreRule::tails) continue;
-      r.tail[from_last][j] = static_cast<double>(coefficient);
-      r.tail_integral[from_last][j] = static_cast<double>(integral[j][k]);
-      r.tail_slope[from_last][j] = static_cast<double>(weight[j] * slope[j][k]);
+      r.tail[j][from_last] = static_cast<double>(coefficient);
+      r.tail_integral[j][from_last] = static_cast<double>(integral[j][k]);
+      r.tail_slope[j][from_last] = static_cast<double>(weight[j] * slope[j][k]);
     }
     r.at_lower[j] = static_cast<double>(lower);
     r.at_upper[j] = static_cast<double>(upper);

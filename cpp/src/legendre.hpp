@@ -9,16 +9,16 @@ namespace asperity {
 /// Matrices are stored by columns: column j belongs to the value at node j. Plain arrays, as the loops over them are
 /// compiled for several vector units (kernels.hpp).
 struct LegendreRule {
-  static constexpr std::size_t most = 32, tails = 6, kept = tails + 2;
+  static constexpr std::size_t most = 32, tails = 4, kept = 2 * tails;
 
   std::size_t n;
   double node[most], weight[most];
   double at_lower[most], at_upper[most];  // the polynomial at -1 and at 1
   double cumulative[most][most];          // its integral from -1 to each node
   double slope[most][most];               // weight times its derivative at each node
-  double tail[kept][most];                // its Legendre coefficients: the last ones from the end down, two half way
-  double tail_integral[tails][most];      // int_-1 P_k of those degrees to each node
-  double tail_slope[tails][most];         // weight times P_k' at each node
+  // by nodes: what each of them adds to Legendre coefficients, the last ones from the end down, two half way, zeros;
+  // int_-1 P_k of the last degrees up to it, and its weight times P_k'
+  double tail[most][kept], tail_integral[most][tails], tail_slope[most][tails];
 };
 
 /// The smallest rule kept that has at least `n` nodes (the largest where none has).

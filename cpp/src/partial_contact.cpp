@@ -16,6 +16,8 @@ double contact_share(double g, Form form) {
   return 1 / std::cbrt(1 + std::pow(pi * g, 1.5));
 }
 
+double full_contact_g(Form form) { return form == Form::exact ? 0.007 : 1e-11; }
+
 double SFunction::operator()(double share) const {
   double full = share;
   for (int i = 1; i < power; ++i) full *= share;
@@ -29,7 +31,7 @@ constexpr double step = 1;  // in ln G: the rule of 16 nodes is good to rounding
 }  // namespace
 
 SInside::SInside(const SFunction& s, Form form)
-    : s_(s), form_(form), start_(std::log(form == Form::exact ? 0.007 : 1e-11)), phi_{std::exp(start_)} {}
+    : s_(s), form_(form), start_(std::log(full_contact_g(form))), phi_{std::exp(start_)} {}
 
 /// int dG / S from the lower edge of a step to x = ln G.
 double SInside::part(std::size_t index, double x) const {

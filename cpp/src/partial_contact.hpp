@@ -12,6 +12,8 @@ namespace asperity {
 
 /// P(G), the share of the nominal area in contact.
 double contact_share(double g, Form form);
+/// G below which P, and with it S, is 1 to rounding.
+double full_contact_g(Form form);
 
 /// S(P) = gamma + rise sqrt(P) + (1 - gamma - rise) P^power; as it stands here that of Eq. 8.
 struct SFunction {

@@ -77,7 +77,7 @@ void PronySeries::angular_integrals(std::span<const double> w, double* i1, doubl
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
   for (const double one : w) require_not_negative("angular_frequency", one);
   check_frequency(fastest);
-  if (n % 4 != 0 || !(fastest * longest_ < 1e150)) {
+  if (n % lanes != 0 || !(fastest * longest_ < 1e150)) {
     for (std::size_t i = 0; i < n; ++i) {
       const AngularIntegrals one = angular_integrals(w[i]);
       i1[i] = one.i1;

@@ -36,34 +36,32 @@ Adaptive rule(Method method) {
 }  // namespace
 
 Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
-               const std::optional<SFunction>& factor)
+               const std::optional<SFunction>& factor, std::span<const double> stops)
     : surface_(surface),
       rubber_(rubber),
       model_(model),
       factor_(factor),
       with_hysteresis_(with_hysteresis),
-      gauss_(surface, rubber, model.poisson_ratio, model.rtol) {
+      gauss_(surface, rubber, model.poisson_ratio, model.rtol),
+      stops_(stops) {
   check_scales(surface);
   if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
 }
 
-void Solver::start(double velocity, std::span<const double> stops) {
-  if (model_.method == Method::gauss) {
-    gauss_.start(velocity, stops);
-    return;
-  }
+void Solver::start(double velocity) {
   velocity_ = velocity;
-  stops_.assign(stops.begin(), stops.end());
+  stop_wavenumbers_.clear();
+  for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
+  if (model_.method == Method::gauss) gauss_.start(velocity, stop_wavenumbers_);
 }
 
-void Solver::solve(double pressure, double shift) {
+void Solver::solve(double pressure, double velocity, double shift) {
+  if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
     gauss_.solve(pressure, shift, front_ ? &*front_ : nullptr);
-    const auto& found = gauss_.hysteresis();
-    hysteresis_ = {found.value, found.error, found.outside};
     return;
   }
-  path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity_, shift}, stops_,
+  path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity, shift}, stop_wavenumbers_,
                 with_hysteresis_, model_.rtol, rule(model_.method));
   if (const double g = path_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;

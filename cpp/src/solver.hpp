@@ -13,26 +13,25 @@ namespace asperity {
 
 class Solver {
  public:
-  /// Integrals of P S, S by `factor`, where `with_hysteresis`; otherwise G alone.
+  using Hysteresis = GaussPath::Hysteresis;
+
+  /// Integrals of P S, S by `factor`, where `with_hysteresis`; otherwise G alone. Panels end at the frequencies `stops`
+  /// [rad/s] too, which are to outlive this.
   Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
-         const std::optional<SFunction>& factor);
+         const std::optional<SFunction>& factor, std::span<const double> stops = {});
 
-  /// A velocity, for the points that follow; `stops` are wavenumbers [1/m] at which panels shall end too.
-  void start(double velocity, std::span<const double> stops);
-  /// A point. NotConverged where the tolerance is not reached.
-  void solve(double pressure, double shift);
+  /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
+  void solve(double pressure, double velocity, double shift);
 
-  struct Hysteresis {
-    double value = 0, error = 0;
-    double outside = 0;  // part of value from frequencies outside of the measured range
-  };
-  [[nodiscard]] Hysteresis hysteresis() const { return hysteresis_; }
+  [[nodiscard]] const Hysteresis& hysteresis() const { return path_ ? hysteresis_ : gauss_.hysteresis(); }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   [[nodiscard]] double relative_error() const;  // of every G
   [[nodiscard]] std::vector<GaussPath::Part> parts() const;
 
  private:
+  void start(double velocity);
+
   std::span<const Segment> surface_;
   const Rubber& rubber_;
   const ContactModel& model_;
@@ -40,9 +39,10 @@ class Solver {
   std::optional<FrontIntegral> front_;
   bool with_hysteresis_;
   GaussPath gauss_;
-  std::optional<Path> path_;
-  double velocity_ = 0;
-  std::vector<double> stops_;
+  std::span<const double> stops_;
+  double velocity_ = 0;  // of the point before
+  std::vector<double> stop_wavenumbers_;
+  std::optional<Path> path_;  // by GSL
   Hysteresis hysteresis_;
   std::vector<double> by_panel_;
 };

@@ -82,6 +82,7 @@ TOPIC = {
     "gauss_panels": "contact",
     "gaussian_moment": "asperities",
     "gauss_path": "contact",
+    "hysteresis_error": "contact",
     "kernels": "rubber",
     "panel_error": "contact",
     "persson": "contact",
