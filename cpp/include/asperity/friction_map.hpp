@@ -117,7 +117,8 @@ inline double ln(double x) noexcept {
 /// e^x to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r, |r| < ln(2) / 256.
 inline double exp(double x) noexcept {
   x = x < -700 ? -700 : x > 700 ? 700 : x;
-  const auto k = static_cast<std::int32_t>(x * (128 / 0.693147180559945309417) + (x < 0 ? -0.5 : 0.5));
+  const double half = from_bits((bits(x) & 0x8000000000000000) | 0x3fe0000000000000);  // with the sign of x
+  const auto k = static_cast<std::int32_t>(x * (128 / 0.693147180559945309417) + half);
   const auto steps = static_cast<double>(k);
   // the first part of ln(2) / 128 has zeros enough to be multiplied exactly
   const double r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128),
@@ -276,24 +277,8 @@ class FrictionMap {
     Where at;
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     double shifted = speed * temperature.shift;
-    if (!map_detail::within(pressure, info_.pressure) || !map_detail::within(shifted, info_.velocity) ||
-        cells_.empty()) {
-      const double shift = temperature.shift;
-      if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) || !(shift > 0 && shift <= 1e300) ||
-          cells_.empty()) {
-        at.status = Status::not_a_number;
-        return at;
-      }
-      at.free_p = map_detail::within(pressure, info_.pressure);
-      at.free_v = map_detail::within(shifted, info_.velocity);
-      at.status = at.free_p ? Status::velocity_outside : Status::pressure_outside;
-      if (outside == Outside::nan) return at;
-      if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
-      if (!at.free_v) {
-        shifted = info_.velocity[shifted > info_.velocity[0]];
-        speed = shifted / temperature.shift;
-      }
-    }
+    const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
+    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.shift, at)) return at;
     const double x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
@@ -302,6 +287,23 @@ class FrictionMap {
     at.dx = x - at.cell[0];
     at.dz = z - at.cell[1];
     return at;
+  }
+
+  /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
+  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double shift, Where& at) const noexcept {
+    at.status = Status::not_a_number;
+    if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) || !(shift > 0 && shift <= 1e300) || cells_.empty())
+      return false;
+    at.free_p = map_detail::within(pressure, info_.pressure);
+    at.free_v = map_detail::within(shifted, info_.velocity);
+    at.status = at.free_p ? Status::velocity_outside : Status::pressure_outside;
+    if (outside == Outside::nan) return false;
+    if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
+    if (!at.free_v) {
+      shifted = info_.velocity[shifted > info_.velocity[0]];
+      speed = shifted / shift;
+    }
+    return true;
   }
 
   /// s(x) and its slope.
