@@ -78,8 +78,9 @@ SlipPoint roll(const Tire& tire, double slip, const Friction& friction) {
 }
 
 inline const std::vector<double>& slips() {
-  static const std::vector<double> values = {0.0025, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1,
-                                             0.12,   0.15,  0.2,  0.25,  0.3,  0.4,   0.5,  0.6,  0.7,  0.8,  0.9,  1};
+  static const std::vector<double> values = {0.0025, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045,
+                                             0.05,   0.055, 0.06, 0.065, 0.07, 0.08,  0.09, 0.1,   0.12, 0.15,
+                                             0.2,    0.25,  0.3,  0.4,   0.5,  0.6,   0.7,  0.8,   0.9,  1};
   return values;
 }
 
