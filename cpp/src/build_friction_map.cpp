@@ -12,6 +12,7 @@
 #include "checks.hpp"
 #include "map_builder.hpp"
 #include "map_file.hpp"
+#include "threads.hpp"
 
 namespace asperity {
 
@@ -43,32 +44,42 @@ std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber
   return friction(spectrum, rubber, model, adhesion, pressure, velocity).notes;
 }
 
-/// The finished map against the solver on random points, 200 pressures a velocity.
-void check(const MapFrame& frame, const FrictionMap& map, std::size_t points, MapCertificate& certificate) {
-  constexpr std::size_t block = 200'000, pressures = 200;
+/// The finished map against the solver on random points, 200 pressures a velocity, on as many threads as there are.
+void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, MapCertificate& certificate) {
+  constexpr std::size_t block = 20'000, pressures = 200;
+  const unsigned parts = std::max(1u, std::thread::hardware_concurrency());
   Random random;
   const auto [x_lo, x_hi] = frame.x();
   const double y_lo = frame.ln_pressure(0), y_hi = frame.ln_pressure(1);
   std::vector<MapPlace> places;
-  for (std::size_t done = 0; done < points;) {
-    places.clear();
+  std::vector<double> errors;
+  for (std::size_t done = 0; done < request.checked; done += places.size()) {
+    if (request.watch) request.watch();
+    places.resize(std::min(block * parts, request.checked - done));
+    errors.resize(places.size());
     double x = 0;
-    for (; done < points && places.size() < block; ++done) {
-      if (done % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
-      places.push_back({x, y_lo + random() * (y_hi - y_lo) - frame.shear(x)});
-    }
-    const std::vector<MapSample> truth = frame.sample(places);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      MapPoint found;
-      map.at(std::exp(places[i].z + frame.shear(places[i].x)), std::exp(places[i].x), found,
-             FrictionMap::Outside::clamp);
-      double error = std::fabs(found.contact_area / std::exp(truth[i].f[1]) - 1);
-      if (frame.hysteresis()) error = std::fmax(error, std::fabs(found.hysteresis / std::exp(truth[i].f[0]) - 1));
+      if (i % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
+      places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.shear(x)};
+    }
+    in_parts(parts, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
+      const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& [ln_hysteresis, ln_area] = truth[i - begin].f;
+        const double y = places[i].z + frame.shear(places[i].x);
+        MapPoint found;
+        map.at(std::exp(y), std::exp(places[i].x), found, FrictionMap::Outside::clamp);
+        errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);
+        if (frame.hysteresis())
+          errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
+      }
+    });
+    for (const double error : errors) {
       certificate.largest_checked_error = std::fmax(certificate.largest_checked_error, error);
       if (!(error <= certificate.max_error)) ++certificate.exceeded;
     }
   }
-  certificate.checked = points;
+  certificate.checked = request.checked;
 }
 
 }  // namespace
@@ -83,14 +94,14 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   whole.text = text;
 
   const MapFrame frame(spectrum, rubber, model, request);
-  const RefinedMap refined = refine(frame, request.rtol);
+  const RefinedMap refined = refine(frame, request.rtol, request.watch);
   MapCertificate certificate{.max_error = refined.max_error};
   std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
   if (request.checked == 0) return file;
   FrictionMap map;
   std::string why;
   if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
-  check(frame, map, request.checked, certificate);
+  check(frame, map, request, certificate);
   return map_file(frame, refined.tree, adhesion, whole, certificate);
 }
 

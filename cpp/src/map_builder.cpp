@@ -22,10 +22,11 @@ class Builder {
   Builder(const MapFrame& frame, double rtol) : frame_(frame), rtol_(rtol), tree_(frame.x(), frame.cuts()) {}
 
   /// Halves cells until lattices and unseen points agree; returns twice the largest error of the latter.
-  double refine() {
+  double refine(const std::function<void()>& watch) {
     for (;;) {
-      while (halve_where(lattice_errors(), lattice_share * rtol_)) {
-      }
+      do {
+        if (watch) watch();
+      } while (halve_where(lattice_errors(), lattice_share * rtol_));
       const std::vector<double> errors = unseen_errors();
       const double largest = std::ranges::max(errors);
       if (!halve_where(errors, rtol_ / 2)) return 2 * largest;
@@ -251,9 +252,9 @@ class Builder {
 
 }  // namespace
 
-RefinedMap refine(const MapFrame& frame, double rtol) {
+RefinedMap refine(const MapFrame& frame, double rtol, const std::function<void()>& watch) {
   Builder builder(frame, rtol);
-  const double max_error = builder.refine();
+  const double max_error = builder.refine(watch);
   return {std::move(builder).tree(), max_error};
 }
 

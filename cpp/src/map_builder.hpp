@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <random>
 
 #include "map_frame.hpp"
@@ -24,6 +25,6 @@ struct RefinedMap {
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed.
-RefinedMap refine(const MapFrame& frame, double rtol);
+RefinedMap refine(const MapFrame& frame, double rtol, const std::function<void()>& watch);
 
 }  // namespace asperity

@@ -55,6 +55,15 @@ def pixel_size(text: str) -> float | tuple[float, float]:
     return dy, dx
 
 
+def sides(text: str) -> tuple[float, float]:
+    """LO,HI."""
+    try:
+        lo, hi = (number(side) for side in text.split(","))
+    except (ArgumentTypeError, ValueError):
+        raise ArgumentTypeError(f"{text!r}: must be two positive numbers, LO,HI") from None
+    return lo, hi
+
+
 def whole(text: str) -> int:
     """A whole number."""
     try:

@@ -93,6 +93,7 @@ class Scene:
     options: Mapping[str, Any]  # poisson_ratio, rtol, form, method
     inputs: Mapping[str, Mapping[str, Any]]
     sampling: Mapping[str, Any]  # samples, seed and level of a band
+    stated_rtol: float | None  # of [solver], None where the default holds
 
     @property
     def spectrum(self) -> Spectrum:
@@ -237,6 +238,7 @@ def load_scene(path: str | Path) -> Scene:
     solver = read_table(path, "solver", tables.get("solver", {}), _SOLVER)
     points = {key: conditions.pop(key) for key in _POINTS}
     conditions = {"poisson_ratio": 0.5, **conditions}
+    stated_rtol = solver.get("rtol")
     solver = {"rtol": 1e-6, "form": "exact", "method": "gauss", **solver}
 
     rows = points["pressure_pa"].size * points["velocity_m_s"].size
@@ -279,6 +281,7 @@ def load_scene(path: str | Path) -> Scene:
         options={**arguments(conditions, _CONDITIONS), **arguments(solver, _SOLVER)},
         inputs=inputs,
         sampling=sampling,
+        stated_rtol=stated_rtol,
     )
 
 

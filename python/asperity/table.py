@@ -44,8 +44,8 @@ class Table:
         out = io.StringIO()
         out.write(f"# asperity {__version__} {self.command}\n")
         for inputs in self.inputs:
-            for key, value in _flat(inputs):
-                out.write(f"# {key} = {json.dumps(value, ensure_ascii=False)}\n")
+            for line in input_lines(inputs):
+                out.write(f"# {line}\n")
         for note in self.notes:
             out.write(f"# note: {note}\n")
         units = ", ".join(f"{name} [{unit(name)}]" for name in self.columns)
@@ -70,6 +70,11 @@ class Table:
             },
         }
         return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def input_lines(inputs: Mapping[str, Any]) -> list[str]:
+    """What was computed from, a line a key."""
+    return [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in _flat(inputs)]
 
 
 def unit(column: str) -> str:

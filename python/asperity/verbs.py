@@ -3,10 +3,10 @@
 import argparse
 from collections.abc import Callable
 
-from asperity import commands, fit_command, rubber_command
+from asperity import commands, fit_command, map_command, rubber_command
 from asperity._core import __version__
 from asperity.article.command import article
-from asperity.options import Parser, number, numbers, pairs, pixel_size, points, whole
+from asperity.options import Parser, number, numbers, pairs, pixel_size, points, sides, whole
 from asperity.validation import command as validation
 
 
@@ -196,6 +196,35 @@ def parser() -> argparse.ArgumentParser:
         help="keep shear_stress_pa, reference_velocity_m_s or width",
     )
     outputs(fit)
+
+    mapped = verb(
+        "map",
+        map_command.friction_map_of,
+        "friction map for simulators, certified; or what a map's file says",
+        "scene.toml --output road.fmap --plot map.png\n  asperity map --info road.fmap",
+    )
+    mapped.add_argument("scene", metavar="SCENE.toml", nargs="?")
+    mapped.add_argument("--info", metavar="FILE", help="tell what is in a map's file")
+    for name, unit in (("pressure", "Pa"), ("velocity", "m/s")):
+        mapped.add_argument(
+            f"--{name}",
+            type=sides,
+            metavar="LO,HI",
+            help=f"of the map [{unit}] (default: the scene's)",
+        )
+    mapped.add_argument(
+        "--rtol", type=number, help="relative (default: the scene's [solver] rtol, or 1e-4)"
+    )
+    mapped.add_argument(
+        "--checked",
+        type=whole,
+        default=1_000_000,
+        metavar="N",
+        help="random points that the map is checked on (default: %(default)s)",
+    )
+    mapped.add_argument("--output", metavar="FILE", help="where to write the map")
+    mapped.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+    mapped.add_argument("--json", action="store_true", help="tell it as JSON")
 
     validate = verb(
         "validate",

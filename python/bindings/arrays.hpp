@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,49 +48,82 @@ inline std::vector<double> vector_of(const py::handle& values, const std::string
   return {array.data(), array.data() + array.size()};
 }
 
-/// Several arguments brought to one shape, as NumPy does.
+/// Arguments that have one shape together, as NumPy brings them to it.
+struct Views {
+  Shape shape;
+  std::vector<Array> arrays;  // one an argument: of that shape, or of one entry that holds everywhere
+
+  std::span<const double> view(std::size_t i) const {
+    return {arrays[i].data(), static_cast<std::size_t>(arrays[i].size())};
+  }
+};
+
+/// An array in a shape that it fits into.
+inline Array expanded(const Array& a, const Shape& shape) {
+  Array result(shape);
+  const std::size_t rank = shape.size();
+  std::vector<py::ssize_t> index(rank, 0);
+  double* const to = result.mutable_data();
+  for (py::ssize_t i = 0; i < result.size(); ++i) {
+    py::ssize_t offset = 0;
+    for (py::ssize_t k = 0; k < a.ndim(); ++k) {
+      const py::ssize_t j = a.shape(k) == 1 ? 0 : index[rank - static_cast<std::size_t>(a.ndim() - k)];
+      offset = offset * a.shape(k) + j;
+    }
+    to[i] = a.data()[offset];
+    for (std::size_t k = rank; k-- > 0;) {
+      if (++index[k] < shape[k]) break;
+      index[k] = 0;
+    }
+  }
+  return result;
+}
+
+inline Views views(std::initializer_list<std::pair<const char*, py::handle>> arguments) {
+  Views result;
+  for (const auto& [name, values] : arguments) result.arrays.push_back(real_array(values, name));
+  std::size_t rank = 0;
+  for (const Array& a : result.arrays) rank = std::max(rank, static_cast<std::size_t>(a.ndim()));
+  result.shape.assign(rank, 1);
+  bool fits = true;
+  for (const Array& a : result.arrays)
+    for (py::ssize_t i = 0; i < a.ndim(); ++i) {
+      py::ssize_t& side = result.shape[rank - static_cast<std::size_t>(a.ndim() - i)];
+      if (a.shape(i) != 1 && side != 1 && side != a.shape(i)) fits = false;
+      if (a.shape(i) != 1) side = a.shape(i);
+    }
+  if (!fits) {
+    std::string shapes;
+    std::size_t at = 0;
+    for (const auto& [name, values] : arguments)
+      shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " +
+                py::str(result.arrays[at++].attr("shape")).cast<std::string>();
+    throw InvalidInput("shapes " + shapes + ": must broadcast together");
+  }
+  py::ssize_t size = 1;
+  for (const py::ssize_t side : result.shape) size *= side;
+  for (Array& a : result.arrays)
+    if (a.size() != 1 && a.size() != size) a = expanded(a, result.shape);
+  return result;
+}
+
+/// The same with every argument in full.
 struct Broadcast {
   Shape shape;
   std::vector<std::vector<double>> columns;  // one an argument, flattened
 };
 
 inline Broadcast broadcast(std::initializer_list<std::pair<const char*, py::handle>> arguments) {
-  Broadcast result;
-  std::vector<Array> arrays;
-  for (const auto& [name, values] : arguments) arrays.push_back(real_array(values, name));
-  for (const Array& a : arrays)
-    if (a.ndim() > static_cast<py::ssize_t>(result.shape.size()))
-      result.shape.insert(result.shape.begin(), static_cast<std::size_t>(a.ndim()) - result.shape.size(), 1);
-  const std::size_t rank = result.shape.size();
-  std::string shapes;
-  bool fits = true;
-  std::size_t at = 0;
-  for (const auto& [name, values] : arguments) {
-    const Array& a = arrays[at++];
-    shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " + py::str(a.attr("shape")).cast<std::string>();
-    for (py::ssize_t i = 0; i < a.ndim(); ++i) {
-      py::ssize_t& side = result.shape[rank - static_cast<std::size_t>(a.ndim() - i)];
-      if (a.shape(i) != 1 && side != 1 && side != a.shape(i)) fits = false;
-      if (a.shape(i) != 1) side = a.shape(i);
-    }
-  }
-  if (!fits) throw InvalidInput("shapes " + shapes + ": must broadcast together");
+  const Views views_of = views(arguments);
+  Broadcast result{views_of.shape, {}};
   std::size_t size = 1;
   for (const py::ssize_t side : result.shape) size *= static_cast<std::size_t>(side);
-  for (const Array& a : arrays) {
-    std::vector<double>& column = result.columns.emplace_back(size);
-    std::vector<py::ssize_t> index(rank, 0);
-    for (std::size_t i = 0; i < size; ++i) {
-      py::ssize_t offset = 0;
-      for (py::ssize_t k = 0; k < a.ndim(); ++k) {
-        const py::ssize_t j = a.shape(k) == 1 ? 0 : index[rank - static_cast<std::size_t>(a.ndim() - k)];
-        offset = offset * a.shape(k) + j;
-      }
-      column[i] = a.data()[offset];
-      for (std::size_t k = rank; k-- > 0;) {
-        if (++index[k] < result.shape[k]) break;
-        index[k] = 0;
-      }
+  for (std::size_t i = 0; i < views_of.arrays.size(); ++i) {
+    const std::span<const double> view = views_of.view(i);
+    if (view.size() == size) {
+      result.columns.emplace_back(view.begin(), view.end());
+    } else {
+      result.columns.emplace_back(size, view[0]);
     }
   }
   return result;

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <sstream>
 
 #include "arguments.hpp"
@@ -50,8 +50,16 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
           double rtol, double poisson_ratio, const py::object& correction, const py::object& adhesion,
           const std::string& form, const std::string& method, py::ssize_t checked, const std::string& text) {
   if (checked < 0) throw InvalidInput("checked = " + std::to_string(checked) + ": must be 0 or more");
-  const MapRequest request{box(pressure, "pressure"), box(velocity, "velocity"), rtol,
-                           static_cast<std::size_t>(checked), text};
+  const auto heed_interrupts = [] {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
+  const MapRequest request{box(pressure, "pressure"),
+                           box(velocity, "velocity"),
+                           rtol,
+                           static_cast<std::size_t>(checked),
+                           text,
+                           heed_interrupts};
   const ContactModel model = contact_model(poisson_ratio, correction, form, 1e-6, method);
   const Spectrum surface = spectrum_of(spectrum);
   const Rubber material = rubber_of(rubber);
@@ -99,6 +107,10 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
 
 enum class Policy { error, nan, clamp };
 
+Policy policy_of(const std::string& outside) {
+  return choice<Policy>("outside", outside, {{"error", Policy::error}, {"nan", Policy::nan}, {"clamp", Policy::clamp}});
+}
+
 /// Values of `get` at every point, several a point.
 template <std::size_t N, class Get>
 std::array<py::object, N> look_up(const Map& m, const py::object& pressure, const py::object& velocity,
@@ -127,6 +139,34 @@ std::array<py::object, N> look_up(const Map& m, const py::object& pressure, cons
   std::array<py::object, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = shaped(std::move(columns[k]), b.shape);
   return result;
+}
+
+/// mu alone, by the vector units.
+py::object mu_of(const Map& m, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
+                 bool shift_adhesion, const std::string& outside) {
+  const auto policy = policy_of(outside);
+  const Views b = views({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
+  const MapColumns points{b.view(0), b.view(1), b.view(2)};
+  Array mu(b.shape);
+  const std::span<double> all(mu.mutable_data(), static_cast<std::size_t>(mu.size()));
+  {
+    const py::gil_scoped_release release;
+    const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
+    look_up(m.map, points, how, shift_adhesion, all);
+    if (policy != Policy::nan) {
+      const auto bad = std::ranges::find_if(all, [](double x) { return std::isnan(x); });
+      if (bad != all.end()) {
+        const auto i = static_cast<std::size_t>(bad - all.begin());
+        const auto at = [&](std::span<const double> column) { return column[column.size() > 1 ? i : 0]; };
+        const double p = at(points.pressure), v = at(points.velocity), shift = at(points.shift);
+        MapPoint point;
+        const auto status = m.map.at(p, v, point, how, {shift, shift_adhesion});
+        refuse(m.map.info(), status, i, p, v, shift, b.shape.empty());
+      }
+    }
+  }
+  if (b.shape.empty()) return py::float_(all[0]);
+  return mu;
 }
 
 struct SlopesTag {
@@ -183,8 +223,9 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
         py::arg("shift_adhesion") = false, py::arg("outside") = "error", doc);
   };
   using One = std::array<double, 1>;
-  query(
-      "mu", [](const MapPoint& at) { return One{at.mu}; }, "Friction coefficient, hysteresis + adhesion [-].");
+  map.def("mu", &mu_of, py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
+          py::arg("shift_adhesion") = false, py::arg("outside") = "error",
+          "Friction coefficient, hysteresis + adhesion [-].");
   query(
       "hysteresis", [](const MapPoint& at) { return One{at.hysteresis}; }, "mu_H (Eq. 22) [-].");
   query(
@@ -223,10 +264,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
           "from_bytes", [](const py::bytes& content) { return from_python_bytes(content, "content"); },
           py::arg("content"), "From the bytes of a file.")
       .def("to_bytes", &to_bytes, "The bytes of a file.")
-      .def("__reduce__",
-           [](const py::object& self) {
-             return py::make_tuple(self.attr("from_bytes"), py::make_tuple(to_bytes(self.cast<const Map&>())));
-           })
+      .def(py::pickle(&to_bytes, [](const py::bytes& state) { return from_python_bytes(state, "state"); }))
       .def(
           "__eq__", [](const Map& self, const Map& other) { return self.file == other.file; }, py::is_operator())
       .def("__repr__", [](const Map& self) {
@@ -264,7 +302,8 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       "notes", [](const Info& i) { return py::tuple(py::cast(notes_of(i.text))); },
       "Where the theory or its input leaves its range, as `friction` notes it on 81 points of the map.");
   property(
-      "text", [](const Info& i) { return i.text; }, "What the map was made of, in lines.");
+      "text", [](const Info& i) { return py::bytes(i.text).attr("decode")("utf-8", "replace"); },
+      "What the map was made of, in lines.");
   property(
       "adhesion_law",
       [](const Info& i) -> py::object {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "asperity/export.hpp"
 #include "asperity/friction.hpp"
+#include "asperity/friction_map.hpp"
 
 namespace asperity {
 
@@ -20,6 +22,7 @@ struct MapRequest {
   double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion
   std::size_t checked = 1'000'000;           // random points on which the finished map is checked
   std::string_view text = "";                // lines for whoever reads the file, UTF-8
+  std::function<void()> watch = {};          // called now and then; what it throws ends the building
 };
 
 /// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in
@@ -31,6 +34,15 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
                                                               const ContactModel& model,
                                                               const std::optional<Adhesion>& adhesion,
                                                               const MapRequest& request);
+
+/// Points for `look_up`, each column as long as the result, or of one entry for all; `shift` is a_T.
+struct MapColumns {
+  std::span<const double> pressure, velocity, shift;
+};
+
+/// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14.
+ASPERITY_EXPORT void look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                             bool shifts_adhesion, std::span<double> mu);
 
 /// Writes a file whole or not at all; InvalidInput with the path and the reason where it cannot be written.
 ASPERITY_EXPORT void write_whole(const std::string& path, std::span<const unsigned char> bytes);

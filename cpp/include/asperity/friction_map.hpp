@@ -146,10 +146,6 @@ inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[
 inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
 #endif
 
-/// Cubic b[0] + b[1] t + b[2] t^2 + b[3] t^3.
-inline double cubic(const double* b, double t) noexcept { return ((b[3] * t + b[2]) * t + b[1]) * t + b[0]; }
-inline double cubic_slope(const double* b, double t) noexcept { return (3 * b[3] * t + 2 * b[2]) * t + b[1]; }
-
 inline bool is_nan(double x) noexcept { return (bits(x) & 0x7fffffffffffffff) > 0x7ff0000000000000; }
 
 /// Comparisons of bits instead of numbers hold under a host's -ffast-math too.
@@ -306,32 +302,40 @@ class FrictionMap {
     const double x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
-    double z = at.ln_p;
-    if (!shear_.empty()) {
-      const auto steps = static_cast<std::uint32_t>(shear_.size() / 2 - 1);
-      const double scaled = (x - shear_x_) * shear_per_x_;
-      const std::uint32_t i = index(scaled, steps);
-      const double t = scaled - i, h = 1 / shear_per_x_;
-      const double* const s = &shear_[2 * i];
-      const double rise = s[2] - s[0], b2 = 3 * rise - h * (2 * s[1] + s[3]), b3 = h * (s[1] + s[3]) - 2 * rise;
-      const double b[] = {s[0], h * s[1], b2, b3};
-      z -= map_detail::cubic(b, t);
-      at.slope = map_detail::cubic_slope(b, t) * shear_per_x_;
-    }
+    const double z = at.ln_p - shear(x, at.slope);
+    at.cell = cell_at(x, z);
+    at.dx = x - at.cell[0];
+    at.dz = z - at.cell[1];
+    return at;
+  }
+
+  /// s(x) and its slope.
+  double shear(double x, double& slope) const noexcept {
+    slope = 0;
+    if (shear_.empty()) return 0;
+    const double scaled = (x - shear_x_) * shear_per_x_, h = 1 / shear_per_x_;
+    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(shear_.size() / 2 - 1));
+    const double* const s = &shear_[2 * std::size_t{i}];
+    const double t = scaled - i, rise = s[2] - s[0];
+    const double square = 3 * rise - h * (2 * s[1] + s[3]), cube = h * (s[1] + s[3]) - 2 * rise;
+    slope = s[1] + t * (2 * square + 3 * t * cube) * shear_per_x_;
+    return s[0] + t * (h * s[1] + t * (square + t * cube));
+  }
+
+  const double* cell_at(double x, double z) const noexcept {
     std::size_t g = 0;
     while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
     std::int32_t entry;
     while ((entry = entries_[entry_of(grids_[g], x, z)]) < 0) g = static_cast<std::size_t>(-1 - entry);
-    at.cell = &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
-    at.dx = x - at.cell[0];
-    at.dz = z - at.cell[1];
-    return at;
+    return &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
   }
 
   static std::size_t entry_of(const map_detail::Grid& grid, double x, double z) noexcept {
     const std::size_t column = index((x - grid.x) * grid.columns_per_x, grid.columns);
     return grid.first + column * grid.rows + index((z - grid.z) * grid.rows_per_z, grid.rows);
   }
+
+  friend class FrictionMapBatch;  // of the full library: many points at once
 
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
