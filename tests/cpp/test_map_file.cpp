@@ -39,11 +39,18 @@ bool stands(Bytes bytes) {
   FrictionMap map;
   std::string why;
   const bool read = map.read(bytes.data(), bytes.size(), why);
-  if (read)
-    probe::points(map);
-  else
+  if (!read) {
     probe::require(!why.empty() && map.info().cells == 0, "refused with a reason, the map as it was");
-  return read;
+    return false;
+  }
+  probe::points(map);
+  const auto [p, v] = std::pair{map.info().pressure, map.info().velocity};
+  const double pressure[] = {p[0], p[1], std::sqrt(p[0]) * std::sqrt(p[1])};
+  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, shift[] = {1};
+  double mu[3];
+  look_up(map, {pressure, velocity, shift}, FrictionMap::Outside::nan, false, mu);
+  for (const double one : mu) probe::require(probe::finite(one) && one >= 0, "mu of an array");
+  return true;
 }
 
 /// A built map with a boundary between states and a shift that depends on the velocity.
