@@ -112,7 +112,7 @@ inline constexpr Tables tables;
 inline double ln(double x) noexcept {
   const std::uint64_t u = bits(x);
   const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
-  const std::size_t i = (u >> 45) & 127;
+  const std::uint32_t i = static_cast<std::uint32_t>(u >> 45) & 127;
   const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
   const double r = m * tables.inverse[i] - 1, r2 = r * r;
   const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
