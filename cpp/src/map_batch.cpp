@@ -31,20 +31,20 @@ struct MapLoops {
 #endif
 
 namespace baseline {
-constexpr std::size_t width = 2;
+using Part [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
 #include "map_loops.inc"
 }  // namespace baseline
 
 #if defined(__x86_64__) && !defined(__clang__)
 #pragma GCC push_options
-#pragma GCC target("avx2")
+#pragma GCC target("avx2,fma")
 namespace avx2 {
-constexpr std::size_t width = 4;
+using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 #include "map_loops.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
 namespace avx512 {
-constexpr std::size_t width = 4;
+using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 #include "map_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options
@@ -73,16 +73,19 @@ class FrictionMapBatch {
   FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
       : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
 
-  /// mu of points [begin, begin + n), at most a block.
-  void mu(const MapColumns& points, std::size_t begin, std::size_t n, double* mu) {
+  /// mu of points [begin, begin + n), at most a block; how many come before the first without a value.
+  std::size_t mu(const MapColumns& points, std::size_t begin, std::size_t n, double* mu) {
     const double* const pressure = column(points.pressure, begin, n, pressure_);
     const double* const velocity = column(points.velocity, begin, n, velocity_);
     const double* const shift = column(points.shift, begin, n, shift_);
     const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, shift, n, speed_, x_);
     if (!within) {  // rare: one by one
-      for (std::size_t i = 0; i < n; ++i)
+      std::size_t good = n;
+      for (std::size_t i = n; i-- > 0;) {
         mu[i] = map_.mu(pressure[i], velocity[i], outside_, {shift[i], shifts_adhesion_});
-      return;
+        if (std::isnan(mu[i])) good = i;
+      }
+      return good;
     }
     loops_.logarithms(x_, x_, n);
     loops_.logarithms(pressure, ln_p_, n);
@@ -93,12 +96,13 @@ class FrictionMapBatch {
     } else {
       std::fill_n(mu, n, 0.0);
     }
-    if (map_.info_.shear_stress == 0) return;
+    if (map_.info_.shear_stress == 0) return n;
     const bool unshifted = shifts_adhesion_ || (points.shift.size() == 1 && points.shift[0] == 1);
     if (!unshifted) loops_.logarithms(speed_, speed_, n);
     loops_.stick(ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n, a_);
     loops_.exponentials(a_, a_, n);
     for (std::size_t i = 0; i < n; ++i) mu[i] += a_[i];
+    return n;
   }
 
  private:
@@ -133,13 +137,18 @@ class FrictionMapBatch {
   std::int32_t cell_[block];
 };
 
-void look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside, bool shifts_adhesion,
-             std::span<double> mu) {
+std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                    bool shifts_adhesion, std::span<double> mu) {
   for (const auto& [name, column] : {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity},
                                      std::pair{"shift", points.shift}})
     if (column.size() != 1) require_same_size(name, column.size(), "mu", mu.size());
   FrictionMapBatch batch(map, outside, shifts_adhesion);
-  for (std::size_t i = 0; i < mu.size(); i += block) batch.mu(points, i, std::min(block, mu.size() - i), &mu[i]);
+  std::size_t first_bad = mu.size();
+  for (std::size_t i = 0; i < mu.size(); i += block) {
+    const std::size_t n = std::min(block, mu.size() - i), good = batch.mu(points, i, n, &mu[i]);
+    if (good < n) first_bad = std::min(first_bad, i + good);
+  }
+  return first_bad;
 }
 
 }  // namespace asperity

@@ -152,17 +152,13 @@ py::object mu_of(const Map& m, const py::object& pressure, const py::object& vel
   {
     const py::gil_scoped_release release;
     const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
-    look_up(m.map, points, how, shift_adhesion, all);
-    if (policy != Policy::nan) {
-      const auto bad = std::ranges::find_if(all, [](double x) { return std::isnan(x); });
-      if (bad != all.end()) {
-        const auto i = static_cast<std::size_t>(bad - all.begin());
-        const auto at = [&](std::span<const double> column) { return column[column.size() > 1 ? i : 0]; };
-        const double p = at(points.pressure), v = at(points.velocity), shift = at(points.shift);
-        MapPoint point;
-        const auto status = m.map.at(p, v, point, how, {shift, shift_adhesion});
-        refuse(m.map.info(), status, i, p, v, shift, b.shape.empty());
-      }
+    const std::size_t i = look_up(m.map, points, how, shift_adhesion, all);
+    if (policy != Policy::nan && i < all.size()) {
+      const auto at = [&](std::span<const double> column) { return column[column.size() > 1 ? i : 0]; };
+      const double p = at(points.pressure), v = at(points.velocity), shift = at(points.shift);
+      MapPoint point;
+      const auto status = m.map.at(p, v, point, how, {shift, shift_adhesion});
+      refuse(m.map.info(), status, i, p, v, shift, b.shape.empty());
     }
   }
   if (b.shape.empty()) return py::float_(all[0]);

@@ -40,9 +40,10 @@ struct MapColumns {
   std::span<const double> pressure, velocity, shift;
 };
 
-/// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14.
-ASPERITY_EXPORT void look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
-                             bool shifts_adhesion, std::span<double> mu);
+/// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14. Gives the number of the
+/// first point without a value, or how many points there are where all have one.
+ASPERITY_EXPORT std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                                    bool shifts_adhesion, std::span<double> mu);
 
 /// Writes a file whole or not at all; InvalidInput with the path and the reason where it cannot be written.
 ASPERITY_EXPORT void write_whole(const std::string& path, std::span<const unsigned char> bytes);
