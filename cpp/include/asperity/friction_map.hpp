@@ -42,7 +42,7 @@
 //   152  f64 n + 1 values of z, rising: where bands begin, and the end
 //        f64 2 s: s(x) and s'(x) at s nodes, equal steps of x from ln v lo to ln v hi; cubic Hermite between them
 //        g x (f64 x, z of a corner; f64 columns per x, rows per z; u32 columns, rows, first entry, 0): grid k < n is
-//            that of band k
+//            that of band k; each entry is of one grid, in their order
 //        e x i32 row by row, the row the faster index: a cell, or -1 - k for grid k, which comes after the grid it
 //            is in
 //        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
@@ -66,6 +66,11 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#ifdef _MSC_VER
+#pragma warning(push)
+#pragma warning(disable : 4996)  // fopen and strerror are standard C++
+#endif
 
 namespace asperity {
 
@@ -107,7 +112,7 @@ inline constexpr Tables tables;
 inline double ln(double x) noexcept {
   const std::uint64_t u = bits(x);
   const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
-  const std::size_t i = (u >> 45) & 127;
+  const std::uint32_t i = static_cast<std::uint32_t>(u >> 45) & 127;
   const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
   const double r = m * tables.inverse[i] - 1, r2 = r * r;
   const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
@@ -128,8 +133,8 @@ inline double exp(double x) noexcept {
   return (1 + (r + r2 * tail)) * (tables.power[k & 127] * scale);
 }
 
-/// Two numbers that a vector unit takes at once.
-#ifdef __GNUC__
+/// Two numbers, which a vector unit takes at once where there is one.
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
 using Pair = double __attribute__((vector_size(16)));
 inline Pair pair(const double* x) noexcept { return Pair{x[0], x[1]}; }
 #else
@@ -408,8 +413,7 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (stated != size)
     return refuse(std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) +
                   " bytes, must be " + std::to_string(stated));
-  map_detail::Reader end(bytes + size - 8);
-  if (end.u32() != map_detail::crc32(bytes, size - 8) || end.u32() != 0)
+  if (map_detail::Reader(bytes + size - 8).u64() != map_detail::crc32(bytes, size - 8))  // its upper half is 0
     return refuse("is damaged: its checksum is not that of its contents");
 
   FrictionMap map;
@@ -417,15 +421,17 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   bool good = true;
   for (std::array<double, 2>* const box : {&info.pressure, &info.velocity}) {
     for (double& side : *box) side = in.f64();
-    good = good && !is_nan((*box)[0]) && (*box)[0] >= 1e-300 && (*box)[1] > (*box)[0] && (*box)[1] <= 1e300;
+    good = good && !is_nan((*box)[0]) && !is_nan((*box)[1]) && (*box)[0] >= 1e-300 &&
+           (*box)[1] > (*box)[0] * (1 + 1e-9) && (*box)[1] <= 1e300;
   }
-  for (double* const x : {&info.rtol, &info.max_error, &info.largest_checked_error}) *x = in.f64();
+  const auto positive_or_0 = [&](double& x) {
+    x = in.f64();
+    good = good && !is_nan(x) && x >= 0 && x <= 1e300;
+  };
+  for (double* const x : {&info.rtol, &info.max_error, &info.largest_checked_error}) positive_or_0(*x);
   info.checked = in.u64();
   info.exceeded = in.u64();
-  for (double* const x : {&info.shear_stress, &info.reference_velocity, &info.width}) {
-    *x = in.f64();
-    good = good && !is_nan(*x) && *x >= 0 && *x <= 1e300;
-  }
+  for (double* const x : {&info.shear_stress, &info.reference_velocity, &info.width}) positive_or_0(*x);
   good = good && (info.shear_stress == 0 || (info.shear_stress >= 1e-300 && info.reference_velocity >= 1e-300));
   const std::uint32_t flags = in.u32();
   info.hysteresis = flags == 1;
@@ -441,27 +447,36 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
 
   good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
   for (std::size_t i = 0; i < bands; ++i) good = good && map.cuts_[i] < map.cuts_[i + 1];
-  good = in.numbers(map.shear_, 2 * std::size_t{nodes}, 1e6) && good;
+  good = in.numbers(map.shear_, 2 * std::size_t{nodes}, 1e3) && good;
+  // Steps of a grid are counted in 64 bits; x is no further from 0 than 700, s between its nodes than 1e7.
+  constexpr double far_x = 1e3, far_z = 2e7, most_steps = 4e18;
+  std::uint64_t used = 0;
   map.grids_.resize(grids);
   for (map_detail::Grid& grid : map.grids_) {
     std::vector<double> place;
     good = in.numbers(place, 4, 1e12) && good;
     grid = {place[0], place[1], place[2], place[3], in.u32(), in.u32(), in.u32()};
     in.u32();
-    good = good && grid.columns > 0 && grid.rows > 0 && grid.first < entries &&
-           std::uint64_t{grid.columns} * grid.rows <= entries - grid.first;
+    good = good && grid.columns > 0 && grid.rows > 0 && grid.first == used &&
+           (std::fabs(grid.x) + far_x) * std::fabs(grid.columns_per_x) < most_steps &&
+           (std::fabs(grid.z) + far_z) * std::fabs(grid.rows_per_z) < most_steps &&
+           std::uint64_t{grid.columns} * grid.rows <= entries - used;
+    if (good) used += std::uint64_t{grid.columns} * grid.rows;
   }
+  good = good && used == entries;
   map.entries_.resize(entries);
   for (std::int32_t& entry : map.entries_) {
     entry = static_cast<std::int32_t>(in.u32());
     good = good && entry < static_cast<std::int64_t>(cells) && -1 - static_cast<std::int64_t>(entry) < grids;
   }
-  in.skip(padded(4ull * entries) - 4ull * entries);
+  in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
   for (std::size_t k = 0; good && k < grids; ++k)  // no grid leads back to itself
     for (std::size_t i = 0; i < std::size_t{map.grids_[k].columns} * map.grids_[k].rows; ++i)
       good = good && (map.entries_[map.grids_[k].first + i] >= 0 ||
                       static_cast<std::size_t>(-1 - map.entries_[map.grids_[k].first + i]) > k);
   good = good && in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100);
+  for (std::size_t i = 0; good && i < map.cells_.size(); i += map_detail::cell_size)  // powers of offsets stay finite
+    good = std::fabs(map.cells_[i]) < 1e4 && std::fabs(map.cells_[i + 1]) < 1e4;
   if (!good) return refuse("is damaged: its tables contradict each other");
   info.cells = cells;
   info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
@@ -495,6 +510,10 @@ inline bool FrictionMap::load(const char* path, std::string& why) {
 }
 
 }  // namespace asperity
+
+#ifdef _MSC_VER
+#pragma warning(pop)
+#endif
 
 extern "C" {
 #else
@@ -533,11 +552,18 @@ struct asperity_map {
 };
 
 asperity_map* asperity_map_load(const char* path, char* why, size_t size) {
-  auto* const loaded = new asperity_map;
-  std::string reason;
-  if (loaded->map.load(path, reason)) return loaded;
-  delete loaded;
-  if (size > 0) std::snprintf(why, size, "%s", reason.c_str());
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+  try {
+#endif
+    auto loaded = std::make_unique<asperity_map>();
+    std::string reason;
+    if (loaded->map.load(path, reason)) return loaded.release();
+    if (size > 0) std::snprintf(why, size, "%s", reason.c_str());
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+  } catch (...) {  // which must not reach C: nothing else is thrown
+    if (size > 0) std::snprintf(why, size, "%s: does not fit into memory", path);
+  }
+#endif
   return nullptr;
 }
 

@@ -1,0 +1,97 @@
+// The same tire model with the full theory behind every bristle, and the map that brush_map reads made from it.
+//
+//   brush_full road.fmap > slip.csv
+//
+// Fails where the two slip curves differ by more than the map's own error allows.
+#include <algorithm>
+#include <asperity/build_friction_map.hpp>
+#include <asperity/friction_map.hpp>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "../brush.hpp"
+
+namespace {
+
+struct Scene {
+  asperity::Spectrum road = asperity::SelfAffineSpectrum{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
+  asperity::PronySeries rubber{3e6,
+                               {2e6, 4e6, 9e6, 2e7, 4e7, 8e7, 1.8e8, 3.8e8, 8e8},
+                               {1e-1, 1.3e-2, 1.8e-3, 2.4e-4, 3e-5, 4e-6, 6e-7, 7.5e-8, 1e-8}};
+  asperity::ContactModel model{.correction = asperity::NayakSFactor{}};
+  asperity::Adhesion adhesion{.shear_stress = 8.3e6};
+
+  Scene() { road = asperity::truncated(road, {}, asperity::cutoff_for_slope(road)); }
+};
+
+/// How much the error of mu may grow on its way into the force: 1 / (1 - b), b the largest p |d mu / d ln v| / (k D).
+/// An error of mu moves the deflection, by which the sliding velocity changes, and mu by as much as b of it once more.
+double growth(const brush::Tire& tire, const asperity::FrictionMap& map) {
+  constexpr int steps = 100;
+  const auto between = [](const std::array<double, 2>& box, int i) {
+    return box[0] * std::pow(box[1] / box[0], static_cast<double>(i) / steps);
+  };
+  double largest = 0;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const double pressure = std::min(between(map.info().pressure, i), 1.5 * tire.mean_pressure);
+      asperity::MapPoint point;
+      map.at(pressure, between(map.info().velocity, j), point, asperity::FrictionMap::Outside::clamp);
+      largest = std::max(largest, pressure * std::fabs(point.dmu_dlnv) / (tire.stiffness * tire.renewal));
+    }
+  return 1 / (1 - largest);
+}
+
+int run(const std::string& path) {
+  const Scene scene;
+  const asperity::MapRequest box{.pressure = {1e4, 5e5}, .velocity = {1e-3, 50}, .checked = 100'000};
+  asperity::write_whole(path, asperity::build_friction_map(scene.road, scene.rubber, scene.model, scene.adhesion, box));
+  asperity::FrictionMap map;
+  std::string why;
+  if (!map.load(path.c_str(), why)) {
+    std::fprintf(stderr, "brush_full: %s\n", why.c_str());
+    return 1;
+  }
+
+  // One call for all bristles of a step; outside of the box mu is taken at its side, as the map does.
+  const auto by_theory = [&](std::vector<double> pressure, std::vector<double> velocity, std::vector<double>& mu) {
+    for (double& p : pressure) p = std::clamp(p, box.pressure[0], box.pressure[1]);
+    for (double& v : velocity) v = std::clamp(v, box.velocity[0], box.velocity[1]);
+    mu = asperity::friction(scene.road, scene.rubber, scene.model, scene.adhesion, pressure, velocity).mu;
+  };
+  const auto by_map = [&](const std::vector<double>& pressure, const std::vector<double>& velocity,
+                          std::vector<double>& mu) {
+    for (std::size_t i = 0; i < mu.size(); ++i)
+      mu[i] = map.mu(pressure[i], velocity[i], asperity::FrictionMap::Outside::clamp);
+  };
+
+  const brush::Tire tire;
+  const double allowed = map.info().max_error * growth(tire, map);
+  double largest = 0;
+  std::printf("slip,force_over_load,sliding_share,force_over_load_by_map\n");
+  for (const double slip : brush::slips()) {
+    const brush::SlipPoint exact = brush::roll(tire, slip, by_theory), mapped = brush::roll(tire, slip, by_map);
+    largest = std::max(largest, std::fabs(mapped.force / exact.force - 1));
+    std::printf("%g,%.9g,%.6g,%.9g\n", slip, exact.force, exact.sliding, mapped.force);
+  }
+  std::fprintf(stderr, "largest difference of the slip curves %.2g, allowed by the map's max_error %.2g\n", largest,
+               allowed);
+  return largest <= allowed ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) {
+    std::fprintf(stderr, "usage: brush_full MAP.fmap\n");
+    return 2;
+  }
+  try {
+    return run(arguments[1]);
+  } catch (const asperity::Error& error) {
+    std::fprintf(stderr, "brush_full: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,2 @@
+#define ASPERITY_FRICTION_MAP_C
+#include <asperity/friction_map.hpp>

@@ -1,0 +1,197 @@
+// The friction map's reader: what is a map is read, what is not is refused, and nothing crashes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "../fuzz/mutate.hpp"
+#include "../fuzz/probe.hpp"
+#include "../fuzz/small_map.hpp"
+#include "asperity/build_friction_map.hpp"
+
+using namespace asperity;
+
+namespace {
+
+using small_map::Bytes;
+
+/// The reason why bytes are refused, or nothing.
+std::string refusal(const Bytes& bytes) {
+  FrictionMap map;
+  std::string why;
+  const bool read = map.read(bytes.data(), bytes.size(), why);
+  CHECK(read == why.empty());
+  CHECK((map.info().cells > 0) == read);
+  return why;
+}
+
+bool says(const Bytes& bytes, const char* what) {
+  const std::string why = refusal(bytes);
+  CAPTURE(why);
+  return why.find(what) != std::string::npos;
+}
+
+/// What a fuzzer does with bytes whose checksum has been made right: true where they are a map.
+bool stands(Bytes bytes) {
+  small_map::repair(bytes);
+  FrictionMap map;
+  std::string why;
+  const bool read = map.read(bytes.data(), bytes.size(), why);
+  if (!read) {
+    probe::require(!why.empty() && map.info().cells == 0, "refused with a reason, the map as it was");
+    return false;
+  }
+  probe::points(map);
+  const auto [p, v] = std::pair{map.info().pressure, map.info().velocity};
+  const double pressure[] = {p[0], p[1], std::sqrt(p[0]) * std::sqrt(p[1])};
+  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, shift[] = {1};
+  double mu[3];
+  look_up(map, {pressure, velocity, shift}, FrictionMap::Outside::nan, false, mu);
+  for (const double one : mu) probe::require(probe::finite(one) && one >= 0, "mu of an array");
+  return true;
+}
+
+/// A built map with a boundary between states and a shift that depends on the velocity.
+Bytes built() {
+  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e5};
+  const PronySeries rubber(3e6, {1e7, 1e8, 1e9}, {1e-2, 1e-4, 1e-6});
+  const ContactModel model{.correction = GreenwoodWilliamson{.z_max = 6e-4, .z_min = -1e-3}};
+  return build_friction_map(road, rubber, model, Adhesion{.shear_stress = 5e6},
+                            {.pressure = {5e4, 5e5}, .velocity = {1e-3, 1}, .rtol = 0.03, .checked = 0, .text = "{}"});
+}
+
+}  // namespace
+
+TEST_CASE("maps written by the layout that the header states are read, and give their functions") {
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> unit;
+  for (const small_map::Kind& kind : small_map::kinds()) {
+    const Bytes bytes = small_map::make(kind);
+    FrictionMap map;
+    std::string why;
+    REQUIRE_MESSAGE(map.read(bytes.data(), bytes.size(), why), why);
+    CHECK(map.info().text == kind.text);
+    CHECK(map.info().max_error == small_map::max_error);
+    CHECK(map.info().checked == 1000);
+    CHECK(map.info().hysteresis == kind.hysteresis);
+    for (int i = 0; i < 1000; ++i) {
+      const double p = small_map::pressure[0] * std::pow(small_map::pressure[1] / small_map::pressure[0], unit(random));
+      const double v = small_map::velocity[0] * std::pow(small_map::velocity[1] / small_map::velocity[0], unit(random));
+      MapPoint point{};
+      CHECK(map.at(p, v, point) == FrictionMap::Status::ok);
+      // an error of ln mu of some units in the last place of its largest term, 14
+      CHECK(map.mu(p, v) == doctest::Approx(small_map::mu(kind, p, v)).epsilon(1e-13));
+      CHECK(point.contact_area == doctest::Approx(small_map::contact_area(kind, p, v)).epsilon(1e-13));
+    }
+  }
+}
+
+TEST_CASE("what is wrong with a file is named") {
+  const Bytes good = small_map::make({});
+  CHECK(refusal(good).empty());
+  CHECK(says({}, "begins otherwise"));
+  Bytes bytes = good;
+  small_map::overwrite(bytes, 8, 0x04030201, 4);
+  CHECK(says(bytes, "the other byte order"));
+  bytes = good;
+  small_map::overwrite(bytes, 12, 2, 4);
+  CHECK(says(bytes, "has layout version 2: must be 1"));
+  bytes = good;
+  bytes.resize(good.size() - 100);
+  CHECK(says(bytes, "is truncated: "));
+  bytes.resize(good.size() + 1);
+  CHECK(says(bytes, "is too long: "));
+  bytes = good;
+  bytes[300] ^= 1;
+  CHECK(says(bytes, "its checksum"));
+  bytes = good;
+  small_map::overwrite(bytes, 140, 5, 4);  // cells, of which there are four
+  small_map::repair(bytes);
+  CHECK(says(bytes, "its head contradicts itself"));
+  bytes = small_map::make({.nested = true});
+  small_map::overwrite(bytes, 152 + 16 + 2 * 48, static_cast<std::uint64_t>(-1), 4);  // from grid 0 to grid 0
+  small_map::repair(bytes);
+  CHECK(says(bytes, "its tables contradict each other"));
+}
+
+TEST_CASE("a file altered in any byte or cut at any length is refused") {
+  for (const small_map::Kind& kind : small_map::kinds()) {
+    const Bytes good = small_map::make(kind);
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      Bytes bytes = good;
+      for (const int flip : {1, 0x80, 0xff}) {
+        bytes[i] = static_cast<unsigned char>(good[i] ^ flip);
+        FrictionMap map;
+        std::string why;
+        if (map.read(bytes.data(), bytes.size(), why)) FAIL_CHECK("byte ", i, " altered by ", flip);
+      }
+      bytes.assign(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i));
+      FrictionMap map;
+      std::string why;
+      if (map.read(bytes.data(), bytes.size(), why)) FAIL_CHECK("cut at ", i);
+    }
+  }
+}
+
+TEST_CASE("altered where the checksum was made right, it is refused or answers") {
+  int accepted = 0, refused = 0;
+  const auto count = [&](const Bytes& bytes) { ++(stands(bytes) ? accepted : refused); };
+  for (const small_map::Kind& kind : small_map::kinds()) {
+    const Bytes good = small_map::make(kind);
+    const std::size_t tables = std::min<std::size_t>(good.size() - 8, 900);  // of the cells the first ones will do
+    for (std::size_t i = 24; i < tables; ++i) {
+      Bytes bytes = good;
+      bytes[i] ^= 0x80;
+      count(bytes);
+      bytes.assign(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i));
+      count(bytes);
+    }
+    for (std::size_t i = 24; i < tables / 8 * 8; i += 8) {
+      double old = 0;
+      std::memcpy(&old, &good[i], sizeof old);
+      for (std::size_t k = 0; k < hard_numbers; ++k) {
+        Bytes bytes = good;
+        const double hard = hard_number(old, k);
+        std::memcpy(&bytes[i], &hard, sizeof hard);
+        count(bytes);
+      }
+      for (const std::uint32_t word : hard_words)
+        for (const std::size_t half : {i, i + 4}) {
+          Bytes bytes = good;
+          small_map::overwrite(bytes, half, word, 4);
+          count(bytes);
+        }
+    }
+  }
+  // both happen: coefficients may be anything, counts may not
+  CHECK(accepted > 1000);
+  CHECK(refused > 5000);
+}
+
+TEST_CASE("several numbers altered at once, in small maps and in a built one") {
+  std::minstd_rand random(7);
+  std::vector<Bytes> maps{built()};
+  for (const small_map::Kind& kind : small_map::kinds()) maps.push_back(small_map::make(kind));
+  FrictionMap whole;
+  std::string why;
+  REQUIRE_MESSAGE(whole.read(maps[0].data(), maps[0].size(), why), why);
+  probe::points(whole);
+  int accepted = 0;
+  for (int k = 0; k < 5000; ++k) {
+    Bytes bytes = maps[static_cast<std::size_t>(k) % maps.size()];
+    for (auto n = 2 + random() % 4; n > 0; --n) mutate(bytes.data(), bytes.size(), random);
+    std::memcpy(bytes.data(), maps[0].data(), 16);  // these are checked before the checksum
+    accepted += stands(bytes);
+  }
+  CHECK(accepted > 100);
+  CHECK(accepted < 4900);
+}
+
+TEST_CASE("a map that holds nothing answers NaN") {
+  const FrictionMap map;
+  probe::points(map);
+  CHECK(std::isnan(map.mu(0, 0)));
+  CHECK(std::isnan(map.mu(0, 0, FrictionMap::Outside::clamp)));
+}

@@ -1,0 +1,160 @@
+// Maps of a few cells, written by the layout that asperity/friction_map.hpp states, of functions known in closed form.
+#ifndef SMALL_MAP_HPP
+#define SMALL_MAP_HPP
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace small_map {
+
+using Bytes = std::vector<unsigned char>;
+
+struct Kind {
+  bool hysteresis = true, adhesion = true;
+  std::uint32_t bands = 1;  // of z, side by side
+  std::uint32_t nodes = 0;  // of s(x)
+  bool nested = false;      // a grid of its own in the corner of each band's
+  std::string text = {};
+};
+
+inline std::vector<Kind> kinds() {
+  return {{true, true, 1, 0, false, ""},
+          {true, false, 1, 0, true, "{\"made\": \"by hand\"}"},
+          {false, true, 2, 2, false, "9 letters"},
+          {true, true, 3, 5, true, "8 are one"}};
+}
+
+constexpr double pressure[] = {1e4, 1e6}, velocity[] = {1e-3, 10}, max_error = 2e-4;
+constexpr double shear_stress = 5e6, reference_velocity = 6e-3, width = 0.1;
+
+/// ln E* of a correction, of x = ln v.
+inline double shear(const Kind& kind, double x) { return kind.nodes > 0 ? 2 + 0.1 * x : 0; }
+
+/// ln of mu_H [0] and of A/A0 [1]: a cubic of x = ln v times a cubic of z.
+constexpr double in_x[2][4] = {{1, 0.05, -0.003, 0.0004}, {1, 0.01, 0.001, -0.0001}};
+constexpr double in_z[2][4] = {{-0.5, -0.02, 0.001, -5e-5}, {-14, 0.9, 0.002, -1e-4}};
+
+/// Derivative number n of a cubic, over n!: its coefficient of (t - t0)^n.
+inline double taylor(const double* c, int n, double t) {
+  double sum = 0;
+  for (int i = 3; i >= n; --i) sum = sum * t + c[i] * (n == 0 || n == i ? 1 : i == 2 || n == 1 ? i : 3);
+  return sum;
+}
+
+inline double value(int k, double x, double z) { return taylor(in_x[k], 0, x) * taylor(in_z[k], 0, z); }
+
+inline double contact_area(const Kind& kind, double p, double v) {
+  const double x = std::log(v);
+  return std::exp(value(1, x, std::log(p) - shear(kind, x)));
+}
+
+inline double mu(const Kind& kind, double p, double v) {
+  const double x = std::log(v), decades = std::log10(v / reference_velocity);
+  const double hysteresis = kind.hysteresis ? std::exp(value(0, x, std::log(p) - shear(kind, x))) : 0;
+  const double pull = kind.adhesion ? shear_stress / p * std::exp(-width * decades * decades) : 0;
+  return hysteresis + pull * contact_area(kind, p, v);
+}
+
+inline void put(Bytes& to, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) to.push_back(static_cast<unsigned char>(value >> (8 * i)));
+}
+
+inline void put(Bytes& to, double value) {
+  std::uint64_t word;
+  std::memcpy(&word, &value, sizeof word);
+  put(to, word, 8);
+}
+
+inline void overwrite(Bytes& at, std::size_t offset, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i)
+    at[offset + static_cast<std::size_t>(i)] = static_cast<unsigned char>(value >> (8 * i));
+}
+
+/// CRC-32 of zip and PNG.
+inline std::uint32_t crc32(const unsigned char* data, std::size_t size) {
+  static const std::vector<std::uint32_t> table = [] {
+    std::vector<std::uint32_t> of_byte(256);
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      of_byte[i] = i;
+      for (int k = 0; k < 8; ++k) of_byte[i] = (of_byte[i] >> 1) ^ ((of_byte[i] & 1) != 0 ? 0xedb88320u : 0u);
+    }
+    return of_byte;
+  }();
+  std::uint32_t crc = 0xffffffff;
+  for (std::size_t i = 0; i < size; ++i) crc = (crc >> 8) ^ table[(crc ^ data[i]) & 0xff];
+  return ~crc;
+}
+
+/// Size and checksum made those of the contents, so that what is behind them is read.
+inline void repair(Bytes& bytes) {
+  if (bytes.size() < 32) return;
+  overwrite(bytes, 16, bytes.size(), 8);
+  overwrite(bytes, bytes.size() - 8, crc32(bytes.data(), bytes.size() - 8), 8);
+}
+
+inline Bytes make(const Kind& kind) {
+  const std::uint32_t bands = kind.bands, columns = 2, rows = 2;
+  const std::uint32_t grids = kind.nested ? 2 * bands : bands, entries = columns * rows * grids;
+  const std::uint32_t cells = kind.nested ? 7 * bands : 4 * bands;
+  const double x[] = {std::log(velocity[0]), std::log(velocity[1])};
+  const double bottom = std::log(pressure[0]) - shear(kind, x[1]), top = std::log(pressure[1]) - shear(kind, x[0]);
+  const double wide = (x[1] - x[0]) / columns, high = (top - bottom) / bands / rows;
+
+  Bytes out;
+  for (const char letter : std::string("ASPERMAP")) out.push_back(static_cast<unsigned char>(letter));
+  put(out, 0x01020304, 4);
+  put(out, 1, 4);
+  put(out, 0, 8);
+  for (const double side : {pressure[0], pressure[1], velocity[0], velocity[1]}) put(out, side);
+  for (const double error : {1e-4, max_error, 1e-4}) put(out, error);
+  put(out, 1000, 8);
+  put(out, 0, 8);
+  for (const double number : {kind.adhesion ? shear_stress : 0, reference_velocity, width}) put(out, number);
+  const auto letters = static_cast<std::uint32_t>(kind.text.size());
+  for (const std::uint32_t n : {kind.hysteresis ? 1u : 0u, bands, kind.nodes, grids, entries, cells, letters, 0u})
+    put(out, n, 4);
+  for (std::uint32_t k = 0; k <= bands; ++k) put(out, bottom + k * rows * high);
+  for (std::uint32_t i = 0; i < kind.nodes; ++i) {
+    put(out, shear(kind, x[0] + i * (x[1] - x[0]) / (kind.nodes - 1)));
+    put(out, 0.1);
+  }
+
+  Bytes table, polynomials;
+  std::uint32_t cell = 0;
+  const auto grid = [&](double x0, double z0, double w, double h, std::uint32_t first, std::int64_t inner) {
+    for (const double number : {x0, z0, 1 / w, 1 / h}) put(out, number);
+    for (const std::uint32_t n : {columns, rows, first, 0u}) put(out, n, 4);
+    for (std::uint32_t i = 0; i < columns * rows; ++i) {
+      if (i == 0 && inner >= 0) {
+        put(table, static_cast<std::uint64_t>(-1 - inner), 4);
+        continue;
+      }
+      put(table, cell++, 4);
+      const double cx = x0 + i / rows * w, cz = z0 + i % rows * h;
+      put(polynomials, cx);
+      put(polynomials, cz);
+      for (int j = 0; j < 4; ++j)
+        for (int power = 0; power < 4; ++power)
+          for (int k = 0; k < 2; ++k) put(polynomials, taylor(in_x[k], power, cx) * taylor(in_z[k], j, cz));
+    }
+  };
+  for (std::uint32_t k = 0; k < bands; ++k)
+    grid(x[0], bottom + k * rows * high, wide, high, columns * rows * k, kind.nested ? std::int64_t{bands} + k : -1);
+  for (std::uint32_t k = bands; k < grids; ++k)
+    grid(x[0], bottom + (k - bands) * rows * high, wide / columns, high / rows, columns * rows * k, -1);
+  out.insert(out.end(), table.begin(), table.end());
+  out.resize((out.size() + 7) / 8 * 8);
+  out.insert(out.end(), polynomials.begin(), polynomials.end());
+  out.insert(out.end(), kind.text.begin(), kind.text.end());
+  out.resize((out.size() + 7) / 8 * 8 + 8);
+  repair(out);
+  return out;
+}
+
+}  // namespace small_map
+
+#endif  // SMALL_MAP_HPP
