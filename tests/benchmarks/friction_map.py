@@ -112,7 +112,7 @@ def make() -> timing.Report:
         for count in (1000, COUNT, 1 << 20):
             few = points(count)
             calls = {
-                "map": lambda few=few: scene.map.mu(*few),
+                "map": lambda few=few, made=scene.map: made.mu(*few),
                 "numpy": lambda few=few: (np.log(few[0]), np.log(few[1]), np.exp(few[1])),
             }
             often = {k: timing.Repeated(call) for k, call in calls.items()}
