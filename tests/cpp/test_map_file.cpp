@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 #include <string>
 
@@ -110,8 +112,29 @@ TEST_CASE("what is wrong with a file is named") {
   small_map::overwrite(bytes, 140, 5, 4);  // cells, of which there are four
   small_map::repair(bytes);
   CHECK(says(bytes, "its head contradicts itself"));
-  bytes = small_map::make({.nested = true});
-  small_map::overwrite(bytes, 152 + 16 + 2 * 48, static_cast<std::uint64_t>(-1), 4);  // from grid 0 to grid 0
+
+  // Of tables: after the head two cuts, two grids of 48 bytes, eight entries, seven cells.
+  constexpr std::size_t head = 152, grids = head + 16, entries = grids + 2 * 48, cells = entries + 32;
+  const auto altered = [](std::initializer_list<std::pair<std::size_t, double>> numbers) {
+    Bytes result = small_map::make({.nested = true});
+    for (const auto& [at, number] : numbers) small_map::overwrite(result, at, std::bit_cast<std::uint64_t>(number), 8);
+    small_map::repair(result);
+    return result;
+  };
+  CHECK(refusal(altered({})).empty());
+  CHECK(says(altered({{24, 1e4}, {32, std::nextafter(1e4, 1e5)}}), "its head contradicts itself"));
+  for (const double number : {probe::nan(), probe::infinity(), -1e13})
+    for (const std::size_t at : {head, grids, grids + 8, grids + 16, grids + 24, cells, cells + 8})
+      CHECK(says(altered({{at, number}}), "its tables contradict each other"));
+  CHECK(says(altered({{cells + 16, probe::nan()}}), "its tables contradict each other"));
+  for (const std::size_t at : {grids, grids + 8})  // steps that no integer holds
+    CHECK(says(altered({{at, 1e11}, {at + 16, 1e11}}), "its tables contradict each other"));
+  bytes = altered({});
+  small_map::overwrite(bytes, entries, static_cast<std::uint64_t>(-1), 4);  // from grid 0 to grid 0
+  small_map::repair(bytes);
+  CHECK(says(bytes, "its tables contradict each other"));
+  bytes = altered({});
+  small_map::overwrite(bytes, grids + 48 + 40, 0, 4);  // grid 1 has the entries of grid 0
   small_map::repair(bytes);
   CHECK(says(bytes, "its tables contradict each other"));
 }
