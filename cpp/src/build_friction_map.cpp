@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <filesystem>
 
 #include "asperity/friction_map.hpp"
 #include "asperity/version.hpp"
@@ -18,22 +18,35 @@ namespace asperity {
 
 namespace {
 
-void check_request(const MapRequest& request) {
+// What the file may hold.
+constexpr double smallest = 1e-300, largest = 1e300;
+
+void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
   for (const auto& [name, box] : {std::pair{"pressure", request.pressure}, std::pair{"velocity", request.velocity}}) {
-    for (const double side : box) require_positive(name, side);
+    for (const double side : box) {
+      require_positive(name, side);
+      if (side < smallest || side > largest) refuse(name, side, "in [1e-300, 1e300]");
+    }
     if (!(box[0] * (1 + 1e-6) < box[1]))
       throw InvalidInput(std::string(name) + " = (" + show(box[0]) + ", " + show(box[1]) +
                          "): must be (lo, hi) with lo < hi, a millionth apart or more");
   }
   require_rtol(request.rtol);
+  if (!adhesion) return;
+  validate(*adhesion);
+  for (const auto& [name, value] : {std::pair{"shear_stress", adhesion->shear_stress},
+                                    std::pair{"reference_velocity", adhesion->reference_velocity}})
+    if (value != 0 && (value < smallest || value > largest)) refuse(name, value, "in [1e-300, 1e300] for a map");
+  if (adhesion->width > largest) refuse("width", adhesion->width, "at most 1e300 for a map");
 }
 
-/// Points of the box, evenly in the logarithms, edges and corners too.
+/// Those at 81 points of the box, evenly in the logarithms, edges and corners too.
 std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                   const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   constexpr int steps = 8;
   const auto between = [](const std::array<double, 2>& box, int i) {
-    return i == steps ? box[1] : box[0] * std::pow(box[1] / box[0], static_cast<double>(i) / steps);
+    const double share = static_cast<double>(i) / steps;
+    return i == 0 ? box[0] : i == steps ? box[1] : std::exp((1 - share) * std::log(box[0]) + share * std::log(box[1]));
   };
   std::vector<double> pressure, velocity;
   for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
@@ -86,7 +99,7 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
 
 std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
-  check_request(request);
+  check_request(request, adhesion);
   std::string text = "asperity " + std::string(version()) + "\n";
   for (const std::string& note : notes_of(spectrum, rubber, model, adhesion, request))
     text.append("note: ").append(note).append("\n");
@@ -103,20 +116,30 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   std::string why;
   if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
   check(frame, map, request, certificate);
+  if (certificate.largest_checked_error > request.rtol)
+    throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
+                       " was reached, on one of " + std::to_string(request.checked) + " random points");
   return map_file(frame, refined.tree, adhesion, whole, certificate);
 }
 
 void write_whole(const std::string& path, std::span<const unsigned char> bytes) {
-  const std::string beside = path + ".part";
+  // beside what a link points to, under a name that nobody has
+  const std::string target = std::filesystem::weakly_canonical(path).string();
+  std::string beside;
+  std::FILE* file = nullptr;
   const auto refuse = [&] {
     const std::string reason = std::strerror(errno);
-    std::remove(beside.c_str());
+    if (file) std::remove(beside.c_str());
     throw InvalidInput("path = " + path + ": cannot be written: " + reason);
   };
-  std::FILE* const file = std::fopen(beside.c_str(), "wb");
+  for (int i = 0; !file && i < 1000; ++i) {
+    beside = target + "." + std::to_string(i) + ".part";
+    file = std::fopen(beside.c_str(), "wbx");
+    if (!file && errno != EEXIST) refuse();
+  }
   if (!file) refuse();
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  if ((std::fclose(file) != 0) || !written || std::rename(beside.c_str(), path.c_str()) != 0) refuse();
+  if (std::fclose(file) != 0 || !written || std::rename(beside.c_str(), target.c_str()) != 0) refuse();
 }
 
 }  // namespace asperity

@@ -19,14 +19,14 @@ std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} <<
 
 class Builder {
  public:
-  Builder(const MapFrame& frame, double rtol) : frame_(frame), rtol_(rtol), tree_(frame.x(), frame.cuts()) {}
+  Builder(const MapFrame& frame, double rtol, const std::function<void()>& watch)
+      : frame_(frame), rtol_(rtol), watch_(watch), tree_(frame.x(), frame.cuts()) {}
 
   /// Halves cells until lattices and unseen points agree; returns twice the largest error of the latter.
-  double refine(const std::function<void()>& watch) {
+  double refine() {
     for (;;) {
-      do {
-        if (watch) watch();
-      } while (halve_where(lattice_errors(), lattice_share * rtol_));
+      while (halve_where(lattice_errors(), lattice_share * rtol_)) {
+      }
       const std::vector<double> errors = unseen_errors();
       const double largest = std::ranges::max(errors);
       if (!halve_where(errors, rtol_ / 2)) return 2 * largest;
@@ -67,6 +67,17 @@ class Builder {
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * std::ranges::max(errors), 3) + " was reached with " +
                          std::to_string(cells) + " cells");
     return !bad.empty();
+  }
+
+  std::vector<MapSample> sample(std::span<const MapPlace> places) const {
+    constexpr std::size_t block = 5000;
+    std::vector<MapSample> found;
+    for (std::size_t i = 0; i < places.size(); i += block) {
+      if (watch_) watch_();
+      const std::vector<MapSample> part = frame_.sample(places.subspan(i, std::min(block, places.size() - i)));
+      found.insert(found.end(), part.begin(), part.end());
+    }
+    return found;
   }
 
   /// Whether any of it is in the box; one at its very edge is.
@@ -145,21 +156,20 @@ class Builder {
       if (leaf.child >= 0 || !leaf.needed) continue;
       const auto [wide, high] = tree_.size(leaf);
       const double x = tree_.x(leaf.x), z = tree_.z(leaf.z);
+      // 3 velocities, each for 4 pressures; of a cell that the box's side cuts, where the box is
       std::size_t taken = 0;
       for (std::size_t tried = 0; taken < unseen && tried < 50 * unseen; ++tried) {
-        // 3 velocities, each for 4 pressures in turn
-        if (taken % 4 == 0) at_x_ = x + random_() * wide;
-        const MapPlace place{at_x_, z + random_() * high};
-        if (!in_box(place)) {
-          at_x_ = x + random_() * wide;
-          continue;
+        const double at_x = x + random_() * wide, s = frame_.shear(at_x);
+        const double from = std::fmax(z, frame_.ln_pressure(0) - s);
+        const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);
+        if (!(from < to)) continue;
+        for (std::size_t i = 0; i < 4; ++i, ++taken) {
+          places.push_back({at_x, from + random_() * (to - from)});
+          owner.push_back(n);
         }
-        places.push_back(place);
-        owner.push_back(n);
-        ++taken;
       }
     }
-    const std::vector<MapSample> truth = frame_.sample(places);
+    const std::vector<MapSample> truth = sample(places);
     std::vector<double> errors(tree_.nodes().size(), 0);
     for (std::size_t i = 0; i < places.size(); ++i)
       errors[owner[i]] = std::fmax(errors[owner[i]], error_at(tree_.nodes()[owner[i]], places[i], truth[i]));
@@ -176,7 +186,7 @@ class Builder {
           keys.push_back(key(x, z));
           places.push_back({tree_.x(x), tree_.z(z)});
         });
-    const std::vector<MapSample> found = frame_.sample(places);
+    const std::vector<MapSample> found = sample(places);
     for (std::size_t i = 0; i < keys.size(); ++i) {
       lattice_[keys[i]] = found[i];
       if (found[i].error > lattice_share * rtol_)  // no number of cells would help
@@ -223,7 +233,7 @@ class Builder {
       const double step = band_step(band), at = tree_.z(z);
       add(x, z, at - 2 * step < tree_.cuts()[band] ? 0 : at + 2 * step > tree_.cuts()[band + 1] ? 4 : 2, step, {0, 1});
     }
-    const std::vector<MapSample> found = frame_.sample(places);
+    const std::vector<MapSample> found = sample(places);
     for (std::size_t n = 0; n < stencils.size(); ++n) {
       const Stencil& s = stencils[n];
       const auto in_x = derivative_weights(s.kx), in_z = derivative_weights(s.kz);
@@ -248,18 +258,18 @@ class Builder {
 
   const MapFrame& frame_;
   double rtol_;
+  const std::function<void()>& watch_;
   MapTree tree_;
   std::unordered_map<std::uint64_t, MapSample> lattice_;
   std::unordered_map<std::uint64_t, MapCorner> corners_;
   Random random_;
-  double at_x_ = 0;
 };
 
 }  // namespace
 
 RefinedMap refine(const MapFrame& frame, double rtol, const std::function<void()>& watch) {
-  Builder builder(frame, rtol);
-  const double max_error = builder.refine(watch);
+  Builder builder(frame, rtol, watch);
+  const double max_error = builder.refine();
   return {std::move(builder).tree(), max_error};
 }
 

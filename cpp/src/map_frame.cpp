@@ -33,8 +33,8 @@ std::array<double, 5> derivative_weights(std::size_t k) {
 }
 
 MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const MapRequest& request)
-    : spectrum_(spectrum), rubber_(rubber), model_(model), velocity_(request.velocity) {
-  model_.rtol = std::clamp(request.rtol * 1e-3, 1e-12, 1e-9);
+    : spectrum_(spectrum), rubber_(rubber), model_(model), rtol_(request.rtol), velocity_(request.velocity) {
+  model_.rtol = std::clamp(request.rtol * 1e-3, 1e-12, 1e-6);
   x_lo_ = std::log(velocity_[0]);
   x_hi_ = std::log(velocity_[1]);
   y_lo_ = std::log(request.pressure[0]);
@@ -100,12 +100,15 @@ void MapFrame::cut_bands() {
   cuts_ = {bottom};
   int before = state(bottom);
   const auto refuse_no_contact = [&](double z) {
-    const double p_lo = std::exp(y_lo_), p_hi = std::exp(y_hi_);
-    throw InvalidInput(
-        "pressure = (" + show(p_lo) + ", " + show(p_hi) + "): in a part of the box, near " +
-        show(std::exp(std::clamp(z + highest, y_lo_, y_hi_))) +
-        " Pa at its highest modulus, the Greenwood-Williamson correction finds no contact (d~ >= z_max): "
-        "must be such that there is contact everywhere");
+    const double apart = (x_hi_ - x_lo_) / static_cast<double>(shear_.size() / 2 - 1);
+    std::size_t node = 0;  // one where z is in the box, or nearly
+    while (node + 2 < shear_.size() && (z + shear_[node] < y_lo_ || z + shear_[node] > y_hi_)) node += 2;
+    const double y = std::clamp(z + shear_[node], y_lo_, y_hi_);
+    throw InvalidInput("pressure = (" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + "): at " +
+                       show(std::exp(y), 6) + " Pa and " +
+                       show(std::exp(x_lo_ + static_cast<double>(node / 2) * apart), 6) +
+                       " m/s the Greenwood-Williamson correction finds no contact (d~ >= z_max): must be such that "
+                       "there is contact everywhere");
   };
   if (before == 0) refuse_no_contact(bottom);
   for (std::size_t i = 1; i <= steps; ++i) {
@@ -131,7 +134,14 @@ std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places) const 
     pressure.push_back(std::exp(place.z + shear(place.x)));
     velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
   }
-  const Friction f = friction(spectrum_, rubber_, model_, {}, pressure, velocity);
+  const Friction f = [&] {
+    try {
+      return friction(spectrum_, rubber_, model_, {}, pressure, velocity);
+    } catch (const NotConverged& error) {
+      throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a thousandth of it, found " +
+                         error.what());
+    }
+  }();
   std::vector<MapSample> result;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double h = f.hysteresis[i], a = f.contact_area[i];

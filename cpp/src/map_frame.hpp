@@ -42,6 +42,7 @@ class MapFrame {
   const Spectrum& spectrum_;
   const Rubber& rubber_;
   ContactModel model_;
+  double rtol_;  // of the map
   std::array<double, 2> velocity_;
   double x_lo_, x_hi_, y_lo_, y_hi_;
   std::vector<double> shear_, cuts_;

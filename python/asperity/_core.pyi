@@ -857,6 +857,15 @@ class FrictionMap:
         shift_adhesion: bool = False,
         outside: Literal["error", "nan", "clamp"] = "error",
     ) -> Any: ...
+    def traction(
+        self,
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        shift_factor: ArrayLike = 1.0,
+        shift_adhesion: bool = False,
+        outside: Literal["error", "nan", "clamp"] = "error",
+    ) -> Any: ...
     def derivatives(
         self,
         pressure: ArrayLike,

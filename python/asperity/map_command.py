@@ -24,7 +24,11 @@ def friction_map_of(args: Namespace) -> None:
     """Build, certify, write and draw the map of a scene, or tell what a file holds."""
     if (args.scene is None) == (args.info is None):
         raise InvalidInput("map: must be given a SCENE.toml, or --info FILE")
+    asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
+    given = [name for name in (*asked, "output", "plot") if getattr(args, name) is not None]
     if args.info is not None:
+        if given:
+            raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
         _tell(args, _read(Path(args.info)))
         return
     outputs = check_outputs(args)
@@ -35,9 +39,15 @@ def friction_map_of(args: Namespace) -> None:
     velocity = _box("velocity", args.velocity, scene.velocity, notes)
     rtol = args.rtol or scene.stated_rtol or _RTOL
     options = {**scene.options, "rtol": rtol, "correction": scene.correction}
-    inputs = {"scene": str(scene.path), **scene.inputs, "derived": scene.derived}
+    solver = {**scene.inputs["solver"], "rtol": rtol}
+    inputs = {
+        "scene": str(scene.path),
+        **scene.inputs,
+        "solver": solver,
+        "derived": scene.derived,
+    }
     lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
-    names = {name: f"--{name}" for name in ("pressure", "velocity", "rtol", "checked")}
+    names = {name: f"--{name}" for name in given}
     with named(scene.path, names):
         made = friction_map(
             scene.spectrum,
@@ -45,8 +55,8 @@ def friction_map_of(args: Namespace) -> None:
             pressure=pressure,
             velocity=velocity,
             adhesion=scene.adhesion,
-            checked=args.checked,
-            text="".join(f"{line}\n" for line in lines),
+            text=_plain("".join(f"{line}\n" for line in lines)),
+            **({} if args.checked is None else {"checked": args.checked}),
             **options,
         )
     files = {}
@@ -124,6 +134,13 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
     told = [line for line in made.text.splitlines() if not line.startswith("note: ")]
     tell("".join(f"{line}\n" for line in [*lines, *(told if args.info is not None else [])]))
     tell_notes(made.notes)
+    if made.exceeded > 0:
+        tell_notes([f"{made.exceeded} of {made.checked} random points are beyond max_error"])
+
+
+def _plain(text: str) -> str:
+    """Without what is no text in a file's name."""
+    return text.encode(errors="backslashreplace").decode()
 
 
 def _short(value: Any) -> str:

@@ -35,13 +35,13 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     figure.colorbar(filled, ax=left, label=label, ticks=ticks, format="%.3g")
     left.contour(velocity[0], pressure[:, 0], mu, ticks, colors="white", linewidths=0.7)
     off = np.broadcast_to(errors(pressure, velocity), mu.shape)
-    worst = made.max_error
+    worst = max(made.max_error, 1e-15)
     norm = LogNorm(worst * 1e-4, worst)
     drawn = right.pcolormesh(
         velocity[0], pressure[:, 0], np.maximum(off, worst * 1e-4), norm=norm, cmap=shades()
     )
     drawn.set_rasterized(True)
-    figure.colorbar(drawn, ax=right, label="Relative error of $\\mu$ [-]", extend="min")
+    figure.colorbar(drawn, ax=right, label="Relative error of $\\mu$ [-]", extend="both")
     beyond = f"{made.exceeded} of {made.checked:,} random points beyond"
     right.set_title(f"{made.cells} cells, certified: {worst:.2g}; {beyond}", fontsize="small")
     for axes in (left, right):

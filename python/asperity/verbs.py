@@ -218,9 +218,8 @@ def parser() -> argparse.ArgumentParser:
     mapped.add_argument(
         "--checked",
         type=whole,
-        default=1_000_000,
         metavar="N",
-        help="random points that the map is checked on (default: %(default)s)",
+        help="random points that the map is checked on (default: 1000000)",
     )
     mapped.add_argument("--output", metavar="FILE", help="where to write the map")
     mapped.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")

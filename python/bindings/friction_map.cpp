@@ -45,7 +45,9 @@ Map from_python_bytes(const py::bytes& bytes, const std::string& name) {
 }
 
 std::string path_of(const py::object& path) {
-  return py::module_::import("os").attr("fsdecode")(path).cast<std::string>();
+  const std::string name = py::module_::import("os").attr("fsencode")(path).cast<std::string>();
+  if (name.find('\0') != std::string::npos) throw InvalidInput("path = " + brief(path) + ": must not hold a NUL");
+  return name;
 }
 
 std::array<double, 2> box(const py::object& given, const char* name) {
@@ -63,11 +65,17 @@ Map build(const py::object& spectrum, const py::object& rubber, const py::object
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   };
+  std::string lines = text.value;
+  if (lines.empty())
+    for (const auto& [name, part] : {std::pair{"spectrum", spectrum}, std::pair{"rubber", rubber},
+                                     std::pair{"correction", correction}, std::pair{"adhesion", adhesion}})
+      lines += std::string(name) + " = " +
+               py::str(" ").attr("join")(py::repr(part).attr("split")()).cast<std::string>() + "\n";
   const MapRequest request{box(pressure, "pressure"),
                            box(velocity, "velocity"),
                            rtol,
                            static_cast<std::size_t>(checked.value),
-                           text.value,
+                           lines,
                            heed_interrupts};
   const ContactModel model = contact_model(poisson_ratio, correction, form_of(form), 1e-6, method);
   const Spectrum surface = spectrum_of(spectrum);
@@ -170,6 +178,27 @@ py::object mu_of(const Map& m, const py::object& pressure, const py::object& vel
   return mu;
 }
 
+/// sign(v) mu p, where there are load and motion.
+py::object traction_of(const Map& m, const py::object& pressure, const py::object& velocity,
+                       const py::object& shift_factor, Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
+  const auto policy = policy_of(outside);
+  const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
+  const std::vector<double>&p = b.columns[0], &v = b.columns[1], &shift = b.columns[2];
+  std::vector<double> traction(p.size());
+  {
+    const py::gil_scoped_release release;
+    const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      traction[i] = m.map.traction(p[i], v[i], how, {shift[i], shift_adhesion});
+      if (policy == Policy::nan || !std::isnan(traction[i])) continue;
+      MapPoint point;
+      const auto status = m.map.at(p[i], v[i], point, how, {shift[i], shift_adhesion});
+      refuse(m.map.info(), status, i, p[i], v[i], shift[i], b.shape.empty());
+    }
+  }
+  return shaped(std::move(traction), b.shape);
+}
+
 struct SlopesTag {
   static constexpr Field fields[] = {{"dmu_dlnp", Holds::numbers}, {"dmu_dlnv", Holds::numbers}};
 };
@@ -233,6 +262,9 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       "adhesion", [](const MapPoint& at) { return One{at.adhesion}; }, "mu_A (Eq. 23) [-].");
   query(
       "contact_area", [](const MapPoint& at) { return One{at.contact_area}; }, "A/A0 at q1 [-].");
+  map.def("traction", &traction_of, py::arg("pressure"), py::arg("velocity"), py::kw_only(),
+          py::arg("shift_factor") = 1.0, py::arg("shift_adhesion") = false, py::arg("outside") = "error",
+          "Shear traction sign(v) mu p [Pa]; 0 where v = 0 or p <= 0, whatever the map covers.");
   map.def(
          "derivatives",
          [](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
@@ -255,7 +287,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
           "load",
           [](const py::object& path) {
             const std::string name = path_of(path);
-            const py::bytes content = py::module_::import("pathlib").attr("Path")(name).attr("read_bytes")();
+            const py::bytes content = py::module_::import("pathlib").attr("Path")(path).attr("read_bytes")();
             return from_python_bytes(content, name);
           },
           py::arg("path"),
@@ -296,7 +328,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       "rtol", [](const Info& i) { return i.rtol; }, "What was asked for [-].");
   property(
       "max_error", [](const Info& i) { return i.max_error; },
-      "Twice the largest relative error of hysteresis and area on 12 or more unseen points a cell [-].");
+      "Twice the largest relative error of hysteresis and area on 12 unseen points a cell [-].");
   property(
       "checked", [](const Info& i) { return i.checked; }, "Random points that the finished map was checked on.");
   property(
@@ -326,8 +358,8 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
         py::arg("checked") = 1'000'000, py::arg("text") = "",
         R"(Map of the friction coefficient for simulators: built to `rtol`, certified, looked up in nanoseconds.
 
-Cells are halved until hysteresis and contact area keep rtol / 2 on lattices and on random points that nothing was made
-from, 12 a cell; then the finished map is checked on more random points. Where a Greenwood-Williamson correction
+Cells are halved until hysteresis and contact area keep rtol / 2 on lattices of 5 x 5 and on random points that nothing
+was made from, 12 a cell; then the finished map is checked on more random points. Where a Greenwood-Williamson correction
 changes its state (full contact, beyond its range) the map is split along the boundary, where mu has a kink.
 
 Parameters
@@ -341,7 +373,7 @@ rtol : float
 checked : int
     Random points of the last check; a million take a second with a Prony series.
 text : str
-    Lines to keep in the file, for whoever reads it.
+    Lines to keep in the file, for whoever reads it; unless given, what stands for the arguments.
 
 Returns
 -------
@@ -354,7 +386,7 @@ InvalidInput
 OutOfRange
     The box asks for the modulus outside of a measured master curve.
 NotConverged
-    rtol is not met with 100,000 cells; the message has what was.
+    rtol is not met, with 100,000 cells or on a point of the last check; the message has what was.
 
 Examples
 --------

@@ -38,7 +38,16 @@ def module() -> Any:
         headers = (ROOT / "cpp/include", pybind11.get_include(), sysconfig.get_path("include"))
         includes = [f"-I{path}" for path in headers]
         source = Path(__file__).with_suffix(".cpp")
-        command = ["c++", "-std=c++17", "-O2", "-shared", "-fPIC", *includes, source]
+        command = [
+            "c++",
+            "-std=c++17",
+            "-O2",
+            "-shared",
+            "-fPIC",
+            "-fvisibility=hidden",
+            *includes,
+            source,
+        ]
         subprocess.run([*command, "-o", built], check=True)
         spec = importlib.util.spec_from_file_location("friction_map_timing", built)
         if spec is None or spec.loader is None:

@@ -1,5 +1,7 @@
 """Friction maps: the certified error, smoothness, other temperatures, what is outside."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -189,6 +191,17 @@ def test_arrays_hold_what_points_do(road_map):
     assert road_map.mu(np.empty(0), 0.1).shape == (0,)
 
 
+def test_traction_is_odd_and_nought_at_rest_and_without_load(road_map):
+    p, v = random_points(20)
+    np.testing.assert_allclose(road_map.traction(p, v), road_map.mu(p, v) * p, rtol=1e-14)
+    np.testing.assert_array_equal(road_map.traction(p, -v), -road_map.traction(p, v))
+    for outside in ("error", "nan", "clamp"):
+        still = road_map.traction([2e5, 0.0, -1e5], [0.0, 0.1, 0.1], outside=outside)
+        np.testing.assert_array_equal(still, 0)
+    with pytest.raises(OutOfRange, match="pressure = 10: the map covers"):
+        road_map.traction(10.0, 0.1)
+
+
 def test_mu_is_even_in_the_velocity(road_map):
     p, v = random_points(20)
     np.testing.assert_array_equal(road_map.mu(p, -v), road_map.mu(p, v))
@@ -266,10 +279,50 @@ def test_the_map_is_split_where_contact_becomes_full():
     assert crossed > 5
 
 
-def test_a_box_with_a_part_without_contact_is_refused():
+@pytest.mark.parametrize("reading", ["implicit", "added"])
+def test_a_box_with_a_part_without_contact_is_refused(reading):
+    lifted = GreenwoodWilliamson(z_max=4e-4, z_min=-8e-4, reading=reading)
+    pressure = (10.0, 1e6) if reading == "implicit" else (3e5, 1e9)
+    with pytest.raises(InvalidInput, match="finds no contact") as refused:
+        made(lifted, box={"pressure": pressure, "velocity": (1e-5, 3.0)})
+    p, v = (float(x) for x in re.findall(r"at (\S+) Pa and (\S+) m/s", str(refused.value))[0])
+    area = asperity.contact_area(ROAD, RUBBER, pressure=p, velocity=v, correction=lifted)
+    assert area == 0  # it is there indeed
+
+
+@pytest.mark.parametrize("ratio", [1 + 1e-5, 1.003, 1.1])
+@pytest.mark.parametrize("name", ["gw", "gw added", "gw peaks", "combined", "none"])
+def test_narrow_boxes_are_no_worse(name, ratio):
+    box = {"pressure": (3e5, 3e5 * ratio), "velocity": (1e-5, 3.0)}
+    found = made(**SCENES[name], box=box, checked=5000)
+    assert 0 < found.max_error <= 1e-4
+    assert found.exceeded == 0
+
+
+def test_a_box_near_the_onset_of_contact_is_mapped():
     lifted = GreenwoodWilliamson(z_max=4e-4, z_min=-8e-4)
-    with pytest.raises(InvalidInput, match="finds no contact"):
-        made(lifted, box={"pressure": (10.0, 1e6), "velocity": (1e-5, 3.0)})
+    box = {"pressure": (10.0, 1e6), "velocity": (1e-5, 3.0)}
+    lowest, highest = 10.0, 1e6
+    for _ in range(60):
+        middle = np.sqrt(lowest * highest)
+        area = asperity.contact_area(ROAD, RUBBER, pressure=middle, velocity=3.0, correction=lifted)
+        lowest, highest = (lowest, middle) if area > 0 else (middle, highest)
+    for above in (1.01, 1.1):
+        box["pressure"] = (highest * above, 1e6)
+        found = made(lifted, box=box, rtol=1e-2, checked=5000)
+        assert found.exceeded == 0
+
+
+def test_what_a_file_cannot_hold_is_refused_by_name():
+    for adhesion, name in (
+        (Adhesion(shear_stress=1e-310), "shear_stress"),
+        (Adhesion(shear_stress=1e6, reference_velocity=1e301), "reference_velocity"),
+        (Adhesion(shear_stress=1e6, width=1e301), "width"),
+    ):
+        with pytest.raises(InvalidInput, match=name + " = "):
+            made(adhesion=adhesion)
+    with pytest.raises(InvalidInput, match=r"pressure = 1e-310: must be in \[1e-300, 1e300\]"):
+        made(box={**BOX, "pressure": (1e-310, 1e5)})
 
 
 def test_bad_boxes_and_tolerances_are_refused():

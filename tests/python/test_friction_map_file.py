@@ -135,6 +135,16 @@ def test_a_file_comes_back_as_it_was(found, tmp_path):
         assert same == found
         assert same.mu(2e5, 0.1) == found.mu(2e5, 0.1)
     assert os.listdir(tmp_path) == [path.name]
+    # what a link points to is written, and nobody's file is in the way
+    bystander = tmp_path / (path.name + ".0.part")
+    bystander.write_bytes(b"mine")
+    link = tmp_path / "link.fmap"
+    link.symlink_to(path)
+    found.save(link)
+    assert link.is_symlink()
+    assert path.read_bytes() == found.to_bytes()
+    assert bystander.read_bytes() == b"mine"
+    assert len(os.listdir(tmp_path)) == 3
 
 
 def test_every_truncated_file_is_refused(found):
@@ -175,6 +185,8 @@ def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
     (tmp_path / "other.fmap").write_bytes(b"no map")
     with pytest.raises(InvalidInput, match=r"other\.fmap: is no friction map"):
         FrictionMap.load(tmp_path / "other.fmap")
+    with pytest.raises(InvalidInput, match=r"path = .*: must not hold a NUL"):
+        found.save("a\0b")
     for path in (tmp_path / "none" / "road.fmap", tmp_path):
         with pytest.raises(InvalidInput, match=r"path = .*: cannot be written: \w"):
             found.save(path)

@@ -23,7 +23,7 @@
 // The temperature shifts the velocity of mu_H and A/A0 by a_T; the adhesion takes the true velocity.
 //
 // mu is even in v: mu(p, -v) = mu(p, v); the traction is odd, and 0 at v = 0 and where p <= 0, whatever the map's box.
-// Elsewhere in front of or behind the box, and with v = 0 or p <= 0, the caller chooses (Outside): a status that names
+// Outside of the box, v = 0 and p <= 0 among it, the caller otherwise chooses (Outside): a status that names
 // what is outside, NaN, or the nearest point of the box, whose derivatives across the box's side are 0. Numbers that
 // are NaN give NaN (status not_a_number) always.
 //
@@ -47,7 +47,7 @@
 //            is in
 //        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
 //            8 j + 2 i + 1 for ln A/A0
-//        t   text, UTF-8, JSON: what the map was made of
+//        t   text, lines of UTF-8: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
 #ifndef ASPERITY_FRICTION_MAP_HPP
@@ -171,7 +171,7 @@ struct FrictionMapInfo {
   double shear_stress = 0, reference_velocity = 0, width = 0;  // tau_f0 [Pa], v0 [m/s], c of the adhesion
   bool hysteresis = false;                                     // false: mu_H is 0 everywhere
   std::size_t cells = 0;
-  std::string text;  // JSON
+  std::string text;  // lines: what the map was made of
 };
 
 /// Of a temperature, beside the one that the map was made for.
@@ -297,7 +297,8 @@ class FrictionMap {
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
   bool hold(double& pressure, double& speed, double& shifted, Outside outside, double shift, Where& at) const noexcept {
     at.status = Status::not_a_number;
-    if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) || !(shift > 0 && shift <= 1e300) || cells_.empty())
+    if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
+        !(shift > 0 && shift <= std::numeric_limits<double>::max()) || cells_.empty())
       return false;
     at.free_p = map_detail::within(pressure, info_.pressure);
     at.free_v = map_detail::within(shifted, info_.velocity);
