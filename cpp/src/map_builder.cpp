@@ -22,13 +22,15 @@ class Builder {
   Builder(const MapFrame& frame, double rtol, const std::function<void()>& watch)
       : frame_(frame), rtol_(rtol), watch_(watch), tree_(frame.x(), frame.cuts()) {}
 
-  /// Halves cells until lattices and unseen points agree; returns twice the largest error of the latter.
+  /// Halves cells until lattices and unseen points agree; returns twice the largest error of both.
   double refine() {
     for (;;) {
-      while (halve_where(lattice_errors(), lattice_share * rtol_)) {
-      }
+      std::vector<double> on_lattices;
+      do {
+        on_lattices = lattice_errors();
+      } while (halve_where(on_lattices, lattice_share * rtol_));
       const std::vector<double> errors = unseen_errors();
-      const double largest = std::ranges::max(errors);
+      const double largest = std::fmax(std::ranges::max(errors), std::ranges::max(on_lattices));
       if (!halve_where(errors, rtol_ / 2)) return 2 * largest;
     }
   }
@@ -156,17 +158,17 @@ class Builder {
       if (leaf.child >= 0 || !leaf.needed) continue;
       const auto [wide, high] = tree_.size(leaf);
       const double x = tree_.x(leaf.x), z = tree_.z(leaf.z);
-      // 3 velocities, each for 4 pressures; of a cell that the box's side cuts, where the box is
+      // one in each of 4 x 3 parts; of a cell that the box's side cuts, where the box is
       std::size_t taken = 0;
       for (std::size_t tried = 0; taken < unseen && tried < 50 * unseen; ++tried) {
-        const double at_x = x + random_() * wide, s = frame_.shear(at_x);
+        const double column = static_cast<double>(tried % 4), row = static_cast<double>(taken % 3);
+        const double at_x = x + (column + random_()) / 4 * wide, s = frame_.shear(at_x);
         const double from = std::fmax(z, frame_.ln_pressure(0) - s);
         const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);
         if (!(from < to)) continue;
-        for (std::size_t i = 0; i < 4; ++i, ++taken) {
-          places.push_back({at_x, from + random_() * (to - from)});
-          owner.push_back(n);
-        }
+        places.push_back({at_x, from + (row + random_()) / 3 * (to - from)});
+        owner.push_back(n);
+        ++taken;
       }
     }
     const std::vector<MapSample> truth = sample(places);

@@ -21,7 +21,7 @@ class Random {
 
 struct RefinedMap {
   MapTree tree;
-  double max_error;  // twice the largest relative error on unseen points
+  double max_error;  // twice the largest relative error on lattices and unseen points
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed.

@@ -96,8 +96,10 @@ inline Views views(std::initializer_list<std::pair<const char*, py::handle>> arg
     std::string shapes;
     std::size_t at = 0;
     for (const auto& [name, values] : arguments)
-      shapes += (shapes.empty() ? "" : ", ") + std::string(name) + " " +
-                py::str(result.arrays[at++].attr("shape")).cast<std::string>();
+      shapes.append(shapes.empty() ? "" : ", ")
+          .append(name)
+          .append(" ")
+          .append(py::str(result.arrays[at++].attr("shape")).cast<std::string>());
     throw InvalidInput("shapes " + shapes + ": must broadcast together");
   }
   py::ssize_t size = 1;

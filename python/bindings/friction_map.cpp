@@ -328,7 +328,7 @@ and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
       "rtol", [](const Info& i) { return i.rtol; }, "What was asked for [-].");
   property(
       "max_error", [](const Info& i) { return i.max_error; },
-      "Twice the largest relative error of hysteresis and area on 12 unseen points a cell [-].");
+      "Twice the largest relative error of hysteresis and area, on 12 unseen points a cell and its lattice [-].");
   property(
       "checked", [](const Info& i) { return i.checked; }, "Random points that the finished map was checked on.");
   property(

@@ -46,17 +46,17 @@ class Outcome:
         return area and self.error <= allowed and self.estimate <= self.rtol * self.mu
 
 
-def _power(rng: Any, low: float, high: float, size: int | None = None) -> Any:
+def power(rng: Any, low: float, high: float, size: int | None = None) -> Any:
     return 10 ** rng.uniform(low, high, size)
 
 
-def _surface(rng: Any, tables: float) -> tuple[Any, float, float]:
+def draw_surface(rng: Any, tables: float) -> tuple[Any, float, float]:
     """A surface and its band."""
-    q0, band = _power(rng, 1, 6), _power(rng, 0.01, 8 if rng.random() < 0.2 else 4)
+    q0, band = power(rng, 1, 6), power(rng, 0.01, 8 if rng.random() < 0.2 else 4)
     if rng.random() < tables:
         rows = int(rng.integers(2, 200))
         q = np.geomspace(q0, q0 * band, rows)
-        density = _power(rng, -3, 1) ** 2 / q0**4 * (q / q0) ** -rng.uniform(2.1, 4)
+        density = power(rng, -3, 1) ** 2 / q0**4 * (q / q0) ** -rng.uniform(2.1, 4)
         density *= np.exp(rng.uniform(0, 1) * rng.standard_normal(rows))
         density[rng.random(rows) < 0.03] = 0
         density[rng.integers(rows)] = 1e-3 / q0**4
@@ -64,7 +64,7 @@ def _surface(rng: Any, tables: float) -> tuple[Any, float, float]:
     rolloff = q0 * band ** rng.uniform(0.1, 0.9) if rng.random() < 0.3 else None
     q1 = q0 * band
     surface = asperity.SelfAffineSpectrum(
-        rms_height=_power(rng, -3, 1) / q0,
+        rms_height=power(rng, -3, 1) / q0,
         hurst=rng.uniform(0.01, 1),
         q0=q0,
         q1=q1,
@@ -73,7 +73,7 @@ def _surface(rng: Any, tables: float) -> tuple[Any, float, float]:
     return surface, q0, q1
 
 
-def _rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
+def draw_rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
     if rng.random() < tables:
         rows = int(rng.integers(4, 40))
         w = np.geomspace(0.5 * slowest, 2 * fastest, rows)
@@ -85,13 +85,13 @@ def _rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
         )
     terms = int(rng.integers(1, 21))
     return asperity.PronySeries(
-        equilibrium_modulus=_power(rng, 5, 7),
-        moduli=_power(rng, 4, 9.5, terms),
-        relaxation_times=_power(rng, -10, 2, terms),
+        equilibrium_modulus=power(rng, 5, 7),
+        moduli=power(rng, 4, 9.5, terms),
+        relaxation_times=power(rng, -10, 2, terms),
     )
 
 
-def _correction(rng: Any, height: float) -> Any:
+def draw_correction(rng: Any, height: float) -> Any:
     """Any of them; heights of macro-asperities follow the rms height of the surface."""
     kind = rng.choice(
         ["none", "friction", "area", "both", "nayak", "shift", "peaks", "igw", "peaks igw"],
@@ -119,11 +119,11 @@ def _correction(rng: Any, height: float) -> Any:
 def compute(seed: int, scene: int, tables: float) -> Outcome:
     """Scene number `scene` of a seed."""
     rng = np.random.default_rng([seed, scene])
-    surface, q0, q1 = _surface(rng, tables)
-    pressure, velocity, rtol = _power(rng, 3, 8), _power(rng, -6, 1), _power(rng, -10, -2)
-    rubber = _rubber(rng, tables, velocity * q0, velocity * q1)
-    correction = _correction(rng, surface.rms_height)
-    shear_stress = _power(rng, 3, 8)
+    surface, q0, q1 = draw_surface(rng, tables)
+    pressure, velocity, rtol = power(rng, 3, 8), power(rng, -6, 1), power(rng, -10, -2)
+    rubber = draw_rubber(rng, tables, velocity * q0, velocity * q1)
+    correction = draw_correction(rng, surface.rms_height)
+    shear_stress = power(rng, 3, 8)
     options: dict[str, Any] = {
         "pressure": pressure,
         "velocity": velocity,

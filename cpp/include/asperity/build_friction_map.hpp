@@ -27,8 +27,8 @@ struct MapRequest {
 
 /// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in
 /// bicubic cells, split where they are off by more than rtol / 2 (relative, the solver's own estimate included) on
-/// lattices of 5 x 5 or on random points unseen before, 12 a cell; `max_error` is twice the largest error of the
-/// latter. OutOfRange where the rubber is not known, InvalidInput where there is no contact in a part of the box,
+/// lattices of 5 x 5 or on random points unseen before, 12 a cell; `max_error` is twice the largest error left on
+/// either. OutOfRange where the rubber is not known, InvalidInput where there is no contact in a part of the box,
 /// NotConverged with what was reached where 100,000 cells are too few.
 ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
                                                               const ContactModel& model,

@@ -33,8 +33,9 @@
 //    12  u32 version of this layout, 1
 //    16  u64 size of the file
 //    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s]: the box
-//    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 that the points gave on which
-//            the map was certified; the largest error of the points it was then checked on
+//    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
+//            map was certified, 12 a cell that it was not made from and a lattice; the largest on the points of the
+//            check that followed
 //    80  u64 number of points of that check; how many were off by more than max_error
 //    96  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
 //   120  u32 1 with hysteresis, 0 without (a rubber that loses nothing); n bands; s nodes of s(x), 0 or from 2 on;
