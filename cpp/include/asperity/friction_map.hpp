@@ -299,7 +299,7 @@ class FrictionMap {
   bool hold(double& pressure, double& speed, double& shifted, Outside outside, double shift, Where& at) const noexcept {
     at.status = Status::not_a_number;
     if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
-        !(shift > 0 && shift <= std::numeric_limits<double>::max()) || cells_.empty())
+        map_detail::bits(shift) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
       return false;
     at.free_p = map_detail::within(pressure, info_.pressure);
     at.free_v = map_detail::within(shifted, info_.velocity);
