@@ -27,6 +27,19 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   return {wavenumber.begin(), wavenumber.end()};
 }
 
+/// The surface as far as the highest of the wavenumbers: what lies beyond has no part in G there.
+std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  std::vector<Segment> surface = segments(spectrum);
+  const double highest = std::ranges::max(wavenumber);
+  while (surface.size() > 1 && surface.back().a >= highest) surface.pop_back();
+  Segment& last = surface.back();
+  if (last.a < highest && highest < last.b) {
+    last.at_b = last.density(highest);
+    last.b = highest;
+  }
+  return surface;
+}
+
 /// One for each wavenumber.
 std::vector<AreaG> area_gs(const ContactModel& model, std::span<const Segment> surface,
                            std::span<const double> wavenumber) {
@@ -63,7 +76,7 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
-  const std::vector<Segment> surface = segments(spectrum);
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
   std::vector<AreaG> area_g = area_gs(model, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
@@ -105,7 +118,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
                                       std::span<const double> pressure, std::span<const double> velocity,
                                       std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
-  const std::vector<Segment> surface = segments(spectrum);
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
   const std::optional<SFunction> s = s_in_integrand(model.correction);
   std::vector<AreaG> area_g = area_gs(model, surface, q);
@@ -131,7 +144,7 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
   for (const double sigma : stress) require_not_negative("stress", sigma);
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
-  const std::vector<Segment> surface = segments(spectrum);
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size());
   AreaG area_g(model, surface, wavenumber);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,

@@ -261,3 +261,20 @@ def test_peaks_then_greenwood_williamson_multiplies_the_two_shifts(reading):
     correction = PeaksThenGreenwoodWilliamson(PEAKS, **PROFILE, reading=reading)
     found = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction)
     assert found.shift_factor == pytest.approx(first * (top - bottom) / (top - d), rel=1e-10)
+
+
+@pytest.mark.parametrize("correction", [None, SFactor(applies_to="area"), NayakSFactor()])
+@pytest.mark.parametrize("q", [2e3, 2.001e3, 3e3, 1.99e4])
+def test_roughness_above_the_wavenumber_asked_for_is_not_looked_at(correction, q):
+    scene = {**SCENE, "correction": correction, "rtol": 1e-10}
+    whole = asperity.contact_area(ROAD, RUBBER, wavenumber=[q, ROAD.q1], **scene)[0]
+    alone = asperity.contact_area(ROAD, RUBBER, wavenumber=q, **scene)
+    assert alone == pytest.approx(whole, rel=1e-10)
+    # rows that no double could hold in q^4 C, above it, do no harm
+    rows = np.array([2e3, 2e4, 3e4])
+    density = np.array([*ROAD.at(rows[:2]), 1e290])
+    scan = asperity.TabulatedSpectrum(wavenumber=rows, density=density)
+    found = asperity.contact_area(scan, RUBBER, wavenumber=q, **scene)
+    assert found == pytest.approx(alone, rel=1e-9)
+    with pytest.raises(asperity.InvalidInput, match="density"):
+        asperity.contact_area(scan, RUBBER, **scene)
