@@ -17,13 +17,14 @@ struct MapLoops {
   bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* shift,
                   std::size_t n, double* speed, double* shifted);
   void (*logarithms)(const double* x, double* ln, std::size_t n);
+  void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
   bool (*entries)(const map_detail::Grid& grid, const std::int32_t* all, const double* x, const double* z,
                   std::size_t n, std::int32_t* entry);
   void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
-  void (*stick)(const double* ln_p, const double* ln_v, double ln_shear_stress, double ln_reference, double width,
-                std::size_t n, double* a);
   void (*exponentials)(const double* x, double* e, std::size_t n);
+  void (*add_adhesion)(const double* ln_area, const double* ln_p, const double* ln_v, double ln_shear_stress,
+                       double ln_reference, double fall, std::size_t n, double* mu);
 };
 
 #ifndef __clang__
@@ -87,8 +88,7 @@ class FrictionMapBatch {
       }
       return good;
     }
-    loops_.logarithms(x_, x_, n);
-    loops_.logarithms(pressure, ln_p_, n);
+    loops_.logarithms_of_both(x_, pressure, x_, ln_p_, n);
     find_cells(n);
     loops_.polynomials(map_.cells_.data(), cell_, x_, z_, n, h_, a_);
     if (map_.info_.hysteresis) {
@@ -99,9 +99,8 @@ class FrictionMapBatch {
     if (map_.info_.shear_stress == 0) return n;
     const bool unshifted = shifts_adhesion_ || (points.shift.size() == 1 && points.shift[0] == 1);
     if (!unshifted) loops_.logarithms(speed_, speed_, n);
-    loops_.stick(ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n, a_);
-    loops_.exponentials(a_, a_, n);
-    for (std::size_t i = 0; i < n; ++i) mu[i] += a_[i];
+    loops_.add_adhesion(a_, ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n,
+                        mu);
     return n;
   }
 
