@@ -15,8 +15,6 @@ constexpr std::size_t most_cells = 100'000;
 constexpr std::size_t unseen = 12;      // points a cell
 constexpr double lattice_share = 0.45;  // of rtol, allowed on lattices: between their points errors are larger
 
-std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} << 32 | z; }
-
 class Builder {
  public:
   Builder(const MapFrame& frame, double rtol, const std::function<void()>& watch)
@@ -113,7 +111,7 @@ class Builder {
   [[nodiscard]] std::array<double, 2> bending(const MapTree::Leaf& leaf) const {
     std::array<std::array<std::array<double, 2>, 5>, 5> f;
     each_lattice_place(leaf, [&](std::uint32_t i, std::uint32_t j, std::uint32_t x, std::uint32_t z) {
-      f[i][j] = lattice_.at(key(x, z)).f;
+      f[i][j] = lattice_.at(MapTree::key(x, z)).f;
     });
     std::array<double, 2> most{};
     for (std::size_t i = 0; i < 5; ++i)
@@ -136,14 +134,15 @@ class Builder {
   std::vector<double> lattice_errors() {
     sample_lattices();
     sample_corners();
-    tree_.interpolate([&](std::uint32_t x, std::uint32_t z) -> const MapCorner& { return corners_.at(key(x, z)); });
+    tree_.interpolate(
+        [&](std::uint32_t x, std::uint32_t z) -> const MapCorner& { return corners_.at(MapTree::key(x, z)); });
     std::vector<double> errors(tree_.nodes().size(), 0);
     for (std::size_t n = 0; n < errors.size(); ++n) {
       const MapTree::Leaf& leaf = tree_.nodes()[n];
       if (leaf.child >= 0 || !leaf.needed) continue;
       each_lattice_place(leaf, [&](std::uint32_t, std::uint32_t, std::uint32_t x, std::uint32_t z) {
         const MapPlace place{tree_.x(x), tree_.z(z)};
-        if (in_box(place)) errors[n] = std::fmax(errors[n], error_at(leaf, place, lattice_.at(key(x, z))));
+        if (in_box(place)) errors[n] = std::fmax(errors[n], error_at(leaf, place, lattice_.at(MapTree::key(x, z))));
       });
     }
     return errors;
@@ -184,8 +183,8 @@ class Builder {
     for (const MapTree::Leaf& leaf : tree_.nodes())
       if (leaf.child < 0 && leaf.needed)
         each_lattice_place(leaf, [&](std::uint32_t, std::uint32_t, std::uint32_t x, std::uint32_t z) {
-          if (!lattice_.try_emplace(key(x, z)).second) return;
-          keys.push_back(key(x, z));
+          if (!lattice_.try_emplace(MapTree::key(x, z)).second) return;
+          keys.push_back(MapTree::key(x, z));
           places.push_back({tree_.x(x), tree_.z(z)});
         });
     const std::vector<MapSample> found = sample(places);
@@ -215,7 +214,7 @@ class Builder {
                          std::array<std::size_t, 2> sides) {
       const double at_x = tree_.x(x), at_z = tree_.z(z);
       const std::size_t kx = at_x - 2 * step_x < x_lo ? 0 : at_x + 2 * step_x > x_hi ? 4 : 2;
-      stencils.push_back({key(x, z), kx, kz, step_x, step_z, sides});
+      stencils.push_back({MapTree::key(x, z), kx, kz, step_x, step_z, sides});
       for (std::size_t i = 0; i < 5; ++i)
         for (std::size_t j = 0; j < 5; ++j)
           places.push_back({at_x + (static_cast<double>(i) - static_cast<double>(kx)) * step_x,
@@ -225,7 +224,7 @@ class Builder {
       return std::fmin(fine, (tree_.cuts()[band + 1] - tree_.cuts()[band]) / 8);
     };
     for (const auto& [x, z] : tree_.free_corners()) {
-      if (!corners_.try_emplace(key(x, z)).second) continue;
+      if (!corners_.try_emplace(MapTree::key(x, z)).second) continue;
       if (tree_.on_cut(z)) {
         add(x, z, 4, band_step(z / MapTree::unit - 1), {0, 0});
         add(x, z, 0, band_step(z / MapTree::unit), {1, 1});

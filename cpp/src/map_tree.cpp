@@ -9,8 +9,6 @@ namespace asperity {
 
 namespace {
 
-std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} << 32 | z; }
-
 /// Values and slopes along a side, in both functions, at t of it.
 void blend(const std::array<double, 2>& a, const std::array<double, 2>& da, const std::array<double, 2>& b,
            const std::array<double, 2>& db, double h, double t, std::array<double, 2>& value,

@@ -34,6 +34,8 @@ class MapTree {
 
   MapTree(std::array<double, 2> x, std::vector<double> cuts);
 
+  /// Of a place, for tables.
+  static std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} << 32 | z; }
   [[nodiscard]] double x(std::uint32_t at) const { return x_[0] + at * ((x_[1] - x_[0]) / unit); }
   [[nodiscard]] double z(std::uint32_t at) const;
   /// Of a leaf, in x and in z.

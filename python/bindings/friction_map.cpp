@@ -126,10 +126,10 @@ Policy policy_of(const Option& outside) {
   return choice<Policy>("outside", outside, {{"error", Policy::error}, {"nan", Policy::nan}, {"clamp", Policy::clamp}});
 }
 
-/// Values of `get` at every point, several a point.
-template <std::size_t N, class Get>
+/// Values at every point, several a point: `at` fills them in and gives the point's status.
+template <std::size_t N, class At>
 std::array<py::object, N> look_up(const Map& m, const py::object& pressure, const py::object& velocity,
-                                  const py::object& shift_factor, bool shift_adhesion, const Option& outside, Get get) {
+                                  const py::object& shift_factor, bool shift_adhesion, const Option& outside, At at) {
   const auto policy = policy_of(outside);
   const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
   const auto& [p, v, shift] = std::tie(b.columns[0], b.columns[1], b.columns[2]);
@@ -139,19 +139,38 @@ std::array<py::object, N> look_up(const Map& m, const py::object& pressure, cons
     const py::gil_scoped_release release;
     const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      MapPoint point;
-      const auto status = m.map.at(p[i], v[i], point, how, {shift[i], shift_adhesion});
+      std::array<double, N> values;
+      const auto status = at(m.map, p[i], v[i], how, MapTemperature{shift[i], shift_adhesion}, values);
       const bool fails = policy == Policy::error
                              ? status != FrictionMap::Status::ok
                              : policy == Policy::clamp && status == FrictionMap::Status::not_a_number;
       if (fails) refuse(m.map.info(), status, i, p[i], v[i], shift[i], b.shape.empty());
-      const std::array<double, N> values = get(point);
       for (std::size_t k = 0; k < N; ++k) columns[k][i] = values[k];
     }
   }
   std::array<py::object, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = shaped(std::move(columns[k]), b.shape);
   return result;
+}
+
+/// For `look_up`: what `get` takes from a point, N numbers.
+template <std::size_t N, class Get>
+auto of_point(Get get) {
+  return [get](const FrictionMap& map, double p, double v, FrictionMap::Outside how, const MapTemperature& temperature,
+               std::array<double, N>& values) {
+    MapPoint point;
+    const auto status = map.at(p, v, point, how, temperature);
+    values = get(point);
+    return status;
+  };
+}
+
+/// For `look_up`: a traction is there without load and at rest too.
+FrictionMap::Status traction_at(const FrictionMap& map, double p, double v, FrictionMap::Outside how,
+                                const MapTemperature& temperature, std::array<double, 1>& traction) {
+  traction[0] = map.traction(p, v, how, temperature);
+  MapPoint point;
+  return std::isnan(traction[0]) ? map.at(p, v, point, how, temperature) : FrictionMap::Status::ok;
 }
 
 /// mu alone, by the vector units.
@@ -176,27 +195,6 @@ py::object mu_of(const Map& m, const py::object& pressure, const py::object& vel
   }
   if (b.shape.empty()) return py::float_(all[0]);
   return mu;
-}
-
-/// sign(v) mu p, where there are load and motion.
-py::object traction_of(const Map& m, const py::object& pressure, const py::object& velocity,
-                       const py::object& shift_factor, Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
-  const auto policy = policy_of(outside);
-  const Broadcast b = broadcast({{"pressure", pressure}, {"velocity", velocity}, {"shift_factor", shift_factor}});
-  const std::vector<double>&p = b.columns[0], &v = b.columns[1], &shift = b.columns[2];
-  std::vector<double> traction(p.size());
-  {
-    const py::gil_scoped_release release;
-    const auto how = policy == Policy::clamp ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      traction[i] = m.map.traction(p[i], v[i], how, {shift[i], shift_adhesion});
-      if (policy == Policy::nan || !std::isnan(traction[i])) continue;
-      MapPoint point;
-      const auto status = m.map.at(p[i], v[i], point, how, {shift[i], shift_adhesion});
-      refuse(m.map.info(), status, i, p[i], v[i], shift[i], b.shape.empty());
-    }
-  }
-  return shaped(std::move(traction), b.shape);
 }
 
 struct SlopesTag {
@@ -242,47 +240,40 @@ outside : {"error", "nan", "clamp"}
 
 and raises OutOfRange, or InvalidInput for a NaN where `outside` is not "nan".
 )");
-  const auto query = [&](const char* name, auto get, const char* doc) {
-    map.def(
+  const auto define = [&](const char* name, auto look, const char* doc) {
+    map.def(name, look, py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
+            py::arg("shift_adhesion") = false, py::arg("outside") = "error", doc);
+  };
+  const auto define_one = [&](const char* name, auto at, const char* doc) {
+    define(
         name,
-        [get](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
-              Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
-          return look_up<1>(self, pressure, velocity, shift_factor, shift_adhesion, outside, get)[0];
+        [at](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
+             Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
+          return look_up<1>(self, pressure, velocity, shift_factor, shift_adhesion, outside, at)[0];
         },
-        py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
-        py::arg("shift_adhesion") = false, py::arg("outside") = "error", doc);
+        doc);
   };
   using One = std::array<double, 1>;
-  map.def("mu", &mu_of, py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
-          py::arg("shift_adhesion") = false, py::arg("outside") = "error",
-          "Friction coefficient, hysteresis + adhesion [-].");
-  query(
-      "hysteresis", [](const MapPoint& at) { return One{at.hysteresis}; }, "mu_H (Eq. 22) [-].");
-  query(
-      "adhesion", [](const MapPoint& at) { return One{at.adhesion}; }, "mu_A (Eq. 23) [-].");
-  query(
-      "contact_area", [](const MapPoint& at) { return One{at.contact_area}; }, "A/A0 at q1 [-].");
-  map.def("traction", &traction_of, py::arg("pressure"), py::arg("velocity"), py::kw_only(),
-          py::arg("shift_factor") = 1.0, py::arg("shift_adhesion") = false, py::arg("outside") = "error",
-          "Shear traction sign(v) mu p [Pa]; 0 where v = 0 or p <= 0, whatever the map covers.");
+  define("mu", &mu_of, "Friction coefficient, hysteresis + adhesion [-].");
+  define_one("hysteresis", of_point<1>([](const MapPoint& at) { return One{at.hysteresis}; }), "mu_H (Eq. 22) [-].");
+  define_one("adhesion", of_point<1>([](const MapPoint& at) { return One{at.adhesion}; }), "mu_A (Eq. 23) [-].");
+  define_one("contact_area", of_point<1>([](const MapPoint& at) { return One{at.contact_area}; }), "A/A0 at q1 [-].");
+  define_one("traction", &traction_at,
+             "Shear traction sign(v) mu p [Pa]; 0 where v = 0 or p <= 0, whatever the map covers.");
+  define(
+      "derivatives",
+      [](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
+         Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
+        const auto slopes_at = of_point<2>([](const MapPoint& at) { return std::array{at.dmu_dlnp, at.dmu_dlnv}; });
+        auto found = look_up<2>(self, pressure, velocity, shift_factor, shift_adhesion, outside, slopes_at);
+        Record<SlopesTag> slopes;
+        for (std::size_t k = 0; k < 2; ++k) slopes.values[SlopesTag::fields[k].name] = std::move(found[k]);
+        return slopes;
+      },
+      "d mu / d ln p and d mu / d ln |v|, those of the stored polynomials: a `FrictionSlopes`.");
   map.def(
-         "derivatives",
-         [](const Map& self, const py::object& pressure, const py::object& velocity, const py::object& shift_factor,
-            Flag<"shift_adhesion"> shift_adhesion, const Option& outside) {
-           auto found =
-               look_up<2>(self, pressure, velocity, shift_factor, shift_adhesion, outside, [](const MapPoint& at) {
-                 return std::array{at.dmu_dlnp, at.dmu_dlnv};
-               });
-           Record<SlopesTag> slopes;
-           for (std::size_t k = 0; k < 2; ++k) slopes.values[SlopesTag::fields[k].name] = std::move(found[k]);
-           return slopes;
-         },
-         py::arg("pressure"), py::arg("velocity"), py::kw_only(), py::arg("shift_factor") = 1.0,
-         py::arg("shift_adhesion") = false, py::arg("outside") = "error",
-         "d mu / d ln p and d mu / d ln |v|, those of the stored polynomials: a `FrictionSlopes`.")
-      .def(
-          "save", [](const Map& self, const py::object& path) { write_whole(path_of(path), self.file); },
-          py::arg("path"), "Write the map, whole or not at all. InvalidInput where the path cannot be written.")
+         "save", [](const Map& self, const py::object& path) { write_whole(path_of(path), self.file); },
+         py::arg("path"), "Write the map, whole or not at all. InvalidInput where the path cannot be written.")
       .def_static(
           "load",
           [](const py::object& path) {

@@ -7,7 +7,9 @@
 #include <new>
 #include <vector>
 
+#include "asperity/build_friction_map.hpp"
 #include "asperity/friction.hpp"
+#include "asperity/friction_map.hpp"
 
 namespace {
 
@@ -62,4 +64,26 @@ TEST_CASE("a thousand points allocate hardly more often than a hundred: rooms gr
          {Correction(NoCorrection{}), Correction(SFactor{.applies_to = SFactor::AppliesTo::both}),
           Correction(AffineShift{2}), Correction(NayakSFactor{})})
       CHECK(allocations_at(1000, rubber, correction) - allocations_at(100, rubber, correction) <= 10);
+}
+
+TEST_CASE("a query of a friction map allocates nothing, in its box, outside of it or with numbers that are none") {
+  const SelfAffineSpectrum road{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1e3, .q1 = 1e5};
+  const MapRequest request{.pressure = {1e4, 1e6}, .velocity = {1e-4, 1}, .rtol = 1e-2, .checked = 0};
+  const auto file =
+      build_friction_map(road, PronySeries(1e6, {1e8}, {1e-4}),
+                         {.correction = GreenwoodWilliamson{.z_max = 6e-4, .z_min = -3e-4}}, Adhesion{1e6}, request);
+  FrictionMap map;
+  std::string why;
+  REQUIRE(map.read(file.data(), file.size(), why));
+  const long before = allocations;
+  double sum = 0;
+  for (const auto outside : {FrictionMap::Outside::nan, FrictionMap::Outside::clamp})
+    for (const double p : {1e5, 1e9, 0.0, std::nan("")})
+      for (const double v : {1e-2, -1e-2, 0.0, 1e3}) {
+        MapPoint point;
+        map.at(p, v, point, outside, {3.0, true});
+        sum += map.mu(p, v, outside) + map.traction(p, v, outside) + point.mu;
+      }
+  CHECK(allocations == before);
+  CHECK(std::isnan(sum));  // of which some were outside: nothing was left out
 }
