@@ -11,14 +11,14 @@ import csv
 import io
 from pathlib import Path
 
-import friction
 import models
 import point
 import scaling
 import timing
 import work_precision
 
-from asperity.table import write_files
+import friction
+from asperity.io.table import write_files
 
 ROOT = Path(__file__).parents[2]
 DOCS, README = ROOT / "docs" / "benchmarks", ROOT / "README.md"

@@ -6,7 +6,7 @@ A rubber (Cole-Cole glass transition, a slow process) in 4 to 3000 rows over 15 
 new table, and what its first use at every frequency costs beyond the second. Evaluate: a frequency
 of an array over the 15 decades, rising and shuffled; beside it the closed form of a Prony series of
 20 terms. Medians, all in one process. Error: the worst of I1 and I2 at random frequencies, relative
-to the definition by brute force (tests/python/by_definition.py).
+to the definition by brute force (tests/python/helpers/by_definition.py).
 """
 
 import argparse
@@ -21,7 +21,7 @@ import numpy as np
 import asperity
 
 sys.path.append(str(Path(__file__).parents[1] / "python"))
-from by_definition import Definition
+from helpers.by_definition import Definition
 
 LOW, HIGH = 1e-5, 1e10
 ROWS = (4, 10, 30, 100, 300, 1000, 3000)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
-import scenes
+from helpers import scenes
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 LISTS = {

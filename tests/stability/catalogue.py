@@ -25,7 +25,7 @@ HEAD = """# Where methods fail
 Relative errors (the worst of a row's cases) of what is usually written and of asperity, or what
 came instead of a number. Made by
 `python tests/stability/catalogue.py --output docs/stability/catalogue.md`;
-`tests/python/test_catalogue.py` holds every row to it.
+`tests/python/friction/test_catalogue.py` holds every row to it.
 
 """
 COLUMNS = ("regime", "why", "naive method", "its error", "ours", "truth")

@@ -37,7 +37,7 @@ maps() {
     "$python" tests/stability/random_maps.py --maps 5 --points 1000000 --tables 0 --seed 2
 }
 
-properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/test_properties.py; }
+properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
 catalogue() { "$python" tests/stability/catalogue.py; }
 

@@ -15,7 +15,7 @@ import asperity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "python"))
 
-from by_definition import Definition
+from helpers.by_definition import Definition
 
 
 def curve(rows: int, kink: float = 0.0) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
-from asperity.table import Table
+from asperity.io.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import SelfAffineSpectrum, synthesize
-from asperity.directory import Mark, check_own_directory, table_of
+from asperity.io.directory import Mark, check_own_directory, table_of
 
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import HeightMap, InvalidInput, NotConverged
-from asperity.scene import Progress
+from asperity.scene.scene import Progress
 
 _Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from importlib.resources import as_file, files
 from pathlib import Path
 
 from asperity._core import InvalidInput, SelfAffineSpectrum
+from asperity.io.read import cell, check_file
 from asperity.kinds import Spectrum
-from asperity.read import cell, check_file
 
 _NUMBERS = (
     *("H", "q0", "q1", "h_rms", "rms_slope", "z_max", "z_min"),

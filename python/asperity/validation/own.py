@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 
 from asperity._core import HeightMap, power_spectrum
-from asperity.scene import Progress
+from asperity.scene.scene import Progress
 from asperity.validation.boundary_elements import contact, mirrored
 from asperity.validation.contacts import Contact
 

@@ -1,0 +1,100 @@
+#include "contact/solver/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "contact/contact_checks.hpp"
+#include "numerics/checks.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// Scales so absurd that q^4 C is lost on the way are refused.
+void check_scales(std::span<const Segment> surface) {
+  for (const Segment& segment : surface)
+    for (const auto& [q, c] : {std::pair{segment.a, segment.at_a}, std::pair{segment.b, segment.at_b}}) {
+      const double fourth = (q * q) * (q * q);
+      if (!tellable(fourth) || (c != 0 && (!tellable(c) || !tellable(fourth * c))))
+        throw InvalidInput("spectrum: density = " + show(c) + " m^4 at wavenumber = " + show(q) +
+                           " 1/m: must be such that C, q^4 and q^4 C are in [1e-280, 1e280]");
+    }
+}
+
+Adaptive rule(Method method) {
+  switch (method) {
+    case Method::qags:
+      return Adaptive::qags;
+    case Method::cquad:
+      return Adaptive::cquad;
+    default:
+      return Adaptive::qag;
+  }
+}
+
+}  // namespace
+
+Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
+               const std::optional<SFunction>& factor, std::span<const double> stops)
+    : surface_(surface),
+      rubber_(rubber),
+      model_(model),
+      factor_(factor),
+      with_hysteresis_(with_hysteresis),
+      gauss_(surface, rubber, model.poisson_ratio, model.rtol),
+      stops_(stops) {
+  check_scales(surface);
+  if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
+}
+
+void Solver::start(double velocity) {
+  velocity_ = velocity;
+  stop_wavenumbers_.clear();
+  for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
+  if (model_.method == Method::gauss) gauss_.start(velocity, stop_wavenumbers_);
+}
+
+void Solver::solve(double pressure, double velocity, double shift) {
+  if (velocity != velocity_) start(velocity);
+  if (model_.method == Method::gauss) {
+    gauss_.solve(pressure, shift, front_ ? &*front_ : nullptr);
+    return;
+  }
+  path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity, shift}, stop_wavenumbers_,
+                with_hysteresis_, model_.rtol, rule(model_.method));
+  if (const double g = path_->g(surface_.back().b); g != 0) check_g(g, pressure);
+  if (!with_hysteresis_) return;
+  const Path::Hysteresis found = path_->hysteresis(model_.form, factor_);
+  hysteresis_ = {found.value, found.error, found.outside};
+  by_panel_ = found.by_panel;
+}
+
+double Solver::g(double wavenumber) const { return path_ ? path_->g(wavenumber) : gauss_.g(wavenumber); }
+
+double Solver::relative_error() const { return path_ ? path_->relative_error() : gauss_.relative_error(); }
+
+double Solver::hysteresis_density(double wavenumber) const {
+  if (path_) return path_->hysteresis_density(wavenumber, model_.form, factor_);
+  const double full = gauss_.full_density(wavenumber);
+  if (full == 0) return 0;
+  const double share = contact_share(gauss_.g(wavenumber), model_.form);
+  return full * share * (factor_ ? (*factor_)(share) : 1);
+}
+
+std::vector<GaussPath::Part> Solver::parts() const {
+  if (!path_) return gauss_.parts();
+  std::vector<GaussPath::Part> result;
+  const auto panels = path_->panels();
+  for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});
+  return result;
+}
+
+std::vector<std::size_t> by_velocity(std::span<const double> velocity) {
+  std::vector<std::size_t> order(velocity.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return velocity[i]; });
+  return order;
+}
+
+}  // namespace asperity

@@ -1,0 +1,53 @@
+// Area and hysteresis at a point by the method asked for: Gauss-Legendre panels, or GSL's adaptive integration as the
+// independent check.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/solver/gauss_path.hpp"
+#include "contact/solver/persson.hpp"
+
+namespace asperity {
+
+class Solver {
+ public:
+  using Hysteresis = GaussPath::Hysteresis;
+
+  /// Integrals of P S, S by `factor`, where `with_hysteresis`; otherwise G alone. Panels end at the frequencies `stops`
+  /// [rad/s] too, which are to outlive this.
+  Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
+         const std::optional<SFunction>& factor, std::span<const double> stops = {});
+
+  /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
+  void solve(double pressure, double velocity, double shift);
+
+  [[nodiscard]] const Hysteresis& hysteresis() const { return path_ ? hysteresis_ : gauss_.hysteresis(); }
+  [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
+  [[nodiscard]] double g(double wavenumber) const;
+  [[nodiscard]] double relative_error() const;  // of every G
+  [[nodiscard]] std::vector<GaussPath::Part> parts() const;
+
+ private:
+  void start(double velocity);
+
+  std::span<const Segment> surface_;
+  const Rubber& rubber_;
+  const ContactModel& model_;
+  std::optional<SFunction> factor_;
+  std::optional<FrontIntegral> front_;
+  bool with_hysteresis_;
+  GaussPath gauss_;
+  std::span<const double> stops_;
+  double velocity_ = 0;  // of the point before
+  std::vector<double> stop_wavenumbers_;
+  std::optional<Path> path_;  // by GSL
+  Hysteresis hysteresis_;
+  std::vector<double> by_panel_;
+};
+
+/// The order in which points of one velocity follow each other.
+std::vector<std::size_t> by_velocity(std::span<const double> velocity);
+
+}  // namespace asperity

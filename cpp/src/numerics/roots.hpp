@@ -1,0 +1,39 @@
+// A bracketed root of a monotone function.
+#pragma once
+
+#include <cmath>
+
+#include "numerics/checks.hpp"
+
+namespace asperity {
+
+/// Root of f between `a` and `b`, whose signs there differ, to rounding: the Illinois form of the false position,
+/// with a bisection wherever it fails to halve the bracket. (M. Dowell, P. Jarratt, BIT 11, 168 (1971).)
+template <class F>
+double bracketed_root(F&& f, double a, double b) {
+  double fa = f(a), fb = f(b);
+  if (fa == 0) return a;
+  if (fb == 0) return b;
+  if (!(std::signbit(fa) != std::signbit(fb)) || std::isnan(fa) || std::isnan(fb))
+    throw NotConverged("no root between " + show(a) + " and " + show(b) + ", where the function is " + show(fa) +
+                       " and " + show(fb));
+  for (int i = 0; i < 200; ++i) {
+    const double width = std::fabs(b - a);
+    if (width <= 4e-16 * std::fmax(std::fabs(a), std::fabs(b))) break;
+    double c = b - fb * (b - a) / (fb - fa);
+    if (i % 3 == 2 || !(std::fmin(a, b) < c && c < std::fmax(a, b))) c = a + (b - a) / 2;
+    const double fc = f(c);
+    if (fc == 0) return c;
+    if (std::signbit(fc) != std::signbit(fb)) {
+      a = b;
+      fa = fb;
+    } else {
+      fa /= 2;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
+}
+
+}  // namespace asperity

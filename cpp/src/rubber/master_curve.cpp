@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+
+#include "asperity/rubber.hpp"
+#include "numerics/checks.hpp"
+#include "numerics/interpolate.hpp"
+#include "rubber/angular_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double rounding = 1e-12;  // how far v q0 may miss the end of a table by its own rounding
+
+std::vector<double> logarithms(const std::vector<double>& values) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), [](double v) { return std::log(v); });
+  return result;
+}
+
+/// E(w) from `far` times its lowest frequency up: the end of the tail, the table, and where asked for a decade before
+/// and after it.
+std::vector<ModulusPiece> pieces_of(const std::vector<double>& w, const std::vector<double>& storage,
+                                    const std::vector<double>& loss, std::optional<Extrapolation> extrapolation) {
+  const std::vector<double> x = logarithms(w);
+  const Steffen log_storage(x, logarithms(storage)), log_loss(x, logarithms(loss));
+  const auto beyond = [&](std::size_t row, double low, double high) {
+    const auto line = [&](const std::vector<double>& modulus, const Steffen& logarithm) {
+      return LogCubic{modulus[row], extrapolation == Extrapolation::power_law ? logarithm.slope(row) : 0};
+    };
+    const ModulusPiece piece{low, high, w[row], line(storage, log_storage), line(loss, log_loss), false};
+    for (const std::complex<double> e : {piece(low), piece(high)})
+      if (!(e.real() > 0 && e.imag() > 0 && std::isfinite(std::norm(e))))
+        throw InvalidInput("extrapolation: beyond angular_frequency = " + show(w[row]) +
+                           " rad/s the modulus leaves the range of numbers within its decade");
+    return piece;
+  };
+  std::vector<ModulusPiece> result(1);
+  if (extrapolation) result.push_back(beyond(0, w.front() / 10, w.front()));
+  for (std::size_t i = 0; i + 1 < w.size(); ++i) {
+    const auto [log_e1, slope1, square1, cubic1] = log_storage.cubic(i);
+    const auto [log_e2, slope2, square2, cubic2] = log_loss.cubic(i);
+    result.push_back(
+        {w[i], w[i + 1], w[i], {storage[i], slope1, square1, cubic1}, {loss[i], slope2, square2, cubic2}, true});
+  }
+  if (extrapolation) result.push_back(beyond(w.size() - 1, w.back(), w.back() * 10));
+  const double lowest = result[1].low;
+  const std::complex<double> e = result[1](lowest);
+  result[0] = {AngularSums::far * lowest, lowest, lowest, {e.real(), 0}, {e.imag(), 1}, false};
+  return result;
+}
+
+}  // namespace
+
+struct MasterCurve::Table {
+  std::vector<double> frequency, storage, loss;
+  std::optional<Extrapolation> extrapolation;
+  std::vector<ModulusPiece> pieces;
+  std::vector<double> knots;  // where they meet, and the ends [rad/s]
+  AngularTable angular;
+
+  Table(std::vector<double> w, std::vector<double> e1, std::vector<double> e2, std::optional<Extrapolation> beyond)
+      : frequency(std::move(w)),
+        storage(std::move(e1)),
+        loss(std::move(e2)),
+        extrapolation(beyond),
+        pieces(pieces_of(frequency, storage, loss, beyond)),
+        angular(pieces) {
+    for (const ModulusPiece& piece : pieces) knots.push_back(piece.high);
+  }
+
+  void check(double w) const {
+    require_positive("angular_frequency", w);
+    if (w < knots.front() * (1 - rounding) || w > knots.back() * (1 + rounding))
+      throw OutOfRange("angular_frequency = " + show(w) + " rad/s: the master curve is known in [" +
+                       show(knots.front()) + ", " + show(knots.back()) + "] rad/s" +
+                       (extrapolation ? " with its extrapolation of one decade" : ""));
+  }
+};
+
+MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<double> storage_modulus,
+                         std::vector<double> loss_modulus, std::optional<Extrapolation> extrapolation) {
+  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", angular_frequency.size());
+  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", angular_frequency.size());
+  if (angular_frequency.size() < 2)
+    throw InvalidInput("angular_frequency has " + std::to_string(angular_frequency.size()) +
+                       " entries: must be 2 or more");
+  require_each_positive("angular_frequency", angular_frequency);
+  require_each_positive("storage_modulus", storage_modulus);
+  require_each_positive("loss_modulus", loss_modulus);
+  require_rising("angular_frequency", angular_frequency);
+  for (const auto& [name, moduli] :
+       {std::pair{"storage_modulus", &storage_modulus}, std::pair{"loss_modulus", &loss_modulus}})
+    for (std::size_t i = 0; i < moduli->size(); ++i)
+      if (const double e = (*moduli)[i]; !(e >= 1e-140 && e <= 1e140))
+        refuse(std::string(name) + "[" + std::to_string(i) + "]", e,
+               "in [1e-140, 1e140] Pa, so that its square can be told");
+  for (std::size_t i = 1; i < angular_frequency.size(); ++i)
+    if (!(std::log(angular_frequency[i]) > std::log(angular_frequency[i - 1])))
+      refuse("angular_frequency[" + std::to_string(i) + "]", angular_frequency[i],
+             "further from the entry before it: their logarithms are the same number");
+  table_ = std::make_shared<const Table>(std::move(angular_frequency), std::move(storage_modulus),
+                                         std::move(loss_modulus), extrapolation);
+}
+
+const std::vector<double>& MasterCurve::angular_frequency() const { return table_->frequency; }
+const std::vector<double>& MasterCurve::storage_modulus() const { return table_->storage; }
+const std::vector<double>& MasterCurve::loss_modulus() const { return table_->loss; }
+std::optional<Extrapolation> MasterCurve::extrapolation() const { return table_->extrapolation; }
+double MasterCurve::lowest_frequency() const { return table_->knots.front(); }
+double MasterCurve::highest_frequency() const { return table_->knots.back(); }
+std::span<const double> MasterCurve::knots() const { return table_->knots; }
+
+std::complex<double> MasterCurve::modulus(double angular_frequency) const {
+  table_->check(angular_frequency);
+  const std::vector<double>& knots = table_->knots;
+  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, angular_frequency);
+  return table_->pieces[static_cast<std::size_t>(above - knots.begin())](angular_frequency);
+}
+
+AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const {
+  table_->check(angular_frequency);
+  return table_->angular(angular_frequency);
+}
+
+bool MasterCurve::angular_integrals(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+  for (const double one : w) table_->check(one);
+  return table_->angular(w, i1, i2, i1_outside);
+}
+
+MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {
+  MasterCurve result = *this;
+  result.shifts_ = std::move(shifts);
+  return result;
+}
+
+MasterCurve MasterCurve::shifted(double a_T) const {
+  require_positive("a_T", a_T);
+  std::vector<double> frequency = table_->frequency;
+  for (double& w : frequency) w /= a_T;
+  return {std::move(frequency), table_->storage, table_->loss, table_->extrapolation};
+}
+
+}  // namespace asperity

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "asperity/spectrum.hpp"
+#include "numerics/checks.hpp"
+#include "numerics/integrate.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// arcosh(k / q), 0 for k below q.
+double angle(double q, double k) { return std::acosh(std::fmax(1, k / q)); }
+
+constexpr double rtol = 1e-11;
+
+}  // namespace
+
+// With p = sqrt(q^2 + k^2) = q cosh t: C1D(q) = 2 q int C(q cosh t) cosh t dt, smooth on each piece of the spectrum.
+std::vector<double> line_density(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  const std::vector<Segment> pieces = segments(spectrum);
+  std::vector<double> result;
+  for (const double q : wavenumber) {
+    require_positive("wavenumber", q);
+    double sum = 0;
+    for (const Segment& s : pieces) {
+      if (s.b <= q) continue;
+      const auto rate = [&](double t) {
+        const double p = std::clamp(q * std::cosh(t), s.a, s.b);
+        return s.density(p) * std::cosh(t);
+      };
+      sum += integrate(rate, angle(q, s.a), angle(q, s.b), rtol, rtol * sum).value;
+    }
+    result.push_back(2 * q * sum);
+  }
+  return result;
+}
+
+namespace {
+
+/// A profile's spectrum as power laws f q^-e between its rows and beyond the last one.
+class ProfilePieces {
+ public:
+  explicit ProfilePieces(const LineSpectrum& spectrum) : q_(spectrum.wavenumber()), c_(spectrum.density()) {
+    for (std::size_t i = 0; i < q_.size(); ++i)
+      if (c_[i] == 0) refuse("density[" + std::to_string(i) + "]", 0, "positive for the surface behind a profile");
+    for (std::size_t i = 0; i + 1 < q_.size(); ++i)
+      fall_.push_back(-std::log(c_[i + 1] / c_[i]) / std::log(q_[i + 1] / q_[i]));
+    // beyond the last row: the slope of the last factor of 2, or of the last two rows where they are farther apart
+    const std::size_t from =
+        std::min(static_cast<std::size_t>(std::ranges::lower_bound(q_, q_.back() / 2) - q_.begin()), q_.size() - 2);
+    tail_ = -std::log(c_.back() / c_[from]) / std::log(q_.back() / q_[from]);
+    if (!(tail_ > 0))
+      throw InvalidInput("spectrum: rises as q^" + show(-tail_, 4) + " at its upper end, " + show(q_.back()) +
+                         " 1/m: must fall there for the surface behind a profile");
+  }
+
+  /// C(q_i) = -(1 / pi) int dC1D/dk dk / sqrt(k^2 - q^2) = (1 / pi q) int e C1D(q cosh t) / cosh t dt.
+  [[nodiscard]] double isotropic_density(std::size_t row) const {
+    const double q = q_[row];
+    double sum = 0;
+    for (std::size_t i = row; i + 1 < q_.size(); ++i)
+      sum += piece(q, i, fall_[i], angle(q, q_[i]), angle(q, q_[i + 1]));
+    // the tail falls as exp(-(1 + tail) t): 30 such lengths on it has lost 13 digits
+    const double last = angle(q, q_.back());
+    sum += piece(q, q_.size() - 1, tail_, last, last + 30 / (1 + tail_));
+    return sum / (pi * q);
+  }
+
+ private:
+  [[nodiscard]] double piece(double q, std::size_t i, double fall, double from, double to) const {
+    const auto rate = [&](double t) {
+      const double k = std::cosh(t);
+      return fall * c_[i] * std::pow(q * k / q_[i], -fall) / k;
+    };
+    // at most one unit of t at a time: the integrand falls by factors
+    double sum = 0;
+    for (double t = from; t < to; t += 1)
+      sum += integrate(rate, t, std::min(t + 1, to), rtol, rtol * std::fabs(sum)).value;
+    return sum;
+  }
+
+  std::vector<double> q_, c_, fall_;
+  double tail_;
+};
+
+std::vector<double> isotropic_densities(const LineSpectrum& spectrum) {
+  const ProfilePieces pieces(spectrum);
+  std::vector<double> c;
+  for (std::size_t i = 0; i < spectrum.wavenumber().size(); ++i) c.push_back(pieces.isotropic_density(i));
+  return c;
+}
+
+}  // namespace
+
+// Standard errors go through the derivative of each result after each row, taken by a step of 1e-4 in its logarithm.
+// Rows that were flagged already and come out negative are left out: they were not to be trusted.
+TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
+  const std::size_t n = spectrum.wavenumber().size();
+  if (n > 1000)
+    throw InvalidInput("spectrum has " + std::to_string(n) +
+                       " rows: must have 1000 or fewer for the surface behind a profile, log_binned makes them fewer");
+  const RowQuality& old = spectrum.quality();
+  const std::vector<double> all = isotropic_densities(spectrum);
+  std::vector<double> variance(n);
+  constexpr double step = 1e-4;
+  for (std::size_t j = 0; j < n && !old.standard_error.empty(); ++j) {
+    std::vector<double> moved = spectrum.density();
+    const double relative = old.standard_error[j] / moved[j];
+    moved[j] *= 1 + step;
+    const auto changed = isotropic_densities(LineSpectrum(spectrum.wavenumber(), std::move(moved)));
+    for (std::size_t i = 0; i < n; ++i) variance[i] += std::pow((changed[i] - all[i]) / step * relative, 2);
+  }
+
+  std::vector<double> q, c;
+  RowQuality quality;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool flagged = !old.flag.empty() && old.flag[i] != 0;
+    if (!(all[i] >= 0) && flagged) continue;
+    if (!(all[i] >= 0))
+      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i]) +
+                         " 1/m that no isotropic surface has such profiles; rows that scatter must be averaged over "
+                         "wider bins (per_decade)");
+    q.push_back(spectrum.wavenumber()[i]);
+    c.push_back(all[i]);
+    if (!old.count.empty()) quality.count.push_back(old.count[i]);
+    if (!old.standard_error.empty()) quality.standard_error.push_back(std::sqrt(variance[i]));
+    if (!old.flag.empty()) quality.flag.push_back(old.flag[i]);
+  }
+  return {std::move(q), std::move(c), std::move(quality)};
+}
+
+}  // namespace asperity

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "asperity/spectrum.hpp"
+#include "numerics/fourier.hpp"
+#include "spectrum/preparation.hpp"
+#include "spectrum/reliability.hpp"
+#include "spectrum/window.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// Row `y` as a map of its own, its numbers shared.
+HeightMap row_of(const HeightMap& map, std::size_t y) {
+  const HeightMap::Data data = std::visit(
+      [&](const auto* first) { return HeightMap::Data(first + static_cast<std::ptrdiff_t>(y) * map.strides()[0]); },
+      map.data());
+  return {data, map.strides(), map.owner(), {1, map.shape()[1]}, map.pixel_size()};
+}
+
+}  // namespace
+
+// C1D = L / (2 pi n^2) |sum w h exp(-i q x)|^2 over the window's mean square, so that its sum over the modes of both
+// signs, times 2 pi / L, is the mean square height. Rows nearer to each other than half a wavelength are not
+// independent: the error counts one for each half wavelength.
+LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend) {
+  require_filled(map);
+  const std::size_t rows = map.shape()[0], n = map.shape()[1];
+  if (n < 4) throw InvalidInput("surface has " + std::to_string(n) + " points along x: must have 4 or more");
+  const std::vector<double> w = window_weights(window, n);
+  const WindowMoments moments(w);
+  const RealTransform<double> transform(n);
+  const Scratch<double> heights(n);
+  const Scratch<std::complex<double>> modes(n / 2 + 1);
+  std::vector<double> power(n / 2 + 1), square(n / 2 + 1);
+  for (std::size_t y = 0; y < rows; ++y) {
+    const HeightMap row = row_of(map, y);
+    row.read_row(0, heights.data());
+    if (detrend) Trend(row, *detrend).subtract(0, heights.data(), heights.data());
+    for (std::size_t x = 0; x < n; ++x) heights.data()[x] *= w[x];
+    transform(heights.data(), modes.data());
+    for (std::size_t k = 1; k < power.size(); ++k) {
+      const double p = std::norm(modes.data()[k]);
+      power[k] += p;
+      square[k] += p * p;
+    }
+  }
+  const auto [dy, dx] = map.pixel_size();
+  const auto count = static_cast<double>(rows), points = static_cast<double>(n);
+  const double scale = dx / (2 * pi * points * moments.mean_square * count);
+  const Reliability reliable(window, points * dx, dx, moments.variance_factor);
+  std::vector<double> wavenumber, density;
+  RowQuality quality;
+  for (std::size_t k = 1; k < power.size(); ++k) {
+    const double q = 2 * pi / (points * dx) * static_cast<double>(k), both_signs = 2 * k == n ? 1 : 2;
+    const double independent = rows == 1 ? 1 : std::min(1.0, dy * q / pi);  // of each row
+    wavenumber.push_back(q);
+    density.push_back(scale * power[k]);
+    quality.count.push_back(both_signs * count);
+    quality.standard_error.push_back(scale * std::sqrt(moments.variance_factor * square[k] / 2 / independent));
+    quality.flag.push_back(reliable.flag(q, 2 * count * independent));
+  }
+  return {std::move(wavenumber), std::move(density), std::move(quality)};
+}
+
+LineSpectrum line_spectrum(const LineScan& scan, Window window, std::optional<Detrend> detrend) {
+  return line_spectrum(scan.row(), window, detrend);
+}
+
+}  // namespace asperity

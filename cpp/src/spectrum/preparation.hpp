@@ -1,0 +1,29 @@
+// What a map goes through before its transform, and the factors that make |sum|^2 a density.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "asperity/spectrum.hpp"
+#include "surface/trend.hpp"
+
+namespace asperity {
+
+struct Preparation {
+  std::vector<double> wy, wx;  // window weights
+  std::optional<Trend> trend;  // taken out
+  /// Eqs 26-27 with n = nx ny points: C = A / ((2 pi)^2 n^2) |sum|^2, over the window's mean square.
+  double scale;
+  double ring_variance_factor;  // of a mean over a ring of modes, which has neighbours on two of four sides only
+};
+
+/// Throws where the map has drop-outs.
+void require_filled(const HeightMap& map);
+
+/// Throws where the map has drop-outs or no two-dimensional spectrum.
+void require_plane(const HeightMap& map);
+
+/// Throws as require_plane does.
+Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads);
+
+}  // namespace asperity

@@ -1,0 +1,107 @@
+"""The verb `fit`: the adhesion of Eq. 23 from measured friction."""
+
+from argparse import Namespace
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.cli.commands import band_progress, check_outputs, deliver, spare
+from asperity.io.fields import nearest
+from asperity.io.read_friction import read_friction
+from asperity.io.table import Table
+from asperity.plot import plot_fit
+from asperity.scene.experiment import (
+    PARAMETERS,
+    Experiment,
+    Fitted,
+    found,
+    nearest_pressure,
+    pressures,
+)
+from asperity.scene.scene import load_scene
+
+_APART = 0.2  # of ln pressure
+_COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
+
+
+def fit(args: Namespace) -> None:
+    """Fit the adhesion; beside a scene's correction also with the original theory, without it."""
+    path = Path(args.measured)
+    outputs = check_outputs(args)
+    held = _held(args.hold or {})
+    scene = load_scene(args.scene)
+    spare(outputs, [*scene.sources, path])
+    measured = read_friction(path)
+    experiment = Experiment(path, measured, pressures(scene, measured, path), held)
+    models = [scene] if scene.correction is None else [scene, replace(scene, correction=None)]
+    found_in = [experiment.fit_scene(model) for model in models]
+    if found_in[0][0] is None:
+        raise InvalidInput(found_in[0][1])
+    fits = [
+        Fitted(model, adhesion, problem, experiment.curves(model, adhesion, band_progress(model)))
+        for model, (adhesion, problem) in zip(models, found_in, strict=True)
+    ]
+    table = _table(args, experiment, fits)
+    deliver(
+        args,
+        table,
+        lambda picture: plot_fit.fit_figure(fits, experiment, picture),
+        found(found_in[0][0]),
+    )
+
+
+def _held(given: Mapping[str, str]) -> dict[str, float]:
+    held = {}
+    for key, text in given.items():
+        if key not in PARAMETERS:
+            raise InvalidInput(f"--hold {key}: {nearest(key, PARAMETERS)}")
+        try:
+            held[key] = float(text)
+        except ValueError:
+            raise InvalidInput(f"--hold {key} = {text!r}: must be a number") from None
+    return held
+
+
+def _table(args: Namespace, experiment: Experiment, fits: list[Fitted]) -> Table:
+    scene = fits[0].scene
+    pressure, velocity = scene.points
+    columns: dict[str, Any] = {"pressure_pa": pressure, "velocity_m_s": velocity}
+    inputs: dict[str, Any] = {
+        "scene": str(scene.path),
+        "measured": args.measured,
+        "held": dict(experiment.held),
+        **{key: value for key, value in scene.inputs.items() if key != "adhesion"},
+        "derived": scene.derived,
+    }
+    notes = list(fits[0].curves.notes)
+    if "adhesion" in scene.inputs:
+        notes.append("the scene's [adhesion] gave way to the fitted one")
+    drawn_with = scene.pressure[nearest_pressure(scene, experiment.pressure)]
+    if (np.abs(np.log(experiment.pressure / drawn_with)) > _APART).any():
+        notes.append(
+            "some points were measured at pressures that the scene's do not come near: they are "
+            "fitted at their own, and drawn beside the nearest"
+        )
+    known = set(notes)
+    for fit, suffix in zip(fits, ("", "_original"), strict=False):
+        columns |= {f"{name}{suffix}": getattr(fit.curves, name).ravel() for name in _COLUMNS}
+        if fit.curves.band is not None:
+            low, high = fit.curves.band
+            columns |= {f"mu_low{suffix}": low.ravel(), f"mu_high{suffix}": high.ravel()}
+        said: tuple[str, ...] = (fit.problem,)
+        if fit.adhesion is not None:
+            covariance = fit.adhesion.covariance.tolist()
+            inputs[f"found{suffix}"] = {
+                **found(fit.adhesion),
+                "covariance": covariance,
+                "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
+            }
+            said = fit.adhesion.notes
+        prefix = "without the correction: " if suffix else ""
+        said = tuple(note.replace("see outliers", "see outlier_rows") for note in said)
+        notes += [prefix + note for note in said if note not in known]
+    return Table("fit", [inputs], notes, {name: list(column) for name, column in columns.items()})

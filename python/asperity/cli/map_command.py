@@ -1,0 +1,149 @@
+"""The verb `map`: a friction map for simulators from a scene, or what a map's file says."""
+
+import json
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import FrictionMap, InvalidInput, friction, friction_map
+from asperity.cli.commands import check_outputs, spare, tell, tell_notes
+from asperity.io.fields import named
+from asperity.io.table import input_lines, write_files
+from asperity.plot import plot_map
+from asperity.scene.scene import Scene, load_scene
+
+_RTOL = 1e-4
+_TRUTH = 1e-9  # rtol of what a picture compares the map with
+
+
+def friction_map_of(args: Namespace) -> None:
+    """Build, certify, write and draw the map of a scene, or tell what a file holds."""
+    if (args.scene is None) == (args.info is None):
+        raise InvalidInput("map: must be given a SCENE.toml, or --info FILE")
+    asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
+    given = [name for name in (*asked, "output", "plot") if getattr(args, name) is not None]
+    if args.info is not None:
+        if given:
+            raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
+        _tell(args, _read(Path(args.info)))
+        return
+    outputs = check_outputs(args)
+    scene = load_scene(args.scene)
+    spare(outputs, scene.sources)
+    notes = [*scene.surface.notes, *scene.built_rubber.notes]
+    pressure = _box("pressure", args.pressure, scene.pressure, notes)
+    velocity = _box("velocity", args.velocity, scene.velocity, notes)
+    rtol = args.rtol or scene.stated_rtol or _RTOL
+    options = {**scene.options, "rtol": rtol, "correction": scene.correction}
+    solver = {**scene.inputs["solver"], "rtol": rtol}
+    inputs = {
+        "scene": str(scene.path),
+        **scene.inputs,
+        "solver": solver,
+        "derived": scene.derived,
+    }
+    lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
+    names = {name: f"--{name}" for name in given}
+    with named(scene.path, names):
+        made = friction_map(
+            scene.spectrum,
+            scene.rubber,
+            pressure=pressure,
+            velocity=velocity,
+            adhesion=scene.adhesion,
+            text=_plain("".join(f"{line}\n" for line in lines)),
+            **({} if args.checked is None else {"checked": args.checked}),
+            **options,
+        )
+    files = {}
+    if args.output is not None:
+        files[Path(args.output)] = made.to_bytes()
+    if args.plot is not None:
+        path = Path(args.plot)
+        files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
+    write_files(files)
+    _tell(args, made)
+
+
+def _box(
+    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[str]
+) -> tuple[float, float]:
+    """The sides of the map: as asked for, else as the scene sweeps."""
+    if given is not None:
+        return given[0], given[1]
+    lowest, highest = float(swept.min()), float(swept.max())
+    if lowest < highest:
+        return lowest, highest
+    notes.append(f"{name}: the scene has one; the map goes from a tenth to ten times of it")
+    return lowest / 10, highest * 10
+
+
+def _errors(
+    made: FrictionMap, scene: Scene, pressure: NDArray[np.float64], velocity: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """|mu of the map / mu of the solver - 1|, of the arguments' shape."""
+    options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
+    truth = friction(
+        scene.spectrum,
+        scene.rubber,
+        pressure=pressure,
+        velocity=velocity,
+        adhesion=scene.adhesion,
+        **options,
+    )
+    mu: NDArray[np.float64] = made.mu(pressure, velocity)
+    # a rubber without loss and without adhesion has no friction to be off by
+    ratio = np.divide(mu, truth.mu, out=np.ones_like(mu), where=truth.mu > 0)
+    return np.asarray(np.abs(ratio - 1))
+
+
+def _read(path: Path) -> FrictionMap:
+    try:
+        return FrictionMap.load(path)
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+
+
+def _tell(args: Namespace, made: FrictionMap) -> None:
+    found: dict[str, Any] = {
+        "pressure_pa": made.pressure,
+        "velocity_m_s": made.velocity,
+        "rtol": made.rtol,
+        "max_error": made.max_error,
+        "checked": made.checked,
+        "exceeded": made.exceeded,
+        "largest_checked_error": made.largest_checked_error,
+        "cells": made.cells,
+        "bytes": len(made.to_bytes()),
+    }
+    if made.adhesion_law is not None:
+        law = made.adhesion_law
+        found |= {
+            "shear_stress_pa": law.shear_stress,
+            "reference_velocity_m_s": law.reference_velocity,
+            "width": law.width,
+        }
+    if args.json:
+        tell(json.dumps({**found, "notes": made.notes, "text": made.text}, indent=1) + "\n")
+        return
+    lines = [f"{name} = {_short(value)}" for name, value in found.items()]
+    told = [line for line in made.text.splitlines() if not line.startswith("note: ")]
+    tell("".join(f"{line}\n" for line in [*lines, *(told if args.info is not None else [])]))
+    tell_notes(made.notes)
+    if made.exceeded > 0:
+        tell_notes([f"{made.exceeded} of {made.checked} random points are beyond max_error"])
+
+
+def _plain(text: str) -> str:
+    """Without what is no text in a file's name."""
+    return text.encode(errors="backslashreplace").decode()
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"{value[0]:.6g} to {value[1]:.6g}"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,79 @@
+"""Values of the shell command's options, and how a wrong one is refused."""
+
+import argparse
+import math
+from argparse import ArgumentTypeError
+from typing import NoReturn
+
+from asperity.io.fields import MOST_POINTS
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def numbers(text: str) -> list[float]:
+    """Numbers, parted by commas."""
+    try:
+        return [float(entry) for entry in text.split(",")]
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r}: must be numbers, parted by commas") from None
+
+
+def pairs(text: str) -> dict[str, str]:
+    """Names with their values."""
+    pairs = [entry.partition("=") for entry in text.split(",")]
+    if not all(name and mark and value for name, mark, value in pairs):
+        raise ArgumentTypeError(f"{text!r}: must be NAME=VALUE,NAME=VALUE")
+    result = {name.strip(): value.strip() for name, _, value in pairs}
+    if len(result) < len(pairs):
+        raise ArgumentTypeError(f"{text!r}: must have each NAME once")
+    return result
+
+
+def number(text: str) -> float:
+    """A positive number: all that the options ask for are."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise ArgumentTypeError(f"{text!r}: must be a positive number")
+    return number
+
+
+def pixel_size(text: str) -> float | tuple[float, float]:
+    """One number [m], or DY,DX."""
+    try:
+        sizes = [number(size) for size in text.split(",")]
+        if len(sizes) == 1:
+            return sizes[0]
+        dy, dx = sizes
+    except (ArgumentTypeError, ValueError):
+        raise ArgumentTypeError(f"{text!r}: must be a positive number [m], or two: DY,DX") from None
+    return dy, dx
+
+
+def sides(text: str) -> tuple[float, float]:
+    """LO,HI."""
+    try:
+        lo, hi = (number(side) for side in text.split(","))
+    except (ArgumentTypeError, ValueError):
+        raise ArgumentTypeError(f"{text!r}: must be two positive numbers, LO,HI") from None
+    return lo, hi
+
+
+def whole(text: str) -> int:
+    """A whole number."""
+    try:
+        return int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r}: must be a whole number") from None
+
+
+def points(text: str) -> int:
+    """How many points a sweep has."""
+    if not 2 <= (points := whole(text)) <= MOST_POINTS:
+        raise ArgumentTypeError(f"{text}: must be in 2..{MOST_POINTS}")
+    return points

@@ -1,0 +1,149 @@
+"""The verb `rubber`: DMA sweeps to a master curve, shift factors and a Prony series."""
+
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import (
+    InvalidInput,
+    MasterCurveBuild,
+    NotConverged,
+    PronyFit,
+    WlfFit,
+    build_master_curve,
+)
+from asperity.cli.commands import check_outputs, deliver, spare
+from asperity.io.fields import named
+from asperity.io.read_dma import read_isotherms, read_shift_factors
+from asperity.io.table import Table
+from asperity.plot import plot_rubber
+from asperity.scene.rubber import quiet_prony
+
+_FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for
+
+_FLAGS = {
+    "reference_temperature": "--reference-temperature",
+    "vertical_shift": "--vertical-shift",
+    "columns": "--columns",
+    "units": "--units",
+    "modulus": "--modulus",
+    "poisson_ratio": "--poisson-ratio",
+    "temperatures": "--temperatures",
+}
+
+
+def rubber(args: Namespace) -> None:
+    """Master curve of the isotherms in files; its table can be a scene's master_curve."""
+    files = [Path(name) for name in args.file]
+    shift_file = [] if args.shift is None else [Path(args.shift)]
+    spare(check_outputs(args), [*files, *shift_file])
+    with named(None, _FLAGS):
+        isotherms = read_isotherms(
+            files,
+            columns=args.columns,
+            units=args.units,
+            modulus=args.modulus,
+            poisson_ratio=args.poisson_ratio,
+            temperatures=args.temperatures,
+        )
+        middle = isotherms[len(isotherms) // 2].temperature
+        reference = middle if args.reference_temperature is None else args.reference_temperature
+        shifts = None
+        if args.shift is not None:
+            shifts = read_shift_factors(args.shift, reference_temperature=reference)
+        build = build_master_curve(
+            isotherms,
+            reference_temperature=reference,
+            vertical_shift=args.vertical_shift,
+            shift_factors=shifts,
+            smooth=True,
+        )
+    wlf, prony, notes = _fits(build)
+    found = _found(build, wlf, prony)
+    inputs: dict[str, Any] = {
+        "files": [str(file) for file in files],
+        "columns": args.columns,
+        "units": args.units,
+        "modulus": args.modulus,
+        "poisson_ratio": args.poisson_ratio,
+        "temperatures": args.temperatures,
+        "vertical_shift": args.vertical_shift,
+        "shift": args.shift,
+        "isotherms": _isotherms(build),
+        "found": found,
+    }
+    if prony is not None:
+        inputs["prony"] = {
+            "equilibrium_modulus_pa": prony.equilibrium_modulus,
+            "moduli_pa": prony.moduli.tolist(),
+            "relaxation_times_s": prony.relaxation_times.tolist(),
+        }
+    curve = build.master_curve
+    columns = {
+        "angular_frequency_rad_s": curve.angular_frequency.tolist(),
+        "storage_modulus_pa": curve.storage_modulus.tolist(),
+        "loss_modulus_pa": curve.loss_modulus.tolist(),
+    }
+    table = Table("rubber", [inputs], [*build.notes, *notes], columns)
+
+    def draw(path: Path) -> bytes:
+        return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path)
+
+    deliver(args, table, draw, found)
+
+
+def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[str]]:
+    """WLF and Prony fits where there are any, and what to say of them."""
+    notes = []
+    wlf = prony = None
+    try:
+        wlf = build.fit_wlf()
+        follow = "follow" if wlf.residual < _FOLLOWS else "do not follow"
+        notes.append(f"the shift factors {follow} WLF: residual {wlf.residual:.2g} decades")
+    except (InvalidInput, NotConverged) as error:
+        notes.append(f"no WLF fit: {error}")
+    try:
+        prony = quiet_prony(build)
+        notes += prony.notes
+    except (InvalidInput, NotConverged) as error:
+        notes.append(f"no Prony fit: {error}")
+    return wlf, prony, notes
+
+
+def _found(build: MasterCurveBuild, wlf: WlfFit | None, prony: PronyFit | None) -> dict[str, float]:
+    arrhenius = build.fit_arrhenius()
+    found = {
+        "reference_temperature_k": build.reference_temperature,
+        "lowest_frequency_rad_s": float(build.master_curve.angular_frequency[0]),
+        "highest_frequency_rad_s": float(build.master_curve.angular_frequency[-1]),
+        "residual": build.residual,
+    }
+    if wlf is not None:
+        found |= {
+            "wlf_c1": wlf.c1,
+            "wlf_c1_standard_error": wlf.standard_errors["c1"],
+            "wlf_c2_k": wlf.c2,
+            "wlf_c2_standard_error_k": wlf.standard_errors["c2"],
+            "wlf_residual_decades": wlf.residual,
+        }
+    found["activation_energy_j_per_mol"] = arrhenius.activation_energy
+    found["arrhenius_residual_decades"] = arrhenius.residual
+    if prony is not None:
+        found |= {
+            "prony_modes": float(prony.moduli.size),
+            "prony_storage_residual": prony.storage_residual,
+            "prony_loss_residual": prony.loss_residual,
+        }
+    return found
+
+
+def _isotherms(build: MasterCurveBuild) -> dict[str, list[float]]:
+    rounded = np.round(build.log10_a_T, 6)
+    return {
+        "temperature_k": build.temperature.tolist(),
+        "log10_a_t": rounded.tolist(),
+        "standard_deviation": build.standard_deviation.tolist(),
+        "b_t": build.b_T.tolist(),
+    }

@@ -1,0 +1,102 @@
+"""The verb `validate`: every correction against contacts that boundary elements have solved."""
+
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity._core import HeightMap, InvalidInput
+from asperity.cli.commands import progress, spare, tell, tell_notes
+from asperity.io.directory import begins, check_own_directory, table_of
+from asperity.io.fields import named
+from asperity.io.table import Table, write_directory
+from asperity.plot import plot
+from asperity.scene.scan import read_filled
+from asperity.validation.contacts import Contact, read_contacts, shipped
+from asperity.validation.figures import error_figure, shift_figure
+from asperity.validation.own import own_contacts
+from asperity.validation.predictions import Prediction, models_for, predict
+from asperity.validation.summary import TITLE, error_rows, summary
+
+LOADS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)  # those of the shipped rows
+_AREA, _ENERGY, _SHIFT = "area_error.png", "energy_error.png", "shift.png"
+_FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
+
+
+def validate(args: Namespace) -> None:
+    """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
+    directory = Path(args.output)
+    plot.check_plot(directory / _AREA)
+    check_own_directory(
+        directory,
+        "validate",
+        {
+            "summary.md": [begins(f"{TITLE}\n")],
+            "errors.csv": [table_of("validate")],
+            **{name: ["errors.csv"] for name in (_AREA, _ENERGY, _SHIFT)},
+        },
+    )
+    inputs = [Path(name) for name in (args.rows, args.surface) if name is not None]
+    spare([directory / name for name in _FILES], inputs)
+    contacts, told, notes = _contacts(args)
+    predictions = [[predict(c, model) for c in contacts] for model in models_for(contacts)]
+    text = summary(predictions)
+    table = Table("validate", [told], notes, error_rows(predictions))
+    pictures = _pictures(contacts, predictions)
+    write_directory(
+        directory, {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
+    )
+    tell_notes(notes)
+    tell(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
+
+
+def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]]:
+    """Contacts from rows or from a run of one's own surface, their origin, and what to know."""
+    surface = {
+        "pixel_size": args.pixel_size,
+        "unit": args.unit,
+        "channel": args.channel,
+        "detrend": args.detrend,
+        "q0": args.q0,
+        "loads": args.loads,
+        "periodic": args.periodic or None,
+    }
+    given = {name: value for name, value in surface.items() if value is not None}
+    if args.surface is None:
+        if given:
+            option = next(iter(given)).replace("_", "-")
+            raise InvalidInput(f"--{option}: only goes with --surface")
+        if args.rows is None:
+            return shipped(), {"rows": "bem_area.csv, shipped"}, []
+        return read_contacts(Path(args.rows)), {"rows": args.rows}, []
+    if args.rows is not None:
+        raise InvalidInput("--rows: must be left out where --surface is given")
+    path = Path(args.surface)
+    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
+    with named(None, flags):
+        read = {name: given[name] for name in flags if name in given}
+        _, filled = read_filled(path, max_fraction=0.10, **read)
+    if not isinstance(filled, HeightMap):
+        raise InvalidInput(f"{path}: is a line scan: boundary elements need a map")
+    detrend: Any = args.detrend or "plane"
+    flat = filled if detrend == "none" else filled.detrend(detrend)
+    with named(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
+        contacts, notes = own_contacts(
+            flat,
+            path.name,
+            loads=args.loads or LOADS,
+            q0=args.q0,
+            periodic=args.periodic,
+            progress=progress(str(path)),
+        )
+    return contacts, {"surface": args.surface, **given, "detrend": detrend}, notes
+
+
+def _pictures(
+    contacts: Sequence[Contact], predictions: Sequence[Sequence[Prediction]]
+) -> dict[str, bytes]:
+    return {
+        _AREA: error_figure(predictions, "area", Path(_AREA)),
+        _ENERGY: error_figure(predictions, "energy", Path(_ENERGY)),
+        _SHIFT: shift_figure(contacts, predictions, Path(_SHIFT)),
+    }

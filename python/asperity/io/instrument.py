@@ -1,0 +1,152 @@
+"""Files of instruments through SurfaceTopography, and what all scans from files share."""
+
+import logging
+import warnings
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import HeightMap, InvalidInput, LineScan
+from asperity.io.fields import named
+
+METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12}
+
+PixelSize = float | tuple[float, float]
+
+for _parser in ("SurfaceTopography", "igor2"):  # errors are raised, not printed besides
+    logging.getLogger(_parser).addHandler(logging.NullHandler())
+
+_UNEVEN = 1e-3  # of the spacing: how far positions may be from equal distances in any case
+_ROUNDED = 0.7  # of the last printed digit: rounding shifts them by 0.5, and the line through them
+
+
+class UnrecognisedError(InvalidInput):
+    """A file is not of the format that it was taken for."""
+
+
+def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> HeightMap | LineScan:
+    """The map or line scan of heights in units of `metres`; float32 stays float32."""
+    if heights.ndim not in (1, 2):
+        raise InvalidInput(
+            f"heights has {heights.ndim} dimensions: must have 2 (a map) or 1 (a line scan)"
+        )
+    if metres != 1:
+        kept = heights.dtype.kind == "f" and heights.dtype.itemsize == 4
+        real = np.dtype(np.float32 if kept else np.float64)
+        own = heights if heights.dtype == real and heights.flags.writeable else None
+        heights = np.multiply(heights, metres, out=own, dtype=real, casting="same_kind")
+    if heights.ndim == 2:
+        return HeightMap(heights, pixel_size=pixel_size)
+    if isinstance(pixel_size, tuple) or np.ndim(pixel_size) > 0:
+        raise InvalidInput(
+            f"pixel_size = {pixel_size!r}: must be one number, the file holds a line scan"
+        )
+    with named(None, {"spacing": "pixel_size"}):
+        return LineScan(heights, spacing=pixel_size)
+
+
+def check_channel(channel: int, available: int) -> None:
+    if not (isinstance(channel, int | np.integer) and 0 <= channel < available):
+        allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
+        raise InvalidInput(f"channel = {channel!r}: must be {allowed}")
+
+
+def read_instrument(
+    path: Path,
+    channel: int,
+    pixel_size: PixelSize | None,
+    unit: str | None,
+    *,
+    must_state_unit: bool = False,
+) -> HeightMap | LineScan:
+    """One channel of a file; UnrecognisedError where SurfaceTopography makes nothing of it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            open_topography = import_module("SurfaceTopography.IO").open_topography
+        except ModuleNotFoundError as error:
+            if (error.name or "").partition(".")[0] != "SurfaceTopography":
+                raise
+            raise UnrecognisedError("needs SurfaceTopography: pip install asperity[io]") from error
+        try:
+            with open_topography(str(path)) as reader:
+                by_size = reader.format() == "hgt"  # which any file of 2 n^2 bytes seems to be
+                if not reader.channels or (by_size and path.suffix.lower() != ".hgt"):
+                    raise UnrecognisedError("of no known format, or damaged")
+                if must_state_unit and all(c.unit is None for c in reader.channels):
+                    raise UnrecognisedError("states no unit")
+                return _read_channel(reader, channel, pixel_size, unit)
+        except InvalidInput:
+            raise
+        except Exception as error:  # some forty parsers, each with its own ways to fail
+            if type(error).__name__ in ("CannotDetectFileFormat", "UnknownFileFormat"):
+                raise UnrecognisedError("of no known format, or damaged") from error
+            raise UnrecognisedError(f"damaged or not supported: {brief(error)}") from error
+
+
+def _read_channel(
+    reader: Any, channel: int, pixel_size: PixelSize | None, unit: str | None
+) -> HeightMap | LineScan:
+    check_channel(channel, len(reader.channels))
+    info = reader.channels[channel]
+    if not info.is_height_channel:
+        kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
+        raise InvalidInput(f"channel = {channel}: must be one of heights ({kinds})")
+    for name, given, stated in (
+        ("unit", unit, info.unit),
+        ("pixel_size", pixel_size, info.physical_sizes),
+    ):
+        if given is None and stated is None:
+            raise InvalidInput(f"{name} is missing: the file does not state it")
+        if given is not None and stated is not None:
+            raise InvalidInput(f"{name} = {given!r}: must be left out, the file states its own")
+
+    sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
+    topography = reader.topography(channel_index=channel, **sizes)
+    if not topography.is_uniform:
+        _check_equal_distances(np.asarray(topography.positions()))
+    metres = 1.0 if unit is None else METRES[unit]
+    if unit is None:
+        topography = topography.to_unit("m")
+    masked: np.ma.MaskedArray[Any, Any] = np.ma.asarray(topography.heights(), dtype=np.float64)
+    heights = masked.filled(np.nan).T
+    if pixel_size is None:  # SurfaceTopography counts (x, y), we count (y, x)
+        gaps = np.array(heights.shape) - (0 if topography.is_uniform else 1)
+        steps = np.ravel(topography.physical_sizes)[::-1] * metres / gaps
+        pixel_size = float(steps[0]) if len(steps) == 1 else (float(steps[0]), float(steps[1]))
+    return surface_of(heights, metres, pixel_size)
+
+
+def _check_equal_distances(positions: NDArray[Any]) -> None:
+    """Refuse positions that are not equal steps even within their last printed digit."""
+    if positions.size < 2 or not np.all(np.diff(positions) > 0):
+        raise InvalidInput("holds a line scan whose positions do not increase: must do so")
+    step = (positions[-1] - positions[0]) / (positions.size - 1)
+    count = np.arange(positions.size) - (positions.size - 1) / 2
+    fitted = np.mean(positions) + count * (count @ positions) / (count @ count)
+    strayed = float(np.max(np.abs(positions - fitted)))
+    if not strayed <= max(_UNEVEN * step, _ROUNDED * _last_digit(positions, step)):
+        raise InvalidInput(
+            f"holds a line scan whose points stray by up to {strayed / step:.3g} of their mean "
+            "distance: must be equally spaced"
+        )
+
+
+def _last_digit(positions: NDArray[Any], step: float) -> float:
+    """The power of ten below `step` that all positions are multiples of, 0 if it matters not."""
+    first = int(np.ceil(-np.log10(step)))
+    for digits in range(first, first + 4):
+        place = 10.0**-digits
+        if np.allclose(positions, np.round(positions, digits), rtol=0, atol=1e-6 * place):
+            return place
+    return 0.0
+
+
+def brief(message: object) -> str:
+    """First line of a foreign message, without what a terminal cannot show."""
+    lines = str(message).strip().splitlines() or [type(message).__name__]
+    text = "".join(c for c in lines[0] if c.isprintable())
+    return text if len(text) <= 120 else text[:117] + "..."

@@ -1,0 +1,266 @@
+"""Maps and line scans from files: matrices here, any other format in `instrument`."""
+
+import errno
+import os
+import re
+import stat
+import warnings
+from array import array
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import HeightMap, InvalidInput, LineScan
+from asperity.io.instrument import (
+    METRES,
+    PixelSize,
+    UnrecognisedError,
+    brief,
+    check_channel,
+    read_instrument,
+    surface_of,
+)
+
+
+def read_surface(
+    path: str | os.PathLike[str],
+    *,
+    channel: int = 0,
+    pixel_size: PixelSize | None = None,
+    unit: str | None = None,
+) -> HeightMap | LineScan:
+    """Height map h(y, x) or line scan h(x) [m] from a file.
+
+    Matrices in .npy, .npz, .csv and .txt are read directly. Such files state neither pixel size
+    nor unit, so both are required. An array of one dimension and a text of one column or one line
+    are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to HeightMap,
+    which shares it; nobody may then write to the file.
+
+    Text has one line per y, cells parted by commas, semicolons, tabs or blanks; NaN and empty
+    cells are drop-outs (a separator that ends every line is no cell), blank lines and those that
+    begin with ``#`` are passed over. A text that is no matrix but begins with a header, and one
+    for which neither `pixel_size` nor `unit` is given, is taken where SurfaceTopography knows it
+    and finds its unit stated.
+
+    Any other format is read through SurfaceTopography (``pip install asperity[io]``). Of a line
+    scan with positions they must be equally spaced, to within their last printed digit.
+
+    Parameters
+    ----------
+    path : path-like
+        File to read.
+    channel : int
+        Index of the map or line scan in a file that holds several.
+    pixel_size : float or (float, float), optional
+        Distance of neighbouring points [m], one number or (dy, dx); one number for a line scan.
+        Only where the file states none.
+    unit : {"m", "mm", "um", "nm", "pm"}, optional
+        Unit of the heights (and of the lengths of an instrument file that names no unit); "µm" is
+        "um". Only where the file states none.
+
+    Returns
+    -------
+    HeightMap or LineScan
+        Of shape (ny, nx) or (n,), drop-outs as NaN; float32 in a .npy or .npz file stays float32.
+
+    Raises
+    ------
+    InvalidInput
+        If the file cannot be read, is damaged or is no surface, or if `channel`, `pixel_size` or
+        `unit` do not fit to it. The message names the file.
+
+    Examples
+    --------
+    >>> surface = read_surface("scan.npy", pixel_size=(2e-6, 1e-6), unit="um")  # doctest: +SKIP
+    """
+    path = Path(path)
+    try:
+        if unit is not None:
+            unit = _checked_unit(unit)
+        check_file(path)
+        suffix = path.suffix.lower()
+        if suffix == ".toml":
+            raise InvalidInput(
+                "is a scene, not a surface: must be a scan (.npy, .npz, .csv, .txt or the file of "
+                "an instrument)"
+            )
+        if suffix in (".csv", ".txt"):
+            return _read_text(path, channel, pixel_size, unit)
+        if suffix not in _LOADERS:
+            return read_instrument(path, channel, pixel_size, unit)
+        given = _required(path, pixel_size, unit)
+        return surface_of(_LOADERS[suffix](path, channel), *given)
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
+
+
+def _checked_unit(unit: str) -> str:
+    """The unit, micro signs (there are two) written as u."""
+    plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
+    if plain not in METRES:
+        raise InvalidInput(f"unit = {unit!r}: must be one of {', '.join(METRES)}")
+    return plain
+
+
+def _required(
+    path: Path, pixel_size: PixelSize | None, unit: str | None
+) -> tuple[float, PixelSize]:
+    """Metres per unit and pixel size, which files of numbers alone do not state."""
+    if pixel_size is None:
+        problem = f"a {path.suffix} file does not state the distance of its points [m]"
+        raise InvalidInput(f"pixel_size is missing: {problem}")
+    if unit is None:
+        problem = f"a {path.suffix} file does not state the unit of its heights"
+        raise InvalidInput(f"unit is missing: {problem}")
+    return METRES[unit], pixel_size
+
+
+def check_file(path: Path) -> None:
+    """Refuse what cannot be opened, and what one might wait for or read without end."""
+    try:
+        mode = path.stat().st_mode
+    except ValueError as error:
+        raise InvalidInput(f"cannot be read: {error}") from error
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise InvalidInput("cannot be read: not a regular file")
+    path.open("rb").close()
+
+
+@contextmanager
+def _sound(kind: str) -> Iterator[None]:
+    """One error for all the ways in which NumPy finds a file damaged."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            yield
+        except (InvalidInput, OSError):
+            raise
+        except Exception as error:
+            raise InvalidInput(f"not a sound {kind} file: {brief(error)}") from error
+
+
+def _real(values: object) -> NDArray[Any]:
+    if not isinstance(values, np.ndarray):
+        raise InvalidInput("holds something else: must be an array of real numbers")
+    if values.dtype.kind not in "fiu":
+        raise InvalidInput(f"holds {values.dtype} values: must be real numbers")
+    return np.asarray(values)
+
+
+def _load_npy(path: Path, channel: int) -> NDArray[Any]:
+    check_channel(channel, 1)
+    with _sound(".npy"), path.open("rb") as file:
+        return _real(np.lib.format.read_array(file, allow_pickle=False))
+
+
+def _load_npz(path: Path, channel: int) -> NDArray[Any]:
+    with _sound(".npz"), path.open("rb") as file, np.lib.npyio.NpzFile(file) as archive:
+        if not archive.files:
+            raise InvalidInput("holds no arrays")
+        check_channel(channel, len(archive.files))
+        return _real(archive[archive.files[channel]])
+
+
+_LOADERS = {".npy": _load_npy, ".npz": _load_npz}
+
+
+def _read_text(
+    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
+) -> HeightMap | LineScan:
+    """A matrix of numbers, or what SurfaceTopography knows and finds the unit of."""
+    try:
+        heights, no_matrix = _load_text(path), None
+    except UnrecognisedError as error:
+        heights, no_matrix = np.empty(0), error
+    if no_matrix is not None or (pixel_size is None and unit is None):
+        try:
+            return read_instrument(path, channel, pixel_size, unit, must_state_unit=True)
+        except UnrecognisedError as error:
+            if no_matrix is not None:
+                message = f"{no_matrix} (and as the file of an instrument: {error})"
+                raise InvalidInput(message) from error
+    check_channel(channel, 1)
+    return surface_of(heights, *_required(path, pixel_size, unit))
+
+
+def _load_text(path: Path) -> NDArray[Any]:
+    """Matrix, or the vector of one line or column; UnrecognisedError where a header begins it."""
+    values = array("d")
+    width = blank = gap = 0  # numbers of cells, of the first blank line, of one between numbers
+    trailing = True
+    for number, cells in lines(path):
+        if not cells:
+            blank = blank or (number if values else 0)
+            continue
+        try:
+            row = [cell(text) for text in cells]
+        except ValueError as error:
+            header = number == 1 and re.search(r"[^\W\d_]{2}", cells[0]) is not None
+            kind = UnrecognisedError if header else InvalidInput
+            raise kind(f"line {number}: {error}") from error
+        width = width or len(row)
+        if len(row) != width:
+            raise InvalidInput(
+                f"line {number} has {len(row)} cells, those before it {width}: must be as many"
+            )
+        trailing = trailing and width > 1 and not cells[-1].strip()
+        gap = blank
+        values.extend(row)
+    if not values:
+        raise InvalidInput("holds no numbers")
+    matrix = np.frombuffer(values).reshape(-1, width)
+    if trailing:  # every line ends in a separator
+        matrix = matrix[:, :-1]
+    if matrix.shape[1] == 1 and gap:
+        raise InvalidInput(f"line {gap} is blank: a drop-out of a line scan must be nan")
+    return matrix.reshape(-1) if 1 in matrix.shape else matrix
+
+
+def lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Numbers and cells of the lines that are no comments; a blank line has no cells."""
+    separator: str | None = ""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        for number, line in enumerate(file, start=1):
+            text = line.rstrip("\r\n")
+            if text.lstrip().startswith("#"):
+                continue
+            if not text.strip(" " if separator == "\t" else None):
+                yield number, []
+                continue
+            if separator == "":
+                separator = next((mark for mark in ";,\t" if mark in text), None)
+            yield number, text.split(separator)
+
+
+def filled_lines(path: Path) -> list[tuple[int, list[str]]]:
+    """`lines` without blank ones, of a file that is named where it cannot be read."""
+    try:
+        check_file(path)
+        return [(number, cells) for number, cells in lines(path) if cells]
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
+
+
+def cell(text: str) -> float:
+    """The number in a cell of a table; NaN in an empty one."""
+    text = text.strip()
+    if not text:
+        return np.nan
+    try:
+        if "_" in text:  # float() takes 1_000 for a number
+            raise ValueError
+        return float(text)
+    except ValueError:
+        comma = re.fullmatch(r"[-+]?\d*,\d+([eE][-+]?\d+)?", text)
+        hint = ": its decimal comma must be a point" if comma else ""
+        raise ValueError(f"{brief(text)!r} is not a number{hint}") from None

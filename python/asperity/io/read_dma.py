@@ -1,0 +1,265 @@
+"""DMA sweeps from files: columns and units as declared, nothing guessed."""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput, Isotherm, ShiftFactors, StrainSweep
+from asperity.io.instrument import brief
+from asperity.io.read import check_file
+
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+Column = NDArray[np.float64]
+
+_UNITS = {
+    "frequency": {"Hz": 2 * np.pi, "rad/s": 1.0},
+    "modulus": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "temperature": {"K": 1.0, "C": 1.0},
+    "strain": {"1": 1.0, "%": 0.01},
+}
+_KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
+_CELSIUS = 273.15
+_STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
+_MOST_UNIT_LINES = 2  # between the names of the columns and the first numbers
+
+
+def read_isotherms(
+    paths: Paths,
+    *,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+    modulus: Literal["E", "G"],
+    poisson_ratio: float = 0.5,
+    temperatures: Sequence[float] | None = None,
+) -> list[Isotherm]:
+    """Frequency sweeps from text files, one temperature or several in each.
+
+    A line with the names of the columns precedes the numbers; lines before it, lines of units after
+    it and lines beginning with ``#`` are passed over. Cells are parted by semicolons, tabs, commas
+    or blanks; where they are not parted by commas, a comma is a decimal one. UTF-8 with or without
+    byte-order mark, or Latin-1.
+
+    Parameters
+    ----------
+    paths : path-like or iterable of path-like
+    columns : mapping
+        Names in the files of "frequency", "storage", "loss" and "temperature"; not the last where
+        `temperatures` are given.
+    units : mapping
+        "frequency": "Hz" or "rad/s"; "modulus": "Pa", "kPa", "MPa" or "GPa"; "temperature": "K" or
+        "C". All are required.
+    modulus : {"E", "G"}
+        Whether the moduli are Young's or those of shear, E = 2 (1 + nu) G.
+    poisson_ratio : float
+        nu [-], for "G".
+    temperatures : sequence of float, optional
+        One for each file, in the unit of "temperature", where the files have no column of it.
+
+    Returns
+    -------
+    list of Isotherm
+        In rising temperature [K]; rows within 1 K are one isotherm at their mean.
+
+    Raises
+    ------
+    InvalidInput
+        Naming file and line.
+
+    Examples
+    --------
+    >>> columns = {"frequency": "f", "temperature": "T", "storage": "G'", "loss": 'G"'}
+    >>> units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa"}
+    >>> read_isotherms("dma.csv", columns=columns, units=units, modulus="G")  # doctest: +SKIP
+    """
+    factor = _young(modulus, poisson_ratio)
+    wanted = ("frequency", "storage", "loss", "temperature")
+    result = []
+    for path, table in _tables(paths, columns, units, wanted, temperatures):
+        order = np.argsort(table["temperature"], kind="stable")
+        steps = np.flatnonzero(np.diff(table["temperature"][order]) > _STEP) + 1
+        for rows in np.split(order, steps):
+            rows = np.sort(rows)
+            try:
+                isotherm = Isotherm(
+                    temperature=float(table["temperature"][rows].mean()),
+                    angular_frequency=table["frequency"][rows],
+                    storage_modulus=factor * table["storage"][rows],
+                    loss_modulus=factor * table["loss"][rows],
+                )
+            except InvalidInput as error:
+                first, last = int(table["line"][rows[0]]), int(table["line"][rows[-1]])
+                problem = f"isotherm in lines {first} to {last}: {error}"
+                raise InvalidInput(f"{path}: {problem}") from error
+            result.append(isotherm)
+    return sorted(result, key=lambda isotherm: isotherm.temperature)
+
+
+def read_strain_sweep(
+    path: str | os.PathLike[str],
+    *,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+    modulus: Literal["E", "G"],
+    poisson_ratio: float = 0.5,
+) -> StrainSweep:
+    """One sweep of strain from a text file, at the mean of its temperatures and frequencies.
+
+    As `read_isotherms`, with a column and a unit ("1" or "%") of "strain" [-] besides.
+    """
+    factor = _young(modulus, poisson_ratio)
+    wanted = ("strain", "frequency", "storage", "loss", "temperature")
+    ((file, table),) = _tables(path, columns, units, wanted)
+    order = np.argsort(table["strain"], kind="stable")
+    try:
+        return StrainSweep(
+            temperature=float(table["temperature"].mean()),
+            angular_frequency=float(table["frequency"].mean()),
+            strain=table["strain"][order],
+            storage_modulus=factor * table["storage"][order],
+            loss_modulus=factor * table["loss"][order],
+        )
+    except InvalidInput as error:
+        raise InvalidInput(f"{file}: {error}") from error
+
+
+def read_shift_factors(
+    path: str | os.PathLike[str], *, reference_temperature: float
+) -> ShiftFactors:
+    """Shift factors over temperature [K] from a CSV file with columns temperature_k, log10_a_t."""
+    columns = {"temperature": "temperature_k", "log10_a_T": "log10_a_t"}
+    file = Path(path)
+    table = _table(file, columns)
+    order = np.argsort(table["temperature"], kind="stable")
+    try:
+        return ShiftFactors(
+            reference_temperature=reference_temperature,
+            temperature=table["temperature"][order],
+            log10_a_T=table["log10_a_T"][order],
+        )
+    except InvalidInput as error:
+        raise InvalidInput(f"{file}: {error}") from error
+
+
+def _young(modulus: str, poisson_ratio: float) -> float:
+    if modulus not in ("E", "G"):
+        raise InvalidInput(f"modulus = {modulus!r}: must be 'E' or 'G'")
+    if not 0 <= poisson_ratio <= 0.5:
+        raise InvalidInput(f"poisson_ratio = {poisson_ratio!r}: must be in [0, 0.5]")
+    return 2 * (1 + poisson_ratio) if modulus == "G" else 1.0
+
+
+def _tables(
+    paths: Paths,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+    wanted: Iterable[str],
+    temperatures: Sequence[float] | None = None,
+) -> list[tuple[Path, dict[str, Column]]]:
+    """The wanted columns of each file in SI units, and the numbers of their lines."""
+    wanted = tuple(wanted)
+    for name, given in (("columns", columns), ("units", units)):
+        known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
+        if name == "columns" and temperatures is not None:
+            known.discard("temperature")
+        for key in given:
+            if key not in known:
+                allowed = ", ".join(sorted(known))
+                raise InvalidInput(f"{name}: {key!r} is unknown, must be of {allowed}")
+        for key in sorted(known):
+            if key not in given:
+                raise InvalidInput(f"{name}: {key!r} is missing")
+    for key, unit in units.items():
+        if unit not in _UNITS[key]:
+            allowed = ", ".join(_UNITS[key])
+            raise InvalidInput(f"units: {key} = {unit!r}: must be one of {allowed}")
+    files = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    if not files:
+        raise InvalidInput("paths: is empty, must have 1 file or more")
+    if temperatures is not None and len(temperatures) != len(files):
+        found = f"temperatures has {len(temperatures)} entries, paths has {len(files)}"
+        raise InvalidInput(f"{found}: must be as many")
+    result = []
+    for at, file in enumerate(map(Path, files)):
+        table = _table(file, columns)
+        if temperatures is not None:
+            table["temperature"] = np.full(table["line"].size, float(temperatures[at]))
+        for name in wanted:
+            if name != "temperature" and not np.all(table[name] > 0):
+                row = int(np.argmin(table[name] > 0))
+                problem = f"{name} = {table[name][row]:g}: must be positive"
+                raise InvalidInput(f"{file}: line {table['line'][row]:.0f}: {problem}")
+            kind = _KINDS.get(name, name)
+            table[name] = table[name] * _UNITS[kind][units[kind]]
+        if units["temperature"] == "C":
+            table["temperature"] = table["temperature"] + _CELSIUS
+        result.append((file, table))
+    return result
+
+
+def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
+    """Columns by our names, as numbers; "line" has the numbers of their lines."""
+    try:
+        check_file(path)
+        data = path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    numbered = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    for at, (_, line) in enumerate(numbered):
+        separator = next((mark for mark in ";\t," if mark in line), None)
+        names = [
+            name.strip().strip('"') if name.count('"') > 1 else name.strip()
+            for name in line.split(separator)
+        ]
+        if all(column in names for column in columns.values()):
+            places = {ours: names.index(theirs) for ours, theirs in columns.items()}
+            return _numbers(path, numbered[at + 1 :], places, separator)
+    missing = [c for c in columns.values() if not any(c in line for _, line in numbered)]
+    named = ", ".join(map(repr, missing or columns.values()))
+    raise InvalidInput(f"{path}: no line names the columns {named}")
+
+
+def _numbers(
+    path: Path, rows: list[tuple[int, str]], places: Mapping[str, int], separator: str | None
+) -> dict[str, Column]:
+    table: dict[str, list[float]] = {name: [] for name in (*places, "line")}
+    skipped = 0
+    for number, line in rows:
+        # names parted by tabs may stand over numbers parted by blanks
+        cells = line.split(separator if separator != "\t" or separator in line else None)
+        values: dict[str, Any] = {"line": number}
+        for name, place in places.items():
+            if place >= len(cells):
+                problem = f"has {len(cells)} cells, must have {place + 1} or more ({name})"
+                raise InvalidInput(f"{path}: line {number} {problem}")
+            cell = cells[place].strip()
+            if separator != ",":
+                cell = cell.replace(",", ".")
+            try:
+                values[name] = float(cell.replace("_", "?"))
+            except ValueError:
+                values[name] = brief(cell)
+        wrong = {name: value for name, value in values.items() if isinstance(value, str)}
+        if len(wrong) == len(places) and not table["line"] and skipped < _MOST_UNIT_LINES:
+            skipped += 1  # units
+            continue
+        for name, value in wrong.items():
+            raise InvalidInput(f"{path}: line {number}: {name} = {value!r} is not a number")
+        for name, value in values.items():
+            if not np.isfinite(value):
+                raise InvalidInput(f"{path}: line {number}: {name} = {value}: must be finite")
+            table[name].append(value)
+    if not table["line"]:
+        raise InvalidInput(f"{path}: no numbers below the names of the columns")
+    return {name: np.array(values) for name, values in table.items()}

@@ -1,0 +1,103 @@
+"""Measured friction from files."""
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.io.instrument import brief
+from asperity.io.read import cell, filled_lines
+
+# by the name of the column, which carries the unit
+_COLUMNS = {
+    "velocity": {"velocity_m_s": 1.0, "velocity_mm_s": 1e-3, "velocity_km_h": 1 / 3.6},
+    "mu": {"mu": 1.0},
+    "pressure": {"pressure_pa": 1.0, "pressure_kpa": 1e3, "pressure_mpa": 1e6},
+}
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredFriction:
+    """Points of a friction measurement, arrays of shape (n,)."""
+
+    velocity: NDArray[np.float64]  # [m/s]
+    mu: NDArray[np.float64]  # [-]
+    pressure: NDArray[np.float64] | None  # [Pa], None where the file has none
+
+
+def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
+    """Measured mu(v) from a text file: a header line, a row a point, repeats as further rows.
+
+    Columns, in any order and among others: ``mu``; ``velocity_m_s``, ``velocity_mm_s`` or
+    ``velocity_km_h``; and, where pressures differ, ``pressure_pa``, ``pressure_kpa`` or
+    ``pressure_mpa``. Lines beginning with ``#`` are passed over, cells are parted by commas,
+    semicolons, tabs or blanks.
+
+    Returns
+    -------
+    MeasuredFriction
+        velocity [m/s], mu [-], pressure [Pa] or None.
+
+    Raises
+    ------
+    InvalidInput
+        Naming file and line: no column of a known unit, a cell that is no positive number.
+    """
+    path = Path(path)
+    table = filled_lines(path)
+    if len(table) < 2:
+        raise InvalidInput(
+            f"{path}: has {max(0, len(table) - 1)} rows below its header: must have 1 or more"
+        )
+    header = [name.strip() for name in table[0][1]]
+    columns = {kind: _column(path, header, kind) for kind in _COLUMNS}
+    found = {
+        kind: np.array(
+            [_value(path, number, cells, header, place) * factor for number, cells in table[1:]]
+        )
+        for kind, (place, factor) in ((k, c) for k, c in columns.items() if c is not None)
+    }
+    return MeasuredFriction(found["velocity"], found["mu"], found.get("pressure"))
+
+
+def _column(path: Path, header: list[str], kind: str) -> tuple[int, float] | None:
+    """Place and factor of a column; None of pressure where there is none."""
+    known: Mapping[str, float] = _COLUMNS[kind]
+    places = [(i, known[name]) for i, name in enumerate(header) if name in known]
+    if len(places) > 1:
+        raise InvalidInput(f"{path}: has two columns of {kind}: must be one of {', '.join(known)}")
+    if places:
+        return places[0]
+    bare = [name for name in header if name.lower().startswith(kind)]
+    if kind == "pressure" and not bare:
+        return None
+    allowed = " or ".join(known) if len(known) == 1 else f"one of {', '.join(known)}"
+    problem = (
+        f"column {bare[0]!r} names no unit known here"
+        if bare
+        else f"header {brief(','.join(header))!r} has no {kind}"
+    )
+    raise InvalidInput(f"{path}: {problem}: must be {allowed}")
+
+
+def _value(path: Path, number: int, cells: list[str], header: list[str], place: int) -> float:
+    if len(cells) != len(header):
+        problem = f"has {len(cells)} cells: must be {len(header)}, as the header"
+        if len(cells) == 2 * len(header):  # which decimal commas among commas make
+            problem += " (numbers have a decimal point)"
+        raise InvalidInput(f"{path}: line {number} {problem}")
+    try:
+        value = cell(cells[place])
+    except ValueError as error:
+        raise InvalidInput(f"{path}: line {number}: {header[place]}: {error}") from error
+    if not 0 < value < math.inf:
+        shown = cells[place].strip() or "nothing"
+        raise InvalidInput(
+            f"{path}: line {number}: {header[place]} = {shown}: must be positive and finite"
+        )
+    return value

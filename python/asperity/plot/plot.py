@@ -1,0 +1,220 @@
+"""Figures for a paper: friction over velocity, area over magnification (matplotlib)."""
+
+import io
+import warnings
+from collections.abc import Sequence
+from itertools import cycle
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.scene.scene import Curves, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
+    from matplotlib.figure import Figure
+
+FORMATS = (".png", ".svg", ".pdf")
+# Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
+
+def check_plot(path: Path) -> None:
+    """Refuse, before any work, a picture that cannot be drawn."""
+    if path.suffix.lower() not in FORMATS:
+        raise InvalidInput(f"{path}: must end in {', '.join(FORMATS)}")
+    try:
+        import matplotlib  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise InvalidInput(
+            f"{path}: pictures are drawn by matplotlib: pip install asperity[plot]"
+        ) from error
+
+
+def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
+    """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
+    figure, (axes,) = new_figure(1)
+    over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
+    adhesive = any(scene.adhesion is not None for scene in scenes)
+    kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
+    names = [scene.path.name for scene in scenes]
+    if len(set(names)) < len(names):
+        names = [str(scene.path) for scene in scenes]
+    curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
+    for name, scene, result in zip(names, scenes, results, strict=True):
+        values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
+        loads = [pressure_text(float(pressure)) for pressure in scene.pressure]
+        if over_pressure:
+            values = [array.T for array in values]
+            loads = [f"{float(scene.velocity[0]):.4g} m/s"]
+        for row, load in enumerate(loads):
+            label = f"{_plain(name)}, {load}" if len(scenes) > 1 else load
+            x = scene.pressure if over_pressure else scene.velocity
+            lines = [array[row] for array in values]
+            curves.append((label, x, lines[:3], lines[3:]))
+    for (label, x, lines, band), colour in zip(curves, colours(len(curves)), strict=True):
+        order = np.argsort(x)
+        if band:
+            low, high = (bound[order] for bound in band)
+            axes.fill_between(x[order], low, high, color=colour, alpha=0.2, linewidth=0)
+        for y, (kind, dashes) in zip(lines, kinds.items(), strict=False):
+            axes.plot(
+                x[order],
+                y[order],
+                dashes,
+                color=colour,
+                linewidth=1.8 if kind == "total" else 1.2,
+                marker="o" if x.size == 1 else None,
+                label=label if kind == "total" else None,
+            )
+    if adhesive:
+        for kind, dashes in kinds.items():
+            axes.plot([], [], dashes, color="0.3", label=kind)
+    drawn = zip(scenes, results, strict=True)
+    for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
+        label = band_text(level)
+        axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(
+        "Nominal pressure $\\sigma_0$ [Pa]" if over_pressure else "Sliding velocity $v$ [m/s]"
+    )
+    axes.set_ylabel("Friction coefficient $\\mu$ [-]")
+    figure.legend(loc="outside right upper")
+    return picture(figure, path)
+
+
+def area_figure(
+    scene: Scene, wavenumber: NDArray[np.float64], area: NDArray[np.float64], path: Path
+) -> bytes:
+    """A/A0 over magnification, colours for the velocities and line styles for the pressures, or the
+    other way where there are more pressures; beside it the distribution of the pressure at three
+    magnifications, as in the article's Fig. 1."""
+    figure, (axes, right) = new_figure(2)
+    sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, pressure_text)]
+    title = "Sliding velocity $v$ [m/s]"
+    if scene.pressure.size > scene.velocity.size:
+        sweeps.reverse()
+        area = area.swapaxes(0, 1)
+        title = "Nominal pressure $\\sigma_0$ [Pa]"
+    (coloured, colour_name), (dashed, dash_name) = sweeps
+    many = coloured.size > len(COLOURS)
+    colours = _shaded(figure, axes, coloured, title) if many else COLOURS
+    dashes = dict(zip(dashed, cycle(("-", "--", ":", "-.")), strict=False))
+    for dash, rows in zip(dashes.values(), area, strict=True):
+        for colour, row in zip(colours, rows, strict=False):
+            axes.plot(wavenumber / wavenumber[0], row, dash, color=colour)
+    if not many:
+        for value, colour in zip(coloured, colours, strict=False):
+            axes.plot([], [], color=colour, label=colour_name(float(value)))
+    if dashed.size > 1:
+        for value, dash in dashes.items():
+            axes.plot([], [], dash, color="0.3", label=dash_name(float(value)))
+    if not many or dashed.size > 1:
+        axes.legend(loc="upper right", fontsize="small")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("Magnification $q / q_0$ [-]")
+    axes.set_ylabel("Relative contact area $A / A_0$ [-]")
+    _draw_distributions(right, scene, float(area[0, 0, -1]))
+    return picture(figure, path)
+
+
+def _shaded(
+    figure: "Figure", axes: "Axes", values: NDArray[np.float64], title: str
+) -> NDArray[np.float64]:
+    """A colour a value, with a bar that tells them."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LogNorm
+
+    norm = LogNorm(float(values.min()), float(values.max()))
+    figure.colorbar(ScalarMappable(norm, shades()), ax=axes, label=title)
+    return np.asarray(shades()(norm(values)))
+
+
+def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> None:
+    """P(sigma) at magnifications that are a third, two thirds and all of the way in ln q."""
+    q0, q1 = scene.spectrum.q0, scene.spectrum.q1
+    nominal = float(scene.pressure[0])
+    highest = 10 / max(smallest_area, 1e-12)  # mean pressure is 1 / area
+    stress = np.geomspace(1e-2, highest, 900) * nominal
+    for share, colour in zip((1 / 3, 2 / 3, 1.0), COLOURS, strict=False):
+        q = q0 * (q1 / q0) ** share if share < 1 else q1
+        density = scene.pressure_distribution(stress, q) * stress
+        axes.plot(stress / nominal, density, color=colour, label=f"$q/q_0$ = {q / q0:.3g}")
+    axes.axvline(1, color="0.4", linestyle="--", linewidth=1, label="$q/q_0$ = 1")
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
+    axes.set_xlabel("Local pressure $\\sigma / \\sigma_0$ [-]")
+    # per ln(sigma), so that the area under a curve is the share in contact
+    axes.set_ylabel("Pressure distribution $\\sigma\\, P(\\sigma)$ [-]")
+    title = f"{pressure_text(nominal)}, {float(scene.velocity[0]):.3g} m/s"
+    if scene.options["form"] != "exact":
+        title += ", exact form"  # the other has no distribution
+    axes.set_title(title, fontsize="medium")
+    axes.legend(loc="upper left", fontsize="small")
+
+
+def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
+    """A figure of one to three panels in a row, of two by two or of two rows of three."""
+    from matplotlib.figure import Figure
+
+    rows = 1 if panels < 4 else 2
+    columns = panels // rows
+    width = {1: 6.6, 2: 9.0, 3: 13.0, 4: 10.0, 6: 13.0}[panels]
+    figure = Figure(figsize=(width, 3.5 if rows == 1 else 7.2), layout="constrained")
+    drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
+    for axes in drawn:
+        axes.tick_params(which="both", direction="in", top=True, right=True)
+    return figure, drawn
+
+
+def picture(figure: "Figure", path: Path) -> bytes:
+    """The figure as the bytes of a file of that ending."""
+    from matplotlib import rc_context
+
+    out = io.BytesIO()
+    # text as text: Type 3 fonts and outlines are refused by many journals
+    with warnings.catch_warnings(), rc_context({"pdf.fonttype": 42, "svg.fonttype": "none"}):
+        warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
+        figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
+    return out.getvalue()
+
+
+def _plain(name: str) -> str:
+    """A file name as a legend shows it: no formula, not hidden, nothing that is no text."""
+    name = name.encode(errors="backslashreplace").decode().replace("$", r"\$")
+    return f"./{name}" if name.startswith("_") else name
+
+
+def band_text(level: float) -> str:
+    """What a band is, for a legend."""
+    return f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
+
+
+def colours(count: int) -> Sequence[Any]:
+    """As many as are asked for, told apart as well as can be."""
+    if count <= len(COLOURS):
+        return COLOURS[:count]
+    return list(shades()(np.linspace(0, 1, count)))
+
+
+def shades() -> "Colormap":
+    """Colours from dark to light, the lightest left out: it would not show on white."""
+    from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap(colormaps["cividis"](np.linspace(0, 0.92, 256)))
+
+
+def pressure_text(value: float) -> str:
+    """A pressure [Pa] in a unit that suits it."""
+    for factor, unit in ((1e6, "MPa"), (1e3, "kPa")):
+        if value >= factor:
+            return f"{value / factor:.4g} {unit}"
+    return f"{value:.4g} Pa"

@@ -1,0 +1,1 @@
+"""Scene files: what a user asks for, read and checked."""

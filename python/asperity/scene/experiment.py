@@ -1,0 +1,139 @@
+"""A scene held against measured friction: the adhesion that the measurement asks for."""
+
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import AdhesionFit, InvalidInput, NotConverged, fit_adhesion
+from asperity.io.read_friction import MeasuredFriction
+from asperity.kinds import Rubber, Spectrum
+from asperity.scene.scene import Curves, Progress, Scene
+from asperity.uncertainty.draws import Generator
+
+# arguments of Adhesion by the names that files give them
+PARAMETERS = {
+    "shear_stress_pa": "shear_stress",
+    "reference_velocity_m_s": "reference_velocity",
+    "width": "width",
+}
+_TRIES = 20  # fits of one draw
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """Friction with the adhesion that a measurement asks for; without, where it leaves none."""
+
+    scene: Scene
+    adhesion: AdhesionFit | None
+    problem: str  # why there is none
+    curves: Curves
+
+
+def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[np.float64]:
+    """Of every measured point [Pa]: the file's, or the scene's only one."""
+    if measured.pressure is not None:
+        return measured.pressure
+    if scene.pressure.size > 1:
+        raise InvalidInput(
+            f"{path}: has no column of pressure: must have pressure_pa where [conditions] "
+            f"pressure_pa of {scene.path} has {scene.pressure.size}"
+        )
+    return np.full(measured.mu.shape, scene.pressure[0])
+
+
+def nearest_pressure(scene: Scene, pressure: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Which of the scene's pressures is nearest to each, by its ratio."""
+    distance = np.abs(np.log(pressure[:, None] / scene.pressure))
+    return np.asarray(distance.argmin(axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """A measurement, at which pressures, and which parameters are held."""
+
+    path: Path
+    measured: MeasuredFriction
+    pressure: NDArray[np.float64]  # of every point [Pa]
+    held: Mapping[str, float]  # by the names that files give them
+
+    def fit(
+        self, scene: Scene, spectrum: Spectrum, rubber: Rubber, mu: NDArray[np.float64]
+    ) -> AdhesionFit:
+        """The adhesion that `mu` at the measured points asks for."""
+        return fit_adhesion(
+            spectrum,
+            rubber,
+            velocity=self.measured.velocity,
+            mu=mu,
+            pressure=self.pressure,
+            fixed={PARAMETERS[key]: value for key, value in self.held.items()},
+            correction=scene.correction,
+            **scene.options,
+        )
+
+    def fit_scene(self, scene: Scene) -> tuple[AdhesionFit | None, str]:
+        """The fit, or why there is none in words of the command line."""
+        try:
+            return self.fit(scene, scene.spectrum, scene.rubber, self.measured.mu), ""
+        except InvalidInput as error:
+            return None, f"{self.path}: {_in_options(str(error))}"
+
+    def curves(self, scene: Scene, adhesion: AdhesionFit | None, progress: Progress) -> Curves:
+        """mu at the scene's points, with a band where anything has errors. Of a drawn surface or
+        rubber the points are fitted anew, with their own scatter: they hold the sum."""
+        scene = replace(scene, adhesion=adhesion)
+        curves = scene.friction()
+        if not scene.has_errors:
+            return curves
+        refit = None
+        if adhesion is not None and scene.has_measured_errors:
+            refit = partial(self._refit, scene, adhesion)
+        return replace(curves, band=scene.band(curves.mu, progress, refit))
+
+    def _refit(
+        self,
+        scene: Scene,
+        adhesion: AdhesionFit,
+        spectrum: Spectrum,
+        rubber: Rubber,
+        rng: Generator,
+    ) -> AdhesionFit:
+        for _ in range(_TRIES):
+            noise = np.exp(adhesion.residual * rng.normal(size=self.measured.mu.size))
+            with suppress(InvalidInput):  # a draw that leaves a parameter open
+                return self.fit(scene, spectrum, rubber, self.measured.mu * noise)
+        raise NotConverged(
+            f"{self.path}: the points determine no adhesion on {_TRIES} draws of the surface and "
+            "rubber in a row: no band"
+        )
+
+
+def _in_options(problem: str) -> str:
+    """Python's `fixed = {...}` as the option of the command line."""
+    problem = problem.replace('fixed = {"width": 0.1}', "--hold width=0.1")
+    problem = problem.replace(
+        'fixed = {"reference_velocity": 6e-3}', "--hold reference_velocity=6e-3"
+    )
+    problem = problem.replace("fixed = {...} holds some", "--hold keeps some")
+    problem = re.sub(r"^fixed: ", "--hold ", problem)
+    for key, name in PARAMETERS.items():
+        problem = re.sub(rf"\b{name}\b", key, problem)
+    return problem
+
+
+def found(adhesion: AdhesionFit) -> dict[str, float]:
+    """Parameters and their standard errors, the scatter left, and how many points are aside."""
+    result = {}
+    for key, name in PARAMETERS.items():
+        result[key] = float(getattr(adhesion, name))
+        result[f"{key}_standard_error"] = adhesion.standard_errors[name]
+    result["residual"] = adhesion.residual
+    result["points"] = float(adhesion.outliers.size)
+    result["outliers"] = float(adhesion.outliers.sum())
+    return result

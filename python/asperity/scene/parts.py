@@ -1,0 +1,167 @@
+"""Correction and adhesion of a scene, each built from its table."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from asperity._core import (
+    Adhesion,
+    AffineShift,
+    GreenwoodWilliamson,
+    LineScan,
+    LocalPeaks,
+    NayakSFactor,
+    PeaksThenGreenwoodWilliamson,
+    SelfAffineSpectrum,
+    SFactor,
+)
+from asperity.io.fields import (
+    Field,
+    arguments,
+    named,
+    names_of,
+    nearest,
+    number,
+    numbers,
+    read_table,
+    refuse,
+    require,
+    text,
+)
+from asperity.kinds import Correction, Spectrum
+from asperity.scene.scan import Scan
+
+Values = dict[str, Any]
+_KIND = {"kind": Field(text)}
+_PEAKS = {
+    **_KIND,
+    "heights_m": Field(numbers, "heights_or_map"),
+    "min_distance_m": Field(number, "min_distance"),
+    "z_max_m": Field(number, "z_max"),
+}
+_ASPERITIES = {
+    **_PEAKS,
+    "z_min_m": Field(number, "z_min"),
+    "reading": Field(text, "reading"),
+    "rms_height_m": Field(number, "rms_height"),
+    "q0_per_m": Field(number, "q0"),
+}
+_CORRECTIONS = {
+    "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
+    "nayak-s-factor": {**_KIND, "friction_gamma": Field(number, "friction_gamma")},
+    "affine-shift": {**_KIND, "p": Field(number, "p")},
+    "local-peaks": _PEAKS,
+    "greenwood-williamson": _ASPERITIES,
+    "peaks-then-greenwood-williamson": _ASPERITIES,
+}
+_ADHESION = {
+    "shear_stress_pa": Field(number, "shear_stress"),
+    "reference_velocity_m_s": Field(number, "reference_velocity"),
+    "width": Field(number, "width"),
+}
+
+
+def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
+    values = read_table(path, "adhesion", table, _ADHESION)
+    require(path, "adhesion", values, ("shear_stress_pa",))
+    with named(path, names_of("adhesion", _ADHESION)):
+        adhesion = Adhesion(**arguments(values, _ADHESION))
+    return adhesion, _with_defaults(values, _ADHESION, adhesion)
+
+
+def build_correction(
+    path: Path,
+    table: object,
+    spectrum: Spectrum,
+    surface: Scan | None,
+    surface_values: Mapping[str, Any],
+) -> tuple[Correction, Values]:
+    """Correction of a scene; peaks and extremes not given come from the measured map."""
+    if not isinstance(table, dict):
+        refuse(path, "[correction]", "must be a table")
+    kind = table.get("kind")
+    if kind is None:
+        refuse(path, "[correction] kind", "missing, " + nearest("", _CORRECTIONS))
+    if not isinstance(kind, str) or kind not in _CORRECTIONS:
+        refuse(path, f"[correction] kind = {kind!r}", nearest(str(kind), _CORRECTIONS))
+    fields = _CORRECTIONS[kind]
+    values = read_table(path, "correction", table, fields)
+    if "z_max_m" in fields:
+        values = _with_map(path, kind, values, surface, surface_values)
+    settings = arguments(values, fields)
+    settings.pop("min_distance", None)
+    correction: Correction
+    with named(path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}):
+        if kind == "s-factor":
+            correction = SFactor(**settings)
+        elif kind == "nayak-s-factor":
+            correction = NayakSFactor(**settings)
+        elif kind == "affine-shift":
+            require(path, "correction", values, ("p",))
+            correction = AffineShift(settings["p"])
+        elif kind == "greenwood-williamson":
+            correction = GreenwoodWilliamson(peaks=settings.pop("heights_or_map", None), **settings)
+        else:
+            part = LocalPeaks if kind == "local-peaks" else PeaksThenGreenwoodWilliamson
+            correction = part(settings.pop("heights_or_map"), **settings)
+    if "min_distance_m" in values:
+        values["peaks"] = len(values.pop("heights_m"))
+    if fields is _ASPERITIES:  # what the core takes from the spectrum
+        rolloff = spectrum.rolloff if isinstance(spectrum, SelfAffineSpectrum) else None
+        q0 = spectrum.q0 if rolloff is None else rolloff
+        values = {"rms_height_m": spectrum.rms_height, "q0_per_m": q0, **values}
+    return correction, _with_defaults(values, fields, correction)
+
+
+def _with_map(
+    path: Path,
+    kind: str,
+    values: Values,
+    surface: Scan | None,
+    surface_values: Mapping[str, Any],
+) -> Values:
+    """`values` with what the map can tell of peaks and extremes."""
+    values = dict(values)
+    gaussian = kind == "greenwood-williamson" and "heights_m" not in values
+    if "min_distance_m" in values:
+        if "heights_m" in values:
+            refuse(path, "[correction] min_distance_m", "must be left out where heights_m is given")
+        if surface is None:
+            refuse(path, "[correction] min_distance_m", "needs a surface file; give heights_m")
+        if isinstance(surface, LineScan):
+            problem = "needs a map, whose peaks a line scan misses; give heights_m"
+            refuse(path, "[correction] min_distance_m", problem)
+    extremes = ("z_max_m",) if kind == "local-peaks" else ("z_max_m", "z_min_m")
+    if surface is None:
+        needed = extremes if gaussian else ("heights_m", *extremes)
+        require(path, "correction", values, needed, "or [surface] needs a file to take it from")
+        return values
+    if not gaussian and "heights_m" not in values:
+        require(path, "correction", values, ("min_distance_m",), "the least distance of two peaks")
+    if kind != "local-peaks":
+        if "q0_per_m" in surface_values:
+            values.setdefault("q0_per_m", surface_values["q0_per_m"])
+        require(
+            path,
+            "correction",
+            values,
+            ("q0_per_m",),
+            "the wavenumber of the macro-asperities, which a scan does not tell",
+        )
+    if surface_values["detrend"] != "none":
+        surface = surface.detrend(surface_values["detrend"])
+    if "min_distance_m" in values:
+        with named(path, names_of("correction", _PEAKS)):
+            peaks = surface.local_peaks(min_distance=values["min_distance_m"])
+        values["heights_m"] = peaks.tolist()
+    for key in extremes:
+        values.setdefault(key, surface.z_max if key == "z_max_m" else surface.z_min)
+    return values
+
+
+def _with_defaults(values: Values, fields: Mapping[str, Field], part: object) -> Values:
+    """`values` and the arguments that `part` took by default."""
+    missing = {key: field.argument for key, field in fields.items() if key not in values}
+    defaults = {key: getattr(part, name, None) for key, name in missing.items() if name}
+    plain = {k: v for k, v in defaults.items() if isinstance(v, int | float | str)}
+    return {**values, **plain}

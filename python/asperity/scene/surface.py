@@ -1,0 +1,207 @@
+"""Surface of a scene: a self-affine spectrum, or what a scan gives."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from asperity._core import (
+    HeightMap,
+    OutOfRange,
+    SelfAffineFit,
+    SelfAffineSpectrum,
+    TabulatedSpectrum,
+    fit_self_affine,
+)
+from asperity.io.fields import (
+    Field,
+    arguments,
+    count,
+    file_name,
+    named,
+    names_of,
+    number,
+    pixel_size,
+    read_table,
+    refuse,
+    require,
+    text,
+)
+from asperity.kinds import Spectrum
+from asperity.scene.scan import Scan, nyquist, read_filled, surface_spectrum
+from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectrum
+
+Values = dict[str, Any]
+
+_SELF_AFFINE = {
+    "rms_height_m": Field(number, "rms_height"),
+    "hurst": Field(number, "hurst"),
+    "rolloff_per_m": Field(number, "rolloff"),
+}
+_BAND = {"q0_per_m": Field(number, "q0"), "q1_per_m": Field(number, "q1")}
+_CUTOFFS = {
+    "contamination_size_m": Field(number, "size"),
+    "slope_cutoff": Field(number, "slope"),
+}
+_READ = {
+    "channel": Field(count, "channel"),
+    "pixel_size_m": Field(pixel_size, "pixel_size"),
+    "unit": Field(text, "unit"),
+    "max_dropouts": Field(number, "max_fraction"),
+}
+_TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
+_NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
+_FIT = {"fit": Field(text)}
+_SURFACE = {
+    "file": Field(file_name),
+    **_READ,
+    **_TRANSFORM,
+    **_FIT,
+    **_SELF_AFFINE,
+    **_BAND,
+    **_CUTOFFS,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What a scene's surface turned out to be."""
+
+    spectrum: Spectrum
+    scan: Scan | None  # it was measured on
+    values: Values  # the table with its defaults
+    derived: Values
+    notes: Sequence[str]
+    drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
+
+
+def build_surface(path: Path, table: object) -> Surface:
+    """The surface of a scene's table."""
+    values = read_table(path, "surface", table, _SURFACE)
+    derived: Values = {}
+    scan = fit = None
+    if "file" in values:
+        for key in _SELF_AFFINE:
+            if key in values:
+                refuse(path, f"[surface] {key}", "must be left out where file is given")
+        values = {
+            "channel": 0,
+            "max_dropouts": 0.10,
+            "window": "split-cosine-bell",
+            "detrend": "plane",
+            **values,
+        }
+        scan = _read_scan(path, values, derived)
+        measured, fit = _measure(path, scan, values)
+        spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
+    else:
+        for key in (*_READ, *_TRANSFORM, *_FIT):
+            if key in values:
+                refuse(path, f"[surface] {key}", "must be left out where no file is given")
+        needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
+        require(path, "surface", values, needed, "give file, or " + ", ".join(needed))
+        fields = {**_SELF_AFFINE, **_BAND}
+        with named(path, names_of("surface", fields)):
+            spectrum = SelfAffineSpectrum(**arguments(values, fields))
+    spectrum = _cut(path, spectrum, values)
+    derived |= {
+        "q0_per_m": spectrum.q0,
+        "q1_per_m": spectrum.q1,
+        "rms_height_m": spectrum.rms_height,
+        "rms_slope": spectrum.rms_slope,
+    }
+    notes = _slope_notes(spectrum, values)
+    drawn = drawn_spectrum(spectrum)
+    if fit is not None:
+        derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
+        notes += _fit_notes(fit, spectrum)
+        drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
+    return Surface(spectrum, scan, values, derived, notes, drawn)
+
+
+def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
+    """The scan without drop-outs; trends are still in it."""
+    with named(path, names_of("surface", _READ)):
+        raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
+    derived["shape"] = list(raw.heights.shape)
+    derived["pixel_size_m"] = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
+    derived["dropout_fraction"] = raw.dropout_fraction
+    return filled
+
+
+def _measure(
+    path: Path, scan: Scan, values: Values
+) -> tuple[TabulatedSpectrum, SelfAffineFit | None]:
+    """The scan's spectrum, or the self-affine fit to it where the scene asks for one."""
+    settings = arguments(values, _TRANSFORM)
+    if settings["detrend"] == "none":
+        settings["detrend"] = None
+    band = arguments(values, _BAND)
+    wanted = values.get("fit")
+    if wanted not in (None, "self-affine"):
+        refuse(path, f"[surface] fit = {wanted!r}", 'must be "self-affine", or left out')
+    with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
+        spectrum = surface_spectrum(scan, **settings)
+        if wanted is not None:
+            return spectrum, fit_self_affine(spectrum)
+        band.setdefault("q1", min(nyquist(scan), spectrum.q1))  # beyond it rings are incomplete
+        try:
+            return spectrum.truncated(**band), None
+        except OutOfRange as error:
+            raise OutOfRange(f'{error}; fit = "self-affine" goes on beyond it') from error
+
+
+def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:
+    """The fitted law on the scene's band, which may go on beyond what the scan resolves."""
+    with named(path, names_of("surface", _BAND)):
+        return fit.spectrum.extended(**arguments(values, _BAND))
+
+
+def _draw_fit(fit: SelfAffineFit, q0: float, q1: float, rng: Generator) -> Spectrum:
+    return draw_fit(fit, rng, q1).extended(q0=q0, q1=q1)
+
+
+def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
+    beyond = [
+        f"{side} {q:.4g} 1/m"
+        for side, q, outside in (
+            ("below", fit.q0, spectrum.q0 < fit.q0 * (1 - 1e-9)),
+            ("above", fit.q1, spectrum.q1 > fit.q1 * (1 + 1e-9)),
+        )
+        if outside
+    ]
+    if not beyond:
+        return []
+    where = " and ".join(beyond)
+    return [f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"]
+
+
+def _slope_notes(spectrum: Spectrum, values: Values) -> list[str]:
+    wanted = values.get("slope_cutoff")
+    if wanted is None or "contamination_size_m" in values:
+        return []
+    if spectrum.rms_slope >= wanted * (1 - 1e-9):
+        return []
+    found = f"the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
+    return [f"slope_cutoff = {wanted} is not reached: {found}"]
+
+
+def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
+    """The spectrum up to the smaller of the cut-offs that are named."""
+    cutoffs = {}
+    with named(path, names_of("surface", _CUTOFFS)):
+        if "contamination_size_m" in values:
+            size = values["contamination_size_m"]
+            cutoffs["contamination_size_m"] = spectrum.cutoff_for_contamination(size)
+        if "slope_cutoff" in values:
+            cutoffs["slope_cutoff"] = spectrum.cutoff_for_slope(values["slope_cutoff"])
+    if not cutoffs:
+        return spectrum
+    key = min(cutoffs, key=cutoffs.__getitem__)
+    if cutoffs[key] < _NARROWEST * spectrum.q0:
+        found = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
+        problem = f"must leave a band, cuts at {found}: are the heights in another unit?"
+        refuse(path, f"[surface] {key} = {values[key]}", problem)
+    with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
+        return spectrum.truncated(q1=cutoffs[key])

@@ -1,0 +1,1 @@
+"""Bands on mu from what the inputs are uncertain by."""

@@ -1,0 +1,186 @@
+"""How far the errors of the measured inputs carry into mu: a band, by sampling."""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity._core import (
+    Adhesion,
+    AdhesionFit,
+    InvalidInput,
+    MasterCurveBuild,
+    PronyFit,
+    SelfAffineFit,
+    friction,
+)
+from asperity.kinds import Correction, Rubber, Spectrum
+from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
+
+DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
+Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+_SWEPT = 13  # velocities at which the band of a sweep is computed
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionBand:
+    """A share `level` of `samples` draws has its mu [-] between `lower` and `upper`, arrays of the
+    points' shape."""
+
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    level: float
+    samples: int
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FrictionBand):
+            return NotImplemented
+        same = self.level == other.level and self.samples == other.samples
+        bounds = (self.lower, other.lower), (self.upper, other.upper)
+        return same and all(np.array_equal(mine, theirs) for mine, theirs in bounds)
+
+    __hash__ = None  # type: ignore[assignment]  # as of every value that holds arrays
+
+
+def friction_band(
+    spectrum: Spectrum | SelfAffineFit,
+    rubber: Rubber | MasterCurveBuild,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    adhesion: Adhesion | None = None,
+    form: Literal["exact", "interpolated"] = "exact",
+    samples: int = 100,
+    seed: int = 0,
+    level: float = 0.95,
+) -> FrictionBand:
+    """A band on mu from the standard errors of its measured inputs.
+
+    Parameters
+    ----------
+    spectrum : SelfAffineFit, TabulatedSpectrum or SelfAffineSpectrum
+        A fit is drawn from the covariance of its parameters, a table from the standard errors of
+        its rows (of logarithmic bins, ten a decade). A plain spectrum has no errors.
+    rubber : MasterCurveBuild, MasterCurve or PronySeries
+        The isotherms of a build are drawn with the scatter about its master spline, and shifted
+        and smoothed anew, so that shift factors scatter as their standard deviations say. A plain
+        rubber has no errors.
+    pressure, velocity : array_like
+        [Pa], [m/s], broadcast.
+    poisson_ratio, correction, adhesion, form
+        As for `friction`, and held; but an AdhesionFit is drawn from its covariance, apart from
+        spectrum and rubber: where those have errors too the band is an upper bound, for the points
+        that were fitted hold the sum (`asperity fit` fits them anew for every draw).
+    samples : int
+        Draws, 20 or more.
+    seed : int
+        The same band for the same seed.
+    level : float
+        Share of the draws between the two curves, in (0, 1).
+
+    Returns
+    -------
+    FrictionBand
+
+    Raises
+    ------
+    InvalidInput
+        No input has errors; a PronyFit, which does not know its own (give the build).
+    """
+    if isinstance(rubber, PronyFit):
+        raise InvalidInput(
+            "rubber: a PronyFit does not know its errors, give the MasterCurveBuild behind it"
+        )
+    surface, solid = drawn_spectrum(spectrum), drawn_rubber(rubber)
+    if surface.draw is None and solid.draw is None and not isinstance(adhesion, AdhesionFit):
+        raise InvalidInput(
+            "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
+            "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
+        )
+    p, v = np.broadcast_arrays(np.asarray(pressure, float), np.asarray(velocity, float))
+    plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
+    options: dict[str, Any] = {
+        "poisson_ratio": poisson_ratio,
+        "correction": correction,
+        "form": form,
+    }
+    mu = friction(plain, solid.plain, pressure=p, velocity=v, adhesion=adhesion, **options).mu
+    lower, upper = relative_band(
+        surface,
+        solid,
+        adhesion,
+        {**options, "pressure": p.ravel(), "velocity": v.ravel()},
+        samples=samples,
+        seed=seed,
+        level=level,
+    )
+    shape = np.shape(mu)
+    return FrictionBand(mu * lower.reshape(shape), mu * upper.reshape(shape), level, samples)
+
+
+def relative_band(
+    spectrum: Drawn[Spectrum],
+    rubber: Drawn[Rubber],
+    adhesion: Adhesion | None,
+    options: dict[str, Any],
+    *,
+    samples: int,
+    seed: int,
+    level: float,
+    progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
+    refit: DrawAdhesion | None = None,
+) -> Bounds:
+    """Quantiles of mu of drawn inputs over mu of the plain ones; 1 where there is no friction.
+    `refit` gives the adhesion that goes with a drawn spectrum and rubber."""
+    if samples < 20:
+        raise InvalidInput(f"samples = {samples}: must be 20 or more")
+    if seed < 0:
+        raise InvalidInput(f"seed = {seed}: must not be negative")
+    if not 0 < level < 1:
+        raise InvalidInput(f"level = {level}: must be in (0, 1)")
+    rng = np.random.default_rng(seed)
+    options = {**options, "rtol": 1e-4}  # a band is read to two digits
+    centre = friction(spectrum.plain, rubber.plain, adhesion=adhesion, **options).mu
+
+    def draw() -> Any:
+        surface, solid = spectrum(rng), rubber(rng)
+        of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, solid, rng)
+        return friction(surface, solid, adhesion=of_draw, **options).mu
+
+    with progress(range(samples)) as shown:
+        drawn = np.array([draw() for _ in shown])
+    ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
+    outside = (1 - level) / 2
+    lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)
+    return lower, upper
+
+
+def swept_band(
+    spectrum: Drawn[Spectrum],
+    rubber: Drawn[Rubber],
+    adhesion: Adhesion | None,
+    pressure: NDArray[np.float64],
+    velocity: NDArray[np.float64],
+    options: dict[str, Any],
+    **sampling: Any,
+) -> Bounds:
+    """`relative_band` at every pressure and velocity, of shape (pressures, velocities): computed at
+    a few velocities, and between them over ln v."""
+    few = np.unique(velocity)
+    if few.size > _SWEPT:
+        few = np.geomspace(few[0], few[-1], _SWEPT)
+    p, v = np.meshgrid(pressure, few, indexing="ij")
+    points = {"pressure": p.ravel(), "velocity": v.ravel()}
+    lower, upper = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
+
+    def everywhere(bound: NDArray[np.float64]) -> NDArray[np.float64]:
+        rows = bound.reshape(p.shape)
+        return np.array([np.interp(np.log(velocity), np.log(few), row) for row in rows])
+
+    return everywhere(lower), everywhere(upper)

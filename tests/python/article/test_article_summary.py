@@ -1,0 +1,59 @@
+"""README's table of the article says what docs/article/summary.md says."""
+
+import re
+
+import pytest
+
+from asperity.article.statement import VERDICTS
+from helpers.summaries import PUBLISHED, ROOT, same, statements, unit
+
+PLAIN = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+SECTION = (ROOT / "README.md").read_text(encoding="utf-8").split("## The article, remade")[1]
+SECTION = SECTION.split("\n## ")[0]
+ROWS = [
+    [cell.strip() for cell in line.split("|")[1:-1]]
+    for line in SECTION.splitlines()
+    if re.match(r"\| [A-Z]\d", line)
+]
+STATEMENTS = statements(PUBLISHED)
+
+
+def test_readme_counts_as_the_summary_does() -> None:
+    verdicts = [row["verdict"] for row in STATEMENTS.values()]
+    counts = [len(verdicts), *(verdicts.count(verdict) for verdict in VERDICTS)]
+    form = (
+        r"checks (\d+) statements.*?: (\d+) hold, (\d+) hold in part, (\d+) do not, "
+        r"(\d+) are tuned, (\d+) cannot be checked.*? (\d+) are true by construction"
+    )
+    stated = re.search(form, SECTION, re.DOTALL)
+    assert stated is not None
+    assert [int(n) for n in stated.groups()] == counts
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row[0])
+def test_readme_row_agrees_with_the_summary(row: list[str]) -> None:
+    ids, _, found, verdict = row
+    meant = [STATEMENTS[name] for name in ids.split(", ")]
+    assert verdict == "; ".join(dict.fromkeys(statement["verdict"] for statement in meant))
+    there = PLAIN.findall(" ".join(s["found"] + s["criterion"] + s["reason"] for s in meant))
+    for number in PLAIN.findall(found):
+        # 0.501: rounded to the digits that README gives
+        slack = 0.501 * unit(number)
+        assert any(abs(float(number) - float(other)) <= slack for other in there), number
+
+
+def test_the_table_is_there() -> None:
+    assert len(ROWS) > 15
+
+
+@pytest.mark.parametrize(
+    ("other", "agree"),
+    [
+        ("x 2.47 at 1e-16 q0", True),
+        ("x 2.48 at 3e-15 q0", False),
+        ("x 2.46 at 3e-15 q1", False),
+        ("x 2.46", False),
+    ],
+)
+def test_texts_are_the_same_but_for_rounding(other: str, agree: bool) -> None:
+    assert same("x 2.46 at 3e-15 q0", other) is agree

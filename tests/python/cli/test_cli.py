@@ -1,0 +1,257 @@
+"""The shell command: what it writes and prints."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from contextlib import nullcontext
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.cli import main
+from asperity.io.table import Table, terminal_table
+from helpers.scenes import SCENE
+
+FRICTION = (
+    "pressure_pa,velocity_m_s,mu,hysteresis,adhesion,contact_area,shift_factor,error_estimate"
+)
+
+
+def rows_of(text: str) -> tuple[list[str], list[dict[str, str]]]:
+    """Comment lines and rows of a CSV text."""
+    lines = text.splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    return comments, list(csv.DictReader(lines[len(comments) :]))
+
+
+def expected() -> asperity.Friction:
+    return asperity.friction(
+        asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
+        asperity.PronySeries(
+            equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
+        ),
+        pressure=[[81e3], [2e5]],
+        velocity=np.geomspace(1e-4, 1, 5),
+        adhesion=asperity.Adhesion(shear_stress=8.3e6),
+    )
+
+
+def test_friction_table_is_the_cores_to_the_last_digit(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["friction", "scene.toml"]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    assert out.splitlines()[len(comments)] == FRICTION
+    assert len(rows) == 10
+    result = expected()
+    for name in ("pressure", "velocity", *FRICTION.split(",")[2:]):
+        column = {"pressure": "pressure_pa", "velocity": "velocity_m_s"}.get(name, name)
+        values = [float(row[column]) for row in rows]
+        np.testing.assert_array_equal(values, np.ravel(getattr(result, name)), err_msg=name)
+    assert err.splitlines() == [f"note: {note}" for note in result.notes]
+
+
+def test_header_carries_every_input_and_unit(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["friction", "scene.toml"])
+    comments, _ = rows_of(capsys.readouterr().out)
+    assert comments[0] == f"# asperity {asperity.__version__} friction"
+    for line in (
+        '# scene = "scene.toml"',
+        "# surface.rms_height_m = 7.6572e-05",
+        "# rubber.moduli_pa = [1000000000.0, 100000000.0, 10000000.0]",
+        '# conditions.velocity_m_s = {"from": 0.0001, "to": 1, "points": 5}',
+        "# conditions.poisson_ratio = 0.5",
+        "# adhesion.width = 0.1",
+        "# adhesion.reference_velocity_m_s = 0.006",
+        "# solver.rtol = 1e-06",
+        '# solver.form = "exact"',
+        "# derived.q1_per_m = 100000.0",
+    ):
+        assert line in comments
+    assert comments[-1].startswith("# columns: pressure_pa [Pa], velocity_m_s [m/s], mu [-], ")
+
+
+def test_several_scenes_stand_under_one_another(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "half.toml").write_text(SCENE.replace("hurst = 0.7", "hurst = 0.5"))
+    assert main(["friction", "scene.toml", "half.toml", "--plot", "mu.png"]) == 0
+    comments, rows = rows_of(capsys.readouterr().out)
+    assert list(rows[0])[:2] == ["scene", "pressure_pa"]
+    assert [row["scene"] for row in rows] == ["scene.toml"] * 10 + ["half.toml"] * 10
+    assert rows[0]["mu"] != rows[10]["mu"]
+    assert "# surface.hurst = 0.5" in comments
+    assert (folder / "mu.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["friction", "scene.toml", "--json", "--output", "mu.json"]) == 0
+    assert capsys.readouterr().out == ""
+    content = json.loads((folder / "mu.json").read_text())
+    result = expected()
+    assert ",".join(content["columns"]) == FRICTION
+    assert content["columns"]["mu"] == np.ravel(result.mu).tolist()
+    assert content["inputs"][0]["surface"]["hurst"] == 0.7
+    assert content["units"]["pressure_pa"] == "Pa"
+    assert content["notes"] == list(result.notes)
+
+
+def test_area_over_wavenumber(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["area", "scene.toml", "--points", "7"]) == 0
+    comments, rows = rows_of(capsys.readouterr().out)
+    assert list(rows[0]) == ["pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area"]
+    assert "# points = 7" in comments
+    assert len(rows) == 2 * 5 * 7
+    area = np.array([float(row["contact_area"]) for row in rows]).reshape(2, 5, 7)
+    assert np.all(area[..., 0] == 1)
+    assert np.all(np.diff(area, axis=-1) < 0)
+    np.testing.assert_allclose(area[..., -1], expected().contact_area, rtol=1e-5)
+
+
+def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    assert main([*arguments, "--window", "none", "--q-min", "2.5e4", "--q-max", "1.5e5"]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    names = ["wavenumber_per_m", "density_m4", "standard_error_m4", "count", "flag"]
+    assert list(rows[0]) == names
+    assert sum(int(row["count"]) for row in rows) == 60 * 80 - 1
+    for line in ("# pixel_size_m = [2e-05, 1e-05]", '# unit = "m"', "# q_min = 25000.0"):
+        assert line in comments
+    found = dict(line.split(" = ") for line in err.splitlines() if " = " in line)
+    assert float(found["fit_hurst"]) == pytest.approx(0.8, abs=0.1)
+    assert 0 < float(found["fit_hurst_standard_error"]) < 0.1
+    assert {"rms_height_m", "rms_slope", "rms_slope_by_differences", "skewness"} < set(found)
+    assert {"slope_cutoff_1.3_per_m", "reliable_to_per_m", "fit_residual"} < set(found)
+    assert any(line.startswith("# found.fit_hurst = 0.") for line in comments)
+
+
+@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])
+def test_help_has_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main([verb, "--help"])
+    assert caught.value.code == 0
+    assert f"example:\n  asperity {verb} " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("verb", ["friction", "area"])
+def test_bar_only_on_a_terminal(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
+) -> None:
+    tqdm = pytest.importorskip("tqdm")
+    bars: list[object] = []
+
+    def bar(chunks: list[object], **settings: object) -> nullcontext[list[object]]:
+        bars.append((settings["delay"], len(chunks)))
+        return nullcontext(chunks)
+
+    monkeypatch.setattr(tqdm, "tqdm", bar)
+    monkeypatch.setattr("asperity.scene.scene._CHUNK", 4)
+    main([verb, "scene.toml"])
+    assert bars == []
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    main([verb, "scene.toml"])
+    assert bars == [(2, 3)]  # two seconds, ten points
+
+
+def test_without_tqdm_there_is_no_bar(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert main(["friction", "scene.toml"]) == 0
+
+
+def test_extras_are_those_of_the_readme() -> None:
+    text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
+    extras = tomllib.loads(text)["project"]["optional-dependencies"]
+    assert set(extras) == {"plot", "io", "bem", "all", "test"}
+    assert [name.partition(">")[0] for name in extras["all"]] == ["asperity[plot,io]", "tqdm"]
+
+
+def test_area_has_the_notes_of_the_contact(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["area", "scene.toml", "--points", "3"]) == 0
+    out, err = capsys.readouterr()
+    notes = asperity.contact_notes(
+        asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
+        asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[]),
+        pressure=81e3,
+        velocity=1.0,
+    )
+    assert notes
+    assert err.splitlines() == [f"note: {note}" for note in notes]
+    assert [line for line in out.splitlines() if line.startswith("# note: ")] == [
+        f"# note: {note}" for note in notes
+    ]
+
+
+FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
+
+
+@pytest.mark.parametrize(
+    ("heights", "arguments", "reason"),
+    [
+        (FLAT, [], "spectrum: 0 reliable rows, must be 3 or more for a fit"),
+        (FLAT, ["--q-min", "1"], "density[0] = 0: must be positive for a fit"),
+        (NOISE, ["--q-min", "5e5"], "spectrum: falls as q^"),
+        (NOISE, ["--q-min", "1e9"], "--q-min, --q-max: 0 rows of the spectrum in [1000000000, "),
+    ],
+)
+def test_spectrum_without_a_fit(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    heights: np.ndarray,
+    arguments: list[str],
+    reason: str,
+) -> None:
+    pytest.importorskip("matplotlib")
+    np.save("scan.npy", heights)
+    arguments = [*arguments, "--pixel-size", "1e-6", "--unit", "um", "--plot", "c.png"]
+    assert main(["spectrum", "scan.npy", *arguments]) == 0
+    out, err = capsys.readouterr()
+    comments, rows = rows_of(out)
+    assert rows
+    assert any(line.startswith(f"note: no self-affine fit: {reason}") for line in err.splitlines())
+    assert any(line.startswith(f"# note: no self-affine fit: {reason}") for line in comments)
+    assert "fit_hurst" not in out + err
+    assert (folder / "c.png").stat().st_size > 10000
+
+
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_names_that_the_terminal_cannot_show(folder: Path, form: list[str]) -> None:
+    (folder / "größe日.toml").write_text(SCENE)
+    done = subprocess.run(
+        [sys.executable, "-m", "asperity", "friction", "größe日.toml", *form],
+        capture_output=True,
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        check=True,
+    )
+    text = done.stdout.decode("ascii")
+    if form:
+        name = json.loads(text)["inputs"][0]["scene"]
+    else:
+        name = json.loads(text.splitlines()[1].removeprefix("# scene = "))
+    assert name == "größe日.toml"
+
+
+def test_infinite_numbers_survive_both_forms() -> None:
+    table = Table(
+        "friction", [{}], [], {"shift_factor": [np.float64(np.inf), 1.5], "count": [3, 4]}
+    )
+    assert table.csv().splitlines()[-2:] == ["inf,3", "1.5,4"]
+    assert json.loads(table.json())["columns"] == {"shift_factor": ["inf", 1.5], "count": [3, 4]}
+
+
+def test_terminal_table_is_aligned() -> None:
+    text = terminal_table({"v": [1e-6, 10.0], "mu": [0.123456, 1.0]})
+    assert text == "    v      mu\n1e-06  0.1235\n   10       1\n"

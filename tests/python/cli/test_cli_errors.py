@@ -1,0 +1,274 @@
+"""The shell command in trouble: one line, the right exit status, and no file left behind."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.cli import main
+from asperity.io.table import write_files
+from helpers.scenes import SCENE
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["friction", "none.toml"], "none.toml: cannot be read: No such file or directory"),
+        (["friction", "scene.toml", "--output", "no/mu.csv"], "no/mu.csv: cannot be written"),
+        (["friction", "scene.toml", "--output", "."], ".: cannot be written: not a regular file"),
+        (["friction", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
+        ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
+        (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
+        (["friction", "scene.toml", "--output", "/dev/null"], "/dev/null: cannot be written"),
+        (["friction", "scene.toml", "--plot", "mu.jpg"], "mu.jpg: must end in .png, .svg, .pdf"),
+        (
+            ["friction", "scene.toml", "--plot", "a.png", "--output", "a.png"],
+            "a.png: --output and --plot must be two files",
+        ),
+        (["friction", "scan.npy"], "scan.npy: not a TOML file"),
+        (["area", "none.toml"], "none.toml: cannot be read"),
+        (["spectrum", "none.npy"], "none.npy: cannot be read"),
+        (
+            ["friction", "scene.toml", "--output", "/proc/mu.csv"],
+            "/proc/mu.csv: cannot be written: No",
+        ),
+        (
+            ["friction", "scene.toml", "--output", "x" * 300],
+            f"{'x' * 300}: cannot be written: File",
+        ),
+        (
+            ["area", "long.toml", "--points", "100000"],
+            "long.toml: pressures, velocities and --points",
+        ),
+        (["spectrum", "/dev/null"], "/dev/null: cannot be read: not a regular file"),
+        (["spectrum", "scan.npy"], "scan.npy: --pixel-size is missing: a .npy file does not state"),
+        ([*SPECTRUM[:4]], "scan.npy: --unit is missing: a .npy file does not state the unit of"),
+        ([*SPECTRUM, "--channel", "2"], "scan.npy: --channel = 2: must be 0"),
+        ([*SPECTRUM, "--q-min", "1e4", "--q-max", "1e3"], "--q-max = 1000: must be above --q-min"),
+        (["spectrum", "holes.npy", *SPECTRUM[2:]], "holes.npy: "),
+    ],
+)
+@pytest.mark.parametrize("output", ["out.csv", None])
+def test_bad_input_is_one_line_and_leaves_no_file(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    message: str,
+    output: str | None,
+) -> None:
+    holes = np.ones((20, 20))
+    holes[:, :3] = np.nan
+    np.save(folder / "holes.npy", holes)
+    scan = "[surface]\nfile = 'scan.npy'\npixel_size_m = 1e-5\nunit = 'm'\n"
+    (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 6"))
+    (folder / "scanned.toml").write_text(scan + SCENE[SCENE.index("[rubber]") :])
+    before = names(folder)
+    if output and "--output" not in arguments:
+        arguments = [*arguments, "--output", output]
+    assert main(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 1
+    assert err.startswith(f"asperity: {message}")
+    assert names(folder) == before
+
+
+SIZE = "must be a positive number [m], or two: DY,DX"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "the following arguments are required: VERB"),
+        (["frictoin"], "argument VERB: invalid choice: 'frictoin'"),
+        (["friction"], "the following arguments are required: SCENE.toml"),
+        (["area", "scene.toml", "--points", "1"], "--points: 1: must be in 2..100000"),
+        (["area", "scene.toml", "--points", "1000000"], "--points: 1000000: must be in 2..100000"),
+        (["area", "scene.toml", "--points", "few"], "--points: 'few': must be a whole number"),
+        ([*SPECTRUM, "--method", "inch"], "argument --method: invalid choice: 'inch'"),
+        ([*SPECTRUM, "--pixel-size", "abc"], f"argument --pixel-size: 'abc': {SIZE}"),
+        ([*SPECTRUM, "--pixel-size", "1,2,3"], f"argument --pixel-size: '1,2,3': {SIZE}"),
+        ([*SPECTRUM, "--pixel-size", "1,-2"], f"argument --pixel-size: '1,-2': {SIZE}"),
+        ([*SPECTRUM, "--q-min", "nan"], "argument --q-min: 'nan': must be a positive number"),
+        ([*SPECTRUM, "--channel", "first"], "argument --channel: 'first': must be a whole number"),
+        ([*SPECTRUM, "--window", "boxcar"], "argument --window: invalid choice: 'boxcar'"),
+    ],
+)
+def test_bad_usage_is_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 1
+    assert message in err
+    assert "--help" in err
+
+
+def test_an_error_in_a_later_scene_keeps_the_old_output(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "bad.toml").write_text(SCENE.replace("[81e3, 2e5]", "-1"))
+    (folder / "mu.csv").write_text("of yesterday")
+    arguments = ["friction", "scene.toml", "bad.toml", "--output", "mu.csv", "--plot", "mu.png"]
+    assert main(arguments) == 2
+    message = "asperity: bad.toml: [conditions] pressure_pa = -1: must be positive"
+    assert capsys.readouterr().err.startswith(message)
+    assert (folder / "mu.csv").read_text() == "of yesterday"
+    assert not (folder / "mu.png").exists()
+
+
+def test_not_converged_is_no_bad_input(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise asperity.NotConverged("mu = 1 with error 2,\nwhere rtol = 1e-6 was asked for")
+
+    monkeypatch.setattr("asperity.scene.scene.friction", fail)
+    assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 1
+    line = "asperity: scene.toml: mu = 1 with error 2, where [solver] rtol = 1e-6 was asked for\n"
+    assert capsys.readouterr().err == line
+    assert not (folder / "mu.csv").exists()
+
+
+def test_failing_disk_leaves_nothing(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = Path.write_bytes
+
+    def full(path: Path, data: bytes) -> int:
+        if data.startswith(b"# asperity"):
+            write(path, data[:10])
+            raise OSError(28, "No space left on device")
+        return write(path, data)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    before = names(folder)
+    assert main(["friction", "scene.toml", "--output", "mu.csv", "--plot", "mu.png"]) == 1
+    line = "asperity: mu.csv: cannot be written: No space left on device\n"
+    assert capsys.readouterr().err == line
+    assert names(folder) == before
+
+
+@pytest.mark.parametrize("linked", [True, False])
+@pytest.mark.parametrize("before", [{}, {"a": b"1", "b": b"2", "c": b"3"}, {"b": b"2"}])
+@pytest.mark.parametrize("failing", ["a", "b", "c"])
+@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_files_written_before_a_failure_are_put_back(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    linked: bool,
+    before: dict[str, bytes],
+    failing: str,
+    failure: BaseException,
+) -> None:
+    for name, content in before.items():
+        (tmp_path / name).write_bytes(content)
+    replace = os.replace
+
+    def fail(part: Path, target: Path) -> None:
+        if target.name == failing and part.suffix == ".part":
+            raise failure
+        replace(part, target)
+
+    def link(*_: object) -> None:
+        raise PermissionError(1, "no links here")
+
+    monkeypatch.setattr("os.replace", fail)
+    if not linked:
+        monkeypatch.setattr("os.link", link)
+    with pytest.raises((asperity.Error, KeyboardInterrupt)) as caught:
+        write_files({tmp_path / name: b"new" for name in "abc"})
+    if isinstance(failure, OSError):
+        place = tmp_path / failing
+        assert str(caught.value) == f"{place}: cannot be written: No space left on device"
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+    monkeypatch.undo()
+    write_files({tmp_path / name: b"new" for name in "abc"})
+    written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert written == dict.fromkeys("abc", b"new")
+
+
+@pytest.mark.parametrize(
+    ("failure", "status", "line"),
+    [
+        (MemoryError("Unable to allocate 37.3 GiB"), 1, "out of memory: Unable to allocate 37.3"),
+        (MemoryError(), 1, "out of memory"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+    ],
+)
+def test_what_stops_the_work_is_one_line(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    failure: BaseException,
+    status: int,
+    line: str,
+) -> None:
+    def stop(*_: object, **__: object) -> None:
+        raise failure
+
+    monkeypatch.setattr("asperity.scene.scene.friction", stop)
+    before = names(folder)
+    assert main(["friction", "scene.toml", "--output", "mu.csv"]) == status
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(f"asperity: {line}")
+    assert len(err.splitlines()) == 1
+    assert names(folder) == before
+
+
+INTERRUPTED = """
+import os, signal, sys, threading
+from asperity.scene import scene
+from asperity.cli.cli import main
+scene._CHUNK = 1  # slow enough to be interrupted
+threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+sys.exit(main(["friction", "long.toml", "--output", "mu.csv"]))
+"""
+
+
+def test_interrupt_ends_a_long_computation(folder: Path) -> None:
+    (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 50000"))
+    before = names(folder)
+    command = [sys.executable, "-c", INTERRUPTED]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
+    assert names(folder) == before
+
+
+def test_full_standard_output_is_one_line(folder: Path) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "asperity", *SPECTRUM],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == "asperity: standard output: No space left on device"
+    assert "Traceback" not in done.stderr
+    assert "Exception" not in done.stderr
+
+
+def test_without_matplotlib_says_what_to_install(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["friction", "scene.toml", "--plot", "mu.png"]) == 2
+    err = capsys.readouterr().err
+    assert err == "asperity: mu.png: pictures are drawn by matplotlib: pip install asperity[plot]\n"

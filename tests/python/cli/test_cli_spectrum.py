@@ -1,0 +1,104 @@
+"""`asperity spectrum`: line scans, directions, drop-outs, what is flagged."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.cli import main
+from helpers.scenes import SCENE
+
+SIDE, PIXEL = 256, 1e-6
+SURFACE = asperity.SelfAffineSpectrum(
+    rms_height=1e-6, hurst=0.8, q0=2 * np.pi / (SIDE * PIXEL), q1=np.pi / PIXEL
+)
+SCAN = asperity.synthesize(SURFACE, shape=(SIDE, SIDE), pixel_size=PIXEL, seed=3)
+LONG = asperity.synthesize(SURFACE, shape=(SIDE, 4096), pixel_size=PIXEL, seed=3).heights[0]
+READ = ["--pixel-size", str(PIXEL), "--unit", "m"]
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[dict[str, float], str]:
+    """What was found, and all that was said."""
+    assert main(["spectrum", *arguments]) == 0
+    said = capsys.readouterr().err
+    pairs = [line.split(" = ") for line in said.splitlines() if " = " in line]
+    return {name: float(value) for name, value in pairs if name.isidentifier()}, said
+
+
+def test_a_map_is_fitted_where_it_is_reliable(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save("map.npy", SCAN.heights)
+    found, said = run(capsys, "map.npy", *READ)
+    assert found["reliable_from_per_m"] == pytest.approx(16 * 2 * np.pi / (SIDE * PIXEL), rel=0.03)
+    assert found["fit_q0_per_m"] == found["reliable_from_per_m"]
+    assert found["fit_q1_per_m"] == found["reliable_to_per_m"] <= np.pi / PIXEL / 2
+    assert found["fit_hurst"] == pytest.approx(0.8, abs=4 * found["fit_hurst_standard_error"])
+    assert found["slope_anisotropy"] == pytest.approx(1, abs=0.1)
+    assert "lay" not in said
+
+
+def test_a_slope_fit_is_eq_28_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    np.save("map.npy", SCAN.heights)
+    found, _ = run(capsys, "map.npy", *READ, "--method", "slope")
+    spectrum = asperity.power_spectrum(asperity.HeightMap(SCAN.heights, pixel_size=PIXEL))
+    q = spectrum.wavenumber
+    used = (q >= 0.9999 * found["fit_q0_per_m"]) & (q <= 1.0001 * found["fit_q1_per_m"])
+    slope = np.polyfit(np.log(q[used]), np.log(spectrum.density[used]), 1)[0]
+    assert found["fit_hurst"] == pytest.approx(-slope / 2 - 1, abs=1e-5)
+
+
+def test_a_lay_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    np.save("map.npy", SCAN.heights)
+    found, said = run(capsys, "map.npy", "--pixel-size", f"{3 * PIXEL},{PIXEL}", "--unit", "m")
+    assert found["slope_anisotropy"] > 2
+    assert "note: the slope across the lay is" in said
+
+
+def test_a_line_scan_gives_the_surface_behind_it(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save("line.npy", LONG)
+    arguments = ["line.npy", *READ, "--plot", "line.png", "--output", "line.csv"]
+    _, said = run(capsys, *arguments)
+    assert "note: of a line scan" in said
+    assert "slope_anisotropy" not in said
+    lines = (folder / "line.csv").read_text().splitlines()
+    assert "# pixel_size_m = 1e-06" in lines
+    header = next(line for line in lines if not line.startswith("#"))
+    assert header == "wavenumber_per_m,density_m4,standard_error_m4,count,flag"
+    assert (folder / "line.png").stat().st_size > 20000
+
+
+def test_a_scene_takes_a_line_scan(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    np.save("scan.npy", LONG)
+    scene = SCENE.replace("[2e-5, 1e-5]", "1e-6")
+    (folder / "scene.toml").write_text(scene)
+    assert main(["area", "scene.toml", "--points", "5"]) == 0
+    assert "contact_area" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("limit", "code"), [("0.1", 2), ("0.3", 0)])
+def test_the_limit_of_dropouts_is_the_users(
+    folder: Path, capsys: pytest.CaptureFixture[str], limit: str, code: int
+) -> None:
+    holed = np.where(
+        np.random.default_rng(1).random(SCAN.heights.shape) < 0.2, np.nan, SCAN.heights
+    )
+    np.save("map.npy", holed)
+    assert main(["spectrum", "map.npy", *READ, "--max-dropouts", limit]) == code
+    said = capsys.readouterr().err
+    assert ("must be at most 10 %, --max-dropouts = 0.1" in said) == (code == 2)
+
+
+def test_friction_says_where_its_spectrum_is_uncertain(folder: Path) -> None:
+    spectrum = asperity.power_spectrum(SCAN).truncated(q1=np.pi / PIXEL)
+    rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
+    notes = asperity.friction(spectrum, rubber, pressure=1e5, velocity=1e-3).notes
+    low = spectrum.wavenumber[(np.asarray(spectrum.flag) & 1) != 0][-1]
+    assert any(f"uncertain up to {low:.4g} 1/m" in note for note in notes)
+    assert any("too high from" in note and "pi / pixel" in note for note in notes)
+    sound = spectrum.truncated(q0=4.2e5, q1=1.5e6)
+    notes = asperity.friction(sound, rubber, pressure=1e5, velocity=1e-3).notes
+    assert not any("measured spectrum" in note for note in notes)

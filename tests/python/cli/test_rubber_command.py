@@ -1,0 +1,196 @@
+"""The verb `rubber`: measured sets, its table as a scene's rubber, pictures and refusals."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from asperity import PronySeries
+from asperity.cli.cli import main
+from asperity.io.read_rubber import read_master_curve
+from asperity.scene.scene import load_scene
+from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
+from helpers.rubbers import SWEEP, TEMPERATURES, sweeps, true_modulus, true_shift
+from helpers.scenes import CONDITIONS, SURFACE
+
+
+def flags(columns, units):
+    def pairs(values):
+        return ",".join(f"{key}={value}" for key, value in values.items())
+
+    return ["--columns", pairs(columns), "--units", pairs(units)]
+
+
+SHEAR = [*flags(COLUMNS, UNITS), "--modulus", "G"]
+NAMES = {"frequency": "w", "temperature": "T", "storage": "E1", "loss": "E2"}
+SYNTHETIC = [
+    *flags(NAMES, {"frequency": "rad/s", "temperature": "K", "modulus": "Pa"}),
+    "--modulus",
+    "E",
+]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The working directory, with synthetic isotherms in one file and their shift factors."""
+    lines = ["T,w,E1,E2"]
+    for isotherm in sweeps(noise=0.01, seed=2):
+        columns = (isotherm.angular_frequency, isotherm.storage_modulus, isotherm.loss_modulus)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        lines += [",".join(map(repr, (isotherm.temperature, *row))) for row in rows]
+    (tmp_path / "dma.csv").write_text("\n".join(lines))
+    table = zip(TEMPERATURES.tolist(), true_shift(TEMPERATURES).tolist(), strict=True)
+    text = "\n".join(["temperature_k,log10_a_t", *(f"{t!r},{a!r}" for t, a in table)])
+    (tmp_path / "shift.csv").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def found_in(text):
+    """Names and numbers that were printed."""
+    pairs = [
+        line.split(" = ") for line in text.splitlines() if " = " in line and "note" not in line
+    ]
+    return {name: float(value) for name, value in pairs}
+
+
+@pytest.mark.parametrize(
+    ("name", "follows", "residual"), [("material_a", True, 0.021), ("epdm_70", False, 0.15)]
+)
+def test_measured_set_to_a_table_that_a_scene_can_use(tmp_path, capsys, name, follows, residual):
+    pytest.importorskip("matplotlib")
+    file, table, picture = (
+        present("dma", name, "tf_015p.csv"),
+        tmp_path / "a.csv",
+        tmp_path / "a.png",
+    )
+    outputs = ["--output", str(table), "--plot", str(picture)]
+    assert main(["rubber", str(file), *SHEAR, *outputs]) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert ("note: the shift factors follow WLF" in err) == follows
+    assert ("note: the shift factors do not follow WLF" in err) == (not follows)
+    found = found_in(err)
+    assert found["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
+    assert found["prony_storage_residual"] < 0.03
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    curve = read_master_curve(table, None)
+    ends = found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"]
+    np.testing.assert_allclose(curve.angular_frequency[[0, -1]], ends, rtol=1e-5)
+
+    scene = tmp_path / "scene.toml"
+    rubber = '[rubber]\nmaster_curve = "a.csv"\n'
+    conditions = CONDITIONS.replace("from = 1e-4, to = 1", "from = 1e-4, to = 1e-3")
+    scene.write_text(SURFACE + rubber + conditions)
+    mu = load_scene(scene).friction().mu
+    assert (mu > 0.01).all()
+    assert (mu < 5).all()
+
+
+def test_files_of_one_temperature_each(tmp_path, capsys):
+    files = sorted(map(str, present("dma", "reptate_pi1000k").glob("*.osc")))
+    melt = [*flags(POLYISOPRENE["columns"], POLYISOPRENE["units"]), "--modulus", "G"]
+    options = ["--vertical-shift", "T/T_ref", "--reference-temperature", "273.15", "--json"]
+    assert main(["rubber", *files, *melt, *options]) == 0
+    out, err = capsys.readouterr()
+    assert "note: the shift factors follow WLF" in err
+    found = found_in(err)
+    assert found["reference_temperature_k"] == 273.15
+    assert found["wlf_c1"] == pytest.approx(5.8, abs=0.1)
+    assert json.loads(out)["columns"]["storage_modulus_pa"]
+
+
+def test_table_of_a_synthetic_rubber(folder, capsys):
+    """Its header has the isotherms, and a Prony series that a scene can take."""
+    assert main(["rubber", "dma.csv", *SYNTHETIC, "--reference-temperature", "293.15"]) == 0
+    out, err = capsys.readouterr()
+    header = dict(
+        line[2:].split(" = ", 1)
+        for line in out.splitlines()
+        if line.startswith("# ") and " = " in line
+    )
+    np.testing.assert_allclose(json.loads(header["isotherms.temperature_k"]), TEMPERATURES)
+    shifts = np.array(json.loads(header["isotherms.log10_a_t"]))
+    np.testing.assert_allclose(shifts, true_shift(TEMPERATURES), atol=0.06)
+    assert max(json.loads(header["isotherms.standard_deviation"])) < 0.03
+    assert json.loads(header["isotherms.b_t"]) == [1.0] * 22
+    names = ("equilibrium_modulus_pa", "moduli_pa", "relaxation_times_s")
+    series = [json.loads(header[f"prony.{name}"]) for name in names]
+    prony = PronySeries(equilibrium_modulus=series[0], moduli=series[1], relaxation_times=series[2])
+    found = found_in(err)
+    assert found["wlf_c1"] == pytest.approx(8.86, abs=0.05)
+    w = np.geomspace(found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"], 100)
+    assert np.abs(prony.modulus(w).real / true_modulus(w).real - 1).max() < 0.02
+    assert np.abs(prony.modulus(w).imag / true_modulus(w).imag - 1).max() < 0.07
+
+
+def test_shift_factors_from_a_file(folder, capsys):
+    options = ["--shift", "shift.csv", "--reference-temperature", "293.15", "--json"]
+    assert main(["rubber", "dma.csv", *SYNTHETIC, *options]) == 0
+    found = found_in(capsys.readouterr().err)
+    assert found["wlf_c1"] == pytest.approx(8.86, rel=1e-6)
+    assert found["wlf_c2_k"] == pytest.approx(101.6, rel=1e-6)
+
+
+def test_moduli_that_contradict_each_other_are_said(folder, capsys):
+    swapped = [option.replace("storage=E1,loss=E2", "storage=E2,loss=E1") for option in SYNTHETIC]
+    assert swapped != SYNTHETIC
+    assert main(["rubber", "dma.csv", *swapped, "--output", "swapped.csv"]) == 0
+    err = capsys.readouterr().err
+    assert "note: no Prony series follows E' and E'' together" in err
+    assert "Kramers-Kronig" in (folder / "swapped.csv").read_text()
+
+
+def test_the_output_does_not_overwrite_an_input(folder, capsys):
+    before = (folder / "dma.csv").read_bytes()
+    assert main(["rubber", "dma.csv", *SYNTHETIC, "--output", "dma.csv"]) == 2
+    assert capsys.readouterr().err.startswith("asperity: dma.csv: is an input")
+    assert (folder / "dma.csv").read_bytes() == before
+
+
+def without(option):
+    at = SYNTHETIC.index(option)
+    return SYNTHETIC[:at] + SYNTHETIC[at + 2 :]
+
+
+def replaced(old, new):
+    return [text.replace(old, new) for text in SYNTHETIC]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["dma.csv", *without("--units")], "the following arguments are required: --units"),
+        (["dma.csv", *without("--columns")], "the following arguments are required: --columns"),
+        (["dma.csv", *without("--modulus")], "the following arguments are required: --modulus"),
+        (["dma.csv", *replaced(",modulus=Pa", "")], "--units: 'modulus' is missing"),
+        (["dma.csv", *replaced("=rad/s", "=rpm")], "--units: frequency = 'rpm': must be one of Hz"),
+        (["dma.csv", *replaced("loss=E2", "loss=E3")], "dma.csv: no line names the columns 'E3'"),
+        (["dma.csv", *replaced("T,", ",")], "must be NAME=VALUE,NAME=VALUE"),
+        (["no.csv", *SYNTHETIC], "no.csv: cannot be read: No such file or directory"),
+        (
+            ["dma.csv", *SYNTHETIC, "--reference-temperature", "400"],
+            "--reference-temperature = 400: isotherms were measured in [243.15, 348.15] K",
+        ),
+        (["dma.csv", *SYNTHETIC, "--shift", "dma.csv"], "dma.csv: no line names the columns"),
+        (["dma.csv", *SYNTHETIC, "--plot", "a.xyz"], "a.xyz"),
+    ],
+)
+def test_refusals_are_one_line_and_status_2(folder, arguments, message):
+    run = [sys.executable, "-m", "asperity", "rubber", *arguments]
+    done = subprocess.run(run, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    (line,) = done.stderr.splitlines()
+    assert message in line
+    assert line.startswith("asperity")
+
+
+def test_one_isotherm_is_refused(folder, capsys):
+    head = (folder / "dma.csv").read_text().splitlines()[: 1 + SWEEP.size]
+    (folder / "one.csv").write_text("\n".join(head))
+    assert main(["rubber", "one.csv", *SYNTHETIC]) == 2
+    err = capsys.readouterr().err
+    assert "isotherms at 1 temperature(s): must be at 2 or more to shift" in err

@@ -1,0 +1,174 @@
+"""The shipped scene and `asperity demo`."""
+
+import importlib.util
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import demo
+from asperity.cli.cli import main
+from asperity.scene.scene import Curves
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    directory = tmp_path_factory.mktemp("demo") / "out"
+    assert main(["demo", "--output", str(directory)]) == 0
+    return directory
+
+
+def contents(directory: Path) -> dict[Path, bytes | None]:
+    return {path: path.read_bytes() if path.is_file() else None for path in directory.rglob("*")}
+
+
+def test_scan_is_what_the_issue_asks_for() -> None:
+    heights = demo.scan()
+    ny, nx = heights.shape
+    dy, dx = demo.PIXEL_SIZE
+    assert ny != nx
+    assert dy != dx
+    assert np.isnan(heights).mean() == pytest.approx(0.02, abs=0.002)
+    np.testing.assert_array_equal(heights, demo.scan())
+    surface = asperity.HeightMap(heights, pixel_size=demo.PIXEL_SIZE).fill_dropouts()
+    flat = surface.detrend("quadratic")
+    assert flat.rms_height == pytest.approx(265.7e-6, rel=0.05)
+    assert surface.rms_height > 2 * flat.rms_height  # tilted
+    assert surface.detrend("plane").rms_height > 1.05 * flat.rms_height  # and curved
+
+
+def test_its_spectrum_is_table_1s() -> None:
+    surface = asperity.HeightMap(demo.scan(), pixel_size=demo.PIXEL_SIZE).fill_dropouts()
+    spectrum = asperity.power_spectrum(surface, detrend="quadratic")
+    fit = asperity.fit_self_affine(spectrum, q_min=2500.0, q_max=1.5e4)
+    assert fit.hurst == pytest.approx(0.87, abs=0.06)
+
+
+def test_demo_leaves_what_it_says(finished: Path) -> None:
+    wanted = {"scan.npy", "scene.toml", "friction.csv"}
+    if importlib.util.find_spec("matplotlib") is not None:
+        wanted.add("friction.png")
+    assert {path.name for path in finished.iterdir()} == wanted
+
+
+def test_demo_curve_is_a_friction_curve(finished: Path) -> None:
+    text = (finished / "friction.csv").read_text()
+    names, *rows = (line for line in text.splitlines() if not line.startswith("#"))
+    table = dict(
+        zip(names.split(","), np.array([r.split(",") for r in rows], float).T, strict=True)
+    )
+    assert table["velocity_m_s"].size == 29
+    assert table["velocity_m_s"][[0, -1]].tolist() == [1e-6, 10.0]
+    np.testing.assert_allclose(table["mu"], table["hysteresis"] + table["adhesion"], rtol=1e-12)
+    assert np.all(table["error_estimate"] <= 1e-6 * table["mu"])
+    peak = table["mu"].argmax()
+    assert 0 < peak < 28  # bell-shaped
+    assert 0.3 < table["mu"][peak] < 3
+    assert np.all(np.diff(table["contact_area"]) < 0)  # stiffer with speed
+
+
+def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
+    drawn = []
+
+    def watch(_: object, results: list[Curves], __: object) -> bytes:
+        drawn.extend(results)  # the band is narrower than the line: no pixel shows it
+        return b""
+
+    monkeypatch.setattr("asperity.plot.plot.friction_figure", watch)
+    assert main(["demo", "--output", str(tmp_path)]) == 0
+    (curves,) = drawn
+    assert curves.band is not None
+    lower, upper = curves.band
+    assert ((lower < curves.mu) & (curves.mu < upper)).all()
+
+
+def test_demo_runs_twice_and_prints_where(
+    finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (finished / "friction.csv").read_text()
+    assert main(["demo", "--output", str(finished)]) == 0
+    out = capsys.readouterr().out
+    assert "velocity_m_s" in out
+    assert str(finished / "friction.csv") in out
+    assert "picture: " in out
+    assert (finished / "friction.csv").read_text() == before
+
+
+@pytest.mark.parametrize("name", ["scan.npy", "scene.toml", "friction.csv", "friction.png"])
+def test_demo_does_not_overwrite_what_it_did_not_write(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    (tmp_path / name).write_text("mine\n")
+    assert main(["demo", "--output", str(tmp_path)]) == 2
+    out, err = capsys.readouterr()
+    message = f"holds {name}, not the demo's own: choose another --output"
+    assert (out, err) == ("", f"asperity: {tmp_path}: {message}\n")
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert (tmp_path / name).read_text() == "mine\n"
+
+
+def test_demo_does_not_overwrite_a_scan_put_beside_its_scene(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "scene.toml").write_text(demo.scene_text(), encoding="utf-8")
+    np.save(tmp_path / "scan.npy", np.ones((20, 30)))
+    assert main(["demo", "--output", str(tmp_path)]) == 2
+    assert "holds scan.npy, not the demo's own" in capsys.readouterr().err
+    assert np.load(tmp_path / "scan.npy").shape == (20, 30)
+
+
+@pytest.mark.parametrize("before", ["nothing", "an empty directory", "a finished demo"])
+def test_demo_that_fails_leaves_what_was_there(
+    finished: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    before: str,
+) -> None:
+    directory = tmp_path / "far" / "out"
+    if before == "a finished demo":
+        shutil.copytree(finished, directory)
+    elif before != "nothing":
+        directory.mkdir(parents=True)
+    held = contents(tmp_path)
+
+    def fail(*_: object, **__: object) -> None:
+        raise asperity.NotConverged("mu = 1 with error 2")
+
+    monkeypatch.setattr("asperity.scene.scene.friction", fail)
+    assert main(["demo", "--output", str(directory)]) == 1
+    line = f"asperity: {directory / 'scene.toml'}: mu = 1 with error 2\n"
+    assert capsys.readouterr().err == line
+    assert contents(tmp_path) == held
+
+
+def test_demo_on_a_full_disk_leaves_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    directory = tmp_path / "far" / "out"
+    replace = os.replace
+
+    def full(part: Path, target: Path) -> None:
+        if directory in target.parents and target.name == "friction.csv":
+            raise OSError(28, "No space left on device")
+        replace(part, target)
+
+    monkeypatch.setattr("os.replace", full)
+    assert main(["demo", "--output", str(directory)]) == 1
+    line = f"asperity: {directory / 'friction.csv'}: cannot be written: No space left on device\n"
+    assert capsys.readouterr().err == line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["taken", "taken/below"])
+def test_demo_into_a_file_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    (tmp_path / "taken").write_text("")
+    assert main(["demo", "--output", str(tmp_path / name)]) == 2
+    reason = f"cannot be written: {tmp_path / 'taken'} is not a directory"
+    assert capsys.readouterr().err == f"asperity: {tmp_path / name}: {reason}\n"

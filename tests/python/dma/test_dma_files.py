@@ -1,0 +1,92 @@
+"""One file for each isotherm, its temperature said beside it."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.cli import main
+from asperity.scene.scene import load_scene
+from helpers.scenes import CONDITIONS, SURFACE
+
+COLUMNS = {"frequency": "f", "storage": "a", "loss": "b"}
+UNITS = {"frequency": "rad/s", "temperature": "C", "modulus": "MPa"}
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=10 ** np.linspace(6, 9, 16),
+    relaxation_times=10 ** np.linspace(2, -8, 16),
+)
+CELSIUS = [30.0, 10.0, 20.0]
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> list[Path]:
+    """Sweeps at CELSIUS of a rubber whose shift is 0.1 decade a kelvin, none at 20 C."""
+    paths = []
+    for celsius in CELSIUS:
+        lines = ["f;a;b"]
+        for w in np.geomspace(0.1, 100, 12):
+            e = RUBBER.modulus(w * 10 ** (-0.1 * (celsius - 20))) / 1e6
+            lines.append(f"{w:.12g};{e.real:.12g};{e.imag:.12g}".replace(".", ","))
+        paths.append(tmp_path / f"{celsius:g}.txt")
+        paths[-1].write_text("\n".join(lines))
+    return paths
+
+
+def test_temperatures_go_with_their_files(files: list[Path]) -> None:
+    sweeps = asperity.read_isotherms(
+        files, columns=COLUMNS, units=UNITS, modulus="E", temperatures=CELSIUS
+    )
+    assert [round(sweep.temperature, 2) for sweep in sweeps] == [283.15, 293.15, 303.15]
+    build = asperity.build_master_curve(sweeps, reference_temperature=293.15)
+    np.testing.assert_allclose(build.log10_a_T, [1, 0, -1], atol=1e-3)
+
+
+def test_the_command_takes_them(files: list[Path], capsys: pytest.CaptureFixture[str]) -> None:
+    names = [str(path) for path in files]
+    how = ["--columns", "frequency=f,storage=a,loss=b", "--modulus", "E"]
+    how += ["--units", "frequency=rad/s,temperature=C,modulus=MPa"]
+    assert main(["rubber", *names, *how, "--temperatures", "30,10,20"]) == 0
+    out = capsys.readouterr().out
+    assert "# temperatures = [30.0, 10.0, 20.0]" in out
+    assert main(["rubber", *names, *how, "--temperatures", "30,10"]) == 2
+    said = capsys.readouterr().err
+    assert said == "asperity: --temperatures has 2 entries, paths has 3: must be as many\n"
+
+
+@pytest.mark.parametrize("given", [None, CELSIUS])
+def test_a_column_or_temperatures_not_both_not_neither(
+    files: list[Path], given: list[float] | None
+) -> None:
+    columns = COLUMNS if given is None else {**COLUMNS, "temperature": "T"}
+    problem = "'temperature' is missing" if given is None else "'temperature' is unknown"
+    with pytest.raises(asperity.InvalidInput, match=f"^columns: {problem}"):
+        asperity.read_isotherms(
+            files, columns=columns, units=UNITS, modulus="E", temperatures=given
+        )
+
+
+SCENE = """
+[rubber]
+isotherms = ["30.txt", "10.txt", "20.txt"]
+temperatures = [30, 10, 20]
+temperature_k = 293.15
+modulus = "E"
+columns = {frequency = "f", storage = "a", loss = "b"}
+units = {frequency = "rad/s", temperature = "C", modulus = "MPa"}
+"""
+
+
+def test_a_scene_takes_them_and_a_prony_series_through_them(files: list[Path]) -> None:
+    path = files[0].parent / "scene.toml"
+    rubber = {}
+    for more in ("", "prony = true\n"):
+        path.write_text(SURFACE + SCENE + more + CONDITIONS)
+        rubber[more] = load_scene(path).rubber
+    curve, series = rubber.values()
+    assert isinstance(curve, asperity.MasterCurve)
+    assert isinstance(series, asperity.PronyFit)
+    w = np.geomspace(0.1, 100, 9)
+    # read to 12 digits, smoothed and fitted: 0.0027 off
+    np.testing.assert_allclose(series.modulus(w), RUBBER.modulus(w), rtol=0.01)

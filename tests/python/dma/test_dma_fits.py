@@ -1,0 +1,140 @@
+"""WLF and Arrhenius fits against tables, and shift factors as a table that can be asked."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from asperity import InvalidInput, OutOfRange, PronySeries, ShiftFactors, read_shift_factors
+from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_shift, worst
+
+TABLE = Path(__file__).parents[2] / "reference/master_build.csv"
+with TABLE.open(encoding="utf-8") as file:
+    ROWS = list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def table(row):
+    temperature, shift = (
+        [float(x) for x in row[name].split(";")] for name in ("temperature", "log10_a_t")
+    )
+    reference = float(row["reference_temperature"])
+    return ShiftFactors(reference_temperature=reference, temperature=temperature, log10_a_T=shift)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["case"])
+def test_wlf_fit_is_the_least_squares_one(row):
+    fit, rtol = table(row).fit_wlf(), float(row["rtol"])
+    assert fit.c1 == pytest.approx(float(row["c1"]), rel=rtol)
+    assert fit.c2 == pytest.approx(float(row["c2"]), rel=rtol)
+    assert fit.reference_temperature == float(row["reference_temperature"])
+    for name in ("c1", "c2"):
+        expected = float(row[f"{name}_error"])
+        assert fit.standard_errors[name] == pytest.approx(expected, rel=100 * rtol)
+    assert fit.residual == pytest.approx(float(row["wlf_residual"]), rel=100 * rtol)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["case"])
+def test_arrhenius_fit_is_the_least_squares_one(row):
+    fit, rtol = table(row).fit_arrhenius(), float(row["rtol"])
+    assert fit.activation_energy == pytest.approx(float(row["activation_energy"]), rel=rtol)
+    found = fit.standard_errors["activation_energy"]
+    assert found == pytest.approx(float(row["activation_energy_error"]), rel=100 * rtol)
+    assert fit.residual == pytest.approx(float(row["arrhenius_residual"]), rel=100 * rtol)
+
+
+def test_residuals_tell_the_two_laws_apart():
+    named = {row["case"]: table(row) for row in ROWS}
+    wlf, thermal = named["WLF rounded to 6 digits"], named["Arrhenius rounded to 6 digits"]
+    assert wlf.fit_wlf().residual < 1e-6
+    assert wlf.fit_arrhenius().residual > 0.3
+    assert thermal.fit_arrhenius().residual < 1e-6
+
+
+def test_wlf_fit_of_noisy_isotherms_within_its_errors():
+    build = built(sweeps(noise=0.01, seed=5))
+    fit = build.fit_wlf()
+    assert fit == build.shift_factors.fit_wlf()
+    assert fit.c1 == pytest.approx(8.86, abs=5 * fit.standard_errors["c1"])
+    assert fit.c2 == pytest.approx(101.6, abs=5 * fit.standard_errors["c2"])
+    assert fit.standard_errors["c1"] < 0.05
+    assert fit.residual < 0.02
+    assert fit.residual <= worst(build)
+
+
+def test_wlf_constants_of_another_reference_temperature():
+    one, other = built(sweeps()).fit_wlf(), built(sweeps(), 318.15).fit_wlf()
+    assert other.c2 == pytest.approx(one.c2 + 25, rel=1e-4)
+    assert other.c1 * other.c2 == pytest.approx(one.c1 * one.c2, rel=1e-4)
+
+
+def test_a_straight_line_has_a_large_c2_and_says_how_uncertain_it_is():
+    t = np.arange(250.0, 350, 10)
+    shifts = ShiftFactors(
+        reference_temperature=300, temperature=t, log10_a_T=-0.05 * (t - 300) + 1e-3 * np.cos(t)
+    )
+    fit = shifts.fit_wlf()
+    assert fit.residual < 2e-3
+    assert fit.c2 > 5e3
+    assert fit.c1 / fit.c2 == pytest.approx(0.05, rel=0.01)
+    assert fit.standard_errors["c2"] > 0.1 * fit.c2
+
+
+def test_too_few_temperatures_for_wlf():
+    shifts = ShiftFactors(
+        reference_temperature=300, temperature=[290, 300, 310], log10_a_T=[1, 0, -1]
+    )
+    with pytest.raises(InvalidInput, match=r"^temperature has 3 entries: must be 4 or more"):
+        shifts.fit_wlf()
+
+
+@pytest.mark.parametrize("outside", [243.1, 348.2, -20.0, 1e3])
+def test_a_temperature_outside_of_the_table(outside):
+    shifts = built(sweeps()).shift_factors
+    with pytest.raises(OutOfRange, match=rf"^temperature = {outside:g}: .*\[243\.15, 348\.15\] K"):
+        shifts.shift_factor(outside)
+    with pytest.raises(InvalidInput, match=r"^temperature = nan: must be finite"):
+        shifts.shift_factor(np.nan)
+
+
+def test_shift_factors_between_the_isotherms():
+    build = built(sweeps())
+    between = np.linspace(243.15, 348.15, 60)
+    found = np.log10(build.shift_factor(between.reshape(6, 10)))
+    np.testing.assert_allclose(found.ravel(), true_shift(between), atol=0.02)
+    rubber = PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
+    cold = rubber.shifted(build.shift_factor(273.15))
+    expected = rubber.modulus(10 ** true_shift(273.15) * 50)
+    assert cold.modulus(50.0) == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_table_from_a_file_is_as_good_as_a_fit(tmp_path):
+    file = tmp_path / "shift.csv"
+    lines = [f"{t!r},{true_shift(t).item()!r}" for t in TEMPERATURES[::-1].tolist()]
+    file.write_text("\n".join(["# WLF", "temperature_k,log10_a_t", *lines]))
+    shifts = read_shift_factors(file, reference_temperature=T_REF)
+    np.testing.assert_array_equal(shifts.temperature, TEMPERATURES)
+    np.testing.assert_array_equal(shifts.log10_a_T, true_shift(TEMPERATURES))
+    assert shifts.standard_deviation is None
+    assert shifts.fit_wlf().c1 == pytest.approx(8.86, rel=1e-6)
+    build = built(sweeps(), shift_factors=shifts)
+    assert build.residual < 1e-4
+    assert build.master_curve.shift_factors == build.shift_factors
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("temperature_k,log10_a_t\n280,1\n280,0\n", r"temperature\[1\] = 280: must be above"),
+        ("temperature_k,log10_a_t\n280,1\n", "temperature has 1 entries: must be 2 or more"),
+        ("temperature_k,log10_a_t\n280,x\n", "line 2: log10_a_T = 'x' is not a number"),
+        ("temperature_k,log10_a_t\n280,nan\n", "line 2: log10_a_T = nan: must be finite"),
+        ("temperature,a_t\n280,1\n", "no line names the columns 'temperature_k', 'log10_a_t'"),
+    ],
+)
+def test_bad_files_of_shift_factors(tmp_path, text, message):
+    file = tmp_path / "shift.csv"
+    file.write_text(text)
+    with pytest.raises(InvalidInput, match=message) as caught:
+        read_shift_factors(file, reference_temperature=T_REF)
+    assert str(caught.value).startswith(f"{file}: ")

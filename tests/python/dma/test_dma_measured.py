@@ -1,0 +1,183 @@
+"""Measured DMA from public sources: shift factors, their laws, strain, and friction on a scan."""
+
+import re
+
+import numpy as np
+import pytest
+
+from asperity import fit_prony, read_strain_sweep
+from asperity.cli.cli import main
+from asperity.scene.scene import load_scene
+from helpers.measured import ALPHA, B2, COLUMNS, UNITS, polyisoprene, present, published, shear
+
+
+@pytest.mark.parametrize("reference_temperature", [233.16, 273.15, 298.15])
+def test_polyisoprene_has_the_published_wlf(reference_temperature):
+    """With b_T = T / T_ref; where -20, -10 or 50 C is the reference the hottest is 0.054 off."""
+    build = polyisoprene(reference_temperature, vertical_shift="T/T_ref")
+    np.testing.assert_allclose(build.log10_a_T, published(build), atol=0.05)
+    fit = build.fit_wlf()
+    assert fit.residual < 0.01
+    assert fit.c2 - (reference_temperature - 273.15) == pytest.approx(B2, abs=5)
+    assert "two isotherms at 303.149 K were taken as one" in build.notes
+
+
+@pytest.mark.parametrize("celsius", [-30, -20, -10, 0, 10, 25, 50])
+def test_polyisoprene_has_the_published_wlf_with_the_published_vertical_shift(celsius):
+    """With the density in b_T too."""
+    reference = celsius + 273.15 - (celsius == 50)
+    t = polyisoprene().temperature
+    density = (1 + ALPHA * (reference - 273.15)) / (1 + ALPHA * (t - 273.15))
+    build = polyisoprene(reference, vertical_shift=t / reference * density)
+    np.testing.assert_allclose(build.log10_a_T, published(build), atol=0.04)
+    assert build.residual < 0.008  # 0.011 without the density
+
+
+def test_without_a_vertical_shift_polyisoprene_says_what_it_would_change():
+    plain, ratio = polyisoprene(), polyisoprene(vertical_shift="T/T_ref")
+    (note,) = [note for note in plain.notes if note.startswith("vertical shift: none")]
+    differ = np.abs(plain.log10_a_T - ratio.log10_a_T).max()
+    assert differ > 0.2
+    said = re.search(r"by up to ([\d.]+) decades, and the residual be ([\d.]+) instead of", note)
+    assert said is not None
+    # the comparison is made with the knots of the first fit
+    assert float(said[1]) == pytest.approx(differ, rel=0.1)
+    assert float(said[2]) == pytest.approx(ratio.residual, rel=0.2)
+    assert ratio.residual < plain.residual / 2
+
+
+def test_one_of_two_rubbers_follows_wlf():
+    simple, other = shear("material_a"), shear("epdm_70")
+    assert simple.fit_wlf().residual < 0.03
+    assert simple.residual < 0.04
+    assert not [note for note in simple.notes if "superpose" in note]
+    assert other.fit_wlf().residual > 0.1
+    assert [note for note in other.notes if "these isotherms do not superpose" in note]
+    for build, count in ((simple, 9), (other, 10)):
+        assert build.temperature.size == count
+        assert (np.diff(build.log10_a_T) < 0).all()
+        assert build.standard_deviation.max() < 0.05
+        assert build.fit_arrhenius().residual > build.fit_wlf().residual
+
+
+def test_prony_series_of_a_measured_rubber():
+    build = shear("material_a", smooth=True)
+    prony = fit_prony(build)
+    assert prony.causal
+    assert prony.storage_residual < 0.03
+    assert prony.loss_residual < 0.03
+    found = prony.modulus(build.points.angular_frequency)
+    assert np.sqrt(np.mean(np.log(found.real / build.points.storage_modulus) ** 2)) < 0.06
+    assert np.sqrt(np.mean(np.log(found.imag / build.points.loss_modulus) ** 2)) < 0.06
+
+
+@pytest.mark.parametrize("name", ["material_a", "epdm_70"])
+def test_strain_softens_a_measured_rubber(name):
+    build = shear(name, smooth=True)
+    sweeps = [
+        read_strain_sweep(
+            present("dma", name, f"sd_{hertz}hz.csv"),
+            columns=COLUMNS | {"strain": "strain_dyn_pct"},
+            units=UNITS | {"strain": "%"},
+            modulus="G",
+        )
+        for hertz in (10, 100)
+    ]
+    for sweep, hertz in zip(sweeps, (10, 100), strict=True):
+        assert sweep.angular_frequency == pytest.approx(2 * np.pi * hertz, rel=1e-4)
+        assert 294 < sweep.temperature < 297
+    with pytest.warns(UserWarning, match="strain sweeps reach from"):
+        curve = build.master_curve.at_strain(0.009, sweeps)
+    ratio = curve.storage_modulus / build.master_curve.modulus(curve.angular_frequency).real
+    assert 0.8 < ratio.min() <= ratio.max() < 1
+
+
+SCENE = """
+[surface]
+file = '{scan}'
+detrend = "quadratic"
+[rubber]
+isotherms = ['{dma}']
+modulus = "G"
+temperature_k = {temperature}
+{reference}
+[rubber.columns]
+frequency = "freq_hz"
+temperature = "temperature_C"
+storage = "G_storage_pa"
+loss = "G_loss_pa"
+[rubber.units]
+frequency = "Hz"
+temperature = "C"
+modulus = "Pa"
+[conditions]
+pressure_pa = 81e3
+velocity_m_s = {velocity}
+"""
+VELOCITY = np.geomspace(1e-5, 5e-3, 5)
+
+
+def scene(folder, temperature, reference=None, velocity=VELOCITY):
+    pytest.importorskip("SurfaceTopography", reason="reading it needs asperity[io]")
+    text = SCENE.format(
+        scan=present("topography", "opd-1.opd").as_posix(),
+        dma=present("dma", "material_a", "tf_015p.csv").as_posix(),
+        temperature=temperature,
+        reference="" if reference is None else f"reference_temperature_k = {reference}",
+        velocity=np.asarray(velocity).tolist(),
+    )
+    path = folder / "scene.toml"
+    path.write_text(text)
+    return path
+
+
+def mu(path):
+    return load_scene(path).friction().mu[0]
+
+
+def test_friction_at_two_temperatures_of_a_measured_rubber_on_a_measured_surface(tmp_path):
+    """Time-temperature superposition: mu(v, T) = mu(a_T v, T_ref)."""
+    cold, hot = mu(scene(tmp_path, 293.15)), mu(scene(tmp_path, 313.15))
+    assert (cold > 0).all()
+    assert (hot < cold).all()  # below the maximum of mu(v)
+    a_t = float(shear("material_a", smooth=True).shift_factor(313.15))
+    assert 0.05 < a_t < 0.15
+    shifted = mu(scene(tmp_path, 313.15, 293.15))
+    same = mu(scene(tmp_path, 293.15, 293.15, a_t * VELOCITY))
+    np.testing.assert_allclose(shifted, same, rtol=1e-6)
+    np.testing.assert_allclose(hot, same, rtol=1e-3)  # built at the one temperature or the other
+
+
+def test_the_vertical_shift_too_is_that_of_the_temperature_of_the_scene(tmp_path):
+    """E(w; T) = b_T(T) E(a_T w; T_ref), b_T = T / T_ref: whichever isotherm was the reference."""
+
+    def with_ratio(*temperatures):
+        path = scene(tmp_path, *temperatures)
+        path.write_text(
+            path.read_text().replace('modulus = "G"', 'modulus = "G"\nvertical_shift = "T/T_ref"')
+        )
+        return load_scene(path).rubber
+
+    there, elsewhere = with_ratio(313.15), with_ratio(313.15, 293.15)
+    w = np.geomspace(1, 100, 9)
+    np.testing.assert_allclose(elsewhere.modulus(w), there.modulus(w), rtol=3e-3)
+
+
+@pytest.mark.parametrize("velocity", [1e-8, 10.0])
+def test_velocities_outside_of_the_measured_frequencies(tmp_path, velocity, capsys):
+    path = scene(tmp_path, 293.15, velocity=[velocity])
+    assert main(["friction", str(path)]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    (line,) = err.splitlines()
+    assert line.startswith(f"asperity: {path}: [conditions] velocity_m_s = {velocity:g}: ")
+    assert "velocities from" in line
+    allowed = [float(word) for word in line.rpartition("velocities from ")[2].split()[:3:2]]
+    assert mu(scene(tmp_path, 293.15, velocity=[1.001 * allowed[0], 0.999 * allowed[1]])).all()
+
+
+def test_a_temperature_outside_of_the_isotherms(tmp_path, capsys):
+    path = scene(tmp_path, 330.0, 293.15)
+    assert main(["friction", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"asperity: {path}: [rubber] temperature_k = 330: shift factors are")

@@ -1,0 +1,99 @@
+"""`asperity map`: the map of a scene, what a file holds, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.cli import main
+from asperity.scene.scene import load_scene
+from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
+
+QUICK = ["--checked", "2000"]
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+def run(*arguments):
+    """Exit code of the command."""
+    try:
+        return main([str(argument) for argument in arguments])
+    except SystemExit as stop:
+        return stop.code
+
+
+def test_a_map_of_a_scene(scene, capsys):
+    assert run("map", scene, "--output", "road.fmap", "--plot", "map.png", *QUICK) in (0, None)
+    told = capsys.readouterr()
+    assert "max_error = " in told.out
+    found = asperity.FrictionMap.load("road.fmap")
+    assert found.pressure == (81e3, 2e5)
+    assert found.velocity == pytest.approx((1e-4, 1))
+    assert (found.rtol, found.checked, found.exceeded) == (1e-4, 2000, 0)
+    parts = load_scene(scene)
+    exact = asperity.friction(
+        parts.spectrum, parts.rubber, pressure=1e5, velocity=0.03, adhesion=parts.adhesion
+    )
+    assert found.mu(1e5, 0.03) == pytest.approx(exact.mu, rel=found.max_error)
+    assert (scene.parent / "map.png").read_bytes()[:4] == b"\x89PNG"
+    assert run("map", "--info", "road.fmap") in (0, None)
+    info = capsys.readouterr().out
+    assert told.out in info
+    assert "surface.hurst = 0.7" in info
+    assert run("map", "--info", "road.fmap", "--json") in (0, None)
+    as_json = json.loads(capsys.readouterr().out)
+    assert as_json["max_error"] == found.max_error
+    assert as_json["pressure_pa"] == [81e3, 2e5]
+
+
+def test_sides_and_tolerance_may_be_given(scene):
+    sides = ["--pressure", "1e4,1e6", "--velocity", "1e-3,0.1"]
+    assert run("map", scene, "--output", "a.fmap", *sides, "--rtol", "1e-3", *QUICK) in (0, None)
+    found = asperity.FrictionMap.load("a.fmap")
+    assert (found.pressure, found.velocity, found.rtol) == ((1e4, 1e6), (1e-3, 0.1), 1e-3)
+    stated = SCENE + "\n[solver]\nrtol = 1e-5\n"
+    scene.write_text(stated, encoding="utf-8")
+    assert run("map", scene, "--output", "b.fmap", *QUICK) in (0, None)
+    assert asperity.FrictionMap.load("b.fmap").rtol == 1e-5
+
+
+def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
+    conditions = CONDITIONS.replace("[81e3, 2e5]", "81e3")
+    scene.write_text(SURFACE + RUBBER + conditions + ADHESION, encoding="utf-8")
+    assert run("map", scene, "--output", "a.fmap", *QUICK) in (0, None)
+    found = asperity.FrictionMap.load("a.fmap")
+    np.testing.assert_allclose(found.pressure, (8.1e3, 8.1e5))
+    assert any(note.startswith("pressure: the scene has one") for note in found.notes)
+    assert "pressure: the scene has one" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["map"], "must be given a SCENE.toml, or --info FILE"),
+        (["map", "scene.toml", "--info", "a.fmap"], "must be given a SCENE.toml, or --info FILE"),
+        (["map", "--info", "a.fmap", "--rtol", "1e-3"], "--rtol: goes with a SCENE.toml"),
+        (["map", "--info", "none.fmap"], "none.fmap: cannot be read: No such file"),
+        (["map", "--info", "scene.toml"], "scene.toml: is no friction map"),
+        (["map", "scene.toml", "--pressure", "2e5,1e5"], "pressure = (200000, 100000): must be"),
+        (["map", "scene.toml", "--pressure", "1e5"], "must be two positive numbers, LO,HI"),
+        (["map", "scene.toml", "--output", "none/a.fmap"], "none/a.fmap: cannot be written"),
+        (["map", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
+        (["map", "scene.toml", "--rtol", "0.5"], "--rtol = 0.5: must be in"),
+        (["map", "scene.toml", "--checked", "-1"], "--checked = -1: must be 0 or more"),
+        (["map", "scene.toml", "--plot", "a.bmp"], "a.bmp: must end in .png"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message):
+    assert run(*arguments) == 2
+    told = capsys.readouterr()
+    assert message in told.err
+    assert len(told.err.splitlines()) == 1
+    assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]

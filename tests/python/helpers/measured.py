@@ -1,0 +1,50 @@
+"""Measured files that are not in the repository, and what is made of them."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from asperity import build_master_curve, read_isotherms
+
+DATA = Path(os.environ.get("ASPERITY_DATA", Path(__file__).parents[3].parent / "shared" / "data"))
+COLUMNS = {"frequency": "freq_hz", "temperature": "temperature_C"}
+COLUMNS |= {"storage": "G_storage_pa", "loss": "G_loss_pa"}
+UNITS = {"frequency": "Hz", "temperature": "C", "modulus": "Pa"}
+POLYISOPRENE = {
+    "columns": {"frequency": "Freq", "temperature": "Temp", "storage": "G'", "loss": 'G"'},
+    "units": {"frequency": "rad/s", "temperature": "C", "modulus": "Pa"},
+    "modulus": "G",
+}
+# log10 a_T = -B1 (T - T_r) / ((B2 + T_r) (B2 + T)), T in C: RepTate (jorge-ramirez-upm/RepTate),
+# polyisoprene of RepTate/tools/CreateMaterialsDatabaseFile.py, the law in theories/TheoryWLF.py;
+# b_T has the density, proportional to 1 / (1 + alpha T)
+B1, B2, ALPHA = 691.6245, 114.3, 10**-3.2147
+
+
+def present(*parts):
+    """A measured file or folder; the test skips where it is absent."""
+    path = DATA.joinpath(*parts).resolve()
+    if not path.exists():
+        pytest.skip(f"no {'/'.join(parts)}: measured data is in shared/data or ASPERITY_DATA")
+    return path
+
+
+def shear(name, **options):
+    file = present("dma", name, "tf_015p.csv")
+    isotherms = read_isotherms(file, columns=COLUMNS, units=UNITS, modulus="G")
+    return build_master_curve(isotherms, reference_temperature=293.15, **options)
+
+
+def polyisoprene(reference_temperature=273.15, **options):
+    files = sorted(present("dma", "reptate_pi1000k").glob("*.osc"))
+    isotherms = read_isotherms(files, **POLYISOPRENE)
+    return build_master_curve(isotherms, reference_temperature=reference_temperature, **options)
+
+
+def published(build):
+    t, reference = build.temperature - 273.15, build.reference_temperature - 273.15
+    result = -B1 * (t - reference) / ((B2 + reference) * (B2 + t))
+    assert np.ptp(result) > 4
+    return result

@@ -1,0 +1,49 @@
+"""A synthetic rubber whose truth is a formula, and its isotherms."""
+
+import numpy as np
+
+from asperity import Isotherm, build_master_curve
+
+T_REF = 293.15
+TEMPERATURES = np.arange(-30, 78, 5) + 273.15  # 22
+SWEEP = 2 * np.pi * np.geomspace(0.1, 30, 16)  # [rad/s]
+
+
+def true_modulus(w):
+    """Like SBR: a glass transition of 2 GPa (Cole-Cole), a slow process, 3 MPa at rest."""
+    glass = 2e9 / (1 + (1j * w * 1e-7) ** -0.45)
+    return 3e6 + glass + 5e6 / (1 + (1j * w * 1e-2) ** -0.3)
+
+
+def true_shift(temperature):
+    """Return log10 a_T, WLF about 20 C."""
+    d = np.asarray(temperature) - T_REF
+    return -8.86 * d / (101.6 + d)
+
+
+def sweeps(temperatures=TEMPERATURES, *, noise=0.0, seed=0, frequency=SWEEP, change=None, b_t=None):
+    """Isotherms of the rubber; `change(temperature, modulus)` spoils them, b_t(T) scales them."""
+    rng = np.random.default_rng(seed)
+    result = []
+    for t in temperatures:
+        modulus = true_modulus(frequency * 10 ** true_shift(t)) * (1 if b_t is None else b_t(t))
+        if change is not None:
+            modulus = change(t, modulus)
+        scatter = np.exp(noise * rng.standard_normal((2, frequency.size)))
+        isotherm = Isotherm(
+            temperature=t,
+            angular_frequency=frequency,
+            storage_modulus=modulus.real * scatter[0],
+            loss_modulus=modulus.imag * scatter[1],
+        )
+        result.append(isotherm)
+    return result
+
+
+def built(isotherms, reference_temperature=T_REF, **options):
+    return build_master_curve(isotherms, reference_temperature=reference_temperature, **options)
+
+
+def worst(build):
+    """Largest error of log10 a_T [decades]."""
+    return np.abs(build.log10_a_T - true_shift(build.temperature)).max()

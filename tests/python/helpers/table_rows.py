@@ -1,0 +1,33 @@
+"""Objects of the rows of reference tables, and how near a number must come to a row."""
+
+from asperity import MasterCurve, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
+
+
+def self_affine(row):
+    names = ("rms_height", "hurst", "q0", "q1", "rolloff")
+    return SelfAffineSpectrum(**{name: row[name] for name in names})
+
+
+def tabulated(row):
+    return TabulatedSpectrum(wavenumber=row["table_wavenumber"], density=row["table_density"])
+
+
+def prony(row):
+    names = ("equilibrium_modulus", "moduli", "relaxation_times")
+    return PronySeries(**{name: row[name] for name in names})
+
+
+def master_curve(row):
+    return MasterCurve(
+        angular_frequency=row["table_frequency"],
+        storage_modulus=row["table_storage"],
+        loss_modulus=row["table_loss"],
+    )
+
+
+def close(row, names, found, scale=None):
+    """Every found number within the row's tolerance of its column, relative unless scaled."""
+    for name, value in zip(names, found, strict=True):
+        expected = row[name]
+        allowed = row["rtol"] * (abs(expected) if scale is None else scale)
+        assert abs(value - expected) <= allowed, (name, value, expected, abs(value - expected))

@@ -1,0 +1,72 @@
+"""The pictures of the shell command."""
+
+from pathlib import Path
+
+import pytest
+
+from asperity.cli.cli import main
+from helpers.scenes import SCENE
+
+pytest.importorskip("matplotlib")
+
+MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
+
+
+@pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
+@pytest.mark.parametrize(
+    "verb",
+    [
+        ["friction", "scene.toml"],
+        ["area", "scene.toml", "--points", "9"],
+        ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"],
+    ],
+    ids=lambda verb: verb[0],
+)
+def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
+    picture = f"picture{ending}"
+    assert main([*verb, "--plot", picture, "--output", "table.csv"]) == 0
+    assert (folder / picture).read_bytes().startswith(MAGIC[ending])
+    assert sorted(path.name for path in folder.iterdir()) == sorted(
+        ["scan.npy", "scene.toml", picture, "table.csv"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
+        ("[81e3, 2e5]", "{from = 1e4, to = 1e6, points = 12}"),
+        ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
+    ],
+)
+@pytest.mark.parametrize("verb", ["friction", "area"])
+def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
+    (folder / "scene.toml").write_text(SCENE.replace(old, new))
+    assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0
+    assert (folder / "a.png").stat().st_size > 10000
+
+
+@pytest.mark.parametrize(("form", "said"), [("exact", False), ("interpolated", True)])
+def test_distribution_says_when_the_area_has_another_form(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, form: str, said: bool
+) -> None:
+    titles: list[str] = []
+    monkeypatch.setattr("matplotlib.axes.Axes.set_title", lambda _, text, **__: titles.append(text))
+    (folder / "scene.toml").write_text(f"{SCENE}[solver]\nform = '{form}'\n")
+    arguments = ["area", "scene.toml", "--points", "3", "--output", "a.csv", "--plot", "a.svg"]
+    assert main(arguments) == 0
+    (title,) = titles
+    assert title.startswith("81 kPa, 0.0001 m/s")
+    assert ("exact form" in title) == said
+
+
+STRANGE = ["_hidden.toml", "a$b_$^.toml", "größe.toml", "日.toml"]
+
+
+def test_strange_names_of_files(folder: Path) -> None:
+    for name in STRANGE:
+        (folder / name).write_text(SCENE)
+    assert main(["friction", *STRANGE, "--plot", "mu.svg", "--output", "mu.csv"]) == 0
+    lines = (folder / "mu.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line for line in lines if not line.startswith("#")][1:]
+    assert [row.partition(",")[0] for row in rows[::10]] == STRANGE

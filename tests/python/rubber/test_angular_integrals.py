@@ -1,0 +1,98 @@
+"""I1 and I2 of tabulated moduli against their definition, wherever a table can be awkward."""
+
+import numpy as np
+import pytest
+
+from asperity import InvalidInput, MasterCurve, NotConverged
+from helpers.by_definition import Definition
+
+RNG = np.random.default_rng(20)
+
+
+def rubber(w):
+    """E' and E'' of a glass transition and a slow process [Pa]."""
+    modulus = 3e6 + 2e9 / (1 + (1e-7j * w) ** -0.45) + 5e6 / (1 + (1e-2j * w) ** -0.3)
+    return modulus.real, modulus.imag
+
+
+def even(rows, low, high):
+    w = np.geomspace(low, high, rows)
+    return w, *rubber(w)
+
+
+def uneven(rows):
+    w = np.sort(10 ** RNG.uniform(-6, 9, rows))
+    return w, *rubber(w)
+
+
+def kinks(rows):
+    """Nine decades up and down from row to row."""
+    return (
+        np.geomspace(1e-3, 1e6, rows),
+        10 ** RNG.uniform(2, 11, rows),
+        10 ** RNG.uniform(1, 10, rows),
+    )
+
+
+def step(gap):
+    """Rows so near to each other that E'' jumps."""
+    w = np.array([1, 10, 10 * (1 + gap), 100, 1e4])
+    return w, np.array([1e6, 2e6, 3e6, 4e6, 4e8]), np.array([1e5, 2e5, 9e5, 1e6, 1e5])
+
+
+TABLES = {
+    "two rows": (*even(2, 1, 1e3),),
+    "two rows, 30 decades": (np.array([1e-15, 1e15]), np.array([1e3, 1e12]), np.array([1e2, 1e10])),
+    "30 decades": even(61, 1e-15, 1e15),
+    "four rows": even(4, 1e-5, 1e10),
+    "50 rows": even(50, 1e-5, 1e10),
+    "1200 rows": even(1200, 1e-5, 1e10),
+    "uneven": uneven(30),
+    "hundreds, uneven": uneven(300),
+    "kinks": kinks(10),
+    "step": step(1e-4),
+}
+
+
+@pytest.mark.parametrize("extrapolation", [None, "power-law", "clamp"])
+@pytest.mark.parametrize("name", TABLES)
+def test_angular_integrals_are_those_of_the_definition(name, extrapolation):
+    w, storage, loss = TABLES[name]
+    curve = MasterCurve(
+        angular_frequency=w, storage_modulus=storage, loss_modulus=loss, extrapolation=extrapolation
+    )
+    reach = 9.99 if extrapolation else 1
+    inside = np.exp(RNG.uniform(np.log(w[0] / reach), np.log(w[-1] * reach), 20))
+    at = np.concatenate([inside, w[:3], w[1:3] * (1 - 1e-9), w[:-1][:2] * (1 + 1e-9), w[-2:]])
+    definition = Definition(w, storage, loss, extrapolation)
+    expected = np.array([definition(one) for one in at]).T
+    # measured: 2e-14 at worst
+    np.testing.assert_allclose(curve.angular_integrals(at), expected[:2], rtol=1e-12)
+    # the shares are kept to 1e-10
+    np.testing.assert_allclose(curve.extrapolated_shares(at), expected[2:], rtol=0, atol=1e-10)
+
+
+def test_frequencies_in_any_order_have_the_integrals_that_each_has_alone():
+    w, storage, loss = TABLES["uneven"]
+    curve = MasterCurve(angular_frequency=w, storage_modulus=storage, loss_modulus=loss)
+    at = RNG.permutation(np.concatenate([w, np.geomspace(w[0], w[-1], 999)[1:-1]]))
+    alone = np.array([curve.angular_integrals(one) for one in at]).T
+    np.testing.assert_array_equal(curve.angular_integrals(at.reshape(-1, 1)), alone[:, :, None])
+
+
+def test_a_step_steeper_than_frequencies_can_tell_is_refused_not_smoothed():
+    curve = MasterCurve(
+        angular_frequency=[1, 10, 10 * (1 + 1e-12), 100, 1e4],
+        storage_modulus=[1e6, 2e6, 3e6, 4e6, 4e8],
+        loss_modulus=[1, 2, 2e9, 3e9, 4e9],
+    )
+    with pytest.raises(NotConverged, match=r"^angular integrals between w = 10 and .*tolerance$"):
+        curve.angular_integrals(11)
+    assert np.isfinite(curve.angular_integrals([5, 200])).all()  # off the step
+
+
+def test_a_power_law_that_overflows_is_refused():
+    curve = {"angular_frequency": [1, 1.0001], "storage_modulus": [1, 2], "loss_modulus": [1, 2]}
+    MasterCurve(**curve, extrapolation="clamp")
+    with pytest.raises(InvalidInput, match=r"^extrapolation: beyond angular_frequency = 1 rad/s"):
+        MasterCurve(**curve, extrapolation="power-law")

@@ -1,0 +1,293 @@
+"""A band on mu from the standard errors of what was measured."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import (
+    InvalidInput,
+    Isotherm,
+    PronySeries,
+    SelfAffineSpectrum,
+    TabulatedSpectrum,
+    build_master_curve,
+    fit_prony,
+    fit_self_affine,
+    friction,
+    friction_band,
+)
+from asperity.cli.cli import main
+from asperity.uncertainty.draws import drawn_rubber, drawn_spectrum
+from asperity.uncertainty.uncertainty import relative_band, swept_band
+
+ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
+RUBBER = PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=np.geomspace(2e8, 2e6, 9),
+    relaxation_times=np.geomspace(1e-8, 1e0, 9),
+)
+SCENE = {"pressure": 2e5, "velocity": [1e-4, 1e-3, 1e-2]}
+TEMPERATURES = np.arange(263.0, 324.0, 10.0)
+T_REF = 293.0
+TRUTH = friction(ROAD, RUBBER, **SCENE).mu
+
+
+def measured_spectrum(seed, rows=30):
+    """The road's densities as a scan's rings would scatter about them."""
+    q = np.geomspace(2e3, 2e5, rows)
+    count = np.round(20 * (q / q[0]) ** 1.5)
+    rng = np.random.default_rng(seed)
+    density = ROAD.at(q) * rng.gamma(count / 2) / (count / 2)
+    return TabulatedSpectrum(
+        wavenumber=q, density=density, count=count, standard_error=density * np.sqrt(2 / count)
+    )
+
+
+def measured_isotherms(seed, noise=0.01):
+    """Sweeps of the rubber, a_T after WLF, every modulus off by 1 %."""
+    rng = np.random.default_rng(seed)
+    w = np.geomspace(0.1, 100, 13)
+    sweeps = []
+    for t in TEMPERATURES:
+        a_t = 10 ** (-8.86 * (t - T_REF) / (101.6 + t - T_REF))
+        e = RUBBER.modulus(a_t * w)
+        scatter = np.exp(noise * rng.normal(size=(2, w.size)))
+        sweeps.append(
+            Isotherm(
+                temperature=t,
+                angular_frequency=w,
+                storage_modulus=e.real * scatter[0],
+                loss_modulus=e.imag * scatter[1],
+            )
+        )
+    return sweeps
+
+
+def built(seed, noise=0.01):
+    isotherms = measured_isotherms(seed, noise)
+    return build_master_curve(isotherms, reference_temperature=T_REF, smooth=True)
+
+
+def share_of_truth(bands, truth):
+    """In how many of the bands the true mu lies, at each velocity."""
+    return np.mean([(b.lower <= truth) & (truth <= b.upper) for b in bands], axis=0)
+
+
+def test_the_truth_lies_in_the_band_of_a_self_affine_fit():
+    bands = [
+        friction_band(fit_self_affine(measured_spectrum(seed)), RUBBER, **SCENE, seed=seed)
+        for seed in range(40)
+    ]
+    # 95 % of 40: 38, and below 33 once in 700 draws of a binomial
+    assert (share_of_truth(bands, TRUTH) >= 33 / 40).all()
+
+
+def test_the_truth_lies_in_the_band_of_a_measured_spectrum():
+    bands = [
+        friction_band(measured_spectrum(seed, 21), RUBBER, **SCENE, seed=seed) for seed in range(40)
+    ]
+    assert (share_of_truth(bands, TRUTH) >= 33 / 40).all()
+
+
+def test_the_truth_lies_in_the_band_of_isotherms():
+    narrow = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e4)
+    scene = {"pressure": 2e5, "velocity": [1e-4, 1e-3]}
+    truth = friction(narrow, RUBBER, **scene).mu
+    bands = [friction_band(narrow, built(seed), **scene, samples=40) for seed in range(20)]
+    # 95 % of 20: 19; 40 draws make the level itself uncertain by 3 %
+    assert (share_of_truth(bands, truth) >= 15 / 20).all()
+
+
+def test_independent_errors_add_as_squares():
+    table, build = measured_spectrum(1).truncated(q1=2e4), built(1, noise=0.05)
+    scene = {"pressure": 2e5, "velocity": 1e-4}
+    plain = TabulatedSpectrum(wavenumber=table.wavenumber, density=table.density)
+    bands = [
+        friction_band(spectrum, rubber, **scene, samples=200)
+        for spectrum, rubber in ((plain, build), (table, build.master_curve), (table, build))
+    ]
+    first, second, both = (float(band.upper - band.lower) for band in bands)
+    assert min(first, second) > 0.3 * max(first, second)  # else one would hide the other
+    assert both == pytest.approx(np.hypot(first, second), rel=0.2)  # 200 draws scatter by 7 %
+
+
+def test_halving_the_errors_halves_the_band():
+    scene = {"pressure": 2e5, "velocity": 1e-3}
+    table = measured_spectrum(4)
+    sharper = TabulatedSpectrum(
+        wavenumber=table.wavenumber,
+        density=table.density,
+        count=4 * table.count,
+        standard_error=table.standard_error / 2,
+    )
+    wide, narrow = (friction_band(t, RUBBER, **scene, samples=200) for t in (table, sharper))
+    ratio = float((wide.upper - wide.lower) / (narrow.upper - narrow.lower))
+    assert ratio == pytest.approx(2, rel=0.15)  # 200 draws: a quantile's scatter
+
+
+def test_the_same_seed_gives_the_same_band_and_another_seed_another():
+    fit = fit_self_affine(measured_spectrum(2))
+    bands = [friction_band(fit, RUBBER, **SCENE, seed=seed) for seed in (3, 3, 4)]
+    np.testing.assert_array_equal(bands[0].lower, bands[1].lower)
+    np.testing.assert_array_equal(bands[0].upper, bands[1].upper)
+    assert (bands[0].lower != bands[2].lower).all()
+
+
+def test_shape_level_and_samples():
+    fit = fit_self_affine(measured_spectrum(2))
+    points = {"pressure": [[1e5], [2e5]], "velocity": [1e-4, 1e-3, 1e-2]}
+    wide = friction_band(fit, RUBBER, **points)
+    half = friction_band(fit, RUBBER, **points, level=0.5)
+    mu = friction(fit.spectrum, RUBBER, **points).mu
+    assert wide.lower.shape == wide.upper.shape == (2, 3)
+    assert (wide.lower < half.lower).all()
+    assert (half.lower < mu).all()
+    assert (mu < half.upper).all()
+    assert (half.upper < wide.upper).all()
+    assert (wide.level, half.level, wide.samples) == (0.95, 0.5, 100)
+
+
+def test_a_fitted_adhesion_brings_its_own_errors():
+    velocity = np.geomspace(1e-6, 1, 40)
+    truth = asperity.Adhesion(shear_stress=5e6)
+    mu = friction(ROAD, RUBBER, pressure=2e5, velocity=velocity, adhesion=truth).mu
+    inside = []
+    for seed in range(40):
+        noisy = mu * np.exp(0.05 * np.random.default_rng(seed).normal(size=mu.size))
+        fit = asperity.fit_adhesion(
+            ROAD, RUBBER, velocity=velocity, mu=noisy, pressure=2e5, fixed={"width": 0.1}
+        )
+        points = {"pressure": 2e5, "velocity": velocity[::8]}
+        band = friction_band(ROAD, RUBBER, **points, adhesion=fit, seed=seed)
+        inside.append((band.lower <= mu[::8]) & (mu[::8] <= band.upper))
+    # 95 % of 40, at each velocity: below 33 once in 700 draws of a binomial
+    assert (np.mean(inside, axis=0) >= 33 / 40).all()
+
+
+def test_without_friction_the_band_has_no_width():
+    elastic = PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[])
+    band = friction_band(fit_self_affine(measured_spectrum(2)), elastic, **SCENE)
+    np.testing.assert_array_equal(band.lower, 0)
+    np.testing.assert_array_equal(band.upper, 0)
+
+
+BAD = {
+    r"^spectrum, rubber, adhesion: none has errors": (ROAD, RUBBER, {}),
+    r"^rubber: a PronyFit does not know its errors": (ROAD, "prony", {}),
+    r"^samples = 19: must be 20 or more": ("fit", RUBBER, {"samples": 19}),
+    r"^seed = -1: must not be negative": ("fit", RUBBER, {"seed": -1}),
+    r"^level = 1: must be in \(0, 1\)": ("fit", RUBBER, {"level": 1}),
+    r"^pressure = -1": ("fit", RUBBER, {"pressure": -1}),
+}
+
+
+@pytest.mark.parametrize("message", BAD)
+def test_bad_input(message):
+    spectrum, rubber, changed = BAD[message]
+    spectrum = fit_self_affine(measured_spectrum(2)) if spectrum == "fit" else spectrum
+    rubber = fit_prony(built(1)) if rubber == "prony" else rubber
+    with pytest.raises(InvalidInput, match=message):
+        friction_band(spectrum, rubber, **{**SCENE, **changed})
+
+
+TOML = """
+[surface]
+file = "scan.npy"
+pixel_size_m = 1e-5
+unit = "m"
+{fit}
+[rubber]
+equilibrium_modulus_pa = 3e6
+moduli_pa = [1e8, 1e7]
+relaxation_times_s = [1e-6, 1e-4]
+[conditions]
+pressure_pa = 2e5
+velocity_m_s = {{from = 1e-4, to = 1e-2, points = {points}}}
+{more}
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    surface = SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2e4, q1=3e5)
+    heights = asperity.synthesize(surface, shape=(200, 240), pixel_size=1e-5, seed=4).heights
+    np.save(tmp_path / "scan.npy", heights)
+    path = tmp_path / "scene.toml"
+
+    def write(fit="", more="", points=5):
+        path.write_text(TOML.format(fit=fit, more=more, points=points))
+        return path
+
+    return write
+
+
+def rows(path):
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def test_a_scene_that_asks_for_a_band_has_two_more_columns(scene, tmp_path):
+    out = tmp_path / "mu.csv"
+    assert main(["friction", str(scene()), "--output", str(out)]) == 0
+    assert "mu_low" not in rows(out)[0]
+    path = scene(more="[uncertainty]\nsamples = 30\nlevel = 0.9", points=20)
+    assert main(["friction", str(path), "--output", str(out)]) == 0
+    assert len(rows(out)) == 20
+    for row in rows(out):
+        low, mu, high = (float(row[name]) for name in ("mu_low", "mu", "mu_high"))
+        assert 0.5 * mu < low < mu < high < 2 * mu
+    assert "# uncertainty.level = 0.9" in out.read_text()
+
+
+def test_between_its_velocities_a_band_runs_straight_over_ln_v():
+    velocity = np.geomspace(1e-6, 1e2, 25)  # every other one of the 13 that are computed
+    parts = drawn_spectrum(measured_spectrum(3)), drawn_rubber(RUBBER), None
+    how = {"samples": 20, "seed": 1, "level": 0.9}
+    points = {"pressure": np.full(25, 2e5), "velocity": velocity}
+    direct = relative_band(*parts, points, **how)
+    swept = swept_band(*parts, np.array([2e5]), velocity, {}, **how)
+    for exact, (found,) in zip(direct, swept, strict=True):
+        np.testing.assert_allclose(found[::2], exact[::2], rtol=1e-9)
+        np.testing.assert_allclose(found[1::2], (found[:-1:2] + found[2::2]) / 2, rtol=1e-12)
+
+
+def test_the_band_is_drawn_where_errors_are_known_and_only_there(scene, tmp_path):
+    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
+    picture = tmp_path / "mu.svg"
+    assert main(["friction", str(scene()), "--plot", str(picture)]) == 0
+    assert "95 % of draws" in picture.read_text()
+    text = scene().read_text()
+    start, end = text.index("[surface]"), text.index("[rubber]")
+    plain = "[surface]\nrms_height_m = 2e-5\nhurst = 0.8\nq0_per_m = 2e4\nq1_per_m = 3e5\n"
+    (tmp_path / "plain.toml").write_text(text[:start] + plain + text[end:])
+    assert main(["friction", str(tmp_path / "plain.toml"), "--plot", str(picture)]) == 0
+    assert "draws" not in picture.read_text()
+
+
+def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_path, capsys):
+    out = tmp_path / "mu.csv"
+    path = scene(fit='fit = "self-affine"\nq1_per_m = 1e6')
+    assert main(["friction", str(path), "--output", str(out)]) == 0
+    assert "is the fitted law gone on with, beyond" in capsys.readouterr().err
+    loaded = asperity.scene.scene.load_scene(path)
+    assert isinstance(loaded.spectrum, SelfAffineSpectrum)
+    assert loaded.spectrum.q1 == 1e6
+    assert loaded.spectrum.hurst == pytest.approx(0.8, abs=0.05)
+    mu = loaded.friction().mu
+    lower, upper = loaded.band(mu)
+    assert ((lower < mu) & (mu < upper)).all()  # the drawn laws go on as far
+
+
+def test_bad_uncertainty_in_a_scene(scene, capsys):
+    for more, message in (
+        ("[uncertainty]\nsamples = 5", "[uncertainty] samples = 5: must be 20 or more"),
+        ("[uncertainty]\nlevel = 2", "[uncertainty] level = 2.0: must be in (0, 1)"),
+        ("[uncertainty]\nsample = 50", "[uncertainty] sample: unknown key, did you mean samples?"),
+    ):
+        assert main(["friction", str(scene(more=more))]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert message in line
+    assert main(["friction", str(scene(fit='fit = "fractal"'))]) == 2
+    assert """[surface] fit = 'fractal': must be "self-affine", or""" in capsys.readouterr().err

@@ -1,0 +1,182 @@
+"""The package against tables computed from the definitions, each row to its own tolerance."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import AffineShift, PronySeries, SelfAffineSpectrum
+from helpers.table_rows import close, master_curve, prony, self_affine, tabulated
+
+
+@pytest.mark.reference("prony")
+def test_prony_series_has_the_modulus_of_its_definition(row):
+    modulus = prony(row).modulus(row["angular_frequency"])
+    close(row, ["storage_modulus", "loss_modulus"], [modulus.real, modulus.imag])
+
+
+@pytest.mark.reference("prony")
+def test_prony_series_has_the_angular_integrals_of_their_definition(row):
+    close(row, ["i1", "i2"], prony(row).angular_integrals(row["angular_frequency"]))
+
+
+@pytest.mark.reference("master_curve")
+def test_master_curve_is_steffens_interpolant(row):
+    modulus = master_curve(row).modulus(row["angular_frequency"])
+    close(row, ["storage_modulus", "loss_modulus"], [modulus.real, modulus.imag])
+
+
+@pytest.mark.reference("master_curve")
+def test_master_curve_has_the_angular_integrals_of_their_definition(row):
+    close(row, ["i1", "i2"], master_curve(row).angular_integrals(row["angular_frequency"]))
+
+
+@pytest.mark.reference("master_curve")
+def test_master_curve_reports_the_share_that_comes_from_below_the_table(row):
+    shares = master_curve(row).extrapolated_shares(row["angular_frequency"])
+    close(row, ["i1_tail_share", "i2_tail_share"], shares, scale=1.0)
+
+
+@pytest.mark.reference("hertz")
+def test_hertz_penetration(row):
+    names = ("force", "effective_modulus", "radius")
+    close(row, ["penetration"], [asperity.hertz_penetration(**{name: row[name] for name in names})])
+
+
+@pytest.mark.parametrize("reading", ["implicit", "added"])
+@pytest.mark.reference("greenwood_williamson")
+def test_separations_of_both_readings(row, reading):
+    names = ("pressure", "effective_modulus", "rms_height", "q0")
+    found = asperity.separation(
+        **{name: row[name] for name in names},
+        peaks=row["peaks"] if row["peaks"].size else None,
+        reading=reading,
+    )
+    for kind, value in (("effective", found.effective), ("rigid", found.rigid)):
+        column = f"{kind}_{reading}"
+        close(row, [column], [value], scale=max(row["rms_height"], abs(row[column])))
+
+
+@pytest.mark.reference("spectrum")
+def test_self_affine_spectrum(row):
+    spectrum = self_affine(row)
+    found = [spectrum.at(row["wavenumber"]), spectrum.rms_slope, spectrum.cutoff_for_slope()]
+    close(row, ["density", "rms_slope", "slope_cutoff"], found)
+
+
+@pytest.mark.reference("tabulated_spectrum")
+def test_tabulated_spectrum(row):
+    spectrum = tabulated(row)
+    found = [spectrum.at(row["wavenumber"]), spectrum.rms_height, spectrum.rms_slope]
+    names = ["density", "rms_height", "rms_slope", "slope_cutoff"]
+    close(row, names, [*found, spectrum.cutoff_for_slope()])
+
+
+@pytest.mark.reference("autocorrelation")
+def test_autocorrelation_of_self_affine_spectra(row):
+    found = self_affine(row).autocorrelation(row["distance"])
+    close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-10])
+@pytest.mark.reference("nayak_s_factor")
+def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
+    spectrum = SelfAffineSpectrum(
+        rms_height=1e-4, hurst=row["hurst"], q0=1e3, q1=1e3 * row["q1_over_q0"]
+    )
+    close(row, ["nayak_parameter"], [spectrum.nayak_parameter])
+    found = asperity.contact_area(
+        spectrum,
+        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
+        # elastic: G = h'^2 / 8 (E* / p)^2
+        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * row["g_uncorrected"]),
+        velocity=1.0,
+        poisson_ratio=0,
+        correction=asperity.NayakSFactor(),
+        rtol=rtol,
+    )
+    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
+
+
+@pytest.mark.reference("pressure_distribution")
+def test_pressure_distribution_at_a_known_g(row):
+    # elastic: G = h'^2 E^2 / (8 ((1 - nu^2) sigma0)^2), and h'^2 = h_rms^2 q0 q1 where H = 1/2
+    pressure, poisson, q0, q1, rms = 1.0, 0.5, 1024.0, 2048.0, 1e-4
+    slope_squared = rms**2 * q0 * q1
+    modulus = np.sqrt(8 * row["g"] / slope_squared) * (1 - poisson**2) * pressure
+    density = asperity.pressure_distribution(
+        row["stress_over_pressure"] * pressure,
+        SelfAffineSpectrum(rms_height=rms, hurst=0.5, q0=q0, q1=q1),
+        PronySeries(equilibrium_modulus=modulus, moduli=[], relaxation_times=[]),
+        pressure=pressure,
+        velocity=1.0,
+        poisson_ratio=poisson,
+        rtol=1e-12,
+    )
+    close(row, ["density_times_pressure"], [density * pressure])
+
+
+class FrictionTable:
+    """One promise a test; the scenes differ in the rubber only."""
+
+    @staticmethod
+    def rubber(row):
+        return prony(row)
+
+    def scene(self, row, *, shifted_by_hand):
+        """The arguments of a row, C / p^2 put into the spectrum or left to AffineShift."""
+        spectrum, p = self_affine(row), row["shift_factor"]
+        conditions = {
+            "pressure": row["pressure"],
+            "velocity": row["velocity"],
+            "poisson_ratio": row["poisson_ratio"],
+            "form": row["form"],
+        }
+        if not shifted_by_hand:
+            conditions["correction"] = AffineShift(p)
+        if shifted_by_hand:
+            spectrum = spectrum.scaled(1 / p**2)
+        return (spectrum, self.rubber(row)), conditions
+
+    def test_friction_and_area(self, row):
+        parts, conditions = self.scene(row, shifted_by_hand=False)
+        found = asperity.friction(*parts, **conditions)
+        close(row, ["hysteresis", "contact_area"], [found.hysteresis, found.contact_area])
+        assert found.shift_factor == row["shift_factor"]
+        assert found.mu == found.hysteresis
+
+    def test_contact_area_alone(self, row):
+        parts, conditions = self.scene(row, shifted_by_hand=False)
+        close(row, ["contact_area"], [asperity.contact_area(*parts, **conditions)])
+
+    def test_s_factor_on_both(self, row):
+        parts, conditions = self.scene(row, shifted_by_hand=True)
+        correction = asperity.SFactor(gamma=row["gamma"], applies_to="both")
+        found = asperity.friction(*parts, **conditions, correction=correction)
+        area = asperity.contact_area(*parts, **conditions, correction=correction)
+        names = ["hysteresis_s", "contact_area_s", "contact_area_s"]
+        close(row, names, [found.hysteresis, found.contact_area, area])
+
+    @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
+    @pytest.mark.parametrize("corrected", [False, True])
+    def test_error_estimate_bounds_the_true_error_and_keeps_the_tolerance(
+        self, row, rtol, corrected
+    ):
+        parts, conditions = self.scene(row, shifted_by_hand=True)
+        correction = asperity.SFactor(gamma=row["gamma"]) if corrected else None
+        found = asperity.friction(*parts, **conditions, correction=correction, rtol=rtol)
+        expected = row["hysteresis_s" if corrected else "hysteresis"]
+        rounding = 1e-11 * expected  # of the tables themselves: two methods agree this well
+        assert abs(found.mu - expected) <= found.error_estimate + rounding
+        assert found.error_estimate <= rtol * expected
+
+
+@pytest.mark.reference("friction")
+class TestFrictionOfPronySeries(FrictionTable):
+    pass
+
+
+@pytest.mark.reference("friction_tabulated")
+class TestFrictionOfMasterCurves(FrictionTable):
+    @staticmethod
+    def rubber(row):
+        return master_curve(row)
