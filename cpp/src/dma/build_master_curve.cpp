@@ -6,9 +6,9 @@
 #include <string>
 
 #include "asperity/dma.hpp"
-#include "dma/isotherm_shifts.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/interpolate.hpp"
+#include "dma/time_temperature_shift.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from asperity import PronySeries
-from asperity.cli.cli import main
-from asperity.io.read_rubber import read_master_curve
+from asperity.cli.main import main
+from asperity.io.read_master_curve import read_master_curve
 from asperity.scene.scene import load_scene
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
 from helpers.rubbers import SWEEP, TEMPERATURES, sweeps, true_modulus, true_shift

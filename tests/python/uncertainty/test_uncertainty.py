@@ -18,9 +18,9 @@ from asperity import (
     friction,
     friction_band,
 )
-from asperity.cli.cli import main
+from asperity.cli.main import main
+from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import drawn_rubber, drawn_spectrum
-from asperity.uncertainty.uncertainty import relative_band, swept_band
 
 ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
 RUBBER = PronySeries(
