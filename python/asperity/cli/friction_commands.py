@@ -13,22 +13,18 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import (
-    HeightMap,
-    InvalidInput,
-    NotConverged,
-    SelfAffineFit,
-    TabulatedSpectrum,
-    fit_self_affine,
-)
+from asperity._core import InvalidInput, NotConverged
 from asperity.demo import check_directory, input_files
 from asperity.io.fields import MOST_ROWS, named
 from asperity.io.table import Table, check_output, terminal_table, write_directory, write_files
+from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap
 
 
 def demo(args: Namespace) -> None:

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity._core import HeightMap, InvalidInput
+from asperity._core import InvalidInput
 from asperity.cli.friction_commands import progress, spare, tell, tell_notes
 from asperity.io.directory import begins, check_own_directory, table_of
 from asperity.io.fields import named
 from asperity.io.table import Table, write_directory
 from asperity.plot import curves as plot
 from asperity.scene.scan import read_filled
+from asperity.surface import HeightMap
 from asperity.validation.contacts import Contact, read_contacts, shipped
 from asperity.validation.figures import error_figure, shift_figure
 from asperity.validation.own import own_contacts

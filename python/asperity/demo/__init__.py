@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import SelfAffineSpectrum, synthesize
 from asperity.io.directory import Mark, check_own_directory, table_of
+from asperity.measured_spectrum import synthesize
+from asperity.spectrum import SelfAffineSpectrum
 
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)

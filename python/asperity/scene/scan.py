@@ -8,16 +8,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from asperity._core import (
-    HeightMap,
-    InvalidInput,
-    LineScan,
-    TabulatedSpectrum,
-    anisotropy,
-    line_spectrum,
-    power_spectrum,
-)
+from asperity._core import InvalidInput
 from asperity.io.read_surface import read_surface
+from asperity.measured_spectrum import anisotropy, line_spectrum, power_spectrum
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap, LineScan
 
 Scan = HeightMap | LineScan
 Window = Literal["split-cosine-bell", "hann", "none"]
