@@ -220,7 +220,8 @@ def fit_adhesion(
     measured = real_array(mu, "mu")
     if measured.shape != shape:
         raise InvalidInput(
-            f"mu has shape {measured.shape}: must be that of pressure and velocity, {shape}"
+            f"mu has shape {measured.shape}: must be that of pressure and velocity together, "
+            f"{shape}"
         )
     held = _held(fixed)
     parameters, covariance, residual, outliers, notes = _core.fit_adhesion(

@@ -3,7 +3,6 @@
 import os
 from dataclasses import field
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +11,17 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.adhesion import Adhesion, adhesion_core
-from asperity.base.arguments import Array, brief, broadcast, choice, flag, number, real_array, whole
+from asperity.base.arguments import (
+    Array,
+    brief,
+    broadcast,
+    choice,
+    flag,
+    number,
+    path_of,
+    real_array,
+    whole,
+)
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
@@ -127,8 +136,9 @@ class FrictionMap(Table):
         OSError
             There is none, or it cannot be read.
         """
-        loaded = cls._made(content=Path(path).read_bytes())
-        loaded._read(os.fspath(path))
+        file = path_of(path, "path")
+        loaded = cls._made(content=file.read_bytes())
+        loaded._read(str(file))
         return loaded
 
     @classmethod
@@ -142,7 +152,7 @@ class FrictionMap(Table):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the map, whole or not at all. InvalidInput where the path cannot be written."""
-        write_whole(path, self.content)
+        write_whole(path_of(path, "path"), self.content)
 
     @cached_property
     def text(self) -> str:
@@ -174,7 +184,8 @@ class FrictionMap(Table):
         outside: Outside = "error",
     ) -> Any:
         """Return the friction coefficient, hysteresis + adhesion [-]."""
-        if type(pressure) is float and type(velocity) is float and a_T == 1.0:
+        plain = type(pressure) is type(velocity) is type(a_T) is float and a_T == 1.0
+        if plain and shift_adhesion is False and type(outside) is str and outside in POLICIES:
             mu: float = self._core.mu_at(pressure, velocity)
             if mu == mu:  # what is outside takes the long way round
                 return mu
@@ -314,7 +325,8 @@ def _columns_of(**given: ArrayLike) -> tuple[tuple[int, ...], list[Array]]:
     """Return the shape that the arguments have together and each flat in it, or of one entry."""
     arrays = {name: real_array(one, name) for name, one in given.items()}
     shapes = {array.shape for array in arrays.values() if array.size != 1 or array.ndim}
-    if len(shapes) <= 1:  # one of them, or several alike: nothing has to be repeated
+    full = all(array.size for array in arrays.values())
+    if full and len(shapes) <= 1:  # one of them, or several alike: nothing has to be repeated
         shape = shapes.pop() if shapes else ()
         return shape, [np.ascontiguousarray(array).ravel() for array in arrays.values()]
     return broadcast(**given)
@@ -385,6 +397,9 @@ def friction_map(
     """
     if not isinstance(text, str):
         raise InvalidInput(f"text = {brief(text)}: must be a str")
+    parts = surface_and_rubber(spectrum, rubber)
+    model = contact_model(poisson_ratio, correction, form, 1e-6, method)
+    added = adhesion_core(adhesion)
     made_of = {
         "spectrum": spectrum,
         "rubber": rubber,
@@ -393,9 +408,9 @@ def friction_map(
     }
     lines = text or "".join(f"{name} = {part!r}\n" for name, part in made_of.items())
     content = _core.build_friction_map(
-        *surface_and_rubber(spectrum, rubber),
-        contact_model(poisson_ratio, correction, form, 1e-6, method),
-        adhesion_core(adhesion),
+        *parts,
+        model,
+        added,
         _sides(pressure, "pressure"),
         _sides(velocity, "velocity"),
         number(rtol, "rtol"),

@@ -119,7 +119,13 @@ void bind_friction_map(py::module_& m) {
       .def(py::init(&read))
       .def("info", &info_of)
       .def("mu", &mu_of)
-      .def("mu_at", [](const FrictionMap& map, double p, double v) { return map.mu(p, v); })
+      .def("mu_at",
+           [](const FrictionMap& map, double p, double v) {
+             const double a_T = 1;
+             double mu = 0;
+             look_up(map, {{&p, 1}, {&v, 1}, {&a_T, 1}}, Outside::nan, false, {&mu, 1});
+             return mu;
+           })
       .def("points", &points_of)
       .def("traction", &traction_of)
       .def("status", [](const FrictionMap& map, double p, double v, double a_T, bool shifts_adhesion, int outside) {

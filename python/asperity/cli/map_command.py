@@ -14,7 +14,8 @@ from asperity.cli.friction_commands import check_outputs, spare, tell, tell_note
 from asperity.friction import friction
 from asperity.friction_map import FrictionMap, friction_map
 from asperity.io.fields import named
-from asperity.io.table import input_lines, write_files
+from asperity.io.files import write_files
+from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
 from asperity.scene.scene import Scene, load_scene
 

@@ -42,6 +42,9 @@ def parser() -> argparse.ArgumentParser:
         to.add_argument(
             "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
         )
+        to.add_argument(
+            "--force", action="store_true", help="replace the files of an earlier run there"
+        )
 
     demo = verb(
         "demo", commands.demo, "friction of rubber on a shipped asphalt scan", "--output tryout"
