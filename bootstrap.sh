@@ -132,7 +132,7 @@ with open("pyproject.toml", "rb") as file:
 demo() {
   install_package plot
   say "asperity demo"
-  .venv/bin/asperity demo --output "$PWD/asperity-demo"
+  .venv/bin/asperity demo --force --output "$PWD/asperity-demo"
   echo 'next:    .venv/bin/asperity friction asperity-demo/scene.toml --plot mine.png'
 }
 

@@ -8,19 +8,10 @@ namespace asperity::python {
 void bind_errors(pybind11::module_& m);
 void bind_surface(pybind11::module_& m);
 void bind_spectrum(pybind11::module_& m);
-void bind_scan_spectrum(pybind11::module_& m);
-void bind_self_affine(pybind11::module_& m);
 void bind_rubber(pybind11::module_& m);
 void bind_dma(pybind11::module_& m);
-void bind_master_curve_build(pybind11::module_& m);
-void bind_prony_fit(pybind11::module_& m);
-void bind_strain_sweep(pybind11::module_& m);
-void bind_asperities(pybind11::module_& m);
-void bind_correction(pybind11::module_& m);
-void bind_asperity_correction(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_friction(pybind11::module_& m);
-void bind_fit_adhesion(pybind11::module_& m);
 void bind_friction_map(pybind11::module_& m);
 
 }  // namespace asperity::python
