@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "contact/macro_modulus.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/visit.hpp"
 

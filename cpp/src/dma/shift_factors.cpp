@@ -6,7 +6,7 @@
 #include "asperity/dma.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
-#include "numerics/minimum.hpp"
+#include "numerics/roots.hpp"
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "numerics/hermite.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 

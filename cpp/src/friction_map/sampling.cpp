@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/macro_modulus.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/hermite.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 

@@ -7,7 +7,7 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/least_squares.hpp"
-#include "numerics/minimum.hpp"
+#include "numerics/roots.hpp"
 #include "numerics/sum.hpp"
 
 namespace asperity {

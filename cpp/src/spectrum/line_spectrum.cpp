@@ -6,7 +6,6 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/fft.hpp"
 #include "spectrum/preparation.hpp"
-#include "spectrum/reliability.hpp"
 #include "spectrum/window.hpp"
 
 namespace asperity {

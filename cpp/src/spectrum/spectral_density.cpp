@@ -4,7 +4,7 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/fft2d.hpp"
-#include "spectrum/reliability.hpp"
+#include "spectrum/window.hpp"
 
 namespace asperity {
 
