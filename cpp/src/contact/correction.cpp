@@ -1,3 +1,5 @@
+// The corrections for partial contact: their checks, and the affine shift p_T of those that have one, p_T1 of the local
+// peaks (Eq. 13) and p_T2 of the improved Greenwood-Williamson model (Eqs 16-21).
 #include "asperity/correction.hpp"
 
 #include <algorithm>

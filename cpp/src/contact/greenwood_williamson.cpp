@@ -1,3 +1,6 @@
+// Single asperities: Hertz's penetration (Eq. 14) and Greenwood and Williamson's separation d between
+// macro-asperities, sigma0 = (4/3) E* sqrt(R) n_a <(z - d)_+^(3/2)> (Eqs 16-20).
+// J. A. Greenwood and J. B. P. Williamson, Proc. R. Soc. Lond. A 295, 300 (1966).
 #include <algorithm>
 #include <array>
 #include <cmath>

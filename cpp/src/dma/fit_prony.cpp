@@ -1,3 +1,6 @@
+// A Prony series through a measured modulus: non-negative least squares with relative weights over a grid of relaxation
+// times, as few of them as Schwarz's criterion allows, then as smooth as the noise does (Tikhonov's regularisation).
+// M. Baumgaertel and H. H. Winter, Rheol. Acta 28, 511 (1989).
 #include <algorithm>
 #include <cmath>
 #include <limits>

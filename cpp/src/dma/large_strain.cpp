@@ -1,3 +1,5 @@
+// The modulus at a large strain: E' and E'' of the small-strain master curve times their own ratios in strain sweeps,
+// each sweep placed at its reduced frequency a_T w and interpolated in ln w.
 #include <algorithm>
 #include <cmath>
 #include <string>

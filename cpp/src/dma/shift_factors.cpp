@@ -1,3 +1,5 @@
+// Shift factors a_T over temperature: interpolation of log10 a_T, and the fits of Williams, Landel and Ferry,
+// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), J. Am. Chem. Soc. 77, 3701 (1955), and of Arrhenius.
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,3 +1,6 @@
+// The adhesion law of Eq. 23, tau_f = tau_f0 exp(-c (log10 v / v0)^2), from measured friction: the hysteresis and the
+// contact area are computed, mu - mu_H = tau_f (A / A0) / sigma0 is fitted robustly (robust_fit.hpp), and points that
+// do not determine the parameters are refused.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,3 +1,7 @@
+// Friction of rubber on a rough surface: the hysteresis (Eq. 22),
+//   mu_H = 1/2 int q^3 C(q) S(q) P(q) dq int cos(phi) Im E(q v cos phi) / ((1 - nu^2) sigma0) dphi,
+// and the adhesion of the contact area (Eq. 23), at pairs of pressure and velocity.
+// B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "asperity/friction.hpp"
 
 #include <algorithm>

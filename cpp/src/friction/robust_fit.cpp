@@ -1,3 +1,6 @@
+// Eq. 23 through points by M-estimates with Tukey's biweight, each a series of Levenberg-Marquardt steps, from starts
+// of little scale (S-estimates). P. J. Huber, Robust Statistics (1981), Chapter 7; V. J. Yohai, Ann. Stat. 15, 642
+// (1987).
 #include "friction/robust_fit.hpp"
 
 #include <algorithm>

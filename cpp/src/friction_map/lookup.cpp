@@ -1,3 +1,4 @@
+// The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu, on vector units.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -107,11 +108,11 @@ class FrictionMapBatch {
  private:
   /// z_ and cell_ of x_ and ln_p_.
   void find_cells(std::size_t n) {
-    if (map_.shear_.empty()) {
+    if (map_.offset_.empty()) {
       std::copy_n(ln_p_, n, z_);
     } else {
       double slope;
-      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.shear(x_[i], slope);
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.log_modulus_offset(x_[i], slope);
     }
     const bool one_band = map_.cuts_.size() == 2;
     if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;

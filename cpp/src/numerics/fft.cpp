@@ -1,3 +1,5 @@
+// Fourier transforms by FFTW: its plans under one lock, its memory aligned and kept for the next scan.
+// M. Frigo and S. G. Johnson, Proc. IEEE 93, 216 (2005).
 #include "numerics/fft.hpp"
 
 #include <fftw3.h>

@@ -1,3 +1,4 @@
+// The solver's loops (kernel_loops.inc), compiled once for each vector unit, and the choice between them at run time.
 #include "numerics/kernels.hpp"
 
 #include <cstdlib>

@@ -1,3 +1,5 @@
+// I1 = int cos(phi) Im E(w cos phi) dphi and I2 = int |E(w cos phi)|^2 dphi of a modulus that is known piece by piece:
+// Gauss rules on short panels near w, and moments of the series of 1 / sqrt(1 - u^2) for all that lies far below it.
 #include "rubber/angular_quadrature.hpp"
 
 #include <cmath>

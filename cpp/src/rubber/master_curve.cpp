@@ -1,3 +1,5 @@
+// A measured modulus: Steffen's monotone interpolant of ln E' and ln E'' in ln w, at most one decade of extrapolation
+// where it is asked for, and the angular integrals over both. M. Steffen, Astron. Astrophys. 239, 443 (1990).
 #include <algorithm>
 #include <cmath>
 

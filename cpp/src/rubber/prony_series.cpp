@@ -1,3 +1,5 @@
+// The generalised Maxwell model, E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k), and its angular integrals in
+// closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

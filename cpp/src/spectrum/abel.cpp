@@ -1,3 +1,5 @@
+// Between the spectrum of a surface and that of its profiles: C1D(q) = 2 int C(p) p dp / sqrt(p^2 - q^2) over p > q,
+// and Abel's inversion of it. P. R. Nayak, J. Lubr. Technol. 93, 398 (1971).
 #include <algorithm>
 #include <cmath>
 #include <numbers>

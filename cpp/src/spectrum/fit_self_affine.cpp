@@ -1,3 +1,5 @@
+// A self-affine law through a measured spectrum: weighted least squares of ln C over ln q with a break at the roll-off,
+// H = -slope / 2 - 1 (Eq. 28).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,5 @@
+// The spectrum of line scans, C1D = L / (2 pi n^2) |sum w h exp(-i q x)|^2 over the window's mean square, averaged over
+// the lines.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// Averages of spectra: rows in logarithmic bins, and several scans into one spectrum, weighted by their modes.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,3 +1,5 @@
+// The radially averaged spectrum of a map, C(q) = A / ((2 pi)^2 n^2) |sum w h exp(-i q x)|^2 (Eqs 24-27): means over
+// rings of modes with their standard errors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

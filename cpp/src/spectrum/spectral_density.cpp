@@ -1,3 +1,5 @@
+// The spectrum of a map in the plane of wave vectors, and its anisotropy: the principal axes of
+// <dh/dx_i dh/dx_j> = int q_i q_j C d^2q.
 #include <cmath>
 #include <numbers>
 

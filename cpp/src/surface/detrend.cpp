@@ -1,3 +1,4 @@
+// The least-squares offset, plane or quadratic surface of the measured points of a map, by sums along its rows.
 #include "surface/detrend.hpp"
 
 #include <algorithm>

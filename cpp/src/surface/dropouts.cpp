@@ -1,3 +1,5 @@
+// Drop-outs of a map filled by linear interpolation between the measured points on either side, along rows, columns and
+// diagonals; by the nearest point of the hull outside of it.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// A map of heights: its checks, statistics about the mean plane, histogram, rms slope and affine shift (Eq. 9).
 #include <algorithm>
 #include <cmath>
 #include <limits>

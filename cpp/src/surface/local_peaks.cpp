@@ -1,3 +1,4 @@
+// Local maxima of a map no closer to each other than a given distance (Eq. 13).
 #include <algorithm>
 #include <array>
 #include <cmath>
