@@ -44,7 +44,9 @@ void bind_common(py::classh<R>& cls) {
       .def(
           "angular_integrals",
           [](const R& r, const py::object& w) {
-            return two_columns(w, [&](auto part, double* i1, double* i2) { r.angular_integrals(part, i1, i2); });
+            return two_columns(w, [&](auto part, double* i1, double* i2) {
+              r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
+            });
           },
           py::arg("angular_frequency"),
           "(I1 [Pa], I2 [Pa^2]) at `angular_frequency` w = v q [rad/s], any shape: I1 = int_0^2pi cos(phi) "

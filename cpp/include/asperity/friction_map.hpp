@@ -16,7 +16,7 @@
 //   if (!map.load("road.fmap", why)) ...                        // `why` says in a line what is wrong with the file
 //   double mu = map.mu(2e5, 0.3);                               // pressure [Pa], velocity [m/s]
 //
-// What a map holds: ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
+// A map holds ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
 // cell, with continuous first derivatives (C1) but where a correction changes its state, at a constant z. s is zero,
 // or ln E* of the Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
 //   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
@@ -164,7 +164,7 @@ constexpr std::size_t cell_size = 34, head_size = 152;
 
 }  // namespace map_detail
 
-/// What a file says of its map.
+/// The header of a map's file.
 struct FrictionMapInfo {
   std::array<double, 2> pressure{}, velocity{};               // the box [Pa], [m/s]
   double rtol = 0, max_error = 0, largest_checked_error = 0;  // relative, of mu
@@ -175,7 +175,7 @@ struct FrictionMapInfo {
   std::string text;  // lines: what the map was made of
 };
 
-/// Of a temperature, beside the one that the map was made for.
+/// Another temperature than the one that the map was made for.
 struct MapTemperature {
   double shift = 1;              // a_T: mu_H and A/A0 are those at the velocity a_T v
   bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
@@ -188,7 +188,7 @@ struct MapPoint {
 
 class FrictionMap {
  public:
-  /// Of points outside of the box. To treat them as errors, look at the status of `at`.
+  /// The treatment of points outside of the box. To treat them as errors, look at the status of `at`.
   enum class Outside { nan, clamp };
   enum class Status { ok, pressure_outside, velocity_outside, not_a_number };
 
@@ -203,7 +203,7 @@ class FrictionMap {
     return mu;
   }
 
-  /// Everything at a point. What is outside of the box is told by the status, whatever `outside` says.
+  /// Everything at a point. The status says whether it lies outside of the box, whatever `outside` is.
   Status at(double pressure, double velocity, MapPoint& point, Outside outside = Outside::nan,
             const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);

@@ -48,7 +48,7 @@ class Measured {
     return std::max<Index>(2, std::lround(modes_per_decade * (decades() + 2 * pad)) + 1);
   }
 
-  /// Of E' and of E'' together.
+  /// The number of values of E' and E'' together.
   [[nodiscard]] Index values() const { return 2 * n_; }
 
   [[nodiscard]] Fit solve(Index modes, double smoothing, double pad = padding) const;

@@ -115,7 +115,7 @@ ArrheniusFit ShiftTable::fit_arrhenius() const {
     s.uu += u * u;
     s.uy += u * std::numbers::ln10 * log10_a_T_[i];
   }
-  if (s.uu == 0) throw InvalidInput("temperature: is the reference throughout, must differ for an Arrhenius fit");
+  if (s.uu == 0) throw InvalidInput("temperature: must differ from the reference for an Arrhenius fit");
   const double slope = s.uy / s.uu;  // E_a / R
   double left = 0;
   for (std::size_t i = 0; i < n; ++i)

@@ -45,7 +45,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
   return s;
 }
 
-/// What is computed at one pressure and velocity; nothing where there is no contact.
+/// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
   double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
   MeasuredWorth worth;

@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of the biweight, in standard deviations: half of the points may be outliers; 95 % of the efficiency of least squares.
+// Cuts of the biweight in standard deviations: with the first half of the points may be outliers, with the second the
+// efficiency is 95 % of that of least squares.
 constexpr double robust_cut = 1.5476, efficient_cut = 4.685;
 constexpr double run_away = 10;  // decades of v0 beyond the points
 // Nodes that are tried, the steps that each takes, and how many of the best then go on.
@@ -66,7 +67,7 @@ class Fit {
   [[nodiscard]] double scale_of(const Vector3d& at) const;
 
  private:
-  /// Of Eq. 23, at each point.
+  /// ln mu_A of Eq. 23 at each point.
   [[nodiscard]] ArrayXd log_adhesion(const Vector3d& p) const {
     return p[0] + points_.log_share - p[2] * (points_.x - p[1]).square();
   }

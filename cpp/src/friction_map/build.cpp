@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-// What the file may hold.
+// Limits of the numbers in the file.
 constexpr double smallest = 1e-300, largest = 1e300;
 
 void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {

@@ -1,14 +1,12 @@
 // The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu, on vector units.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/kernels.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -28,38 +26,17 @@ struct MapLoops {
                        double ln_reference, double fall, std::size_t n, double* mu);
 };
 
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wpsabi"  // nothing with more than two numbers in it leaves this file
-#endif
-
-namespace baseline {
-using Part [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace baseline
-
-#if defined(__x86_64__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-namespace avx2 {
-using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace avx2
-#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
-namespace avx512 {
-using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace avx512
-#pragma GCC pop_options
+#define ASPERITY_LOOPS "friction_map/lookup_loops.inc"
+#define ASPERITY_AVX512
+#include "numerics/vector_units.inc"
 
 MapLoops choose() {
-  if (std::strcmp(kernels().name, "avx2") != 0) return baseline::loops();
-  const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512vl") && !std::getenv("ASPERITY_VECTORS");
-  return wider ? avx512::loops() : avx2::loops();
-}
-#else
-MapLoops choose() { return baseline::loops(); }
+#ifdef __x86_64__
+  if (vector_unit() == VectorUnit::avx512) return avx512::loops();
+  if (vector_unit() == VectorUnit::avx2) return avx2::loops();
 #endif
+  return baseline::loops();
+}
 
 const MapLoops& map_loops() {
   static const MapLoops chosen = choose();

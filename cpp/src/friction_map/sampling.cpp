@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-/// What an error of the shear moves is a kink at a cut, by as much as s is off.
+/// An error of s(x) moves the kink at a cut by as much as s is off.
 constexpr double offset_share = 0.01;
 constexpr std::size_t most_intervals = 16384;
 
@@ -94,8 +94,8 @@ void MapFrame::cut_bands() {
   }
   const double bottom = y_lo_ - highest, top = y_hi_ - lowest;
   const auto state = [&](double z) {
-    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + log_modulus_offset(x_lo_)), velocity_[0],
-                                 model_.poisson_ratio));
+    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + log_modulus_offset(x_lo_)),
+                                 velocity_[0], model_.poisson_ratio));
   };
   constexpr double step = 0.02;
   const auto steps = static_cast<std::size_t>(std::ceil((top - bottom) / step));

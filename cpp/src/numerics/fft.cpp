@@ -17,6 +17,7 @@
 #endif
 
 #include "numerics/arguments.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -170,8 +171,6 @@ RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
 }
 
 namespace {
-
-using Quad = float __attribute__((vector_size(16)));  // two complex floats
 
 Quad load(const std::complex<float>* from) {
   Quad v;

@@ -65,7 +65,7 @@ void AngularSums::add_up() {
   }
 }
 
-/// Of one panel up to w, from the definition.
+/// The share of one panel up to w, from the definition.
 Pair AngularSums::in_phi(double w, std::size_t p) const {
   const GaussRule& rule = gauss_rule();
   // acos(at / w) without its cancellation near w
@@ -80,7 +80,7 @@ Pair AngularSums::in_phi(double w, std::size_t p) const {
   return sum;
 }
 
-/// Of all frequencies below a panel that begins at or below w.
+/// The share of all frequencies below a panel that begins at or below w.
 Pair AngularSums::below(double w, std::size_t p) const {
   const double inverse = 1 / w;
   Pair sum{};

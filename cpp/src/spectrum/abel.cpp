@@ -106,7 +106,7 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const std::size_t n = spectrum.wavenumber().size();
   if (n > 1000)
     throw InvalidInput("spectrum has " + std::to_string(n) +
-                       " rows: must have 1000 or fewer for the surface behind a profile, log_binned makes them fewer");
+                       " rows: must have 1000 or fewer for the surface behind a profile; log_binned() averages them");
   const RowQuality& old = spectrum.quality();
   const std::vector<double> all = isotropic_densities(spectrum);
   std::vector<double> variance(n);

@@ -8,7 +8,7 @@
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/pair.hpp"
+#include "numerics/simd.hpp"
 #include "spectrum/fft2d.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/tabulated.hpp"
@@ -21,7 +21,7 @@ using std::numbers::pi;
 void require_filled(const HeightMap& map) {
   if (map.dropout_fraction() > 0)
     throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
-                       " %), fill_dropouts must come before its spectrum");
+                       " %); call fill_dropouts() first");
 }
 
 void require_plane(const HeightMap& map) {
@@ -196,7 +196,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   }
   if (wavenumber.size() < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must have more points, these make one ring of wavenumbers only");
+                       "): must have more points; these make only one ring of wavenumbers");
   return {std::move(wavenumber), std::move(density), std::move(quality)};
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "numerics/least_squares.hpp"
-#include "numerics/pair.hpp"
 #include "numerics/parallel_for.hpp"
+#include "numerics/simd.hpp"
 #include "surface/rows.hpp"
 
 namespace asperity {

@@ -116,7 +116,7 @@ SOME_POSITIVE = (
 SOME_NOT_NEGATIVE = ([[1, -1, 1], [1, NAN, 1], [1, INF, 1]], r"\[1\] = \S+: must be .*not neg")
 RISING = ([[1, 1, 2], [2, 1, 3]], r"\[1\] = 1: must be above the entry before it, [12]")
 VECTOR = ([[[1, 2, 3]], 5.0], " has [02] dimensions: must have 1$")
-FEW_ROWS = ([[1, 2], [], [1] * 5], r" has [025] entries, \w+ has 3: must be as many$")
+FEW_ROWS = ([[1, 2], [], [1] * 5], r" \([025]\) and \w+ \(3\) must have equal length$")
 REAL = (["x", None, 1j, [1, 2j], ["a"]], " = .+: must be a number or an array of real numbers$")
 NAME = (["x", ""], ' = "x?": must be one of "')
 ABOVE_Q0 = ([1e3, 10, -1], " = .+: must be above q0 = 1000$")
@@ -215,7 +215,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
         "heights": [([HEIGHTS[:2], HEIGHTS[:, :2]], r" has shape \(.*\): must be 3 x 3 or more")]
     },
     "power_spectrum": {
-        "surface": [([HOLED_MAP], r": has drop-outs \(1\.389 %\), fill_dropouts must come before")],
+        "surface": [([HOLED_MAP], r": has drop-outs \(1\.389 %\); call fill_dropouts\(\) first")],
         "window": [NAME],
         "detrend": [NAME],
     },
