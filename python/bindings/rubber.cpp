@@ -40,7 +40,9 @@ void bind_common(py::classh<R>& rubber) {
            })
       .def("angular_integrals",
            [](const R& r, const Array& w) {
-             return two_columns(w, [&](auto part, double* i1, double* i2) { r.angular_integrals(part, i1, i2); });
+             return two_columns(w, [&](auto part, double* i1, double* i2) {
+               r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
+             });
            })
       .def("shifted", &R::shifted, py::call_guard<py::gil_scoped_release>());
 }
