@@ -1,12 +1,14 @@
 """Foolish inputs to every public function: the message has name, value and what is allowed."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
 
 import asperity
 from asperity import InvalidInput
+from helpers.cases import case
 
 NAN, INF = np.nan, np.inf
 HEIGHTS = np.random.default_rng(0).normal(size=(8, 9))
@@ -100,53 +102,46 @@ CALLS = {
     "Adhesion": (asperity.Adhesion, {"shear_stress": 8e6}),
 }
 
-# Bad values, and what the message says after the argument's name; {} stands for the value.
-POSITIVE = ([0, -1, NAN, INF], " = {}: must be positive and finite$")
-NOT_NEGATIVE = ([-1, NAN, INF], " = {}: must be finite and not negative$")
-FINITE = ([NAN, INF, -INF], " = {}: must be finite$")
-AT_LEAST_ONE = ([0.5, 0, -1, NAN, INF], " = {}: must be 1 or more, and finite$")
-POISSON = ([-0.1, 0.51, NAN, INF], r" = {}: must be in \[0, 0\.5\]$")
-SHARE = ([-0.1, 1.1, NAN], r" = {}: must be in \[0, 1\]$")
-HURST = ([0, -1, 1.1, NAN], r" = {}: must be in \(0, 1\]$")
-RTOL = ([0, -1, NAN, 1e-13, 1], r" = {}: must be in \[1e-12, 0\.1\]$")
-SOME_POSITIVE = (
-    [[0, 1, 2], [-1, 1, 2], [NAN, 1, 2], [INF, 1, 2]],
-    r"(\[0\])? = \S+: must be posit",
-)
-SOME_NOT_NEGATIVE = ([[1, -1, 1], [1, NAN, 1], [1, INF, 1]], r"\[1\] = \S+: must be .*not neg")
-RISING = ([[1, 1, 2], [2, 1, 3]], r"\[1\] = 1: must be above the entry before it, [12]")
-VECTOR = ([[[1, 2, 3]], 5.0], " has [02] dimensions: must have 1$")
-FEW_ROWS = ([[1, 2], [], [1] * 5], r" has [025] entries, \w+ has 3: must be as many$")
-REAL = (["x", None, 1j, [1, 2j], ["a"]], " = .+: must be a number or an array of real numbers$")
-NAME = (["x", ""], ' = "x?": must be one of "')
-ABOVE_Q0 = ([1e3, 10, -1], " = .+: must be above q0 = 1000$")
-SPECTRUM = ([None, RUBBER, "x", MAP], " = .+: must be a SelfAffineSpectrum or a TabulatedSpectrum$")
-SOLID = ([None, SURFACE, 5.0], " = .+: must be a PronySeries or a MasterCurve$")
-CORRECTION = (
-    ["s-factor", 5, SURFACE],
-    " = .+: must be None, SFactor, NayakSFactor, AffineShift, LocalPeaks",
-)
-FEW_PEAKS = ([[], [1, 2]], " has [02] entries: must be 3 or more$")
-NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): must be finite$")
-OUTSIDE_BAND = ([1, 1e9], r" = .+: must be in \[1000, 100000\], the spectrum's band \[1/m\]$")
-LONG = ([1.0], r" = 1: must be below the longest wavelength of the spectrum, 0\.00628318530718 m$")
-NO_MAP = (
-    [HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"],
-    " = .+: must be an array of real numbers$",
-)
+# Bad values, and what the message says is allowed, after the argument's name and a number.
+POSITIVE = ([0, -1, NAN, INF], " = {}: .*positive")
+NOT_NEGATIVE = ([-1, NAN, INF], " = {}: .*not (be )?negative")
+FINITE = ([NAN, INF, -INF], " = {}: .*finite")
+AT_LEAST_ONE = ([0.5, 0, -1, NAN, INF], " = {}: .*1 or more")
+POISSON = ([-0.1, 0.51, NAN, INF], r" = {}: .*\[0, 0\.5\]")
+SHARE = ([-0.1, 1.1, NAN], r" = {}: .*\[0, 1\]")
+HURST = ([0, -1, 1.1, NAN], r" = {}: .*\(0, 1\]")
+RTOL = ([0, -1, NAN, 1e-13, 1], r" = {}: .*\[1e-12, 0\.1\]")
+SOME_POSITIVE = ([[0, 1, 2], [-1, 1, 2], [NAN, 1, 2], [INF, 1, 2]], r"(\[0\])? = \S+: .*positive")
+SOME_NOT_NEGATIVE = ([[1, -1, 1], [1, NAN, 1], [1, INF, 1]], r"\[1\] = \S+: .*not (be )?negative")
+RISING = ([[1, 1, 2], [2, 1, 3]], r"\[1\] = 1: .*above")
+VECTOR = ([[[1, 2, 3]], np.array(5.0)], "[02] dimensions")
+FEW_ROWS = ([[1, 2], [], [1] * 5], r"\b[025]\b.*\b3\b")
+REAL = (["x", None, 1j, [1, 2j], ["a"]], "number")
+NAME = (["x", ""], "one of")
+ABOVE_Q0 = ([1e3, 10, -1], " = {}: .*above q0 = 1000")
+SPECTRUM = ([None, RUBBER, "x", MAP], "SelfAffineSpectrum or a TabulatedSpectrum")
+SOLID = ([None, SURFACE, 5.0], "PronySeries or a MasterCurve")
+CORRECTION = (["s-factor", 5, SURFACE], "None, SFactor, NayakSFactor, AffineShift, LocalPeaks")
+FEW_PEAKS = ([[], [1, 2]], r"\b[02]\b.*3 or more")
+NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): .*finite")
+OUTSIDE_BAND = ([1, 1e9], r" = {}: .*\[1000, 100000\]")
+LONG = ([1.0], r" = {}: .*below .*0\.00628318530718 m")
+NO_MAP = ([HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"], "array of real numbers")
+NO_PEAKS = (["x", [1, 2, 3j]], "number")
+BELOW_A_PEAK = ([0, 1e-4], r" = {}: .*highest peak, 0\.0003")
 
 REFUSED = {  # several arguments of which the same is said stand in one key
     "SelfAffineSpectrum": {
         "rms_height q0": [POSITIVE],
         "hurst": [HURST],
         "q1": [ABOVE_Q0, FINITE],
-        "rolloff": [([1e3, 1e5, 0, NAN], " = .+: must be between q0 = 1000 and q1 = 100000$")],
+        "rolloff": [([1e3, 1e5, 0, NAN], " = {}: .*q0 = 1000 and q1 = 100000")],
     },
     "from_article": {"h0 q0": [POSITIVE], "hurst": [HURST], "q1": [ABOVE_Q0, FINITE]},
     "TabulatedSpectrum": {
         "wavenumber": [SOME_POSITIVE, RISING, VECTOR, REAL],
         "density": [SOME_NOT_NEGATIVE, VECTOR, FEW_ROWS, REAL],
-        "count": [SOME_NOT_NEGATIVE, VECTOR, (FEW_ROWS[0][::2], FEW_ROWS[1])],
+        "count": [SOME_NOT_NEGATIVE, VECTOR, ([[1, 2], [1] * 5], FEW_ROWS[1])],
     },
     **{
         f"{kind} {method}": groups
@@ -178,80 +173,66 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     **{f"{kind} shifted": {"a_T": [POSITIVE]} for kind in ("prony", "master")},
     "effective_modulus": {
         "modulus": [POSITIVE],
-        "modulus_2": [([0, -1, NAN], " = {}: must be positive")],
+        "modulus_2": [([0, -1, NAN], POSITIVE[1])],
         "poisson_ratio poisson_ratio_2": [POISSON],
     },
     "hertz_penetration": {"force": [NOT_NEGATIVE], "effective_modulus radius": [POSITIVE]},
     "separation": {
         "pressure effective_modulus": [POSITIVE, REAL, SOME_POSITIVE],
         "rms_height q0": [POSITIVE],
-        "peaks": [FEW_PEAKS, NAN_PEAKS, VECTOR, (["x", [1, 2, 3j]], REAL[1])],
+        "peaks": [FEW_PEAKS, NAN_PEAKS, VECTOR, NO_PEAKS],
         "reading": [NAME],
     },
     "HeightMap": {
         "heights": [
-            ([HEIGHTS[0], HEIGHTS[None], 5.0], r" has [013] dimensions: must have 2, \(ny, nx\)$"),
-            (
-                [np.empty((0, 3)), np.empty((3, 0))],
-                r" has shape \([03], [03]\): must not be empty$",
-            ),
-            ([np.full((3, 3), NAN)], r": every point is a drop-out \(NaN\)$"),
-            (
-                [[[1, INF]], [[1, -INF]]],
-                r"\[0, 1\] = -?inf: must be finite, or NaN for a drop-out$",
-            ),
+            ([HEIGHTS[0], HEIGHTS[None], np.array(5.0)], "[013] dimensions"),
+            ([np.empty((0, 3)), np.empty((3, 0))], r"\([03], [03]\).*empty"),
+            ([np.full((3, 3), NAN)], "every point is a drop-out"),
+            ([[[1, INF]], [[1, -INF]]], r"\[0, 1\] = -?inf: .*finite"),
             NO_MAP,
         ],
-        "pixel_size": [
-            POSITIVE,
-            ([(1, 0), (-1, 1), (1, NAN)], r" = \S+: must be positive and fin"),
-        ],
+        "pixel_size": [POSITIVE, ([(1, 0), (-1, 1), (1, NAN)], "positive")],
     },
-    "fill_dropouts": {"max_fraction": [([-0.1, 1, 1.5, NAN], r" = {}: must be in \[0, 1\)$")]},
+    "fill_dropouts": {"max_fraction": [([-0.1, 1, 1.5, NAN], r" = {}: .*\[0, 1\)")]},
     "detrend": {"order": [NAME]},
     "affine_shift": {"p": [AT_LEAST_ONE]},
     "local_peaks": {"min_distance": [POSITIVE]},
-    "rms_slope": {
-        "heights": [([HEIGHTS[:2], HEIGHTS[:, :2]], r" has shape \(.*\): must be 3 x 3 or more")]
-    },
+    "rms_slope": {"heights": [([HEIGHTS[:2], HEIGHTS[:, :2]], "3 x 3")]},
     "power_spectrum": {
-        "surface": [([HOLED_MAP], r": has drop-outs \(1\.389 %\), fill_dropouts must come before")],
+        "surface": [([HOLED_MAP], r"drop-outs .*1\.389 %.*fill_dropouts")],
         "window": [NAME],
         "detrend": [NAME],
     },
     "fit_self_affine": {
-        "q_min": [POSITIVE, ([5e4, 1e9], r".*: [01] rows of .*: must be 3 or more for a fit$")],
+        "q_min": [POSITIVE, ([5e4, 1e9], "[01] rows .*3 or more")],
         "q_max": [POSITIVE],
-        "spectrum": [([GROWING], r".*hurst = -1\.5: must be in \(0, 1\]")],
+        "spectrum": [([GROWING], r".*hurst = -1\.5: .*\(0, 1\]")],
     },
     "synthesize": {
         "spectrum": [SPECTRUM],
-        "shape": [([(1, 8), (8, 1), (0, 0), (-1, 8)], r" = \(.*\): must be 2 x 2 or more$")],
+        "shape": [([(1, 8), (8, 1), (0, 0), (-1, 8)], "2 x 2")],
         "pixel_size": [POSITIVE],
-        "seed": [([-1], " = -1: must not be negative$")],
+        "seed": [([-1], NOT_NEGATIVE[1])],
     },
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
     "NayakSFactor": {"friction_gamma": [SHARE]},
     "AffineShift": {"p": [AT_LEAST_ONE]},
     "LocalPeaks": {
         "heights_or_map": [VECTOR, REAL],
-        "min_distance": [([1e-6], ": only goes with a HeightMap")],
-        "z_max": [
-            FINITE,
-            ([0, -1, 1e-4], r" = .+: must be no lower than the highest peak, 0\.0003$"),
-        ],
+        "min_distance": [([1e-6], "HeightMap")],
+        "z_max": [FINITE, BELOW_A_PEAK, ([-1], BELOW_A_PEAK[1])],
     },
     "GreenwoodWilliamson": {
-        "z_max": [FINITE, ([0, -1], " = {}: must be above the mean plane")],
-        "z_min": [FINITE, ([0, 1], " = {}: must be below the mean plane")],
-        "peaks": [FEW_PEAKS, NAN_PEAKS, VECTOR, (["x", [1, 2, 3j]], REAL[1])],
+        "z_max": [FINITE, ([0, -1], " = {}: .*above the mean plane")],
+        "z_min": [FINITE, ([0, 1], " = {}: .*below the mean plane")],
+        "peaks": [FEW_PEAKS, NAN_PEAKS, VECTOR, NO_PEAKS],
         "reading": [NAME],
         "rms_height q0": [POSITIVE],
     },
     "PeaksThenGreenwoodWilliamson": {
         "heights_or_map": [VECTOR, REAL],
-        "z_max": [FINITE, ([0, 1e-4], r" = .+: must be no lower than the highest peak, 0\.0003$")],
-        "z_min": [FINITE, ([0, 1], " = {}: must be below"), ([None], ": must be given where")],
+        "z_max": [FINITE, BELOW_A_PEAK],
+        "z_min": [FINITE, ([0, 1], " = {}: .*below"), ([None], "given")],
         "reading": [NAME],
         "rms_height q0": [POSITIVE],
     },
@@ -276,31 +257,23 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     "self-affine truncated": {"q0 q1": [([NAN], FINITE[1]), OUTSIDE_BAND]},
     "Adhesion": {"shear_stress width": [NOT_NEGATIVE], "reference_velocity": [POSITIVE]},
 }
-CASES = [
-    pytest.param(call, argument, value, said, id=f"{call}-{argument}-{str(value)[:30]}")
-    for call, arguments in REFUSED.items()
-    for names, groups in arguments.items()
-    for argument in names.split()
-    for values, said in groups
-    for value in values
-]
-
-
-def call_with(call, **changed):
-    function, arguments = CALLS[call]
-    return function(**{**arguments, **changed})
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_the_unspoilt_call_works(call):
-    call_with(call)
+def test_bad_values_are_refused_by_argument_value_and_what_is_allowed(call):
+    function, good = CALLS[call]
+    function(**good)
+    for names, groups in REFUSED.get(call, {}).items():
+        for argument, (values, allowed) in product(names.split(), groups):
+            for value in values:
+                with case(argument=argument, value=value):
+                    shown = re.escape(f"{value:.12g}") if isinstance(value, int | float) else ".*"
+                    with pytest.raises(InvalidInput) as caught:
+                        function(**{**good, argument: value})
+                    said = rf"{argument}(?!\w).*" + allowed.replace("{}", shown)
+                    assert re.match(said, str(caught.value)), str(caught.value)
 
 
-@pytest.mark.parametrize(("call", "argument", "value", "said"), CASES)
-def test_message_names_argument_value_and_what_is_allowed(call, argument, value, said):
-    shown = re.escape(f"{value:.12g}" if isinstance(value, int | float) else str(value))
-    message = re.escape(argument) + said.replace("{}", shown)
-    with pytest.raises(InvalidInput) as caught:
-        call_with(call, **{argument: value})
-    assert {ValueError, asperity.Error} <= set(type(caught.value).__mro__)
-    assert re.match(message, str(caught.value))
+def test_bad_input_is_a_value_error_and_an_error_of_the_package():
+    assert issubclass(InvalidInput, ValueError)
+    assert issubclass(InvalidInput, asperity.Error)
