@@ -1,8 +1,6 @@
 """The verb `rubber`: measured sets, its table as a scene's rubber, pictures and refusals."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -179,12 +177,15 @@ def replaced(old, new):
         (["dma.csv", *SYNTHETIC, "--plot", "a.xyz"], "a.xyz"),
     ],
 )
-def test_refusals_are_one_line_and_status_2(folder, arguments, message):
-    run = [sys.executable, "-m", "asperity", "rubber", *arguments]
-    done = subprocess.run(run, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    (line,) = done.stderr.splitlines()
+def test_refusals_are_one_line_and_status_2(folder, capsys, arguments, message):
+    try:
+        status = main(["rubber", *arguments])
+    except SystemExit as stop:
+        status = stop.code
+    assert status == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    (line,) = err.splitlines()
     assert message in line
     assert line.startswith("asperity")
 
