@@ -39,6 +39,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         ),
         (["friction", "scan.npy"], "scan.npy: not a TOML file"),
         (["area", "none.toml"], "none.toml: cannot be read"),
+        (["area", "none\nat all.toml"], "none at all.toml: cannot be read"),
         (["spectrum", "none.npy"], "none.npy: cannot be read"),
         (
             ["friction", "scene.toml", "--output", "/proc/mu.csv"],
@@ -238,9 +239,10 @@ from asperity.cli.main import main
 from asperity.scene import scene
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-running, compute = threading.Event(), scene.friction
+running, compute, begun = threading.Event(), scene.friction, []
 
 def friction(*parts, **conditions):
+    begun.append(conditions["pressure"].size)
     running.set()
     return compute(*parts, **conditions)
 
@@ -250,7 +252,8 @@ def interrupt():
 
 scene.friction, scene._CHUNK = friction, 1  # 200,000 calls, of which the first sends for the end
 threading.Thread(target=interrupt, daemon=True).start()
-sys.exit(main(["friction", "long.toml", "--output", "mu.csv"]))
+status = main(["friction", "long.toml", "--output", "mu.csv"])
+sys.exit(status if sum(begun) < 200_000 else "it went on to the end")
 """
 
 
