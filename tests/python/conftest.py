@@ -44,9 +44,11 @@ def value_of(column: str, cell: str) -> object:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line(
-        "markers", "reference(name): the test runs once for each row of tests/reference/<name>.csv"
-    )
+    for marker in (
+        "reference(name): the test runs once for each row of tests/reference/<name>.csv",
+        "long: left out unless asked for by -m long, as tests/stability/long.sh does",
+    ):
+        config.addinivalue_line("markers", marker)
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -70,3 +72,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     np.save(tmp_path / "scan.npy", scan.heights)
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are seconds each; here they are a word."""
+    pytest.importorskip("matplotlib", reason="its pictures need asperity[plot]")
+    monkeypatch.setattr(
+        "matplotlib.figure.Figure.savefig", lambda _, file, **__: file.write(b"picture")
+    )

@@ -2,6 +2,7 @@
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       ten thousand random scenes against GSL's adaptive integration, a thousand of them with tables
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
+#   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
 #   catalogue    every regime in which methods fail
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
@@ -37,6 +38,8 @@ maps() {
     "$python" tests/stability/random_maps.py --maps 5 --points 1000000 --tables 0 --seed 2
 }
 
+tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }
+
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
 catalogue() { "$python" tests/stability/catalogue.py; }
@@ -58,11 +61,11 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue scenes maps properties sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue scenes maps tests properties sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | scenes | maps | properties | sanitize | threads | memcheck) ;;
-    *) sed -n '2,10s/^# //p' "$0" >&2; exit 2 ;;
+    catalogue | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
+    *) sed -n '2,11s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

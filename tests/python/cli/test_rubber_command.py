@@ -1,8 +1,6 @@
 """The verb `rubber`: measured sets, its table as a scene's rubber, pictures and refusals."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -11,6 +9,7 @@ from asperity import PronySeries
 from asperity.cli.main import main
 from asperity.io.read_master_curve import read_master_curve
 from asperity.scene.scene import load_scene
+from helpers.cases import each
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
 from helpers.rubbers import SWEEP, TEMPERATURES, sweeps, true_modulus, true_shift
 from helpers.scenes import CONDITIONS, SURFACE
@@ -159,7 +158,7 @@ def replaced(old, new):
     return [text.replace(old, new) for text in SYNTHETIC]
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "message"),
     [
         (["dma.csv", *without("--units")], "the following arguments are required: --units"),
@@ -178,12 +177,15 @@ def replaced(old, new):
         (["dma.csv", *SYNTHETIC, "--plot", "a.xyz"], "a.xyz"),
     ],
 )
-def test_refusals_are_one_line_and_status_2(folder, arguments, message):
-    run = [sys.executable, "-m", "asperity", "rubber", *arguments]
-    done = subprocess.run(run, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    (line,) = done.stderr.splitlines()
+def test_refusals_are_one_line_and_status_2(folder, capsys, arguments, message):
+    try:
+        status = main(["rubber", *arguments])
+    except SystemExit as stop:
+        status = stop.code
+    assert status == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    (line,) = err.splitlines()
     assert message in line
     assert line.startswith("asperity")
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.cases import each
 
 RUBBER = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
 BAND = {"hurst": 0.8, "q0": 1e3, "q1": 1e5}
@@ -25,8 +26,8 @@ def deep_separation(load, peaks):
     return mean - depth + variance / (4 * depth)  # the next term is variance^2 / depth^3
 
 
-@pytest.mark.parametrize("peaks", [None, [1e-4, 2e-4, 5e-5]])
-@pytest.mark.parametrize("load", [1e6, 1e20, 1e40, 1e200, 1e300])
+@each("peaks", [None, [1e-4, 2e-4, 5e-5]])
+@each("load", [1e6, 1e20, 1e40, 1e200, 1e300])
 def test_asperities_deep_in_contact(load, peaks):
     found = asperity.separation(pressure=load, effective_modulus=1.0, peaks=peaks, **MACRO)
     # ln(load), up to 700, is known to 1e-16 of itself
@@ -47,7 +48,7 @@ def test_a_gaussian_is_summed_by_its_moments_where_it_was_integrated_before():
         assert found.effective == pytest.approx(t * 1e-4, rel=3e-15)
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "named"),
     [
         ({"pressure": 1e300, "effective_modulus": 1e-300}, "pressure"),
@@ -67,7 +68,7 @@ FAR_APART = {
 }
 
 
-@pytest.mark.parametrize("name", FAR_APART)
+@each("name", FAR_APART)
 def test_heights_further_apart_than_a_double_are_refused(name):
     with pytest.raises(asperity.InvalidInput, match="z_max = 1e\\+308"):
         asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=1.0, correction=FAR_APART[name]())
@@ -81,8 +82,8 @@ STATISTICS = {
 }
 
 
-@pytest.mark.parametrize("name", STATISTICS)
-@pytest.mark.parametrize("rms_height", [1e-200, 1e200])
+@each("name", STATISTICS)
+@each("rms_height", [1e-200, 1e200])
 def test_densities_that_a_double_cannot_tell_are_refused(name, rms_height):
     spectrum = asperity.SelfAffineSpectrum(rms_height=rms_height, **BAND)
     with pytest.raises(asperity.InvalidInput, match="leaves the range of a double"):

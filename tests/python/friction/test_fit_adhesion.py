@@ -7,6 +7,7 @@ import pytest
 
 import asperity
 from asperity import Adhesion, AffineShift, InvalidInput, fit_adhesion, friction
+from helpers.cases import each
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
 ROAD = ROAD.truncated(q1=ROAD.cutoff_for_slope(1.3))
@@ -60,7 +61,7 @@ def test_reference_fits(row):
             assert fit.standard_errors[name] == pytest.approx(expected, rel=10 * row["rtol"])
 
 
-@pytest.mark.parametrize(
+@each(
     "truth",
     [
         Adhesion(shear_stress=5.3e6),
@@ -69,7 +70,7 @@ def test_reference_fits(row):
         Adhesion(shear_stress=3e7, reference_velocity=1e-5, width=2.0),
     ],
 )
-@pytest.mark.parametrize("correction", [None, asperity.SFactor(applies_to="both")])
+@each("correction", [None, asperity.SFactor(applies_to="both")])
 def test_exact_friction_gives_its_adhesion_back(truth, correction):
     scene = {"velocity": np.geomspace(1e-6, 1, 20), "pressure": 2e5, "correction": correction}
     mu = friction(ROAD, RUBBER, adhesion=truth, rtol=1e-9, **scene).mu
@@ -111,8 +112,8 @@ def test_points_count_by_their_relative_error():
     assert fit.residual == pytest.approx(0.05, rel=0.3)  # 48 points: a scale to 15 %
 
 
-@pytest.mark.parametrize("factor", [4.0, 0.25])
-@pytest.mark.parametrize("first", [0, 5, 10, 15, 20])
+@each("factor", [4.0, 0.25])
+@each("first", [0, 5, 10, 15, 20])
 def test_a_row_of_outliers_moves_nothing(factor, first):
     points = measured(noise=0.03)
     rows = slice(first, first + 4)  # of 24
@@ -285,7 +286,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("changed", "message"), REFUSED, ids=lambda x: None)
+@each(("changed", "message"), REFUSED)
 def test_bad_arguments(changed, message):
     arguments = {"velocity": V, "mu": MU, "pressure": 81e3} | changed
     with pytest.raises(InvalidInput) as caught:

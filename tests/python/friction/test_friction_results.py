@@ -7,6 +7,7 @@ import pytest
 
 import asperity
 from asperity import GreenwoodWilliamson, MasterCurve, OutOfRange, PronySeries, SelfAffineSpectrum
+from helpers.cases import each
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)  # rms slope below 1.3
 STEEP = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
@@ -31,8 +32,8 @@ def elastic(modulus):
     return PronySeries(equilibrium_modulus=modulus, moduli=[], relaxation_times=[])
 
 
-@pytest.mark.parametrize("correction", [None, asperity.SFactor(), asperity.AffineShift(2)])
-@pytest.mark.parametrize("spectrum", [ROAD, STEEP])
+@each("correction", [None, asperity.SFactor(), asperity.AffineShift(2)])
+@each("spectrum", [ROAD, STEEP])
 def test_contributions_integrate_to_the_hysteresis(spectrum, correction):
     velocity = np.array([1e-4, 1e-2, 0.3])
     found = asperity.friction(
@@ -83,7 +84,7 @@ def test_tightening_the_tolerance_does_not_change_a_friction_already_found():
         assert abs(tight.mu - loose.mu) <= loose.error_estimate + tight.error_estimate, rtol
 
 
-@pytest.mark.parametrize("seed", range(30))
+@each("seed", range(30))
 def test_ragged_master_curves_keep_the_tolerance(seed):
     rng = np.random.default_rng(seed)
     rows = int(rng.integers(2, 9))
@@ -101,8 +102,8 @@ def test_ragged_master_curves_keep_the_tolerance(seed):
     assert abs(found[1].mu - found[0].mu) <= found[0].error_estimate + found[1].error_estimate
 
 
-@pytest.mark.parametrize("correction", [None, asperity.SFactor(gamma=0.4, applies_to="both")])
-@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-8, 1e-11])
+@each("correction", [None, asperity.SFactor(gamma=0.4, applies_to="both")])
+@each("rtol", [1e-2, 1e-4, 1e-8, 1e-11])
 def test_error_estimate_of_the_total_keeps_the_tolerance_asked_for(rtol, correction):
     options = {"correction": correction, "adhesion": asperity.Adhesion(shear_stress=5e6)}
     found = asperity.friction(STEEP, RUBBER, **SCENE, **options, rtol=rtol)
@@ -213,7 +214,7 @@ NOTES = {
 }
 
 
-@pytest.mark.parametrize("words", NOTES)
+@each("words", NOTES)
 def test_a_note_appears_exactly_when_its_reason_does(words):
     spectrum, velocity, correction, pressure, *more = NOTES[words]
     notes = asperity.friction(

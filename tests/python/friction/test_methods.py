@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from helpers import table_rows
+from helpers.cases import each
 
 METHODS = ("qag", "qags", "cquad")
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
@@ -38,8 +39,8 @@ def rubber_of(row):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
+@each("method", METHODS)
+@each("rtol", [1e-3, 1e-6, 1e-9])
 def test_methods_agree_within_their_estimates(scene, method, rtol):
     spectrum, rubber, more = SCENES[scene]
     options = {"pressure": 81e3, "velocity": [1e-4, 0.1, 2.0], "rtol": rtol} | more
@@ -51,8 +52,8 @@ def test_methods_agree_within_their_estimates(scene, method, rtol):
 
 
 @pytest.mark.reference("friction_curves")
-@pytest.mark.parametrize("method", ["gauss", *METHODS])
-@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-10])
+@each("method", ["gauss", *METHODS])
+@each("rtol", [1e-3, 1e-6, 1e-9, 1e-10])
 def test_methods_meet_curves_known_to_sixteen_digits(row, method, rtol):
     spectrum, rubber = table_rows.self_affine({**row, "rolloff": None}), rubber_of(row)
     options = {"pressure": row["pressure"], "velocity": row["velocities"]}
@@ -65,10 +66,8 @@ def test_methods_meet_curves_known_to_sixteen_digits(row, method, rtol):
     assert np.all(found.error_estimate <= rtol * found.mu)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(
-    "call", [asperity.contact_area, asperity.mean_pressure, asperity.correction_factor]
-)
+@each("method", METHODS)
+@each("call", [asperity.contact_area, asperity.mean_pressure, asperity.correction_factor])
 def test_methods_agree_at_every_magnification(call, method):
     options = {"pressure": 81e3, "velocity": [1e-4, 1.0], "wavenumber": np.geomspace(2000, 1e6, 7)}
     ours = call(ROAD, RUBBER, rtol=1e-9, **options)

@@ -1,6 +1,7 @@
 """Friction maps: the certified error, smoothness, other temperatures, what is outside."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from asperity import (
     friction,
     friction_map,
 )
+from helpers.cases import each, long
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(
@@ -71,8 +73,14 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
+SLOW = {"gw added", "gw peaks", "combined", "interpolated", "master curve"}
+FINE = [(name, 1e-6) for name in SCENES if name not in SLOW]
+
+
+@pytest.mark.parametrize(
+    ("name", "rtol"),
+    [*product(SCENES, [1e-2, 1e-4]), *FINE, *(long(name, 1e-6) for name in sorted(SLOW))],
+)
 def test_a_map_is_as_good_as_it_says(name, rtol):
     scene = {"rubber": RUBBER, "correction": None, "form": "exact", **SCENES[name]}
     found = made(**scene, rtol=rtol)
@@ -212,7 +220,7 @@ OUTSIDE = [(4.9e4, 0.1), (1.1e6, 0.1), (0.0, 0.1), (-1e5, 0.1), (2e5, 0.0), (2e5
 OUTSIDE += [(2e5, -3.1), (2e5, np.inf), (np.inf, 0.1), (0.0, 0.0), (1e9, 1e9)]
 
 
-@pytest.mark.parametrize("point", OUTSIDE)
+@each("point", OUTSIDE)
 def test_outside_of_the_box_the_caller_chooses(road_map, point):
     nearest = np.clip(point[0], *BOX["pressure"]), np.clip(abs(point[1]), *BOX["velocity"])
     for look_up in (road_map.mu, road_map.hysteresis, road_map.adhesion, road_map.contact_area):

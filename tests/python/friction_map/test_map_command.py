@@ -8,6 +8,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
+from helpers.cases import each
 from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
 
 QUICK = ["--checked", "2000"]
@@ -74,7 +75,7 @@ def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
     assert "pressure: the scene has one" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "message"),
     [
         (["map"], "must be given a SCENE.toml, or --info FILE"),

@@ -8,7 +8,6 @@ import pytest
 
 from asperity import build_master_curve, read_isotherms
 
-DATA = Path(os.environ.get("ASPERITY_DATA", Path(__file__).parents[3].parent / "shared" / "data"))
 COLUMNS = {"frequency": "freq_hz", "temperature": "temperature_C"}
 COLUMNS |= {"storage": "G_storage_pa", "loss": "G_loss_pa"}
 UNITS = {"frequency": "Hz", "temperature": "C", "modulus": "Pa"}
@@ -24,11 +23,11 @@ B1, B2, ALPHA = 691.6245, 114.3, 10**-3.2147
 
 
 def present(*parts):
-    """A measured file or folder; the test skips where it is absent."""
-    path = DATA.joinpath(*parts).resolve()
-    if not path.exists():
-        pytest.skip(f"no {'/'.join(parts)}: measured data is in shared/data or ASPERITY_DATA")
-    return path
+    """A measured file or folder of ASPERITY_DATA; the test skips where it is absent."""
+    name, folder = "/".join(parts), os.environ.get("ASPERITY_DATA")
+    if not folder or not Path(folder, name).exists():
+        pytest.skip(f"set ASPERITY_DATA to a folder with {name}")
+    return Path(folder, name).resolve()
 
 
 def shear(name, **options):

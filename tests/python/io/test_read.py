@@ -12,6 +12,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, read_surface
+from helpers.cases import each
 
 HEIGHTS = np.array([[1.0, 2.0, 4.0], [8.0, 16.0, 32.0]])
 INSTRUMENT = """\
@@ -42,7 +43,7 @@ def test_float32_stays_float32_when_scaled(tmp_path: Path) -> None:
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("unit", "metres"),
     [
         ("m", 1),
@@ -62,7 +63,7 @@ def test_unit_is_that_of_the_heights_alone(tmp_path: Path, unit: str, metres: fl
     assert surface.pixel_size == (1e-6, 1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "text"),
     [
         ("a.csv", "# by hand\n1,2,\n3,nan,5\n"),
@@ -110,7 +111,7 @@ def test_instrument_dropouts_are_nan(tmp_path: Path) -> None:
     assert surface.pixel_size == pytest.approx((2e-3, 1e-3))
 
 
-@pytest.mark.parametrize(
+@each(
     ("given", "message"),
     [
         ({"unit": "nm"}, "unit = 'nm': must be left out, the file states its own"),
@@ -148,7 +149,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
     return out.getvalue()
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "content", "given", "message"),
     [
         ("a.npy", _npy(HEIGHTS)[:-8], {}, "not a sound .npy file"),
@@ -210,7 +211,7 @@ def test_npz_channel_out_of_range(tmp_path: Path) -> None:
         read_surface(path, channel=2, pixel_size=1.0, unit="m")
 
 
-@pytest.mark.parametrize("name", ["missing.npy", "missing.opd"])
+@each("name", ["missing.npy", "missing.opd"])
 def test_missing_file(tmp_path: Path, name: str) -> None:
     with pytest.raises(InvalidInput, match=rf"{name}: cannot be read: No such file"):
         read_surface(tmp_path / name, pixel_size=1.0, unit="m")
@@ -221,7 +222,7 @@ def test_directory(tmp_path: Path) -> None:
         read_surface(tmp_path, pixel_size=1.0, unit="m")
 
 
-@pytest.mark.parametrize("name", ["/dev/null", "/dev/zero"])
+@each("name", ["/dev/null", "/dev/zero"])
 def test_no_regular_file(name: str) -> None:
     with pytest.raises(InvalidInput) as caught:
         read_surface(name, pixel_size=1.0, unit="m")
@@ -239,7 +240,7 @@ def test_no_name_of_a_file() -> None:
         read_surface("a\0b.npy", pixel_size=1.0, unit="m")
 
 
-@pytest.mark.parametrize("content", [b"", b"\x00\x01\x02" * 100, b"a tale\nof two cities\n"])
+@each("content", [b"", b"\x00\x01\x02" * 100, b"a tale\nof two cities\n"])
 def test_unknown_format(tmp_path: Path, content: bytes) -> None:
     pytest.importorskip("SurfaceTopography")
     path = tmp_path / "scan.dat"

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from asperity.cli.main import main
+from helpers.cases import each
 from helpers.scenes import SCENE
 
 pytest.importorskip("matplotlib")
@@ -12,15 +13,13 @@ pytest.importorskip("matplotlib")
 MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
 
 
-@pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 @pytest.mark.parametrize(
-    "verb",
+    ("ending", "verb"),
     [
-        ["friction", "scene.toml"],
-        ["area", "scene.toml", "--points", "9"],
-        ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"],
+        (".png", ["friction", "scene.toml"]),
+        (".svg", ["area", "scene.toml", "--points", "9"]),
+        (".pdf", ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]),
     ],
-    ids=lambda verb: verb[0],
 )
 def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
     picture = f"picture{ending}"
@@ -31,7 +30,7 @@ def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
     )
 
 
-@pytest.mark.parametrize(
+@each(
     ("old", "new"),
     [
         ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
@@ -39,7 +38,7 @@ def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
         ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
     ],
 )
-@pytest.mark.parametrize("verb", ["friction", "area"])
+@each("verb", ["friction", "area"])
 def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
     (folder / "scene.toml").write_text(SCENE.replace(old, new))
     assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0

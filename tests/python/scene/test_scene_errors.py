@@ -7,6 +7,7 @@ import pytest
 
 from asperity import InvalidInput, OutOfRange
 from asperity.scene.scene import load_scene
+from helpers.cases import each
 from helpers.scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
 PEAKS = "[correction]\nkind = '{}'\nmin_distance_m = 5e-5\n"
@@ -42,7 +43,7 @@ MASTER = SURFACE + CURVE + CONDITIONS
 GW = "[correction]\nkind = 'greenwood-williamson'\n"
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "message"),
     [
         ("[surface", "not a TOML file"),
@@ -225,7 +226,7 @@ def test_foolish_scenes(folder: Path, text: str, message: str) -> None:
     assert message in refusal(folder, text)
 
 
-@pytest.mark.parametrize(
+@each(
     ("content", "message"),
     [
         ("", "header is 'nothing'"),

@@ -16,6 +16,7 @@ from asperity import (
     spectral_density,
     synthesize,
 )
+from helpers.cases import each
 
 RNG = np.random.default_rng(31)
 N, PIXEL = 512, 1e-6
@@ -42,8 +43,8 @@ def test_a_constant_map_has_no_roughness_and_no_fit():
         flat.height_histogram()
 
 
-@pytest.mark.parametrize("shape", [(1, 200), (200, 1), (1, 1)])
-@pytest.mark.parametrize("function", [power_spectrum, spectral_density, anisotropy])
+@each("shape", [(1, 200), (200, 1), (1, 1)])
+@each("function", [power_spectrum, spectral_density, anisotropy])
 def test_one_line_is_told_to_be_a_line_scan(function, shape):
     with pytest.raises(InvalidInput, match=r"2 x 2 or more .* one line is a LineScan$"):
         function(surface_of(RNG.normal(size=shape)))
@@ -54,13 +55,13 @@ def test_a_map_of_one_row_is_a_scan_to_line_spectrum():
     assert line_spectrum(surface_of(z[None])) == line_spectrum(LineScan(z, spacing=PIXEL))
 
 
-@pytest.mark.parametrize("function", [power_spectrum, spectral_density, anisotropy])
+@each("function", [power_spectrum, spectral_density, anisotropy])
 def test_a_line_scan_is_told_where_to_go(function):
     with pytest.raises(InvalidInput, match=r"a LineScan: must be a HeightMap; line_spectrum takes"):
         function(LineScan(RNG.normal(size=200), spacing=PIXEL))
 
 
-@pytest.mark.parametrize("n", [1, 2, 3])
+@each("n", [1, 2, 3])
 def test_a_scan_of_three_points_is_too_short(n):
     with pytest.raises(InvalidInput, match=rf"^surface has {n} points along x: must have 4"):
         line_spectrum(LineScan(RNG.normal(size=n), spacing=PIXEL))
@@ -94,7 +95,7 @@ def framed(width):
     return z
 
 
-@pytest.mark.parametrize("function", [power_spectrum, spectral_density, anisotropy, line_spectrum])
+@each("function", [power_spectrum, spectral_density, anisotropy, line_spectrum])
 def test_a_map_with_drop_outs_must_be_filled_first(function):
     with pytest.raises(InvalidInput, match=r"has drop-outs \(1\.556 %\); call fill_dropouts"):
         function(surface_of(framed(2)))
@@ -129,7 +130,7 @@ def test_rows_of_drop_outs_cost_little_once_filled():
     np.testing.assert_allclose(found.density[low], expected.density[low], rtol=0.05)
 
 
-@pytest.mark.parametrize("value", [np.inf, -np.inf])
+@each("value", [np.inf, -np.inf])
 def test_an_infinite_height_is_refused_by_its_place(value):
     z = RNG.normal(size=(60, 50))
     z[3, 4] = value

@@ -15,6 +15,7 @@ from asperity import (
     power_spectrum,
     synthesize,
 )
+from helpers.cases import each, long
 from helpers.plain_spectrum import profile
 
 
@@ -58,8 +59,8 @@ def test_line_density_integrates_to_the_mean_square_height():
     assert 2 * total == pytest.approx(spectrum.rms_height**2, rel=1e-9)
 
 
-@pytest.mark.parametrize("rows", [2, 40, 300])
-@pytest.mark.parametrize("hurst", [0.3, 0.5, 0.8, 1.0])
+@each("rows", [2, 40, 300])
+@each("hurst", [0.3, 0.5, 0.8, 1.0])
 def test_isotropic_restores_a_power_law(hurst, rows):
     q = np.geomspace(1e3, 1e6, rows)
     c = 1e-5 * q ** (-2 * hurst - 2)
@@ -79,7 +80,7 @@ def round_trip(hurst, per_decade):
     return q / knee, np.abs(found / spectrum.at(q) - 1)
 
 
-@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+@pytest.mark.parametrize("hurst", [long(0.3), 0.8, long(1.0)])
 def test_isotropic_restores_a_roll_off(hurst):
     # Above the roll-off C1D is a power law, so exact. In the flat part the chords between rows h
     # apart in ln q are off by h^2 / 8 of the curvature, which grows like (knee - q)^(-1/2) there.
@@ -97,7 +98,7 @@ PIXEL = 1e-6
 CROPS = [(slice(0, 1024), slice(0, 1024)), (slice(1024, 2048), slice(1024, 2048))]
 
 
-@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+@pytest.mark.parametrize("hurst", [long(0.3), 0.8, long(1.0)])
 def test_rows_of_a_map_tell_the_spectrum_of_the_surface(hurst):
     truth = SelfAffineSpectrum(
         rms_height=1e-5, hurst=hurst, q0=2 * np.pi / (2048 * PIXEL), q1=np.pi / PIXEL
@@ -131,10 +132,10 @@ def test_rows_of_a_map_tell_the_spectrum_of_the_surface(hurst):
     assert wrong < 0.75
 
 
-@pytest.mark.parametrize("rows", [0, 1, 6])  # 0: a LineScan
-@pytest.mark.parametrize("n", [4, 5, 64, 97, 210])
-@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "none"])
-@pytest.mark.parametrize("detrend", ["plane", "quadratic", "offset", None])
+@each("rows", [0, 1, 6])  # 0: a LineScan
+@each("n", [4, 5, 64, 97, 210])
+@each("window", ["split-cosine-bell", "hann", "none"])
+@each("detrend", ["plane", "quadratic", "offset", None])
 def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
     z = np.random.default_rng(n + rows).normal(size=(max(rows, 1), n)) * 1e-6 + 2e-6
     dx = 0.7e-6

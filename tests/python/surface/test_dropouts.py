@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from asperity import HeightMap, InvalidInput
+from helpers.cases import each
 
 NAN = np.nan
 PIXEL = (2e-6, 5e-6)
@@ -80,13 +81,10 @@ PATTERNS = {
 PATTERNS |= {f"random {seed}": random_holes(seed) for seed in range(60)}
 
 
-@pytest.fixture(params=PATTERNS)
-def missing(request):
-    return PATTERNS[request.param]
-
-
-@pytest.mark.parametrize("dtype", ["f4", "f8"])
-def test_measured_points_stay_as_they_are_to_the_bit_and_nothing_is_left(missing, dtype):
+@each("pattern", PATTERNS)
+@each("dtype", ["f4", "f8"])
+def test_measured_points_stay_as_they_are_to_the_bit_and_nothing_is_left(pattern, dtype):
+    missing = PATTERNS[pattern]
     heights = np.where(missing, NAN, RNG.normal(size=missing.shape)).astype(dtype)
     surface = HeightMap(heights, pixel_size=PIXEL)
     assert surface.dropout_fraction == missing.mean()
@@ -99,15 +97,19 @@ def test_measured_points_stay_as_they_are_to_the_bit_and_nothing_is_left(missing
     assert done.heights.max() <= np.nanmax(heights) + margin
 
 
-@pytest.mark.parametrize("dtype", ["f4", "f8"])
-def test_a_plane_comes_back_wherever_measured_points_lie_around(missing, dtype):
+@each("pattern", PATTERNS)
+@each("dtype", ["f4", "f8"])
+def test_a_plane_comes_back_wherever_measured_points_lie_around(pattern, dtype):
+    missing = PATTERNS[pattern]
     true = plane(missing.shape).astype(dtype)
     error = filled(np.where(missing, NAN, true).astype(dtype)) - true
     limit = 8 * np.finfo(dtype).eps * np.abs(true).max()
     assert np.abs(error[in_hull(missing)]).max() <= limit
 
 
-def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(missing):
+@each("pattern", PATTERNS)
+def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(pattern):
+    missing = PATTERNS[pattern]
     found = filled(np.where(missing, NAN, RNG.normal(size=missing.shape)))
     hull = in_hull(missing)
     known = np.argwhere(hull)
@@ -117,15 +119,17 @@ def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(missing):
         assert found[tuple(p)] in found[tuple(nearest.T)]
 
 
-@pytest.mark.parametrize("unit", [1e-9, 1e9])
-def test_the_unit_of_length_does_not_matter(missing, unit):
+@each("pattern", PATTERNS)
+@each("unit", [1e-9, 1e9])
+def test_the_unit_of_length_does_not_matter(pattern, unit):
+    missing = PATTERNS[pattern]
     heights = np.where(missing, NAN, RNG.normal(size=missing.shape))
     expected = filled(heights)
     found = filled(unit * heights, pixel_size=(unit * PIXEL[0], unit * PIXEL[1]))
     np.testing.assert_allclose(found / unit, expected, rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("name", ["isolated", "large hole", "edge", "corner", "flat corner"])
+@each("name", ["isolated", "large hole", "edge", "corner", "flat corner"])
 def test_no_direction_of_the_scan_is_preferred(name):
     heights = np.where(PATTERNS[name], NAN, ROUGH)
     expected = filled(heights)
@@ -135,7 +139,7 @@ def test_no_direction_of_the_scan_is_preferred(name):
     np.testing.assert_allclose(turned, expected, rtol=0, atol=1e-20)
 
 
-@pytest.mark.parametrize("pixel_size", [(1, 1), (1, 3), (5e-6, 2e-6)])
+@each("pixel_size", [(1, 1), (1, 3), (5e-6, 2e-6)])
 def test_an_isolated_point_is_the_mean_of_both_lines_by_the_cube_of_their_nearness(pixel_size):
     heights = ROUGH.copy()
     heights[8, 12] = NAN
@@ -173,7 +177,7 @@ def test_a_map_of_one_row_or_column_is_interpolated_along_it(turn):
     np.testing.assert_allclose(filled(turn(profile)), turn(expected[None]), rtol=0, atol=1e-20)
 
 
-@pytest.mark.parametrize(("limit", "shown"), [(0.0, "0"), (0.05, "5"), (0.1249, "12.49")])
+@each(("limit", "shown"), [(0.0, "0"), (0.05, "5"), (0.1249, "12.49")])
 def test_a_refusal_tells_the_fraction_and_the_limit(limit, shown):
     heights = ROUGH[:20, :20].copy()
     heights[:5, :10] = NAN

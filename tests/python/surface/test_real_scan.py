@@ -1,6 +1,5 @@
 """Measured scans from public sources: as they are, damaged, and through the shell command."""
 
-import os
 import subprocess
 import sys
 import tomllib
@@ -12,8 +11,7 @@ import pytest
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
 from asperity.cli.main import main
 from asperity.demo import scene_text
-
-DATA = Path(os.environ.get("ASPERITY_DATA", Path(__file__).parents[3].parent / "shared" / "data"))
+from helpers.measured import present
 
 SCENE = """
 [surface]
@@ -40,10 +38,7 @@ SCANS = {  # shape, distance of the points [m], rms height without tilt [m], sha
 def measured(name: str) -> Path:
     """A measured scan; the test skips where it is absent or cannot be read."""
     pytest.importorskip("SurfaceTopography", reason="reading it needs asperity[io]")
-    file = (DATA / "topography" / name).resolve()
-    if not file.exists():
-        pytest.skip(f"no {name}: measured data is in shared/data or ASPERITY_DATA")
-    return file
+    return present("topography", name)
 
 
 def scene(folder: Path, name: str) -> Path:

@@ -21,6 +21,7 @@ from asperity import (
 from asperity.cli.main import main
 from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import drawn_rubber, drawn_spectrum
+from helpers.cases import each
 
 ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
 RUBBER = PronySeries(
@@ -91,6 +92,7 @@ def test_the_truth_lies_in_the_band_of_a_measured_spectrum():
     assert (share_of_truth(bands, TRUTH) >= 33 / 40).all()
 
 
+@pytest.mark.long
 def test_the_truth_lies_in_the_band_of_isotherms():
     narrow = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e4)
     scene = {"pressure": 2e5, "velocity": [1e-4, 1e-3]}
@@ -183,7 +185,7 @@ BAD = {
 }
 
 
-@pytest.mark.parametrize("message", BAD)
+@each("message", BAD)
 def test_bad_input(message):
     spectrum, rubber, changed = BAD[message]
     spectrum = fit_self_affine(measured_spectrum(2)) if spectrum == "fit" else spectrum

@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from asperity import AffineShift, PronySeries, SelfAffineSpectrum
+from helpers.cases import each
 from helpers.table_rows import close, master_curve, prony, self_affine, tabulated
 
 
@@ -42,7 +43,7 @@ def test_hertz_penetration(row):
     close(row, ["penetration"], [asperity.hertz_penetration(**{name: row[name] for name in names})])
 
 
-@pytest.mark.parametrize("reading", ["implicit", "added"])
+@each("reading", ["implicit", "added"])
 @pytest.mark.reference("greenwood_williamson")
 def test_separations_of_both_readings(row, reading):
     names = ("pressure", "effective_modulus", "rms_height", "q0")
@@ -77,7 +78,7 @@ def test_autocorrelation_of_self_affine_spectra(row):
     close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
 
 
-@pytest.mark.parametrize("rtol", [1e-4, 1e-10])
+@each("rtol", [1e-4, 1e-10])
 @pytest.mark.reference("nayak_s_factor")
 def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     spectrum = SelfAffineSpectrum(
@@ -156,8 +157,8 @@ class FrictionTable:
         names = ["hysteresis_s", "contact_area_s", "contact_area_s"]
         close(row, names, [found.hysteresis, found.contact_area, area])
 
-    @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
-    @pytest.mark.parametrize("corrected", [False, True])
+    @each("rtol", [1e-3, 1e-6, 1e-9])
+    @each("corrected", [False, True])
     def test_error_estimate_bounds_the_true_error_and_keeps_the_tolerance(
         self, row, rtol, corrected
     ):
