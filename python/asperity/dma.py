@@ -22,6 +22,7 @@ from asperity.base.arguments import (
     number,
     number_or_none,
     of_kind,
+    quoted,
     real_array,
     sentences,
     vector,
@@ -226,8 +227,7 @@ def build_master_curve(
     if isinstance(vertical_shift, str):
         if vertical_shift != "T/T_ref":
             allowed = 'must be None, "T/T_ref" or an array of b_T'
-            shown = " ".join(vertical_shift[:60].split())
-            raise InvalidInput(f'vertical_shift = "{shown}": {allowed}')
+            raise InvalidInput(f"vertical_shift = {quoted(vertical_shift)}: {allowed}")
         kind = 1
     elif vertical_shift is not None:
         kind, table = 2, vector(vertical_shift, "vertical_shift")

@@ -216,7 +216,7 @@ PeaksThenGreenwoodWilliamson or None
     ... )
     >>> result = asperity.friction(road, rubber, pressure=81e3, velocity=[1e-3, 1e-2])
     >>> result.mu.round(4)
-    array([0.0003, 0.0034])
+    array([0.002 , 0.0205])
     """
     shape, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     model = contact_model(poisson_ratio, correction, form, rtol, method)

@@ -127,7 +127,7 @@ class FrictionMap(Table):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "FrictionMap":
-        """Read a map.
+        """Read a map from the file at a `path`.
 
         Raises
         ------
@@ -143,7 +143,7 @@ class FrictionMap(Table):
 
     @classmethod
     def from_bytes(cls, content: bytes) -> "FrictionMap":
-        """Make a map from the bytes of a file."""
+        """Make a map from the `content` of a file, bytes."""
         return cls(content=content)
 
     def to_bytes(self) -> bytes:
@@ -151,7 +151,7 @@ class FrictionMap(Table):
         return self.content
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the map, whole or not at all. InvalidInput where the path cannot be written."""
+        """Write the map, whole or not at all. InvalidInput where `path` cannot be written."""
         write_whole(path_of(path, "path"), self.content)
 
     @cached_property
@@ -393,7 +393,7 @@ def friction_map(
     >>> box = {"pressure": (5e4, 5e5), "velocity": (1e-4, 1)}
     >>> fmap = asperity.friction_map(road, rubber, **box, checked=1000)
     >>> round(fmap.mu(81e3, 1e-2), 4)
-    0.0034
+    0.0205
     """
     if not isinstance(text, str):
         raise InvalidInput(f"text = {brief(text)}: must be a str")

@@ -142,7 +142,8 @@ class SpectralDensity(Table):
         from matplotlib.colors import LogNorm
 
         shown = np.ma.masked_less_equal(self.density, 0)
-        image = axes.pcolormesh(self.wavenumber_x, self.wavenumber_y, shown, norm=LogNorm())
+        norm = LogNorm() if shown.count() else None  # no logarithm of a plane's zeros
+        image = axes.pcolormesh(self.wavenumber_x, self.wavenumber_y, shown, norm=norm)
         axes.set_aspect("equal")
         axes.set_xlabel("$q_x$ [1/m]")
         axes.set_ylabel("$q_y$ [1/m]")

@@ -55,14 +55,14 @@ class _HasModulus(Table):
     """What every rubber can do."""
 
     def modulus(self, angular_frequency: ArrayLike) -> Any:
-        """Return the complex modulus E' + i E'' [Pa] at frequencies w [rad/s] of any shape.
+        """Return the modulus E' + i E'' [Pa] at an `angular_frequency` [rad/s] of any shape.
 
         Outside of its range a measured master curve raises OutOfRange.
         """
         return over(angular_frequency, "angular_frequency", self._core.modulus)
 
     def angular_integrals(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
-        """Return (I1 [Pa], I2 [Pa^2]) at frequencies w = v q [rad/s] of any shape.
+        """Return (I1 [Pa], I2 [Pa^2]) at an `angular_frequency` w = v q [rad/s] of any shape.
 
         I1 = int_0^2pi cos(phi) Im E(w cos phi) dphi is the integral of Eq. 22, and
         I2 = int_0^2pi \\|E(w cos phi)\\|^2 dphi that of Eq. 7.
@@ -208,8 +208,8 @@ class MasterCurve(_HasModulus):
     def extrapolated_shares(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
         """Return the shares of I1 and I2 [-] that come from outside of the measured frequencies.
 
-        w cos(phi) always runs to zero. Below the lowest frequency E' is taken as constant and E''
-        as proportional to w.
+        `angular_frequency` w [rad/s] may have any shape; w cos(phi) always runs to zero. Below the
+        lowest frequency E' is taken as constant and E'' as proportional to w.
         """
         return _two_over(angular_frequency, self._core.extrapolated_shares)
 

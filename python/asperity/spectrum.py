@@ -85,7 +85,7 @@ class _Spectrum(Table):
         return float(_core.cutoff_for_contamination(self._core, number(size, "size")))
 
     def truncated(self, *, q0: float | None = None, q1: float | None = None) -> Self:
-        """Return the same densities on a narrower band [1/m].
+        """Return the same densities on a narrower band, from `q0` to `q1` [1/m].
 
         Raises
         ------

@@ -3,8 +3,12 @@
 The core checks ranges. What is checked here is the kind: a number, an array, a name, an object.
 """
 
+import os
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Protocol, SupportsFloat, TypeVar
+from decimal import Decimal
+from numbers import Real
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,18 +35,29 @@ ABSENT: Any = None  # the default of a field whose type is Given
 
 def brief(found: object) -> str:
     """Return what was found, in one short line."""
-    return " ".join(repr(found)[:60].split())
+    try:
+        return " ".join(repr(found)[:60].split())
+    except ValueError:  # a whole number of more digits than Python writes
+        return f"a {type(found).__name__}"
+
+
+def quoted(text: str) -> str:
+    """Return a text in quotation marks, in one short line, whatever characters it has."""
+    return f'"{repr(text[:60])[1:-1][:60]}"'
 
 
 def number(found: Any, name: str) -> float:
     """Return a real number as a float."""
     if type(found) is float:
         return found
-    if isinstance(found, SupportsFloat) and not isinstance(found, complex | np.complexfloating):
-        if not isinstance(found, np.ndarray):
+    if isinstance(found, Real | Decimal):
+        try:
             return float(found)
-        if found.ndim == 0:
-            return float(real_array(found, name))
+        except OverflowError:
+            allowed = "must be at most 1.8e308 in size"
+            raise InvalidInput(f"{name} = {brief(found)}: {allowed}") from None
+    if getattr(found, "ndim", None) == 0:
+        return float(real_array(found, name))
     raise InvalidInput(f"{name} = {brief(found)}: must be a number")
 
 
@@ -71,7 +86,7 @@ def choice(found: Any, name: str, allowed: Sequence[str | None]) -> int:
     if (isinstance(found, str) or found is None) and found in allowed:
         return allowed.index(found)
     names = ", ".join("None" if option is None else f'"{option}"' for option in allowed)
-    shown = f'"{found[:60]}"' if isinstance(found, str) else brief(found)
+    shown = quoted(found) if isinstance(found, str) else brief(found)
     raise InvalidInput(f"{name} = {shown}: must be one of {names}")
 
 
@@ -154,6 +169,13 @@ def sentences(found: Any, name: str) -> tuple[str, ...]:
         if all(isinstance(one, str) for one in given):
             return given
     raise InvalidInput(f"{name} = {brief(found)}: must be a tuple of str")
+
+
+def path_of(found: Any, name: str) -> Path:
+    """Return where a file is."""
+    if isinstance(found, str | os.PathLike):
+        return Path(found)
+    raise InvalidInput(f"{name} = {brief(found)}: must be the path of a file")
 
 
 def broadcast(**given: Any) -> tuple[Shape, list[Array]]:

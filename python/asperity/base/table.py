@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -46,8 +47,7 @@ class Table(Value):
 
     def to_xarray(self) -> Any:
         """Return an `xarray.Dataset`: a variable a column, with its unit as attribute."""
-        import xarray
-
+        xarray = _imported("xarray", "tables")
         columns = self._columns()
 
         def given(part: Mapping[str, Column]) -> dict[str, tuple[Any, ...]]:
@@ -61,8 +61,7 @@ class Table(Value):
 
     def to_dataframe(self) -> Any:
         """Return a `pandas.DataFrame`: a row an entry, coordinates before variables."""
-        import pandas
-
+        pandas = _imported("pandas", "tables")
         columns = self._columns()
         named = {**columns.coordinates, **columns.variables}
         sizes: dict[str, int] = {}
@@ -72,13 +71,20 @@ class Table(Value):
         return pandas.DataFrame(flat)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw into matplotlib axes, new ones unless given, and return them."""
+        """Draw into the matplotlib axes `ax`, new ones unless given, and return them."""
         if ax is None:
-            from matplotlib import pyplot
-
-            ax = pyplot.subplots(layout="constrained")[1]
+            ax = _imported("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
         self._draw(ax)
         return ax
+
+
+def _imported(module: str, extra: str) -> Any:
+    """Return a module, or say what to install."""
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        missing = (error.name or module).partition(".")[0]
+        raise ImportError(f"{missing} is missing: pip install asperity[{extra}]") from None
 
 
 def _in_full(column: Column, sizes: Mapping[str, int]) -> NDArray[Any]:

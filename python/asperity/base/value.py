@@ -1,7 +1,6 @@
 """Values: frozen, compared by content, pickled by what they were made from, shown in one line."""
 
 from dataclasses import dataclass, field, fields
-from functools import partial
 from html import escape
 from typing import Any, Self, dataclass_transform
 
@@ -23,6 +22,14 @@ class Value:
     _core: Any
     __match_args__: tuple[str, ...]
     __hash__ = None  # type: ignore[assignment]  # equal arrays have no equal hash
+
+    def __post_init__(self) -> None:
+        """Make arrays read-only, in a class that has nothing else to check."""
+        for name, found in self._arguments().items():
+            if isinstance(found, np.ndarray):
+                shown = found.view()
+                shown.setflags(write=False)
+                self._set(**{name: shown})
 
     def _set(self, **values: Any) -> None:
         """Set attributes of a frozen object while it is made."""
@@ -59,11 +66,18 @@ class Value:
         return all(same(mine[name], others[name]) for name in mine)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(type(self), **self._arguments()), ()
+        return _made_anew, (type(self), self._arguments())
+
+
+def _made_anew(kind: type[Value], arguments: dict[str, Any]) -> Value:
+    """Make an object as its constructor does: from a pickle, or from copies of the arguments."""
+    return kind(**arguments)
 
 
 def same(one: Any, other: Any) -> bool:
     """Whether two attributes are equal; arrays entry by entry, NaN equal to NaN."""
+    if isinstance(one, float) and isinstance(other, float):
+        return one == other or (one != one and other != other)
     if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
         return False
     if isinstance(one, np.ndarray):
@@ -76,7 +90,8 @@ def short(shown: Any) -> str:
     if isinstance(shown, np.ndarray) and shown.dtype.kind == "f" and shown.size:
         if shown.ndim == 1 and shown.size <= 3:
             return "[" + ", ".join(f"{x:.4g}" for x in shown) + "]"
-        lowest, highest = np.nanmin(shown), np.nanmax(shown)
+        known = shown[~np.isnan(shown)]
+        lowest, highest = (known.min(), known.max()) if known.size else (np.nan, np.nan)
         return f"<{' x '.join(map(str, shown.shape))} from {lowest:.4g} to {highest:.4g}>"
     if isinstance(shown, np.ndarray):
         return f"<{' x '.join(map(str, shown.shape))} {shown.dtype}>"
@@ -84,6 +99,8 @@ def short(shown: Any) -> str:
         return f"{shown:.6g}"
     if isinstance(shown, tuple) and shown and isinstance(shown[0], str):
         return f"<{len(shown)} notes>" if len(shown) > 1 else "<1 note>"
+    if isinstance(shown, dict):
+        return "{" + ", ".join(f"{name}: {short(one)}" for name, one in shown.items()) + "}"
     if isinstance(shown, tuple):
-        return "(" + ", ".join(map(short, shown)) + ")"
+        return "(" + ", ".join(map(short, shown)) + (",)" if len(shown) == 1 else ")")
     return repr(shown)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import brief as shown
 from asperity.io.fields import named
 from asperity.surface import HeightMap, LineScan
 
@@ -43,7 +44,7 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
         return HeightMap(heights, pixel_size=pixel_size)
     if isinstance(pixel_size, tuple) or np.ndim(pixel_size) > 0:
         raise InvalidInput(
-            f"pixel_size = {pixel_size!r}: must be one number, the file holds a line scan"
+            f"pixel_size = {shown(pixel_size)}: must be one number, the file holds a line scan"
         )
     with named(None, {"spacing": "pixel_size"}):
         return LineScan(heights, spacing=pixel_size)
@@ -52,7 +53,7 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
 def check_channel(channel: int, available: int) -> None:
     if not (isinstance(channel, int | np.integer) and 0 <= channel < available):
         allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
-        raise InvalidInput(f"channel = {channel!r}: must be {allowed}")
+        raise InvalidInput(f"channel = {shown(channel)}: must be {allowed}")
 
 
 def read_instrument(

@@ -9,6 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import brief as shown
+from asperity.base.arguments import choice, path_of, vector
+from asperity.base.arguments import number as real
 from asperity.io.instrument import brief
 from asperity.io.read_surface import check_file
 from asperity.shift_factors import ShiftFactors
@@ -110,8 +113,10 @@ def read_strain_sweep(
 ) -> StrainSweep:
     """One sweep of strain from a text file, at the mean of its temperatures and frequencies.
 
-    As `read_isotherms`, with a column and a unit ("1" or "%") of "strain" [-] besides.
+    Arguments and errors are those of `read_isotherms`, with one `path` and a column and a unit ("1"
+    or "%") of "strain" [-] besides.
     """
+    path = path_of(path, "path")
     factor = _young(modulus, poisson_ratio)
     wanted = ("strain", "frequency", "storage", "loss", "temperature")
     ((file, table),) = _tables(path, columns, units, wanted)
@@ -131,9 +136,25 @@ def read_strain_sweep(
 def read_shift_factors(
     path: str | os.PathLike[str], *, reference_temperature: float
 ) -> ShiftFactors:
-    """Shift factors over temperature [K] from a CSV file with columns temperature_k, log10_a_t."""
+    """Shift factors over temperature [K] from a CSV file with columns temperature_k, log10_a_t.
+
+    Parameters
+    ----------
+    path : path-like
+    reference_temperature : float
+        T_ref [K], where a_T = 1.
+
+    Returns
+    -------
+    ShiftFactors
+
+    Raises
+    ------
+    InvalidInput
+        Naming file and line.
+    """
     columns = {"temperature": "temperature_k", "log10_a_T": "log10_a_t"}
-    file = Path(path)
+    file = path_of(path, "path")
     table = _table(file, columns)
     order = np.argsort(table["temperature"], kind="stable")
     try:
@@ -147,11 +168,11 @@ def read_shift_factors(
 
 
 def _young(modulus: str, poisson_ratio: float) -> float:
-    if modulus not in ("E", "G"):
-        raise InvalidInput(f"modulus = {modulus!r}: must be 'E' or 'G'")
-    if not 0 <= poisson_ratio <= 0.5:
-        raise InvalidInput(f"poisson_ratio = {poisson_ratio!r}: must be in [0, 0.5]")
-    return 2 * (1 + poisson_ratio) if modulus == "G" else 1.0
+    shear = choice(modulus, "modulus", ("E", "G")) == 1
+    ratio = real(poisson_ratio, "poisson_ratio")
+    if not 0 <= ratio <= 0.5:
+        raise InvalidInput(f"poisson_ratio = {ratio!r}: must be in [0, 0.5]")
+    return 2 * (1 + ratio) if shear else 1.0
 
 
 def _tables(
@@ -164,31 +185,37 @@ def _tables(
     """The wanted columns of each file in SI units, and the numbers of their lines."""
     wanted = tuple(wanted)
     for name, given in (("columns", columns), ("units", units)):
+        if not isinstance(given, Mapping) or not all(isinstance(x, str) for x in given.values()):
+            raise InvalidInput(f"{name} = {shown(given)}: must be a dict of str")
         known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
         if name == "columns" and temperatures is not None:
             known.discard("temperature")
         for key in given:
             if key not in known:
                 allowed = ", ".join(sorted(known))
-                raise InvalidInput(f"{name}: {key!r} is unknown, must be of {allowed}")
+                raise InvalidInput(f"{name}: {shown(key)} is unknown, must be of {allowed}")
         for key in sorted(known):
             if key not in given:
                 raise InvalidInput(f"{name}: {key!r} is missing")
     for key, unit in units.items():
         if unit not in _UNITS[key]:
             allowed = ", ".join(_UNITS[key])
-            raise InvalidInput(f"units: {key} = {unit!r}: must be one of {allowed}")
-    files = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+            raise InvalidInput(f"units: {key} = {shown(unit)}: must be one of {allowed}")
+    if isinstance(paths, str | os.PathLike) or not isinstance(paths, Iterable):
+        files = [path_of(paths, "paths")]
+    else:
+        files = [path_of(path, f"paths[{i}]") for i, path in enumerate(paths)]
     if not files:
         raise InvalidInput("paths: is empty, must have 1 file or more")
-    if temperatures is not None and len(temperatures) != len(files):
-        found = f"temperatures has {len(temperatures)} entries, paths has {len(files)}"
+    by_file = None if temperatures is None else vector(temperatures, "temperatures")
+    if by_file is not None and by_file.size != len(files):
+        found = f"temperatures has {by_file.size} entries, paths has {len(files)}"
         raise InvalidInput(f"{found}: must be as many")
     result = []
-    for at, file in enumerate(map(Path, files)):
+    for at, file in enumerate(files):
         table = _table(file, columns)
-        if temperatures is not None:
-            table["temperature"] = np.full(table["line"].size, float(temperatures[at]))
+        if by_file is not None:
+            table["temperature"] = np.full(table["line"].size, by_file[at])
         for name in wanted:
             if name != "temperature" and not np.all(table[name] > 0):
                 row = int(np.argmin(table[name] > 0))

@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import brief as shown
+from asperity.base.arguments import path_of
 from asperity.io.instrument import (
     METRES,
     PixelSize,
@@ -78,7 +80,7 @@ def read_surface(
     --------
     >>> surface = read_surface("scan.npy", pixel_size=(2e-6, 1e-6), unit="um")  # doctest: +SKIP
     """
-    path = Path(path)
+    path = path_of(path, "path")
     try:
         if unit is not None:
             unit = _checked_unit(unit)
@@ -105,7 +107,7 @@ def _checked_unit(unit: str) -> str:
     """The unit, micro signs (there are two) written as u."""
     plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
     if plain not in METRES:
-        raise InvalidInput(f"unit = {unit!r}: must be one of {', '.join(METRES)}")
+        raise InvalidInput(f"unit = {shown(unit)}: must be one of {', '.join(METRES)}")
     return plain
 
 

@@ -2,20 +2,22 @@
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
+from asperity.base.arguments import broadcast, number, of_kind, shaped, whole
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
 from asperity.correction import Correction
 from asperity.dma import MasterCurveBuild, PronyFit
 from asperity.friction import friction
 from asperity.measured_spectrum import SelfAffineFit
-from asperity.rubber import Rubber
-from asperity.spectrum import Spectrum
+from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
 
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
@@ -24,24 +26,49 @@ Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 _SWEPT = 13  # velocities at which the band of a sweep is computed
 
 
-@dataclass(frozen=True, eq=False)
-class FrictionBand:
-    """A share `level` of `samples` draws has its mu [-] between `lower` and `upper`, arrays of the
-    points' shape."""
+@value
+class FrictionBand(Table):
+    """What `friction_band` returns: a band on mu. Scalars for scalar arguments, else arrays.
 
-    lower: NDArray[np.float64]
-    upper: NDArray[np.float64]
+    Attributes
+    ----------
+    lower, upper : float or ndarray
+        A share `level` of the draws has its mu [-] between the two.
+    pressure, velocity : float or ndarray
+        As given, broadcast [Pa], [m/s].
+    level : float
+        In (0, 1) [-].
+    samples : int
+        How many draws there were.
+    """
+
+    lower: Any
+    upper: Any
+    pressure: Any
+    velocity: Any
     level: float
     samples: int
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, FrictionBand):
-            return NotImplemented
-        same = self.level == other.level and self.samples == other.samples
-        bounds = (self.lower, other.lower), (self.upper, other.upper)
-        return same and all(np.array_equal(mine, theirs) for mine, theirs in bounds)
+    def _columns(self) -> Columns:
+        axes = tuple(f"axis_{i}" for i in range(np.ndim(self.lower)))
+        variables = {
+            "lower": Column(axes, self.lower, "1", "lower end of the band on mu"),
+            "upper": Column(axes, self.upper, "1", "upper end of the band on mu"),
+            "pressure": Column(axes, self.pressure, "Pa", "nominal pressure"),
+            "velocity": Column(axes, self.velocity, "m/s", "sliding velocity"),
+        }
+        return Columns({}, variables, {"level": self.level, "samples": self.samples})
 
-    __hash__ = None  # type: ignore[assignment]  # as of every value that holds arrays
+    def _draw(self, axes: Any) -> None:
+        columns = (self.pressure, self.velocity, self.lower, self.upper)
+        p, v, lower, upper = (np.ravel(column) for column in columns)
+        for pressure in np.unique(p):
+            at = np.flatnonzero(p == pressure)
+            at = at[np.argsort(v[at])]
+            label = f"{pressure:.4g} Pa"
+            axes.fill_between(v[at], lower[at], upper[at], alpha=0.4, label=label)
+        axes.set(xscale="log", xlabel="velocity [m/s]", ylabel="friction coefficient")
+        axes.legend(title=f"{self.level:.3g} of {self.samples} draws, at")
 
 
 def friction_band(
@@ -58,7 +85,7 @@ def friction_band(
     seed: int = 0,
     level: float = 0.95,
 ) -> FrictionBand:
-    """A band on mu from the standard errors of its measured inputs.
+    """Return a band on mu, from the standard errors of its measured inputs.
 
     Parameters
     ----------
@@ -91,6 +118,9 @@ def friction_band(
     InvalidInput
         No input has errors; a PronyFit, which does not know its own (give the build).
     """
+    of_kind(spectrum, "spectrum", SelfAffineFit, SelfAffineSpectrum, TabulatedSpectrum)
+    of_kind(rubber, "rubber", MasterCurveBuild, MasterCurve, PronySeries)
+    adhesion_core(adhesion)
     if isinstance(rubber, PronyFit):
         raise InvalidInput(
             "rubber: a PronyFit does not know its errors, give the MasterCurveBuild behind it"
@@ -101,7 +131,8 @@ def friction_band(
             "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
             "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
         )
-    p, v = np.broadcast_arrays(np.asarray(pressure, float), np.asarray(velocity, float))
+    shape, points = broadcast(pressure=pressure, velocity=velocity)
+    p, v = (shaped(column, shape) for column in points)
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {
         "poisson_ratio": poisson_ratio,
@@ -113,13 +144,19 @@ def friction_band(
         surface,
         solid,
         adhesion,
-        {**options, "pressure": p.ravel(), "velocity": v.ravel()},
+        {**options, "pressure": points[0], "velocity": points[1]},
         samples=samples,
         seed=seed,
         level=level,
     )
-    shape = np.shape(mu)
-    return FrictionBand(mu * lower.reshape(shape), mu * upper.reshape(shape), level, samples)
+    return FrictionBand(
+        lower=mu * shaped(lower, shape),
+        upper=mu * shaped(upper, shape),
+        pressure=p,
+        velocity=v,
+        level=float(level),
+        samples=int(samples),
+    )
 
 
 def relative_band(
@@ -136,11 +173,9 @@ def relative_band(
 ) -> Bounds:
     """Quantiles of mu of drawn inputs over mu of the plain ones; 1 where there is no friction.
     `refit` gives the adhesion that goes with a drawn spectrum and rubber."""
-    if samples < 20:
-        raise InvalidInput(f"samples = {samples}: must be 20 or more")
-    if seed < 0:
-        raise InvalidInput(f"seed = {seed}: must not be negative")
-    if not 0 < level < 1:
+    whole(samples, "samples", lowest=20)
+    whole(seed, "seed")
+    if not 0 < number(level, "level") < 1:
         raise InvalidInput(f"level = {level}: must be in (0, 1)")
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits

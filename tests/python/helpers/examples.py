@@ -1,4 +1,7 @@
-"""A value or more of every public class, for the tests of what all values can do."""
+"""A value or more of every public class, and a call of every function that works."""
+
+import inspect
+import warnings
 
 import numpy as np
 
@@ -155,3 +158,134 @@ RESULTS = {
 }
 VALUES = [getattr(asperity, name)(**arguments) for name, arguments, _ in MADE]
 EVERY = dict(zip(IDS, VALUES, strict=True)) | RESULTS
+
+ROUGH = asperity.synthesize(ROAD, shape=(48, 40), pixel_size=1e-4, seed=2)
+STRIDED = asperity.HeightMap(ROUGH.heights.astype("f4")[::-1, ::2], pixel_size=(1e-4, 2e-4))
+HOLED = asperity.HeightMap(
+    np.where(np.abs(ROUGH.heights) > 2e-4, np.nan, ROUGH.heights), pixel_size=1e-4
+)
+SCANNED = asperity.power_spectrum(ROUGH)
+SLOW = asperity.MasterCurve(
+    **CURVE, shift_factors=asperity.ShiftFactors(**SHIFTS, standard_deviation=[0.1, 0, 0.2])
+)
+SWEEPS = [
+    asperity.StrainSweep(
+        temperature=t,
+        angular_frequency=6.0,
+        strain=[1e-3, 5e-3, 0.3],
+        storage_modulus=[2e6, 1.9e6, 1e6],
+        loss_modulus=[2e5, 2.5e5, 2e5],
+    )
+    for t in (273.0, 293.0, 313.0)
+]
+STICKY = asperity.Adhesion(shear_stress=8e6)
+
+
+def large_strain(strain, sweeps):
+    """The slow rubber at a strain, without the warning that the sweeps do not span the curve."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return SLOW.at_strain(strain, sweeps)
+
+
+def crowded():
+    """Points whose means lie within 1 % of the next point: averaged twice they would be others."""
+    w = [1.0, 1.009, 1.0111, 2.0, 3.0, 4.0]
+    return asperity.Isotherm(
+        temperature=293.0,
+        angular_frequency=w,
+        storage_modulus=np.multiply(w, 1e6),
+        loss_modulus=np.multiply(w, 1e5),
+    )
+
+
+# States that no constructor's argument gives: what methods and fits made of them.
+DERIVED = {
+    "an isotherm with averaged rows": crowded(),
+    "a strided float32 map": STRIDED,
+    "a map with drop-outs": HOLED,
+    "a map that was filled": HOLED.fill_dropouts(),
+    "a detrended map": STRIDED.detrend("quadratic"),
+    "a shifted map": ROUGH.affine_shift(2.0),
+    "a strided line scan": asperity.LineScan(ROUGH.heights[3, ::-2], spacing=2e-4),
+    "a measured spectrum": SCANNED,
+    "a spectrum cut between its rows": SCANNED.truncated(q0=2000.0, q1=1e4),
+    "a spectrum in bins": SCANNED.log_binned(per_decade=5),
+    "a merged spectrum": asperity.merge_spectra([SCANNED, SCANNED.scaled(1.1)]),
+    "a line spectrum": asperity.line_spectrum(STRIDED),
+    "a line spectrum in bins": asperity.line_spectrum(ROUGH).log_binned(per_decade=6),
+    "a cut self-affine spectrum": ROAD.truncated(q0=1234.5, q1=5e4),
+    "the article's spectrum": asperity.SelfAffineSpectrum.from_article(
+        h0=1e-4, hurst=0.8, q0=1e3, q1=1e5
+    ),
+    "a fit of the slope": asperity.fit_self_affine(SCANNED, q_min=2e3, q_max=2e4, method="slope"),
+    "a warm series": RUBBER.shifted(0.3),
+    "a warm master curve": SLOW.shifted(0.3),
+    "a curve at large strain": large_strain(0.2, SWEEPS),
+    "a smooth build": asperity.build_master_curve(
+        SWEPT, reference_temperature=290.0, smooth=True, extrapolation="clamp"
+    ),
+    "its rubber": asperity.fit_prony(BUILD),
+    "peaks of a strided map": asperity.LocalPeaks(STRIDED, min_distance=5e-4),
+    "peaks and more of a map": asperity.PeaksThenGreenwoodWilliamson(ROUGH, min_distance=5e-4),
+    "friction at a point": asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=0.01),
+    "friction of many points": asperity.friction(
+        ROAD, RUBBER, pressure=np.array([[1e5], [2e5]]), velocity=np.geomspace(1e-3, 1, 40)
+    ),
+    "contributions at many points": asperity.friction(
+        ROAD, RUBBER, pressure=1e5, velocity=[0.01, 0.1], contributions=True
+    ),
+    "no friction": asperity.friction(
+        ROAD,
+        RUBBER,
+        pressure=1.0,
+        velocity=0.01,
+        correction=asperity.GreenwoodWilliamson(z_max=1e-5, z_min=-1e-3),
+    ),
+    "no slopes": FMAP.derivatives([1.0, 2.0], 0.1, outside="nan"),
+    "a band at a point": asperity.friction_band(
+        FITTED_ROAD, RUBBER, pressure=1e5, velocity=0.01, samples=20
+    ),
+}
+ALL = EVERY | DERIVED | {"FrictionMap": FMAP}
+PUBLIC = {name: getattr(asperity, name) for name in asperity.__all__}
+CLASSES = {
+    name: made
+    for name, made in PUBLIC.items()
+    if inspect.isclass(made) and not issubclass(made, Exception)
+}
+FUNCTIONS = {name: made for name, made in PUBLIC.items() if inspect.isfunction(made)}
+AT = {"pressure": 1e5, "velocity": 0.01}
+SLIDES = {"spectrum": ROAD, "rubber": RUBBER, **AT}
+# A call of every function but those that read files.
+CALLS = {
+    "anisotropy": {"surface": ROUGH, "q_min": 3e3, "q_max": 1.5e4},
+    "build_master_curve": {"isotherms": SWEPT, "reference_temperature": 293.0},
+    "contact_area": SLIDES,
+    "contact_notes": SLIDES,
+    "correction_factor": {**SLIDES, "wavenumber": 1e4},
+    "effective_modulus": {"modulus": 1e6, "poisson_ratio": 0.5},
+    "fit_adhesion": {
+        "spectrum": ROAD,
+        "rubber": RUBBER,
+        "pressure": 1e5,
+        "velocity": np.geomspace(1e-4, 0.5, 12),
+        "mu": asperity.friction(
+            ROAD, RUBBER, pressure=1e5, velocity=np.geomspace(1e-4, 0.5, 12), adhesion=STICKY
+        ).mu,
+    },
+    "fit_prony": {"master_curve": BUILD},
+    "fit_self_affine": {"spectrum": SCANNED, "q_min": 2e3, "q_max": 2e4},
+    "friction": SLIDES,
+    "friction_band": {**SLIDES, "spectrum": FITTED_ROAD, "samples": 20},
+    "friction_map": {**SLIDES, "pressure": (1e5, 2e5), "velocity": (0.01, 1.0), "checked": 1},
+    "hertz_penetration": {"force": 1.0, "effective_modulus": 1e6, "radius": 1e-3},
+    "line_spectrum": {"surface": ROUGH},
+    "mean_pressure": SLIDES,
+    "merge_spectra": {"spectra": [SCANNED, SCANNED]},
+    "power_spectrum": {"surface": ROUGH},
+    "pressure_distribution": {**SLIDES, "stress": 1e5},
+    "separation": {**SEPARATION, "z_max": 1e-3, "z_min": -1e-3},
+    "spectral_density": {"surface": ROUGH},
+    "synthesize": {"spectrum": ROAD, "shape": (16, 16), "pixel_size": 1e-4, "seed": 1},
+}

@@ -178,8 +178,8 @@ def test_without_friction_the_band_has_no_width():
 BAD = {
     r"^spectrum, rubber, adhesion: none has errors": (ROAD, RUBBER, {}),
     r"^rubber: a PronyFit does not know its errors": (ROAD, "prony", {}),
-    r"^samples = 19: must be 20 or more": ("fit", RUBBER, {"samples": 19}),
-    r"^seed = -1: must not be negative": ("fit", RUBBER, {"seed": -1}),
+    r"^samples = 19: must be .*20 or more": ("fit", RUBBER, {"samples": 19}),
+    r"^seed = -1: must be .*0 or more": ("fit", RUBBER, {"seed": -1}),
     r"^level = 1: must be in \(0, 1\)": ("fit", RUBBER, {"level": 1}),
     r"^pressure = -1": ("fit", RUBBER, {"pressure": -1}),
 }
@@ -284,7 +284,10 @@ def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_p
 
 def test_bad_uncertainty_in_a_scene(scene, capsys):
     for more, message in (
-        ("[uncertainty]\nsamples = 5", "[uncertainty] samples = 5: must be 20 or more"),
+        (
+            "[uncertainty]\nsamples = 5",
+            "[uncertainty] samples = 5: must be a whole number, 20 or more",
+        ),
         ("[uncertainty]\nlevel = 2", "[uncertainty] level = 2.0: must be in (0, 1)"),
         ("[uncertainty]\nsample = 50", "[uncertainty] sample: unknown key, did you mean samples?"),
     ):

@@ -9,6 +9,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, OutOfRange
+from helpers.cases import case
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
 ROLLED = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=1e4)
@@ -109,7 +110,7 @@ REFUSED = [
                 **{**ASPERITIES, "pressure": [1, 2, 3], "effective_modulus": [1, 2]}
             )
         ],
-        r"^shapes pressure \(3,\), effective_modulus \(2,\): must broadcast together$",
+        r"^shapes pressure \(3,\), effective_modulus \(2,\): must broadcast together; ",
     ),
     (
         [lambda: asperity.LocalPeaks([-1, -2, -3])],
@@ -130,7 +131,7 @@ REFUSED = [
     ),
     (
         scenes(pressure=[1, 2, 3], velocity=[1, 2]),
-        r"pressure \(3,\), velocity \(2,\): must broadcast together$",
+        r"pressure \(3,\), velocity \(2,\): must broadcast together; ",
     ),
     (scenes(pressure=[]), r"\bpressure\b.* 0 entries.*must have 1 or more"),
     (scenes(velocity=np.empty((3, 0))), r"\bvelocity\b.* 0 entries.*must have 1 or more"),
@@ -167,18 +168,12 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        pytest.param(call, said, id=f"{said}{i or ''}")
-        for calls, said in REFUSED
-        for i, call in enumerate(calls)
-    ],
-)
-def test_foolish_combination_is_refused_by_name(call, message):
-    with pytest.raises(InvalidInput) as caught:
-        call()
-    assert re.search(message, str(caught.value))
+def test_foolish_combination_is_refused_by_name():
+    for calls, message in REFUSED:
+        for at, call in enumerate(calls):
+            with case(message=message, at=at), pytest.raises(InvalidInput) as caught:
+                call()
+            assert re.search(message, str(caught.value))
 
 
 TALL = {"z_max": 3e-4, "z_min": -3e-4}
@@ -226,77 +221,53 @@ OUTSIDE = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        pytest.param(call, said, id=f"{said}{i or ''}")
-        for calls, said in OUTSIDE
-        for i, call in enumerate(calls)
-    ],
-)
-def test_asked_outside_measured_data(call, message):
-    with pytest.raises(OutOfRange) as caught:
-        call()
-    assert not isinstance(caught.value, ValueError)
-    assert re.search(message, str(caught.value))
+def test_asked_outside_measured_data():
+    for calls, message in OUTSIDE:
+        for at, call in enumerate(calls):
+            with case(message=message, at=at), pytest.raises(OutOfRange) as caught:
+                call()
+            assert not isinstance(caught.value, ValueError)
+            assert re.search(message, str(caught.value))
 
 
-WRONG_KIND = [
-    ("rms_height", lambda v: asperity.SelfAffineSpectrum(rms_height=v, hurst=1, q0=1, q1=2), "x"),
-    (
-        "rms_height",
-        lambda v: asperity.SelfAffineSpectrum(rms_height=v, hurst=1, q0=1, q1=2),
-        [1, 2],
-    ),
-    ("pixel_size", lambda v: asperity.HeightMap(HEIGHTS, pixel_size=v), (1, 2, 3)),
-    ("pixel_size", lambda v: asperity.HeightMap(HEIGHTS, pixel_size=v), None),
-    ("order", lambda v: MAP.detrend(v), None),
-    ("min_distance", lambda v: MAP.local_peaks(min_distance=v), "x"),
-    ("surface", lambda v: asperity.power_spectrum(v), HEIGHTS),
-    ("window", lambda v: asperity.power_spectrum(MAP, window=v), None),
-    ("spectrum", lambda v: asperity.fit_self_affine(v), SURFACE),
-    ("shape", lambda v: asperity.synthesize(SURFACE, shape=v, pixel_size=1, seed=1), (8.5, 8)),
-    ("seed", lambda v: asperity.synthesize(SURFACE, shape=(8, 8), pixel_size=1, seed=v), 1.5),
-    ("a_T", lambda v: RUBBER.shifted(v), "x"),
-    ("gamma", lambda v: asperity.SFactor(gamma=v), None),
-    ("p", lambda v: asperity.AffineShift(v), "x"),
-    ("poisson_ratio", lambda v: asperity.friction(SURFACE, RUBBER, **SCENE, poisson_ratio=v), 1j),
-    ("adhesion", lambda v: asperity.friction(SURFACE, RUBBER, **SCENE, adhesion=v), 8e6),
-    ("shear_stress", lambda v: asperity.Adhesion(shear_stress=v), "x"),
-]
+def test_misspelt_missing_and_positional_arguments_are_named_in_a_line():
+    calls = {
+        "presure": lambda: asperity.friction(SURFACE, RUBBER, presure=1, velocity=1),
+        "velocity": lambda: asperity.friction(SURFACE, RUBBER, pressure=np.ones(10_000)),
+        "positional": lambda: asperity.Adhesion(8e6),
+        "form": lambda: asperity.pressure_distribution(1, SURFACE, RUBBER, **SCENE, form="exact"),
+    }
+    for name, call in calls.items():
+        with pytest.raises(TypeError, match=name) as caught:
+            call()
+        assert len(str(caught.value)) < 150
+        assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(("argument", "call", "value"), WRONG_KIND)
-def test_argument_of_another_kind_is_a_type_error_that_names_it(argument, call, value):
-    with pytest.raises((TypeError, InvalidInput)) as caught:
-        call(value)
-    assert re.search(rf"\b{argument}\b", str(caught.value))
+def test_pressures_over_velocities_need_an_axis_more_and_the_error_says_which():
+    line = np.geomspace(1e-3, 1, 40)
+    said = (
+        r"^shapes pressure \(2,\), velocity \(40,\): must broadcast together; "
+        r"pressure\[:, None\] gives every pressure with every velocity$"
+    )
+    pressure = np.array([1e5, 4e5])
+    for function in (asperity.friction, asperity.contact_area, asperity.mean_pressure):
+        with pytest.raises(InvalidInput, match=said):
+            function(SURFACE, RUBBER, pressure=[1e5, 4e5], velocity=line)
+    found = asperity.friction(SURFACE, RUBBER, pressure=pressure[:, None], velocity=line)
+    assert found.mu.shape == (2, 40)
 
 
-def test_misspelt_missing_and_positional_arguments_are_type_errors():
-    with pytest.raises(TypeError, match="presure"):
-        asperity.friction(SURFACE, RUBBER, presure=1, velocity=1)
-    with pytest.raises(TypeError, match="velocity"):
-        asperity.friction(SURFACE, RUBBER, pressure=1)
-    with pytest.raises(TypeError, match="shear_stress"):
-        asperity.Adhesion(8e6)
-    with pytest.raises(TypeError, match="form"):
-        asperity.pressure_distribution(1, SURFACE, RUBBER, **SCENE, form="interpolated")
-
-
-@pytest.mark.parametrize(
-    ("rms_height", "pressure", "velocity"),
-    [(1e-4, 1e-160, 0.01), (1e200, 1e5, 0.01), (1e-4, 1e300, 0.01), (1e-160, 1e5, 0.01)],
-)
-def test_absurd_but_finite_numbers_end_in_a_number_or_an_error(rms_height, pressure, velocity):
-    code = f"""
+def test_absurd_but_finite_numbers_end_in_a_number_or_an_error():
+    code = """
 import math, asperity
-s = asperity.SelfAffineSpectrum(rms_height={rms_height}, hurst=0.8, q0=1e3, q1=1e5)
 r = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
-try:
-    f = asperity.friction(s, r, pressure={pressure}, velocity={velocity})
-    assert math.isfinite(f.mu) and 0 <= f.contact_area <= 1
-except asperity.Error:
-    pass
+for rms_height, pressure in (1e-4, 1e-160), (1e200, 1e5), (1e-4, 1e300), (1e-160, 1e5):
+    try:
+        s = asperity.SelfAffineSpectrum(rms_height=rms_height, hurst=0.8, q0=1e3, q1=1e5)
+        f = asperity.friction(s, r, pressure=pressure, velocity=0.01)
+        assert math.isfinite(f.mu) and 0 <= f.contact_area <= 1
+    except asperity.Error:
+        pass
 """
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=10)
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=20)

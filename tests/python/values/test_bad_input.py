@@ -121,7 +121,10 @@ NAME = (["x", ""], "one of")
 ABOVE_Q0 = ([1e3, 10, -1], " = {}: .*above q0 = 1000")
 SPECTRUM = ([None, RUBBER, "x", MAP], "SelfAffineSpectrum or a TabulatedSpectrum")
 SOLID = ([None, SURFACE, 5.0], "PronySeries or a MasterCurve")
-CORRECTION = (["s-factor", 5, SURFACE], "None, SFactor, NayakSFactor, AffineShift, LocalPeaks")
+CORRECTION = (
+    ["s-factor", 5, SURFACE],
+    "None or one of SFactor, NayakSFactor, AffineShift, LocalPeaks",
+)
 FEW_PEAKS = ([[], [1, 2]], r"\b[02]\b.*3 or more")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): .*finite")
 OUTSIDE_BAND = ([1, 1e9], r" = {}: .*\[1000, 100000\]")
@@ -185,7 +188,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     },
     "HeightMap": {
         "heights": [
-            ([HEIGHTS[0], HEIGHTS[None], np.array(5.0)], "[013] dimensions"),
+            ([HEIGHTS[0], HEIGHTS[None], np.array(5.0)], r"shape \(.*of shape \(ny, nx\)"),
             ([np.empty((0, 3)), np.empty((3, 0))], r"\([03], [03]\).*empty"),
             ([np.full((3, 3), NAN)], "every point is a drop-out"),
             ([[[1, INF]], [[1, -INF]]], r"\[0, 1\] = -?inf: .*finite"),
@@ -210,9 +213,9 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     },
     "synthesize": {
         "spectrum": [SPECTRUM],
-        "shape": [([(1, 8), (8, 1), (0, 0), (-1, 8)], "2 x 2")],
+        "shape": [([(1, 8), (8, 1), (0, 0)], "2 x 2"), ([(-1, 8)], "0 or more")],
         "pixel_size": [POSITIVE],
-        "seed": [([-1], NOT_NEGATIVE[1])],
+        "seed": [([-1, 2**64], "from 0 to 18446744073709551615")],
     },
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
     "NayakSFactor": {"friction_gamma": [SHARE]},

@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from asperity import HeightMap, InvalidInput, LocalPeaks, MasterCurve, TabulatedSpectrum
+from helpers.examples import FMAP
 
 
 @pytest.mark.parametrize("count", [3, 6, 10])
@@ -93,3 +94,10 @@ def test_attributes_cannot_be_written_to_nor_changed_from_outside():
     kept = LocalPeaks(peaks)
     peaks[:] = 9
     np.testing.assert_array_equal(kept.heights_or_map, [1e-4, 2e-4, 3e-4])
+
+
+def test_a_map_at_one_point_takes_shift_factors_of_any_shape():
+    shifted = FMAP.mu(1.5e5, 0.1, a_T=np.array([1.0, 0.5]))
+    np.testing.assert_allclose(
+        shifted, [FMAP.mu(1.5e5, 0.1), FMAP.mu(1.5e5, 0.1, a_T=0.5)], rtol=1e-14
+    )
