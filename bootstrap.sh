@@ -125,6 +125,7 @@ import tomllib
 with open("pyproject.toml", "rb") as file:
     print(*tomllib.load(file)["build-system"]["requires"], sep="\n")' >"$scratch/requires.txt"
   .venv/bin/python -m pip install -q -r "$scratch/requires.txt"
+  say "compiling $(find cpp/src python/bindings -name '*.cpp' | wc -l) files: two minutes on two cores the first time"
   SKBUILD_BUILD_DIR='build/{wheel_tag}' CMAKE_BUILD_PARALLEL_LEVEL=$jobs \
     .venv/bin/python -m pip install -q --no-build-isolation ".[$1]"
 }
@@ -132,7 +133,7 @@ with open("pyproject.toml", "rb") as file:
 demo() {
   install_package plot
   say "asperity demo"
-  .venv/bin/asperity demo --output "$PWD/asperity-demo"
+  .venv/bin/asperity demo --force --output "$PWD/asperity-demo"
   echo 'next:    .venv/bin/asperity friction asperity-demo/scene.toml --plot mine.png'
 }
 

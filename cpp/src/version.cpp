@@ -1,3 +1,4 @@
+// The version of the library that is linked, as against that of its headers.
 #include "asperity/version.hpp"
 
 namespace asperity {

@@ -1,70 +1,44 @@
 """Rubber contact area and friction on rough surfaces, after Persson. SI units throughout."""
 
-from asperity._core import (
-    Adhesion,
-    AdhesionFit,
-    AffineShift,
-    Anisotropy,
-    ArrheniusFit,
-    Error,
-    Friction,
-    FrictionMap,
-    FrictionSlopes,
-    GreenwoodWilliamson,
-    HeightMap,
-    InvalidInput,
-    Isotherm,
-    LineScan,
-    LineSpectrum,
-    LocalPeaks,
-    MasterCurve,
-    MasterCurveBuild,
-    MasterPoints,
-    NayakSFactor,
-    NotConverged,
-    OutOfRange,
-    PeaksThenGreenwoodWilliamson,
-    PronyFit,
-    PronySeries,
-    SelfAffineFit,
-    SelfAffineSpectrum,
-    Separation,
-    SFactor,
-    ShiftFactors,
-    SpectralDensity,
-    StrainSweep,
-    TabulatedSpectrum,
-    WlfFit,
-    __version__,
-    anisotropy,
-    build_master_curve,
+from asperity import correction
+from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
+from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
+from asperity.asperities import Separation, hertz_penetration, separation
+from asperity.contact import (
     contact_area,
     contact_notes,
     correction_factor,
-    effective_modulus,
-    fit_adhesion,
-    fit_prony,
-    fit_self_affine,
-    friction,
-    friction_map,
-    hertz_penetration,
-    line_spectrum,
     mean_pressure,
+    pressure_distribution,
+)
+from asperity.correction import *  # noqa: F403
+from asperity.dma import MasterCurveBuild, MasterPoints, PronyFit, build_master_curve, fit_prony
+from asperity.friction import Friction, friction
+from asperity.friction_map import FrictionMap, FrictionSlopes, friction_map
+from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
+from asperity.io.read_surface import read_surface
+from asperity.measured_spectrum import (
+    Anisotropy,
+    SelfAffineFit,
+    SpectralDensity,
+    anisotropy,
+    fit_self_affine,
+    line_spectrum,
     merge_spectra,
     power_spectrum,
-    pressure_distribution,
-    separation,
     spectral_density,
     synthesize,
 )
-from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
-from asperity.io.read_surface import read_surface
+from asperity.rubber import MasterCurve, PronySeries, effective_modulus
+from asperity.shift_factors import ArrheniusFit, ShiftFactors, WlfFit
+from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
+from asperity.surface import HeightMap, LineScan
+from asperity.sweeps import Isotherm, StrainSweep
 from asperity.uncertainty.band import FrictionBand, friction_band
 
 __all__ = [
     "Adhesion",
     "AdhesionFit",
-    "AffineShift",
     "Anisotropy",
     "ArrheniusFit",
     "Error",
@@ -72,23 +46,18 @@ __all__ = [
     "FrictionBand",
     "FrictionMap",
     "FrictionSlopes",
-    "GreenwoodWilliamson",
     "HeightMap",
     "InvalidInput",
     "Isotherm",
     "LineScan",
     "LineSpectrum",
-    "LocalPeaks",
     "MasterCurve",
     "MasterCurveBuild",
     "MasterPoints",
-    "NayakSFactor",
     "NotConverged",
     "OutOfRange",
-    "PeaksThenGreenwoodWilliamson",
     "PronyFit",
     "PronySeries",
-    "SFactor",
     "SelfAffineFit",
     "SelfAffineSpectrum",
     "Separation",
@@ -124,3 +93,4 @@ __all__ = [
     "spectral_density",
     "synthesize",
 ]
+__all__ += correction.__all__

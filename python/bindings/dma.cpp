@@ -1,161 +1,115 @@
-#include "dma.hpp"
+// From dynamic mechanical analysis to a rubber (the article's Section 5.1): isotherms shifted by a_T onto a master
+// curve, shift factors with their WLF and Arrhenius laws, Prony series through a curve, and the curve at a large
+// strain.
+#include "asperity/dma.hpp"
 
-#include <pybind11/stl.h>
+#include <cstdint>
 
-#include "arguments.hpp"
-#include "parts.hpp"
-#include "value.hpp"
+#include "arrays.hpp"
+#include "topics.hpp"
 
 namespace asperity::python {
 
 namespace {
 
-struct WlfTag {
-  static constexpr Field fields[] = {{"c1", Holds::number},
-                                     {"c2", Holds::number},
-                                     {"reference_temperature", Holds::number},
-                                     {"standard_errors", Holds::errors},
-                                     {"residual", Holds::number}};
-};
-struct ArrheniusTag {
-  static constexpr Field fields[] = {{"activation_energy", Holds::number},
-                                     {"reference_temperature", Holds::number},
-                                     {"standard_errors", Holds::errors},
-                                     {"residual", Holds::number}};
-};
+void bind_shift_factors(py::module_& m) {
+  py::classh<ShiftTable>(m, "ShiftFactors")
+      .def(py::init([](double reference, const Array& temperature, const Array& log10_a_T, const Array& deviation) {
+        return ShiftTable(reference, vector_of(temperature), vector_of(log10_a_T), vector_of(deviation));
+      }))
+      .def("reference_temperature", &ShiftTable::reference)
+      .def("temperature", [](const ShiftTable& s) { return array_of(s.temperature()); })
+      .def("log10_a_T", [](const ShiftTable& s) { return array_of(s.log10_a_T()); })
+      .def("standard_deviation", [](const ShiftTable& s) { return array_of(s.standard_deviation()); })
+      .def("shift_factor",
+           [](const ShiftTable& s, const Array& temperature) {
+             return computed([&] {
+               std::vector<double> a_T;
+               for (const double one : span_of(temperature)) a_T.push_back(s.shift_factor(one));
+               return a_T;
+             });
+           })
+      .def("fit_wlf",
+           [](const ShiftTable& s) {
+             const WlfFit fit = s.fit_wlf();
+             return py::make_tuple(fit.c1, fit.c2, fit.c1_error, fit.c2_error, fit.residual);
+           })
+      .def("fit_arrhenius", [](const ShiftTable& s) {
+        const ArrheniusFit fit = s.fit_arrhenius();
+        return py::make_tuple(fit.activation_energy, fit.activation_energy_error, fit.residual);
+      });
+}
+
+void bind_sweeps(py::module_& m) {
+  py::classh<Isotherm>(m, "Isotherm")
+      .def(py::init([](double temperature, const Array& w, const Array& storage, const Array& loss,
+                       std::optional<std::vector<std::string>> notes) {
+        if (!notes) return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss));
+        return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss), std::move(*notes));
+      }))
+      .def("angular_frequency", [](const Isotherm& s) { return array_of(s.angular_frequency()); })
+      .def("storage_modulus", [](const Isotherm& s) { return array_of(s.storage_modulus()); })
+      .def("loss_modulus", [](const Isotherm& s) { return array_of(s.loss_modulus()); })
+      .def("notes", [](const Isotherm& s) { return tuple_of(s.notes()); });
+  py::classh<StrainSweep>(m, "StrainSweep")
+      .def(py::init([](double temperature, double angular_frequency, const Array& strain, const Array& storage,
+                       const Array& loss) {
+        return StrainSweep(temperature, angular_frequency, vector_of(strain), vector_of(storage), vector_of(loss));
+      }));
+}
+
+/// (master curve, shift factors, b_T, columns of the points, residual, notes)
+py::tuple parts_of(MasterCurveBuild build) {
+  std::vector<double> w, storage, loss;
+  std::vector<std::int64_t> isotherm;
+  for (const MasterPoint& point : build.points) {
+    w.push_back(point.angular_frequency);
+    storage.push_back(point.storage_modulus);
+    loss.push_back(point.loss_modulus);
+    isotherm.push_back(static_cast<std::int64_t>(point.isotherm));
+  }
+  const py::tuple points = py::make_tuple(array_of(std::move(w)), array_of(std::move(storage)),
+                                          array_of(std::move(loss)), array_of(std::move(isotherm)));
+  return py::make_tuple(std::move(build.master_curve), std::move(build.shifts), array_of(std::move(build.b_T)), points,
+                        build.residual, tuple_of(build.notes));
+}
+
+py::tuple built(const std::vector<Isotherm>& isotherms, double reference_temperature, int vertical_shift,
+                const Array& b_T, const ShiftTable* shift_factors, bool smooth, std::optional<int> extrapolation) {
+  MasterCurveOptions options{.reference_temperature = reference_temperature,
+                             .vertical_shift = static_cast<VerticalShift>(vertical_shift),
+                             .b_T = vector_of(b_T),
+                             .smooth = smooth};
+  if (shift_factors != nullptr) options.shift_table = *shift_factors;
+  if (extrapolation) options.extrapolation = static_cast<Extrapolation>(*extrapolation);
+  return parts_of(released([&] { return build_master_curve(isotherms, options); }));
+}
+
+/// (series, residual of E', residual of E'', causal, notes)
+py::tuple fitted(const MasterCurve& curve, std::optional<double> modes_per_decade, std::optional<double> residual) {
+  PronyFit fit = released([&] {
+    return fit_prony(curve.angular_frequency(), curve.storage_modulus(), curve.loss_modulus(),
+                     {.modes_per_decade = modes_per_decade, .residual = residual});
+  });
+  return py::make_tuple(std::move(fit.series), fit.storage_residual, fit.loss_residual, fit.causal,
+                        tuple_of(fit.notes));
+}
+
+/// (master curve, notes)
+py::tuple large_strain(const MasterCurve& curve, const ShiftTable& shift_factors, double strain,
+                       const std::vector<StrainSweep>& sweeps) {
+  LargeStrain large = released([&] { return at_strain(curve, shift_factors, strain, sweeps); });
+  return py::make_tuple(std::move(large.master_curve), tuple_of(large.notes));
+}
 
 }  // namespace
 
-py::object wlf(const ShiftTable& shifts) {
-  const WlfFit fit = shifts.fit_wlf();
-  Record<WlfTag> record;
-  record.values["c1"] = fit.c1;
-  record.values["c2"] = fit.c2;
-  record.values["reference_temperature"] = fit.reference;
-  py::dict errors;
-  errors["c1"] = fit.c1_error;
-  errors["c2"] = fit.c2_error;
-  record.values["standard_errors"] = errors;
-  record.values["residual"] = fit.residual;
-  return py::cast(record);
-}
-
-py::object arrhenius(const ShiftTable& shifts) {
-  const ArrheniusFit fit = shifts.fit_arrhenius();
-  Record<ArrheniusTag> record;
-  record.values["activation_energy"] = fit.activation_energy;
-  record.values["reference_temperature"] = fit.reference;
-  py::dict errors;
-  errors["activation_energy"] = fit.activation_energy_error;
-  record.values["standard_errors"] = errors;
-  record.values["residual"] = fit.residual;
-  return py::cast(record);
-}
-
-py::object shift_factor(const ShiftTable& shifts, const py::object& temperature) {
-  return map_array(temperature, "temperature", [&](double at) { return shifts.shift_factor(at); });
-}
-
-const ShiftTable& shifts_of(const py::object& found) {
-  if (py::isinstance<Built>(found)) return found.cast<const Built&>().build.shifts;
-  return object_of<ShiftTable>(found, "shift_factors", "ShiftFactors or what build_master_curve returned");
-}
-
 void bind_dma(py::module_& m) {
-  py::classh<Isotherm> isotherm(m, "Isotherm", R"(A frequency sweep at one temperature and small strain.
-
-Parameters
-----------
-temperature : float
-    [K], 100 or more.
-angular_frequency : array_like, shape (n,)
-    w = 2 pi f [rad/s], in any order; four different ones or more. Points within 1 % of each other are averaged in the
-    logarithm, which `notes` says.
-storage_modulus, loss_modulus : array_like, shape (n,)
-    E', E'' [Pa], positive (3 G of rubber where shear was measured).
-notes : tuple of str, optional
-    Of rows that an Isotherm gave: they rise, and are taken as they are.
-
-Raises
-------
-InvalidInput
-    Naming the row.
-)");
-  isotherm
-      .def(py::init([](Number<"temperature"> temperature, const py::object& w, const py::object& storage,
-                       const py::object& loss, Named<std::optional<std::vector<std::string>>, "notes"> notes) {
-             auto frequency = vector_of(w, "angular_frequency"), e1 = vector_of(storage, "storage_modulus"),
-                  e2 = vector_of(loss, "loss_modulus");
-             if (!notes.value) return Isotherm(temperature, std::move(frequency), std::move(e1), std::move(e2));
-             return Isotherm(temperature, std::move(frequency), std::move(e1), std::move(e2), std::move(*notes.value));
-           }),
-           py::kw_only(), py::arg("temperature"), py::arg("angular_frequency"), py::arg("storage_modulus"),
-           py::arg("loss_modulus"), py::arg("notes") = py::none())
-      .def_property_readonly("temperature", &Isotherm::temperature, "[K].")
-      .def_property_readonly(
-          "angular_frequency", [](const Isotherm& s) { return flat(s.angular_frequency()); }, "w [rad/s], rising.")
-      .def_property_readonly(
-          "storage_modulus", [](const Isotherm& s) { return flat(s.storage_modulus()); }, "E' [Pa].")
-      .def_property_readonly(
-          "loss_modulus", [](const Isotherm& s) { return flat(s.loss_modulus()); }, "E'' [Pa].")
-      .def_property_readonly(
-          "notes", [](const Isotherm& s) { return py::tuple(py::cast(s.notes())); }, "What was done to the points.");
-  value_semantics(isotherm, {"temperature", "angular_frequency", "storage_modulus", "loss_modulus", "notes"});
-
-  bind_record<WlfTag>(m, "WlfFit", R"(What fit_wlf returns.
-
-c1 : [-]. c2 : [K]. reference_temperature : T_ref [K].
-standard_errors : {"c1": [-], "c2": [K]}, from the scatter about the fit.
-residual : rms of log10 a_T about the fit [-].
-)");
-  bind_record<ArrheniusTag>(m, "ArrheniusFit", R"(What fit_arrhenius returns.
-
-activation_energy : E_a in J/mol. reference_temperature : T_ref [K].
-standard_errors : {"activation_energy": J/mol}, from the scatter about the fit.
-residual : rms of log10 a_T about the fit [-].
-)");
-
-  py::classh<ShiftTable> shifts(m, "ShiftFactors", R"(Shift factors over temperature, measured or from a table.
-
-Parameters
-----------
-reference_temperature : float
-    T_ref [K], where a_T = 1.
-temperature : array_like, shape (n,)
-    [K], strictly rising, n >= 2.
-log10_a_T : array_like, shape (n,)
-    [-]; above 0 below T_ref.
-standard_deviation : array_like, shape (n,), optional
-    Of log10_a_T.
-
-Raises
-------
-InvalidInput
-)");
-  shifts
-      .def(py::init([](Number<"reference_temperature"> reference, const py::object& t, const py::object& a,
-                       const py::object& deviation) {
-             return ShiftTable(
-                 reference, vector_of(t, "temperature"), vector_of(a, "log10_a_T"),
-                 deviation.is_none() ? std::vector<double>{} : vector_of(deviation, "standard_deviation"));
-           }),
-           py::kw_only(), py::arg("reference_temperature"), py::arg("temperature"), py::arg("log10_a_T"),
-           py::arg("standard_deviation") = py::none())
-      .def_property_readonly("reference_temperature", &ShiftTable::reference, "T_ref [K].")
-      .def_property_readonly(
-          "temperature", [](const ShiftTable& s) { return flat(s.temperature()); }, "[K], shape (n,).")
-      .def_property_readonly(
-          "log10_a_T", [](const ShiftTable& s) { return flat(s.log10_a_T()); }, "[-], shape (n,).")
-      .def_property_readonly(
-          "standard_deviation",
-          [](const ShiftTable& s) {
-            return s.standard_deviation().empty() ? py::object(py::none()) : flat(s.standard_deviation());
-          },
-          "Of log10_a_T, shape (n,), or None.")
-      .def("shift_factor", &shift_factor, py::arg("temperature"), shift_text)
-      .def("fit_wlf", &wlf, wlf_text)
-      .def("fit_arrhenius", &arrhenius, arrhenius_text);
-  value_semantics(shifts, {"reference_temperature", "temperature", "log10_a_T", "standard_deviation"});
+  bind_shift_factors(m);
+  bind_sweeps(m);
+  m.def("build_master_curve", &built);
+  m.def("fit_prony", &fitted);
+  m.def("at_strain", &large_strain);
 }
 
 }  // namespace asperity::python

@@ -1,8 +1,9 @@
+// The errors of the core as exceptions of the package.
 #include "asperity/errors.hpp"
 
 #include <pybind11/pybind11.h>
 
-#include "parts.hpp"
+#include "topics.hpp"
 
 namespace asperity::python {
 

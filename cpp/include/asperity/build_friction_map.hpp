@@ -16,7 +16,7 @@
 
 namespace asperity {
 
-/// What a map shall cover and how well.
+/// The range of a map and its tolerance.
 struct MapRequest {
   std::array<double, 2> pressure, velocity;  // lo, hi [Pa], [m/s]
   double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion

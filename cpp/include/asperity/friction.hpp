@@ -43,6 +43,12 @@ struct Friction {
   std::optional<Contributions> contributions;
 };
 
+/// The columns of Friction, in the order in which they are shown.
+inline constexpr std::vector<double> Friction::*friction_columns[] = {
+    &Friction::mu,           &Friction::hysteresis,     &Friction::adhesion,
+    &Friction::contact_area, &Friction::shift_factor,   &Friction::pressure,
+    &Friction::velocity,     &Friction::error_estimate, &Friction::extrapolated_share};
+
 /// Everything a friction curve needs beside the surface, the rubber and the velocities.
 struct Conditions {
   double pressure;  // sigma0 [Pa]

@@ -16,7 +16,7 @@
 //   if (!map.load("road.fmap", why)) ...                        // `why` says in a line what is wrong with the file
 //   double mu = map.mu(2e5, 0.3);                               // pressure [Pa], velocity [m/s]
 //
-// What a map holds: ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
+// A map holds ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
 // cell, with continuous first derivatives (C1) but where a correction changes its state, at a constant z. s is zero,
 // or ln E* of the Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
 //   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
@@ -164,7 +164,7 @@ constexpr std::size_t cell_size = 34, head_size = 152;
 
 }  // namespace map_detail
 
-/// What a file says of its map.
+/// The header of a map's file.
 struct FrictionMapInfo {
   std::array<double, 2> pressure{}, velocity{};               // the box [Pa], [m/s]
   double rtol = 0, max_error = 0, largest_checked_error = 0;  // relative, of mu
@@ -175,7 +175,7 @@ struct FrictionMapInfo {
   std::string text;  // lines: what the map was made of
 };
 
-/// Of a temperature, beside the one that the map was made for.
+/// Another temperature than the one that the map was made for.
 struct MapTemperature {
   double shift = 1;              // a_T: mu_H and A/A0 are those at the velocity a_T v
   bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
@@ -188,7 +188,7 @@ struct MapPoint {
 
 class FrictionMap {
  public:
-  /// Of points outside of the box. To treat them as errors, look at the status of `at`.
+  /// The treatment of points outside of the box. To treat them as errors, look at the status of `at`.
   enum class Outside { nan, clamp };
   enum class Status { ok, pressure_outside, velocity_outside, not_a_number };
 
@@ -199,11 +199,11 @@ class FrictionMap {
     if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
     const map_detail::Pair f = bicubic(at.cell + 2, at.dx, at.dz);
     double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + sticking(at));
+    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at));
     return mu;
   }
 
-  /// Everything at a point. What is outside of the box is told by the status, whatever `outside` says.
+  /// Everything at a point. The status says whether it lies outside of the box, whatever `outside` is.
   Status at(double pressure, double velocity, MapPoint& point, Outside outside = Outside::nan,
             const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);
@@ -223,7 +223,7 @@ class FrictionMap {
       }
     for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + sticking(at)) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
     point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
@@ -267,7 +267,7 @@ class FrictionMap {
   }
 
   /// ln of mu_A over A/A0.
-  double sticking(const Where& at) const noexcept {
+  double log_adhesion(const Where& at) const noexcept {
     const double off = at.ln_v - ln_reference_;
     return ln_shear_stress_ - at.ln_p - width_ * off * off;
   }
@@ -288,7 +288,7 @@ class FrictionMap {
     const double x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
-    const double z = at.ln_p - shear(x, at.slope);
+    const double z = at.ln_p - log_modulus_offset(x, at.slope);
     at.cell = cell_at(x, z);
     at.dx = x - at.cell[0];
     at.dz = z - at.cell[1];
@@ -314,15 +314,15 @@ class FrictionMap {
   }
 
   /// s(x) and its slope.
-  double shear(double x, double& slope) const noexcept {
+  double log_modulus_offset(double x, double& slope) const noexcept {
     slope = 0;
-    if (shear_.empty()) return 0;
-    const double scaled = (x - shear_x_) * shear_per_x_, h = 1 / shear_per_x_;
-    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(shear_.size() / 2 - 1));
-    const double* const s = &shear_[2 * std::size_t{i}];
+    if (offset_.empty()) return 0;
+    const double scaled = (x - offset_x_) * offset_per_x_, h = 1 / offset_per_x_;
+    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(offset_.size() / 2 - 1));
+    const double* const s = &offset_[2 * std::size_t{i}];
     const double t = scaled - i, rise = s[2] - s[0];
     const double square = 3 * rise - h * (2 * s[1] + s[3]), cube = h * (s[1] + s[3]) - 2 * rise;
-    slope = s[1] + t * (2 * square + 3 * t * cube) * shear_per_x_;
+    slope = s[1] + t * (2 * square + 3 * t * cube) * offset_per_x_;
     return s[0] + t * (h * s[1] + t * (square + t * cube));
   }
 
@@ -343,8 +343,8 @@ class FrictionMap {
 
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
-  std::vector<double> cuts_, shear_;
-  double shear_x_ = 0, shear_per_x_ = 0;
+  std::vector<double> cuts_, offset_;
+  double offset_x_ = 0, offset_per_x_ = 0;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
   std::vector<double> cells_;
@@ -449,7 +449,7 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
 
   good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
   for (std::size_t i = 0; i < bands; ++i) good = good && map.cuts_[i] < map.cuts_[i + 1];
-  good = in.numbers(map.shear_, 2 * std::size_t{nodes}, 1e3) && good;
+  good = in.numbers(map.offset_, 2 * std::size_t{nodes}, 1e3) && good;
   // Steps of a grid are counted in 64 bits; x is no further from 0 than 700, s between its nodes than 1e7.
   constexpr double far_x = 1e3, far_z = 2e7, most_steps = 4e18;
   std::uint64_t used = 0;
@@ -483,8 +483,8 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   info.cells = cells;
   info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
 
-  map.shear_x_ = map_detail::ln(info.velocity[0]);
-  if (nodes != 0) map.shear_per_x_ = (nodes - 1) / (map_detail::ln(info.velocity[1]) - map.shear_x_);
+  map.offset_x_ = map_detail::ln(info.velocity[0]);
+  if (nodes != 0) map.offset_per_x_ = (nodes - 1) / (map_detail::ln(info.velocity[1]) - map.offset_x_);
   map.ln_shear_stress_ = info.shear_stress > 0 ? map_detail::ln(info.shear_stress) : 0;
   map.ln_reference_ = info.shear_stress > 0 ? map_detail::ln(info.reference_velocity) : 0;
   map.width_ = info.width / (2.302585092994045684 * 2.302585092994045684);

@@ -14,7 +14,7 @@
 
 namespace asperity {
 
-/// I1 = int_0^2pi cos(phi) Im E(w cos phi) dphi and I2 = int_0^2pi |E(w cos phi)|^2 dphi, with the parts of
+/// I1 = int_0^2pi cos(phi) Im E(w cos phi) dphi and I2 = int_0^2pi |E(w cos phi)|^2 dphi, with the shares of
 /// them that come from frequencies outside of the measured range.
 struct AngularIntegrals {
   double i1;              // [Pa]
@@ -34,7 +34,7 @@ class ASPERITY_EXPORT PronySeries {
   [[nodiscard]] std::complex<double> modulus(double w) const;
   [[nodiscard]] AngularIntegrals angular_integrals(double w) const;
   /// At each of `w`, in one pass over the terms for all of them; `i1` and `i2` have as many entries.
-  void angular_integrals(std::span<const double> w, double* i1, double* i2) const;
+  void angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w).
   [[nodiscard]] PronySeries shifted(double a_T) const;
   bool operator==(const PronySeries&) const = default;
@@ -66,8 +66,10 @@ class ASPERITY_EXPORT MasterCurve {
   /// cos(phi) always runs through zero: below the lowest frequency E' is taken constant and E'' as
   /// proportional to w, and what comes from there is returned as the part outside.
   [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
-  /// At each of `w`, into arrays of as many entries; true where a part of I1 above 1e-7 comes from outside.
-  bool angular_integrals(std::span<const double> w, double* i1, double* i2, double* i1_outside = nullptr) const;
+  /// At each of `w`, into spans of as many entries (`i1_outside` may be empty); true where more than 1e-7 of an I1
+  /// comes from outside.
+  bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                         std::span<double> i1_outside = {}) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;
@@ -89,10 +91,10 @@ using Rubber = std::variant<PronySeries, MasterCurve>;
 ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
 ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);
 
-/// At each of `angular_frequency`, into arrays of as many entries; false, and nothing of use in `i1_outside`, where no
-/// part of I1 above 1e-7 comes from outside of the measured range.
-ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, double* i1,
-                                       double* i2, double* i1_outside);
+/// At each of `angular_frequency`, into spans of as many entries. False where no more than 1e-7 of any I1 comes from
+/// outside of the measured range; `i1_outside` may not have been written then.
+ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency,
+                                       std::span<double> i1, std::span<double> i2, std::span<double> i1_outside);
 
 /// 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2 (Eq. 15) [Pa].
 ASPERITY_EXPORT double effective_modulus(double modulus, double poisson_ratio,

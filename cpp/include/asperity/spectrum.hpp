@@ -34,7 +34,7 @@ enum RowFlag : std::uint8_t {
   few_modes = 4      // so few that their mean is uncertain by more than a quarter
 };
 
-/// What a measurement says of each row of a spectrum; a vector is empty or has an entry a row.
+/// The quality of each row of a measured spectrum; a vector is empty or has an entry a row.
 struct RowQuality {
   std::vector<double> count;           // modes averaged: the weights of a fit
   std::vector<double> standard_error;  // of the density, in its unit

@@ -1,4 +1,4 @@
-// What contact and friction ask of their arguments alike.
+// Checks of arguments that contact and friction share.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ inline bool tellable(double value) { return value >= 1e-280 && value <= 1e280; }
 
 /// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
 inline void check_g(double g, double pressure) {
-  if (!(g >= 1e-280 && g <= 1e180))  // its square and its root are told too
+  if (!(g >= 1e-280 && g <= 1e180))  // its square and its root are doubles too
     throw InvalidInput("pressure = " + show(pressure) + ": leads to G = " + show(g) +
                        ", must be such that G is in [1e-280, 1e180]");
 }
@@ -49,8 +49,12 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, do
   if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
     throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
                      " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) +
-                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s: velocities from " +
-                     show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
+                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s" +
+                     (curve->extrapolation() ? "" : "; extrapolation= of the master curve adds a decade at each end") +
+                     (velocity * q0 < highest && highest < velocity * q1
+                          ? "; .truncated(q1=" + show(highest / velocity, 6) + ") ends the spectrum where it is known"
+                          : "") +
+                     "; velocities from " + show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
 }
 
 }  // namespace asperity

@@ -1,3 +1,6 @@
+// Real contact area A / A0 = P(G) at every magnification, mean contact pressure sigma0 A0 / A (Eq. 1), the correction
+// factor of Section 6.1 and the distribution of pressure in contact (Eqs 2-7). G itself comes from contact/solver.
+// B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include <algorithm>
 #include <cmath>
 #include <limits>

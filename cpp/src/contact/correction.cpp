@@ -1,3 +1,5 @@
+// The corrections for partial contact: their checks, and the affine shift p_T of those that have one, p_T1 of the local
+// peaks (Eq. 13) and p_T2 of the improved Greenwood-Williamson model (Eqs 16-21).
 #include "asperity/correction.hpp"
 
 #include <algorithm>
@@ -5,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "contact/macro_modulus.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/visit.hpp"
 
@@ -45,7 +47,7 @@ void validate_peaks(const LocalPeaks& peaks) {
   if (top == lowest) refuse("heights: their mean", mean, "below z_max = " + show(top));
 }
 
-/// Of the macro-asperities; where the caller names none the roll-off, where there is one.
+/// The wavenumber of the macro-asperities: the caller's, else the roll-off, else the lowest of the spectrum.
 template <class GreenwoodWilliamsonKind>
 double macro_wavenumber(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum) {
   if (s.q0) return *s.q0;
@@ -63,7 +65,8 @@ double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, co
     if (w < lowest || w > highest)
       throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) +
                        " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
-                       show(lowest) + ", " + show(highest) + "] rad/s");
+                       show(lowest) + ", " + show(highest) + "] rad/s" +
+                       (curve->extrapolation() ? "" : "; extrapolation= adds a decade at each end"));
   }
   return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }

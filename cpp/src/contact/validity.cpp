@@ -1,3 +1,5 @@
+// The notes of a result: one sentence for each way in which the theory, its input or its correction leaves the range
+// that it was made for or measured in, with the limit and its source.
 #include "contact/validity.hpp"
 
 #include <algorithm>

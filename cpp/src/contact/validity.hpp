@@ -1,4 +1,4 @@
-// What a friction result says about the limits of the theory it comes from.
+// Notes of a friction result on the limits of the theory and of its input.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-#include <Eigen/Dense>
+// A Prony series through a measured modulus: non-negative least squares with relative weights over a grid of relaxation
+// times, as few of them as Schwarz's criterion allows, then as smooth as the noise does (Tikhonov's regularisation).
+// M. Baumgaertel and H. H. Winter, Rheol. Acta 28, 511 (1989).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,7 +48,7 @@ class Measured {
     return std::max<Index>(2, std::lround(modes_per_decade * (decades() + 2 * pad)) + 1);
   }
 
-  /// Of E' and of E'' together.
+  /// The number of values of E' and E'' together.
   [[nodiscard]] Index values() const { return 2 * n_; }
 
   [[nodiscard]] Fit solve(Index modes, double smoothing, double pad = padding) const;

@@ -1,3 +1,5 @@
+// One frequency sweep at one temperature: its rows brought into rising order, and rows of nearly one frequency averaged
+// in the logarithm, which a note says.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

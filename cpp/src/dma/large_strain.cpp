@@ -1,3 +1,5 @@
+// The modulus at a large strain: E' and E'' of the small-strain master curve times their own ratios in strain sweeps,
+// each sweep placed at its reduced frequency a_T w and interpolated in ln w.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,7 +14,7 @@ namespace {
 
 constexpr double small = 0.005;  // the article's Section 5.1: 0.5 % is small strain
 
-/// Where a sweep stands on the master curve, and what its strain does there.
+/// The place of a sweep on the master curve, and the ratios of its moduli there.
 struct Ratio {
   double x;              // ln(a_T w)
   double storage, loss;  // ln of E(strain) / E(0.5 %)
@@ -51,7 +53,7 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
   for (const Ratio& r : ratios) {
     if (!x.empty() && r.x - x.back() < 1e-6)
       throw InvalidInput("sweeps: two stand at the reduced frequency " + show(std::exp(r.x), 4) +
-                         " rad/s, each must stand at one of its own");
+                         " rad/s; each must have its own");
     x.push_back(r.x);
     storage.push_back(r.storage);
     loss.push_back(r.loss);

@@ -1,3 +1,5 @@
+// Shift factors a_T over temperature: interpolation of log10 a_T, and the fits of Williams, Landel and Ferry,
+// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), J. Am. Chem. Soc. 77, 3701 (1955), and of Arrhenius.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -6,7 +8,7 @@
 #include "asperity/dma.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
-#include "numerics/minimum.hpp"
+#include "numerics/roots.hpp"
 
 namespace asperity {
 
@@ -113,7 +115,7 @@ ArrheniusFit ShiftTable::fit_arrhenius() const {
     s.uu += u * u;
     s.uy += u * std::numbers::ln10 * log10_a_T_[i];
   }
-  if (s.uu == 0) throw InvalidInput("temperature: is the reference throughout, must differ for an Arrhenius fit");
+  if (s.uu == 0) throw InvalidInput("temperature: must differ from the reference for an Arrhenius fit");
   const double slope = s.uy / s.uu;  // E_a / R
   double left = 0;
   for (std::size_t i = 0; i < n; ++i)

@@ -7,7 +7,7 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
-#include "numerics/minimum.hpp"
+#include "numerics/roots.hpp"
 
 namespace asperity {
 

@@ -1,3 +1,6 @@
+// The adhesion law of Eq. 23, tau_f = tau_f0 exp(-c (log10 v / v0)^2), from measured friction: the hysteresis and the
+// contact area are computed, mu - mu_H = tau_f (A / A0) / sigma0 is fitted robustly (robust_fit.hpp), and points that
+// do not determine the parameters are refused.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -103,7 +106,7 @@ AdhesionPoints logarithms(const Contact& contact, std::span<const double> pressu
            : "the spectrum may reach too far (cutoff_for_slope), the modulus or the correction may be wrong"));
 }
 
-/// What the points leave open, in words; empty where they settle everything. `curve`: none where it ran away.
+/// The parameters that the points leave open, in words; empty where they settle all. `curve` is none where it ran away.
 std::string open_parameters(const std::optional<AdhesionCurve>& curve, const FixedAdhesion& fixed) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };

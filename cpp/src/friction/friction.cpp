@@ -1,3 +1,7 @@
+// Friction of rubber on a rough surface: the hysteresis (Eq. 22),
+//   mu_H = 1/2 int q^3 C(q) S(q) P(q) dq int cos(phi) Im E(q v cos phi) / ((1 - nu^2) sigma0) dphi,
+// and the adhesion of the contact area (Eq. 23), at pairs of pressure and velocity.
+// B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "asperity/friction.hpp"
 
 #include <algorithm>
@@ -41,7 +45,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
   return s;
 }
 
-/// What is computed at one pressure and velocity; nothing where there is no contact.
+/// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
   double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
   MeasuredWorth worth;

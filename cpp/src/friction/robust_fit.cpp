@@ -1,11 +1,15 @@
+// Eq. 23 through points by M-estimates with Tukey's biweight, each a series of Levenberg-Marquardt steps, from starts
+// of little scale (S-estimates). P. J. Huber, Robust Statistics (1981), Chapter 7; V. J. Yohai, Ann. Stat. 15, 642
+// (1987).
 #include "friction/robust_fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "numerics/least_squares.hpp"
 
 namespace asperity {
 
@@ -17,12 +21,15 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of the biweight, in standard deviations: half of the points may be outliers; 95 % of the efficiency of least squares.
+// Cuts of the biweight in standard deviations: with the first half of the points may be outliers, with the second the
+// efficiency is 95 % of that of least squares.
 constexpr double robust_cut = 1.5476, efficient_cut = 4.685;
 constexpr double run_away = 10;  // decades of v0 beyond the points
 // Nodes that are tried, the steps that each takes, and how many of the best then go on.
 constexpr std::size_t many_starts = 32, few_starts = 8;
 constexpr int first_steps = 5, most_steps = 500;
+
+std::span<const double, 9> entries(const Matrix3d& a) { return std::span<const double, 9>(a.data(), 9); }
 
 /// Tukey's biweight: rho with its limit 1, psi(u) / u and psi'(u) up to the factor 6, of u = residual / cut.
 double biweight_rest(double u) { return std::abs(u) < 1 ? 1 - u * u : 0; }
@@ -60,7 +67,7 @@ class Fit {
   [[nodiscard]] double scale_of(const Vector3d& at) const;
 
  private:
-  /// Of Eq. 23, at each point.
+  /// ln mu_A of Eq. 23 at each point.
   [[nodiscard]] ArrayXd log_adhesion(const Vector3d& p) const {
     return p[0] + points_.log_share - p[2] * (points_.x - p[1]).square();
   }
@@ -186,7 +193,7 @@ bool Fit::descend(Vector3d& at, double cut, double& damping) const {
     Matrix3d damped = normal;
     for (Index k = 0; k < 3; ++k)
       damped(k, k) = held_[static_cast<std::size_t>(k)] ? 1 : normal(k, k) * (1 + damping) + 1e-300;
-    const Vector3d step = damped.ldlt().solve(gradient);
+    const Vector3d step(solve_symmetric(entries(damped), std::span<const double, 3>(gradient.data(), 3)).data());
     if (!(total(at + step, cut) < value)) continue;
     at += step;
     damping = std::max(1e-12, damping / 10);
@@ -244,8 +251,8 @@ AdhesionCurve Fit::result(const Vector3d& at, double scale) const {
   Matrix3d normal = j.transpose() * j;
   for (Index k = 0; k < 3; ++k)
     if (held_[static_cast<std::size_t>(k)]) normal(k, k) = 1;
-  const Matrix3d inverse = normal.inverse();
-  curve.covariance = (inverse + inverse.transpose()) / 2 * std::pow(cut * correction / mean, 2) * square;
+  const Matrix3d inverted(inverse(entries(normal)).data());
+  curve.covariance = (inverted + inverted.transpose()) / 2 * std::pow(cut * correction / mean, 2) * square;
   for (Index k = 0; k < 3; ++k)
     if (held_[static_cast<std::size_t>(k)]) curve.covariance(k, k) = 0;
   return curve;

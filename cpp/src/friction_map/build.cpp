@@ -1,3 +1,4 @@
+// Builds a friction map: checks of the request, refinement, and random points on which the finished file is checked.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-// What the file may hold.
+// Limits of the numbers in the file.
 constexpr double smallest = 1e-300, largest = 1e300;
 
 void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
@@ -72,13 +73,13 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
     double x = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (i % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
-      places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.shear(x)};
+      places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.log_modulus_offset(x)};
     }
     in_parts(parts, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
       const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [ln_hysteresis, ln_area] = truth[i - begin].f;
-        const double y = places[i].z + frame.shear(places[i].x);
+        const double y = places[i].z + frame.log_modulus_offset(places[i].x);
         MapPoint found;
         map.at(std::exp(y), std::exp(places[i].x), found, FrictionMap::Outside::clamp);
         errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);

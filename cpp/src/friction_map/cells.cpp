@@ -1,9 +1,11 @@
+// The cells of a map: a quadtree whose leaves hold bicubic Hermite polynomials; beside a larger neighbour a corner
+// takes the neighbour's values, so that the map has continuous derivatives.
 #include "friction_map/cells.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "numerics/hermite.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 

@@ -34,11 +34,11 @@ class MapTree {
 
   MapTree(std::array<double, 2> x, std::vector<double> cuts);
 
-  /// Of a place, for tables.
+  /// The key of a place in tables.
   static std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} << 32 | z; }
   [[nodiscard]] double x(std::uint32_t at) const { return x_[0] + at * ((x_[1] - x_[0]) / unit); }
   [[nodiscard]] double z(std::uint32_t at) const;
-  /// Of a leaf, in x and in z.
+  /// The size of a leaf in x and in z.
   [[nodiscard]] std::array<double, 2> size(const Leaf& leaf) const;
   [[nodiscard]] bool on_cut(std::uint32_t z) const { return z % unit == 0 && z != 0 && z != bands() * unit; }
   [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }

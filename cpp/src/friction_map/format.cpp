@@ -1,3 +1,4 @@
+// A map as the bytes of a file, in the layout that friction_map.hpp documents and reads.
 #include "friction_map/format.hpp"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ class Index {
 std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, const std::optional<Adhesion>& adhesion,
                                     const MapRequest& request, const MapCertificate& certificate) {
   const Index index(tree);
-  const Adhesion sticking = adhesion.value_or(Adhesion{.shear_stress = 0});
+  const Adhesion law = adhesion.value_or(Adhesion{.shear_stress = 0});
   Writer out;
   out.text("ASPERMAP");
   out.u32(0x01020304);
@@ -104,17 +105,17 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, 
   for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error}) out.f64(x);
   out.u64(certificate.checked);
   out.u64(certificate.exceeded);
-  for (const double x : {sticking.shear_stress, sticking.reference_velocity, sticking.width}) out.f64(x);
+  for (const double x : {law.shear_stress, law.reference_velocity, law.width}) out.f64(x);
   out.u32(frame.hysteresis());
   out.u32(tree.bands());
-  out.u32(frame.shear_nodes().size() / 2);
+  out.u32(frame.log_modulus_nodes().size() / 2);
   out.u32(index.grids.size());
   out.u32(index.entries.size());
   out.u32(static_cast<std::uint64_t>(index.cells));
   out.u32(request.text.size());
   out.u32(0);
   for (const double z : tree.cuts()) out.f64(z);
-  for (const double s : frame.shear_nodes()) out.f64(s);
+  for (const double s : frame.log_modulus_nodes()) out.f64(s);
   for (const Index::Grid& grid : index.grids) {
     const auto [wide, high] = tree.size({grid.x, grid.z, grid.wide, grid.high});
     out.f64(tree.x(grid.x));

@@ -1,13 +1,12 @@
+// The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu, on vector units.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/kernels.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -27,38 +26,17 @@ struct MapLoops {
                        double ln_reference, double fall, std::size_t n, double* mu);
 };
 
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wpsabi"  // nothing with more than two numbers in it leaves this file
-#endif
-
-namespace baseline {
-using Part [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace baseline
-
-#if defined(__x86_64__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-namespace avx2 {
-using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace avx2
-#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
-namespace avx512 {
-using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-#include "friction_map/lookup_loops.inc"
-}  // namespace avx512
-#pragma GCC pop_options
+#define ASPERITY_LOOPS "friction_map/lookup_loops.inc"
+#define ASPERITY_AVX512
+#include "numerics/vector_units.inc"
 
 MapLoops choose() {
-  if (std::strcmp(kernels().name, "avx2") != 0) return baseline::loops();
-  const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512vl") && !std::getenv("ASPERITY_VECTORS");
-  return wider ? avx512::loops() : avx2::loops();
-}
-#else
-MapLoops choose() { return baseline::loops(); }
+#ifdef __x86_64__
+  if (vector_unit() == VectorUnit::avx512) return avx512::loops();
+  if (vector_unit() == VectorUnit::avx2) return avx2::loops();
 #endif
+  return baseline::loops();
+}
 
 const MapLoops& map_loops() {
   static const MapLoops chosen = choose();
@@ -107,11 +85,11 @@ class FrictionMapBatch {
  private:
   /// z_ and cell_ of x_ and ln_p_.
   void find_cells(std::size_t n) {
-    if (map_.shear_.empty()) {
+    if (map_.offset_.empty()) {
       std::copy_n(ln_p_, n, z_);
     } else {
       double slope;
-      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.shear(x_[i], slope);
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.log_modulus_offset(x_[i], slope);
     }
     const bool one_band = map_.cuts_.size() == 2;
     if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;

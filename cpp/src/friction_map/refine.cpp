@@ -1,3 +1,5 @@
+// Refinement of a map: cells are halved until ln mu_H and ln A/A0 keep the tolerance on lattices of 5 x 5 points and on
+// random points unseen before. Corner derivatives are differences over five points.
 #include "friction_map/refine.hpp"
 
 #include <algorithm>
@@ -83,12 +85,12 @@ class Builder {
   /// Whether any of it is in the box; one at its very edge is.
   [[nodiscard]] bool in_box(const MapTree::Leaf& leaf) const {
     constexpr double margin = 1e-9;
-    if (frame_.shear_nodes().empty()) return true;
+    if (frame_.log_modulus_nodes().empty()) return true;
     const double bottom = tree_.z(leaf.z), top = bottom + tree_.size(leaf)[1];
-    double lowest = frame_.shear(tree_.x(leaf.x)), highest = lowest;
+    double lowest = frame_.log_modulus_offset(tree_.x(leaf.x)), highest = lowest;
     constexpr std::uint32_t steps = 16;  // at least as many are left in a leaf
     for (std::uint32_t i = 1; i <= steps; ++i) {
-      const double s = frame_.shear(tree_.x(leaf.x + leaf.wide / steps * i));
+      const double s = frame_.log_modulus_offset(tree_.x(leaf.x + leaf.wide / steps * i));
       lowest = std::fmin(lowest, s);
       highest = std::fmax(highest, s);
     }
@@ -97,7 +99,7 @@ class Builder {
   }
 
   [[nodiscard]] bool in_box(const MapPlace& place) const {
-    const double y = place.z + frame_.shear(place.x);
+    const double y = place.z + frame_.log_modulus_offset(place.x);
     return y >= frame_.ln_pressure(0) && y <= frame_.ln_pressure(1);
   }
 
@@ -161,7 +163,7 @@ class Builder {
       std::size_t taken = 0;
       for (std::size_t tried = 0; taken < unseen && tried < 50 * unseen; ++tried) {
         const double column = static_cast<double>(tried % 4), row = static_cast<double>(taken % 3);
-        const double at_x = x + (column + random_()) / 4 * wide, s = frame_.shear(at_x);
+        const double at_x = x + (column + random_()) / 4 * wide, s = frame_.log_modulus_offset(at_x);
         const double from = std::fmax(z, frame_.ln_pressure(0) - s);
         const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);
         if (!(from < to)) continue;

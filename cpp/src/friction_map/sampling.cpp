@@ -1,19 +1,21 @@
+// Samples of a map in its coordinates x = ln v and z = ln p - s(x). With s = ln E* of a Greenwood-Williamson correction
+// the kinks of p_T, which depends on p / E* alone, lie at constant z: the map is cut there.
 #include "friction_map/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "contact/macro_modulus.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/hermite.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
 namespace {
 
-/// What an error of the shear moves is a kink at a cut, by as much as s is off.
-constexpr double shear_share = 0.01;
+/// An error of s(x) moves the kink at a cut by as much as s is off.
+constexpr double offset_share = 0.01;
 constexpr std::size_t most_intervals = 16384;
 
 /// States of the Greenwood-Williamson correction: none, beyond the theory's range, within it, full.
@@ -40,7 +42,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const Contact
   y_lo_ = std::log(request.pressure[0]);
   y_hi_ = std::log(request.pressure[1]);
   if (macro_modulus(model_.correction, spectrum_, rubber_, velocity_[0], model_.poisson_ratio)) {
-    make_shear(shear_share * request.rtol);
+    make_log_modulus_offset(offset_share * request.rtol);
     cut_bands();
   } else {
     cuts_ = {y_lo_, y_hi_};
@@ -49,23 +51,23 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const Contact
   hysteresis_ = !prony || !prony->moduli().empty();
 }
 
-double MapFrame::shear(double x) const {
-  if (shear_.empty()) return 0;
-  const std::size_t intervals = shear_.size() / 2 - 1;
+double MapFrame::log_modulus_offset(double x) const {
+  if (offset_.empty()) return 0;
+  const std::size_t intervals = offset_.size() / 2 - 1;
   const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), at = (x - x_lo_) / h;
   const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(intervals - 1)));
-  const double* const s = &shear_[2 * i];
+  const double* const s = &offset_[2 * i];
   return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i)).value;
 }
 
-void MapFrame::make_shear(double tolerance) {
+void MapFrame::make_log_modulus_offset(double tolerance) {
   const auto exact = [&](double x) {
     const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
     return std::log(*macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio));
   };
   for (std::size_t intervals = 16;; intervals *= 2) {
     const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), step = h / 8;
-    shear_.clear();
+    offset_.clear();
     for (std::size_t i = 0; i <= intervals; ++i) {
       const double x = x_lo_ + static_cast<double>(i) * h;
       const std::size_t k = i == 0 ? 0 : i == intervals ? 4 : 2;
@@ -73,12 +75,12 @@ void MapFrame::make_shear(double tolerance) {
       double slope = 0;
       for (std::size_t j = 0; j < 5; ++j)
         slope += weights[j] * exact(x + (static_cast<double>(j) - static_cast<double>(k)) * step) / step;
-      shear_.insert(shear_.end(), {exact(x), slope});
+      offset_.insert(offset_.end(), {exact(x), slope});
     }
     double error = 0;
     for (std::size_t i = 0; i < 4 * intervals; ++i) {
       const double x = x_lo_ + (static_cast<double>(i) + 0.5) * h / 4;
-      error = std::fmax(error, std::fabs(shear(x) - exact(x)));
+      error = std::fmax(error, std::fabs(log_modulus_offset(x) - exact(x)));
     }
     if (error <= tolerance || intervals == most_intervals) return;
   }
@@ -86,24 +88,24 @@ void MapFrame::make_shear(double tolerance) {
 
 void MapFrame::cut_bands() {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (std::size_t i = 0; i < shear_.size(); i += 2) {
-    lowest = std::fmin(lowest, shear_[i]);
-    highest = std::fmax(highest, shear_[i]);
+  for (std::size_t i = 0; i < offset_.size(); i += 2) {
+    lowest = std::fmin(lowest, offset_[i]);
+    highest = std::fmax(highest, offset_[i]);
   }
   const double bottom = y_lo_ - highest, top = y_hi_ - lowest;
   const auto state = [&](double z) {
-    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + shear(x_lo_)), velocity_[0],
-                                 model_.poisson_ratio));
+    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + log_modulus_offset(x_lo_)),
+                                 velocity_[0], model_.poisson_ratio));
   };
   constexpr double step = 0.02;
   const auto steps = static_cast<std::size_t>(std::ceil((top - bottom) / step));
   cuts_ = {bottom};
   int before = state(bottom);
   const auto refuse_no_contact = [&](double z) {
-    const double apart = (x_hi_ - x_lo_) / static_cast<double>(shear_.size() / 2 - 1);
+    const double apart = (x_hi_ - x_lo_) / static_cast<double>(offset_.size() / 2 - 1);
     std::size_t node = 0;  // one where z is in the box, or nearly
-    while (node + 2 < shear_.size() && (z + shear_[node] < y_lo_ || z + shear_[node] > y_hi_)) node += 2;
-    const double y = std::clamp(z + shear_[node], y_lo_, y_hi_);
+    while (node + 2 < offset_.size() && (z + offset_[node] < y_lo_ || z + offset_[node] > y_hi_)) node += 2;
+    const double y = std::clamp(z + offset_[node], y_lo_, y_hi_);
     throw InvalidInput("pressure = (" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + "): at " +
                        show(std::exp(y), 6) + " Pa and " +
                        show(std::exp(x_lo_ + static_cast<double>(node / 2) * apart), 6) +
@@ -131,7 +133,7 @@ std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places) const 
   if (places.empty()) return {};
   std::vector<double> pressure, velocity;
   for (const MapPlace& place : places) {
-    pressure.push_back(std::exp(place.z + shear(place.x)));
+    pressure.push_back(std::exp(place.z + log_modulus_offset(place.x)));
     velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
   }
   const Friction f = [&] {

@@ -28,15 +28,15 @@ class MapFrame {
   /// Where bands of one state begin and end, in z, rising: all of the box lies between the first and the last.
   [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }
   /// s(x): 0, or ln E* of the Greenwood-Williamson correction as a cubic spline.
-  [[nodiscard]] double shear(double x) const;
+  [[nodiscard]] double log_modulus_offset(double x) const;
   /// s and s' at nodes, for the file; empty where s is 0.
-  [[nodiscard]] const std::vector<double>& shear_nodes() const { return shear_; }
+  [[nodiscard]] const std::vector<double>& log_modulus_nodes() const { return offset_; }
   [[nodiscard]] bool hysteresis() const { return hysteresis_; }
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places) const;
 
  private:
-  void make_shear(double tolerance);
+  void make_log_modulus_offset(double tolerance);
   void cut_bands();
 
   const Spectrum& spectrum_;
@@ -45,7 +45,7 @@ class MapFrame {
   double rtol_;  // of the map
   std::array<double, 2> velocity_;
   double x_lo_, x_hi_, y_lo_, y_hi_;
-  std::vector<double> shear_, cuts_;
+  std::vector<double> offset_, cuts_;
   bool hysteresis_ = true;
 };
 

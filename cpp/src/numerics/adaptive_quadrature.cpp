@@ -1,3 +1,5 @@
+// GSL's quadrature behind functions that throw: QAG, QAGS and CQUAD, and single Gauss rules.
+// R. Piessens et al., QUADPACK (1983); P. Gonnet, ACM Trans. Math. Softw. 37, 26 (2010).
 #include "numerics/adaptive_quadrature.hpp"
 
 #include <gsl/gsl_errno.h>

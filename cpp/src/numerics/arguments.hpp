@@ -1,4 +1,4 @@
-// Checks of arguments at the door: each failure names the argument, the value and what is allowed.
+// Checks of arguments: each failure names the argument, the value and what is allowed.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ inline void require_finite(std::string_view name, double value) {
 inline void require_not_negative(std::string_view name, double value) {
   if (!(value >= 0) || !std::isfinite(value)) refuse(name, value, "finite and not negative");
 }
-/// Of heights: what lies between them must be a double too.
+/// Heights must differ by a finite number.
 inline void require_span(std::string_view name, double highest, double lowest) {
   if (!std::isfinite(highest - lowest)) refuse(name, highest, "less than 1.8e308 above the lowest, " + show(lowest));
 }
@@ -54,14 +54,19 @@ inline void require_rising(std::string_view name, std::span<const double> values
       refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
              "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
 }
-/// Beyond it ln(q1 / q0) cannot be told from a rounded quotient.
+/// Beyond this ratio ln(q1 / q0) has lost its digits.
 inline void require_band(std::string_view name, double lowest, double highest) {
   if (!(highest / lowest <= 1e300)) refuse(name, highest, "at most 1e300 times the lowest, " + show(lowest));
 }
 inline void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
   if (size != other_size)
-    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " entries, " + std::string(other) +
-                       " has " + std::to_string(other_size) + ": must be as many");
+    throw InvalidInput(std::string(name) + " (" + std::to_string(size) + ") and " + std::string(other) + " (" +
+                       std::to_string(other_size) + ") must have equal length");
+}
+/// Spans that results are written to must be as long as their argument.
+inline void require_room(std::span<const double> w, std::span<const double> i1, std::span<const double> i2) {
+  require_same_size("i1", i1.size(), "angular_frequency", w.size());
+  require_same_size("i2", i2.size(), "angular_frequency", w.size());
 }
 inline void require_rtol(double rtol) {
   if (!(rtol >= 1e-12 && rtol <= 0.1)) refuse("rtol", rtol, "in [1e-12, 0.1]");

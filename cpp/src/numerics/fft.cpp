@@ -1,3 +1,5 @@
+// Fourier transforms by FFTW: its plans under one lock, its memory aligned and kept for the next scan.
+// M. Frigo and S. G. Johnson, Proc. IEEE 93, 216 (2005).
 #include "numerics/fft.hpp"
 
 #include <fftw3.h>
@@ -15,6 +17,7 @@
 #endif
 
 #include "numerics/arguments.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -168,8 +171,6 @@ RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
 }
 
 namespace {
-
-using Quad = float __attribute__((vector_size(16)));  // two complex floats
 
 Quad load(const std::complex<float>* from) {
   Quad v;

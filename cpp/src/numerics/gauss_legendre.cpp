@@ -1,3 +1,5 @@
+// Gauss-Legendre rules by Newton's steps on P_n, and the matrices that integrate and differentiate the polynomial
+// through values at the nodes, from its Legendre coefficients c_k = (k + 1/2) sum_j weight_j P_k(x_j) f_j.
 #include "numerics/gauss_legendre.hpp"
 
 #include <array>

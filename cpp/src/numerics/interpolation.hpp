@@ -1,4 +1,4 @@
-// Steffen's monotone cubic interpolation.
+// Cubic interpolation on an interval between two rows: Hermite's, and Steffen's, whose slopes keep it monotone.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,16 @@
 #include <vector>
 
 namespace asperity {
+
+struct ValueAndSlope {
+  double value, slope;
+};
+
+/// At `t` in [0, 1] of an interval `h` long: the cubic through a and b with the slopes da and db there.
+inline ValueAndSlope hermite(double a, double da, double b, double db, double h, double t) {
+  const double rise = b - a, square = 3 * rise - h * (2 * da + db), cube = h * (da + db) - 2 * rise;
+  return {a + t * (h * da + t * (square + t * cube)), (h * da + t * (2 * square + 3 * t * cube)) / h};
+}
 
 /// A piecewise cubic that has its extrema at the data and nowhere else; M. Steffen, Astron. Astrophys. 239, 443
 /// (1990): the slope at a row is the parabola's through it and its neighbours, limited to twice the smaller of

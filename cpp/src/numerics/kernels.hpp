@@ -28,13 +28,12 @@ struct FrontTable {
   double power[steps + 1][terms][functions];
 };
 
-/// What a panel adds: sum of `slope` f, and the last coefficients of f.
+/// The contribution of a panel: sum of `slope` f, and the last coefficients of f.
 struct PanelSums {
   double value, tail[LegendreRule::kept];
 };
 
 struct Kernels {
-  const char* name;
   /// I1 and I2 of a Prony series at n frequencies, n a multiple of `lanes`; no (w tau)^2 may overflow.
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
   /// Integral of the polynomial through f, and its last coefficients.

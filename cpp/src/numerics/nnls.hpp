@@ -1,7 +1,7 @@
 // Least squares with unknowns that are not negative.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace asperity {
 

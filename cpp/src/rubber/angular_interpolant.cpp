@@ -1,3 +1,5 @@
+// I1 and I2 of a master curve as polynomials through Chebyshev nodes, panel by panel: the exact sums of
+// angular_quadrature.hpp cost microseconds, a polynomial nanoseconds.
 #include "rubber/angular_interpolant.hpp"
 
 #include <algorithm>
@@ -66,7 +68,7 @@ std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
 struct AngularTable::Part {
   bool root;
   double upper, scale, shift;  // the polynomials' variable is scale t + shift
-  bool told;                   // whether a part of I1 that is worth telling comes from outside
+  bool has_outside;            // whether more than 1e-7 of I1 comes from outside the measured range
   Polynomials all, outside;
 };
 
@@ -95,7 +97,7 @@ const AngularTable::Parts& AngularTable::parts(std::size_t panel) const {
 /// The parts from t0 to t1, as many as it takes until the last coefficients are small.
 void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts) const {
   const double low = sums_.edges()[panel], high = sums_.edges()[panel + 1];
-  constexpr double tolerance = 1e-12, of_outside = 1e-10, worth_telling = 1e-7;
+  constexpr double tolerance = 1e-12, of_outside = 1e-10, least_outside = 1e-7;
   Part part{sums_.at_branch(panel), t1, 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), false, {}, {}};
   Pair all[order], outside[order];
   for (std::size_t i = 0; i < order; ++i) {
@@ -103,7 +105,7 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
     const AngularIntegrals at = sums_.at(low + (high - low) * (part.root ? t * t : t), panel);
     all[i] = Pair{at.i1, at.i2};
     outside[i] = Pair{at.i1_outside, at.i2_outside};
-    part.told |= at.i1_outside > worth_telling * at.i1;
+    part.has_outside |= at.i1_outside > least_outside * at.i1;
   }
   const Pair size = all[order - 1];
   const double tail = part.all.fit(all, tolerance * size) + part.outside.fit(outside, of_outside * size);
@@ -139,16 +141,16 @@ AngularIntegrals AngularTable::operator()(double w) const {
 }
 
 bool AngularTable::operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
-  bool told = false;
+  bool any_outside = false;
   for (std::size_t i = 0; i < w.size(); ++i) {
     const auto [part, u] = find(w[i]);
     const Pair all = part.all(u);
     i1[i] = all[0];
     i2[i] = all[1];
-    if (i1_outside) i1_outside[i] = part.told ? std::clamp(part.outside(u)[0], 0.0, all[0]) : 0;
-    told |= part.told;
+    if (i1_outside) i1_outside[i] = part.has_outside ? std::clamp(part.outside(u)[0], 0.0, all[0]) : 0;
+    any_outside |= part.has_outside;
   }
-  return told;
+  return any_outside;
 }
 
 }  // namespace asperity

@@ -1,4 +1,4 @@
-// The sums of angular_sums.hpp as polynomials, a panel's when first asked for.
+// The sums of angular_quadrature.hpp as polynomials, a panel's when first asked for.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,8 @@ class AngularTable {
 
   /// At `w`, which may miss the ends of the pieces by its rounding.
   [[nodiscard]] AngularIntegrals operator()(double w) const;
-  /// At each of `w`; true if a part of I1 that is worth telling comes from outside. `i1_outside` may be null.
+  /// At each of `w`; true if more than 1e-7 of an I1 comes from outside of the measured range. `i1_outside` may be
+  /// null.
   bool operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const;
 
  private:

@@ -1,3 +1,5 @@
+// I1 = int cos(phi) Im E(w cos phi) dphi and I2 = int |E(w cos phi)|^2 dphi of a modulus that is known piece by piece:
+// Gauss rules on short panels near w, and moments of the series of 1 / sqrt(1 - u^2) for all that lies far below it.
 #include "rubber/angular_quadrature.hpp"
 
 #include <cmath>
@@ -63,7 +65,7 @@ void AngularSums::add_up() {
   }
 }
 
-/// Of one panel up to w, from the definition.
+/// The share of one panel up to w, from the definition.
 Pair AngularSums::in_phi(double w, std::size_t p) const {
   const GaussRule& rule = gauss_rule();
   // acos(at / w) without its cancellation near w
@@ -78,7 +80,7 @@ Pair AngularSums::in_phi(double w, std::size_t p) const {
   return sum;
 }
 
-/// Of all frequencies below a panel that begins at or below w.
+/// The share of all frequencies below a panel that begins at or below w.
 Pair AngularSums::below(double w, std::size_t p) const {
   const double inverse = 1 / w;
   Pair sum{};

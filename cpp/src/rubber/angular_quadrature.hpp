@@ -7,7 +7,7 @@
 
 #include "asperity/rubber.hpp"
 #include "numerics/adaptive_quadrature.hpp"
-#include "numerics/pair.hpp"
+#include "numerics/simd.hpp"
 #include "rubber/modulus_piece.hpp"
 
 namespace asperity {

@@ -1,3 +1,5 @@
+// A measured modulus: Steffen's monotone interpolant of ln E' and ln E'' in ln w, at most one decade of extrapolation
+// where it is asked for, and the angular integrals over both. M. Steffen, Astron. Astrophys. 239, 443 (1990).
 #include <algorithm>
 #include <cmath>
 
@@ -72,9 +74,10 @@ struct MasterCurve::Table {
   void check(double w) const {
     require_positive("angular_frequency", w);
     if (w < knots.front() * (1 - rounding) || w > knots.back() * (1 + rounding))
-      throw OutOfRange("angular_frequency = " + show(w) + " rad/s: the master curve is known in [" +
-                       show(knots.front()) + ", " + show(knots.back()) + "] rad/s" +
-                       (extrapolation ? " with its extrapolation of one decade" : ""));
+      throw OutOfRange(
+          "angular_frequency = " + show(w) + " rad/s: the master curve is known in [" + show(knots.front()) + ", " +
+          show(knots.back()) + "] rad/s" +
+          (extrapolation ? " with its extrapolation of one decade" : "; extrapolation= adds a decade at each end"));
   }
 };
 
@@ -94,7 +97,7 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
     for (std::size_t i = 0; i < moduli->size(); ++i)
       if (const double e = (*moduli)[i]; !(e >= 1e-140 && e <= 1e140))
         refuse(std::string(name) + "[" + std::to_string(i) + "]", e,
-               "in [1e-140, 1e140] Pa, so that its square can be told");
+               "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
   for (std::size_t i = 1; i < angular_frequency.size(); ++i)
     if (!(std::log(angular_frequency[i]) > std::log(angular_frequency[i - 1])))
       refuse("angular_frequency[" + std::to_string(i) + "]", angular_frequency[i],
@@ -123,9 +126,12 @@ AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const 
   return table_->angular(angular_frequency);
 }
 
-bool MasterCurve::angular_integrals(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+bool MasterCurve::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                    std::span<double> i1_outside) const {
+  require_room(w, i1, i2);
+  if (!i1_outside.empty()) require_same_size("i1_outside", i1_outside.size(), "angular_frequency", w.size());
   for (const double one : w) table_->check(one);
-  return table_->angular(w, i1, i2, i1_outside);
+  return table_->angular(w, i1.data(), i2.data(), i1_outside.empty() ? nullptr : i1_outside.data());
 }
 
 MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {

@@ -1,3 +1,5 @@
+// The generalised Maxwell model, E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k), and its angular integrals in
+// closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +24,7 @@ PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli,
   const double glassy = std::accumulate(moduli_.begin(), moduli_.end(), equilibrium_);
   if (!(glassy >= 1e-140 && glassy <= 1e140))
     refuse(moduli_.empty() ? "equilibrium_modulus" : "moduli: their sum with equilibrium_modulus", glassy,
-           "in [1e-140, 1e140] Pa, so that its square can be told");
+           "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     double sum = equilibrium_;
     // tau_l / (tau_k + tau_l) as 1 / (1 + tau_k / tau_l): no overflow for far modes
@@ -72,7 +74,8 @@ void PronySeries::check_frequency(double w) const {
     refuse("angular_frequency", w, "below 1e300 / relaxation_times, " + show(1e300 / longest_) + " rad/s");
 }
 
-void PronySeries::angular_integrals(std::span<const double> w, double* i1, double* i2) const {
+void PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2) const {
+  require_room(w, i1, i2);
   const std::size_t n = w.size();
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
   for (const double one : w) require_not_negative("angular_frequency", one);
@@ -85,7 +88,8 @@ void PronySeries::angular_integrals(std::span<const double> w, double* i1, doubl
     }
     return;
   }
-  kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n, i1, i2);
+  kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n,
+                  i1.data(), i2.data());
 }
 
 PronySeries PronySeries::shifted(double a_T) const {
@@ -103,8 +107,8 @@ AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequenc
   return std::visit([&](const auto& r) { return r.angular_integrals(angular_frequency); }, rubber);
 }
 
-bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, double* i1, double* i2,
-                       double* i1_outside) {
+bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, std::span<double> i1,
+                       std::span<double> i2, std::span<double> i1_outside) {
   if (const auto* series = std::get_if<PronySeries>(&rubber)) {
     series->angular_integrals(angular_frequency, i1, i2);
     return false;

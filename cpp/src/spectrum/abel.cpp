@@ -1,3 +1,5 @@
+// Between the spectrum of a surface and that of its profiles: C1D(q) = 2 int C(p) p dp / sqrt(p^2 - q^2) over p > q,
+// and Abel's inversion of it. P. R. Nayak, J. Lubr. Technol. 93, 398 (1971).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -104,7 +106,7 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const std::size_t n = spectrum.wavenumber().size();
   if (n > 1000)
     throw InvalidInput("spectrum has " + std::to_string(n) +
-                       " rows: must have 1000 or fewer for the surface behind a profile, log_binned makes them fewer");
+                       " rows: must have 1000 or fewer for the surface behind a profile; log_binned() averages them");
   const RowQuality& old = spectrum.quality();
   const std::vector<double> all = isotropic_densities(spectrum);
   std::vector<double> variance(n);

@@ -1,3 +1,4 @@
+// Autocorrelation of an isotropic surface, <h(0) h(r)> = 2 pi int q C(q) J0(q r) dq (Wiener and Khinchin).
 #include <math.h>  // j0
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The Fourier modes of a map, column by column: what every two-dimensional spectrum is summed from.
+// The Fourier modes of a map, column by column, from which every two-dimensional spectrum is summed.
 #pragma once
 
 #include <algorithm>
@@ -8,30 +8,13 @@
 #include <variant>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include "numerics/fft.hpp"
 #include "numerics/parallel_for.hpp"
+#include "numerics/simd.hpp"
 #include "spectrum/preparation.hpp"
 #include "surface/rows.hpp"
 
 namespace asperity {
-
-/// Copies without reading the target's cache lines first, where the processor can: right for what is next read when
-/// it has left the cache anyway.
-template <class T>
-void store_past_cache(const std::complex<T>* from, std::size_t count, std::complex<T>* to) {
-#ifdef __SSE2__
-  const auto* const source = reinterpret_cast<const __m128i*>(from);
-  auto* const target = reinterpret_cast<__m128i*>(to);
-  for (std::size_t i = 0; i < count * sizeof *from / sizeof *source; ++i)
-    _mm_stream_si128(target + i, _mm_load_si128(source + i));
-#else
-  std::copy_n(from, count, to);
-#endif
-}
 
 /// take(part, k_x, column) for k_x = 0 .. nx / 2, where column holds the ny modes sum w h exp(-i (..)) of that k_x; the
 /// other half plane is its mirror image. Parts run in threads of their own.
@@ -66,7 +49,7 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
       std::complex<T>* const at = past_cache ? modes.data() : to;
       along_rows(row.data(), at);
       std::fill(at + half, at + pitch, std::complex<T>());
-      if (past_cache) store_past_cache(at, pitch, to);
+      if (past_cache) store_past_cache(at, pitch * sizeof *at, to);
     }
   });
 

@@ -1,12 +1,16 @@
-#include <Eigen/Dense>
+// A self-affine law through a measured spectrum: weighted least squares of ln C over ln q with a break at the roll-off,
+// H = -slope / 2 - 1 (Eq. 28).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/minimum.hpp"
+#include "numerics/least_squares.hpp"
+#include "numerics/roots.hpp"
+#include "numerics/sum.hpp"
 
 namespace asperity {
 
@@ -16,8 +20,8 @@ namespace {
 
 /// Rows that are fitted: x = ln q, y = ln C, w the weights, of sum 1.
 struct Rows {
-  Eigen::ArrayXd x, y, w;
-  [[nodiscard]] Eigen::Index size() const { return x.size(); }
+  std::vector<double> x, y, w;
+  [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
 bool flagged(const TabulatedSpectrum& spectrum, std::size_t row, int flags) {
@@ -48,19 +52,18 @@ std::vector<std::size_t> chosen_rows(const TabulatedSpectrum& spectrum, const Fi
 }
 
 Rows gather(const TabulatedSpectrum& spectrum, const std::vector<std::size_t>& rows, FitMethod method) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Rows result{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd::Ones(n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const std::size_t row = rows[static_cast<std::size_t>(i)];
+  Rows result;
+  for (const std::size_t row : rows) {
     if (spectrum.density()[row] == 0)
       refuse("density[" + std::to_string(row) + "]", 0,
              "positive for a fit in the logarithm; q_min, q_max may leave it out");
-    result.x[i] = std::log(spectrum.wavenumber()[row]);
-    result.y[i] = std::log(spectrum.density()[row]);
-    if (method == FitMethod::least_squares && !spectrum.quality().count.empty())
-      result.w[i] = spectrum.quality().count[row];
+    result.x.push_back(std::log(spectrum.wavenumber()[row]));
+    result.y.push_back(std::log(spectrum.density()[row]));
+    const bool counted = method == FitMethod::least_squares && !spectrum.quality().count.empty();
+    result.w.push_back(counted ? spectrum.quality().count[row] : 1);
   }
-  result.w /= result.w.sum();
+  const double total = sum(result.size(), [&](std::size_t i) { return result.w[i]; });
+  for (double& weight : result.w) weight /= total;
   return result;
 }
 
@@ -71,12 +74,19 @@ struct Broken {
 
   /// The best line for a given x_r, and slope where that is given too.
   Broken(const Rows& rows, double at, std::optional<double> held = std::nullopt) : x_r(at) {
-    const Eigen::ArrayXd above = (rows.x - at).max(0);
-    const double mean = (rows.w * above).sum(), mean_y = (rows.w * rows.y).sum();
-    slope =
-        held ? *held : (rows.w * (above - mean) * (rows.y - mean_y)).sum() / (rows.w * (above - mean).square()).sum();
+    const auto weighted = [&](auto term) {
+      return sum(rows.size(), [&](std::size_t i) { return term(rows.w[i], std::max(rows.x[i] - at, 0.0), rows.y[i]); });
+    };
+    const double mean = weighted([](double w, double above, double) { return w * above; });
+    const double mean_y = weighted([](double w, double, double y) { return w * y; });
+    slope = held ? *held
+                 : weighted([&](double w, double above, double y) { return w * (above - mean) * (y - mean_y); }) /
+                       weighted([&](double w, double above, double) { return w * ((above - mean) * (above - mean)); });
     level = mean_y - slope * mean;
-    sum_of_squares = (rows.w * (rows.y - level - slope * above).square()).sum();
+    sum_of_squares = weighted([&](double w, double above, double y) {
+      const double left = y - level - slope * above;
+      return w * (left * left);
+    });
   }
 
   /// ln h_rms of the band [x0, x1], for given parameters: 2 pi int q C dq of the flat and the falling part.
@@ -90,7 +100,7 @@ struct Broken {
 /// The break that leaves least: among 64 places in ln q first, then between the neighbours of the best of them. At
 /// least three rows lie on either side, and the flat part spans a factor 1.5.
 std::optional<Broken> best_break(const Rows& rows) {
-  const Eigen::Index n = rows.size();
+  const std::size_t n = rows.size();
   if (n < 7) return std::nullopt;
   const double lower = std::max(rows.x[2], rows.x[0] + std::log(1.5)), upper = rows.x[n - 4];
   if (!(upper > lower)) return std::nullopt;
@@ -108,9 +118,14 @@ std::optional<Broken> best_break(const Rows& rows) {
 
 /// The slope of the rows below x_r by themselves.
 double slope_below(const Rows& rows, double x_r) {
-  const Eigen::ArrayXd w = (rows.x < x_r).select(rows.w, 0.0);
-  const double mean_x = (w * rows.x).sum() / w.sum(), mean_y = (w * rows.y).sum() / w.sum();
-  return (w * (rows.x - mean_x) * (rows.y - mean_y)).sum() / (w * (rows.x - mean_x).square()).sum();
+  const auto weighted = [&](auto term) {
+    return sum(rows.size(), [&](std::size_t i) { return term(rows.x[i] < x_r ? rows.w[i] : 0, rows.x[i], rows.y[i]); });
+  };
+  const double total = weighted([](double w, double, double) { return w; });
+  const double mean_x = weighted([](double w, double x, double) { return w * x; }) / total;
+  const double mean_y = weighted([](double w, double, double y) { return w * y; }) / total;
+  return weighted([&](double w, double x, double y) { return w * (x - mean_x) * (y - mean_y); }) /
+         weighted([&](double w, double x, double) { return w * ((x - mean_x) * (x - mean_x)); });
 }
 
 /// Whether the roll-off is more than chance, by Schwarz's criterion (Ann. Stat. 6, 461 (1978)) with some to spare, and
@@ -122,17 +137,31 @@ bool convincing(const Rows& rows, const Broken& line, const Broken& broken) {
 }
 
 /// s^2 (J^T W J)^-1 of level, slope and, as the third, x_r: W of trace 1, s^2 what is left over the degrees of freedom.
-Eigen::MatrixXd covariance_of(const Rows& rows, const Broken& fit, int parameters) {
-  const Eigen::Index n = rows.size();
-  Eigen::MatrixXd jacobian(n, parameters);
-  jacobian.col(0).setOnes();
-  jacobian.col(1) = (rows.x - fit.x_r).max(0).matrix();
-  if (parameters == 3)
-    jacobian.col(2) = (rows.x > fit.x_r).select(Eigen::ArrayXd::Constant(n, -fit.slope), 0.0).matrix();
-  const double scatter = fit.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(1, n - parameters));
-  return scatter * (jacobian.transpose() * rows.w.matrix().asDiagonal() * jacobian)
-                       .completeOrthogonalDecomposition()
-                       .pseudoInverse();
+std::vector<double> covariance_of(const Rows& rows, const Broken& fit, std::size_t parameters) {
+  const std::size_t n = rows.size();
+  std::vector<double> jacobian(n * parameters, 1.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    jacobian[n + i] = std::max(rows.x[i] - fit.x_r, 0.0);
+    if (parameters == 3) jacobian[2 * n + i] = rows.x[i] > fit.x_r ? -fit.slope : 0;
+  }
+  const double scatter = fit.sum_of_squares / static_cast<double>(std::max<std::size_t>(1, n - parameters));
+  std::vector<double> result = inverse_normal(jacobian, rows.w);
+  for (double& value : result) value *= scatter;
+  return result;
+}
+
+/// T C T^T, the covariance of three quantities whose derivatives are the rows of T.
+std::array<std::array<double, 3>, 3> propagated(const std::array<std::vector<double>, 3>& transform,
+                                                const std::vector<double>& covariance) {
+  const std::size_t n = transform[0].size();
+  std::array<std::array<double, 3>, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t l = 0; l < n; ++l) {
+      double row = 0;
+      for (std::size_t k = 0; k < n; ++k) row += transform[i][k] * covariance[n * l + k];
+      for (std::size_t j = 0; j < 3; ++j) result[i][j] += row * transform[j][l];
+    }
+  return result;
 }
 
 void check(const FitOptions& options) {
@@ -163,8 +192,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
                        "too coarse; q_min and q_max take rows on trust");
   }
   const Rows rows = gather(spectrum, chosen, options.method);
-  const Eigen::Index n = rows.size();
-  const double x0 = rows.x[0], x1 = rows.x[n - 1];
+  const double x0 = rows.x.front(), x1 = rows.x.back();
 
   Broken fit(rows, x0);
   bool broken = false;
@@ -177,9 +205,9 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
                          show(q[chosen.back()]) +
                          " 1/m (rolloff = \"require\"): a scan smaller than lambda_0 does not reach it");
   }
-  const int parameters = broken ? 3 : 2;
-  const Eigen::MatrixXd covariance = covariance_of(rows, fit, parameters);
-  const double hurst_error = std::sqrt(covariance(1, 1)) / 2;
+  const std::size_t parameters = broken ? 3 : 2;
+  const std::vector<double> covariance = covariance_of(rows, fit, parameters);
+  const double hurst_error = std::sqrt(covariance[parameters + 1]) / 2;
   double hurst = -fit.slope / 2 - 1;
   if (hurst > 1 && hurst - 1 < 3 * hurst_error) {
     fit = Broken(rows, fit.x_r, -4);
@@ -194,25 +222,22 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
     return Broken::log_rms(fit.level + level, fit.slope + slope, fit.x_r + x_r, x0, x1);
   };
   constexpr double h = 1e-5;
-  Eigen::VectorXd gradient(parameters);
-  gradient[0] = 0.5;
-  gradient[1] = (log_rms(0, h, 0) - log_rms(0, -h, 0)) / (2 * h);
-  if (broken) gradient[2] = (log_rms(0, 0, h) - log_rms(0, 0, -h)) / (2 * h);
-
   const double rms = std::exp(log_rms(0, 0, 0));
   // of rms height, H and roll-off after level, slope and x_r
-  Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(3, parameters);
-  transform.row(0) = rms * gradient.transpose();
-  transform(1, 1) = -0.5;
-  if (broken) transform(2, 2) = std::exp(fit.x_r);
-  const Eigen::Matrix3d spread = transform * covariance * transform.transpose();
+  std::array<std::vector<double>, 3> transform;
+  for (std::vector<double>& row : transform) row.resize(parameters);
+  transform[0][0] = rms * 0.5;
+  transform[0][1] = rms * ((log_rms(0, h, 0) - log_rms(0, -h, 0)) / (2 * h));
+  transform[1][1] = -0.5;
+  if (broken) {
+    transform[0][2] = rms * ((log_rms(0, 0, h) - log_rms(0, 0, -h)) / (2 * h));
+    transform[2][2] = std::exp(fit.x_r);
+  }
   SelfAffineFit result{{.rms_height = rms, .hurst = hurst, .q0 = q[chosen.front()], .q1 = q[chosen.back()]},
                        {},
                        std::sqrt(fit.sum_of_squares),
                        chosen.size()};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      result.covariance[i][j] = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  result.covariance = propagated(transform, covariance);
   if (broken) result.spectrum.rolloff = std::exp(fit.x_r);
   return result;
 }

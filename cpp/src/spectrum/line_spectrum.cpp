@@ -1,3 +1,5 @@
+// The spectrum of line scans, C1D = L / (2 pi n^2) |sum w h exp(-i q x)|^2 over the window's mean square, averaged over
+// the lines.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,7 +8,6 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/fft.hpp"
 #include "spectrum/preparation.hpp"
-#include "spectrum/reliability.hpp"
 #include "spectrum/window.hpp"
 
 namespace asperity {

@@ -1,3 +1,4 @@
+// Averages of spectra: rows in logarithmic bins, and several scans into one spectrum, weighted by their modes.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,9 +11,9 @@ namespace asperity {
 
 namespace {
 
-constexpr int biased = few_periods | near_nyquist;  // what no average cures
+constexpr int biased = few_periods | near_nyquist;  // no average cures it
 
-/// Rows of one or several spectra; what a spectrum does not say is not kept.
+/// Rows of one or several spectra. A quality that the spectra do not give stays empty.
 struct Rows {
   std::vector<double> wavenumber, density;
   RowQuality quality;
@@ -137,9 +138,9 @@ TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std:
   if (spectra.empty()) throw InvalidInput("spectra has 0 entries: must have 1 or more");
   const bool counted = std::ranges::none_of(spectra, [](const auto& s) { return s.quality().count.empty(); });
   if (!counted && std::ranges::any_of(spectra, [](const auto& s) { return !s.quality().count.empty(); }))
-    throw InvalidInput("spectra: some have counts and some have none, must be alike for a weighted mean");
+    throw InvalidInput("spectra: some have counts and some have none; a weighted mean needs all of them or none");
   if (!per_decade && !same_wavenumbers(spectra))
-    throw InvalidInput("spectra: have different wavenumbers, per_decade must be given to merge them in bins");
+    throw InvalidInput("spectra: have different wavenumbers; give per_decade to merge them in bins");
 
   Rows all;
   std::vector<std::vector<std::size_t>> same(spectra.front().wavenumber().size());

@@ -1,4 +1,4 @@
-// What a map goes through before its transform, and the factors that make |sum|^2 a density.
+// The preparation of a map for its transform: window, trend, and the factors that make |sum|^2 a density.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,5 @@
+// The radially averaged spectrum of a map, C(q) = A / ((2 pi)^2 n^2) |sum w h exp(-i q x)|^2 (Eqs 24-27): means over
+// rings of modes with their standard errors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,14 +8,42 @@
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/pair.hpp"
+#include "numerics/simd.hpp"
 #include "spectrum/fft2d.hpp"
-#include "spectrum/reliability.hpp"
+#include "spectrum/preparation.hpp"
 #include "spectrum/tabulated.hpp"
+#include "spectrum/window.hpp"
 
 namespace asperity {
 
 using std::numbers::pi;
+
+void require_filled(const HeightMap& map) {
+  if (map.dropout_fraction() > 0)
+    throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
+                       " %); call fill_dropouts() first");
+}
+
+void require_plane(const HeightMap& map) {
+  require_filled(map);
+  const auto [ny, nx] = map.shape();
+  if (ny < 2 || nx < 2)
+    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
+                       "): must be 2 x 2 or more for a two-dimensional spectrum; one line is a LineScan");
+}
+
+Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads) {
+  require_plane(map);
+  const auto [ny, nx] = map.shape();
+  Preparation result{window_weights(window, ny), window_weights(window, nx), {}, 0, 0};
+  if (detrend) result.trend.emplace(map, *detrend, threads);
+  const WindowMoments y(result.wy), x(result.wx);
+  const auto [dy, dx] = map.pixel_size();
+  const double n = static_cast<double>(ny) * static_cast<double>(nx);
+  result.scale = dy * dx / (4 * pi * pi * n) / (y.mean_square * x.mean_square);
+  result.ring_variance_factor = std::sqrt(y.variance_factor * x.variance_factor);
+  return result;
+}
 
 namespace {
 
@@ -166,7 +196,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   }
   if (wavenumber.size() < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must have more points, these make one ring of wavenumbers only");
+                       "): must have more points; these make only one ring of wavenumbers");
   return {std::move(wavenumber), std::move(density), std::move(quality)};
 }
 

@@ -1,10 +1,12 @@
+// The spectrum of a map in the plane of wave vectors, and its anisotropy: the principal axes of
+// <dh/dx_i dh/dx_j> = int q_i q_j C d^2q.
 #include <cmath>
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/fft2d.hpp"
-#include "spectrum/reliability.hpp"
+#include "spectrum/window.hpp"
 
 namespace asperity {
 

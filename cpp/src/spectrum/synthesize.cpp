@@ -1,3 +1,4 @@
+// Surfaces of a given spectrum: Fourier modes of fixed moduli and random phases, bent where a skewness is asked for.
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,3 +1,4 @@
+// A measured spectrum, row by row: its checks, its cuts at wavenumbers between rows, its scaling.
 #include "spectrum/tabulated.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is done to a spectrum row by row, its quality included.
+// Changes of a spectrum row by row, its quality included.
 #pragma once
 
 #include "asperity/spectrum.hpp"

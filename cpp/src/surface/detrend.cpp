@@ -1,18 +1,19 @@
+// The least-squares offset, plane or quadratic surface of the measured points of a map, by sums along its rows.
 #include "surface/detrend.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/pair.hpp"
+#include "numerics/least_squares.hpp"
 #include "numerics/parallel_for.hpp"
+#include "numerics/simd.hpp"
 #include "surface/rows.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr Eigen::Index terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
+constexpr std::size_t terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
 
 /// n coordinates from -1 to 1.
 std::vector<double> coordinates(std::size_t n) {
@@ -68,20 +69,25 @@ RowSums measured_sums(const T* row, const std::vector<double>& u, double anchor)
   return sums;
 }
 
+/// Normal equations, the matrix by columns.
 struct Normal {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
-  explicit Normal(Eigen::Index m) : matrix(Eigen::MatrixXd::Zero(m, m)), right(Eigen::VectorXd::Zero(m)) {}
+  std::vector<double> matrix, right;
+  explicit Normal(std::size_t m) : matrix(m * m), right(m) {}
 
   void add(const RowSums& sums, double v) {
     // terms 1, u, v, u^2, u v, v^2 as powers of u times powers of v
     constexpr int power_u[6] = {0, 1, 0, 2, 1, 0};
     const double power_v[6] = {1, 1, v, 1, v, v * v};
-    for (Eigen::Index i = 0; i < right.size(); ++i) {
+    const std::size_t m = right.size();
+    for (std::size_t i = 0; i < m; ++i) {
       right[i] += power_v[i] * sums.height[power_u[i]];
-      for (Eigen::Index j = 0; j < right.size(); ++j)
-        matrix(i, j) += power_v[i] * power_v[j] * sums.power[power_u[i] + power_u[j]];
+      for (std::size_t j = 0; j < m; ++j)
+        matrix[m * j + i] += power_v[i] * power_v[j] * sums.power[power_u[i] + power_u[j]];
     }
+  }
+  void add(const Normal& other) {
+    for (std::size_t i = 0; i < matrix.size(); ++i) matrix[i] += other.matrix[i];
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] += other.right[i];
   }
 };
 
@@ -103,7 +109,7 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
       power *= u;
     }
   }
-  std::vector<Normal> parts(threads, Normal(terms(order)));
+  std::vector<Normal> contributions(threads, Normal(terms(order)));
   std::visit(
       [&](const auto* data) {
         using T = std::remove_cvref_t<decltype(*data)>;
@@ -116,18 +122,15 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
                      : add_heights<false>(sums, read(y), u_.data(), u_.size(), anchor_);
             else
               sums = measured_sums(read(y), u_, anchor_);
-            parts[part].add(sums, v_[y]);
+            contributions[part].add(sums, v_[y]);
           }
         });
       },
       map.data());
-  for (unsigned part = 1; part < threads; ++part) {
-    parts[0].matrix += parts[part].matrix;
-    parts[0].right += parts[part].right;
-  }
+  Normal& total = contributions[0];
+  for (unsigned part = 1; part < threads; ++part) total.add(contributions[part]);
   // Rank-revealing: on one row, or one column, terms that it cannot tell apart are shared, not invented.
-  const Eigen::VectorXd solution = parts[0].matrix.completeOrthogonalDecomposition().solve(parts[0].right);
-  for (Eigen::Index i = 0; i < solution.size(); ++i) coefficient_[static_cast<std::size_t>(i)] = solution[i];
+  std::ranges::copy(shortest_solution(total.matrix, total.right), coefficient_.begin());
 }
 
 Trend::Line Trend::line_at(std::size_t y) const {

@@ -1,3 +1,5 @@
+// Drop-outs of a map filled by linear interpolation between the measured points on either side, along rows, columns and
+// diagonals; by the nearest point of the hull outside of it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -169,7 +171,7 @@ class Filler {
     return std::erase_if(holes_, [](const Hole& hole) { return !std::isnan(hole.height); }) > 0;
   }
 
-  /// What no line brackets lies in a pocket behind an edge of the hull. There the two known points of a line
+  /// Holes that no line brackets lie in a pocket behind an edge of the hull. There the two known points of a line
   /// parallel to that edge bracket it. True where anything was filled.
   bool pass_along_hull() {
     std::vector<Point> steps;

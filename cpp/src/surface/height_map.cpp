@@ -1,3 +1,4 @@
+// A map of heights: its checks, statistics about the mean plane, histogram, rms slope and affine shift (Eq. 9).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,7 +106,7 @@ HeightHistogram HeightMap::height_histogram(std::size_t bins) const {
   if (bins < 1 || bins > 1'000'000) refuse("bins", static_cast<double>(bins), "from 1 to 10^6");
   const HeightStatistics s = statistics();
   const double lower = s.z_min, upper = s.z_max, width = (upper - lower) / static_cast<double>(bins);
-  if (!(width > 0)) throw InvalidInput("heights: are all the same, must differ for a histogram");
+  if (!(width > 0)) throw InvalidInput("heights: must differ for a histogram, but are all the same");
   HeightHistogram histogram{std::vector<double>(bins + 1), std::vector<double>(bins, 0.0)};
   for (std::size_t i = 0; i <= bins; ++i) histogram.edges[i] = lower + width * static_cast<double>(i);
   histogram.edges.back() = upper;
@@ -153,7 +154,7 @@ double HeightMap::rms_slope() const {
   }
   across(after);
   if (count_x == 0 || count_y == 0)
-    throw InvalidInput("heights: no point has both neighbours measured, drop-outs must be filled for a slope");
+    throw InvalidInput("heights: no point has both neighbours measured; call fill_dropouts() before a slope");
   return std::sqrt(sum_x / count_x + sum_y / count_y);
 }
 

@@ -1,3 +1,4 @@
+// A line of heights, which is a map of one row.
 #include <cmath>
 
 #include "asperity/surface.hpp"

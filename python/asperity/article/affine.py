@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from asperity._core import SelfAffineSpectrum, power_spectrum
 from asperity.article.inputs import Inputs
 from asperity.article.statement import Statement, by_construction, judged
 from asperity.article.surfaces import slope_fit
+from asperity.measured_spectrum import power_spectrum
+from asperity.spectrum import SelfAffineSpectrum
 
 
 def statements(inputs: Inputs) -> list[Statement]:

@@ -3,15 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import (
-    GreenwoodWilliamson,
-    LocalPeaks,
-    PeaksThenGreenwoodWilliamson,
-    effective_modulus,
-    friction,
-    hertz_penetration,
-    separation,
-)
 from asperity.article.inputs import LAMBDA0, LOADS, PRESSURES, Q0, VELOCITY, Inputs
 from asperity.article.inputs import effective_modulus as modulus_of
 from asperity.article.readings import READINGS
@@ -26,6 +17,10 @@ from asperity.article.statement import (
     percent,
     unchecked,
 )
+from asperity.asperities import hertz_penetration, separation
+from asperity.correction import GreenwoodWilliamson, LocalPeaks, PeaksThenGreenwoodWilliamson
+from asperity.friction import friction
+from asperity.rubber import effective_modulus
 
 _Array = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asperity._core import PronySeries
+from asperity.rubber import PronySeries
 
 T_G = {"A": -32.0, "B": -21.7}  # [C], Section 5.1
 ROOM = 20.0  # [C]: the article says "room temperature" of v0

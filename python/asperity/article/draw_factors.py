@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import AffineShift
 from asperity.article.factors import GAMMA, PRINTED_P_T1, Factors, cf
 from asperity.article.inputs import LAMBDA0, PIXELS, PRESSURES, SIDE, VELOCITY, Inputs
 from asperity.article.page import (
@@ -18,6 +17,7 @@ from asperity.article.page import (
     tuned_inputs,
 )
 from asperity.article.peaks import located
+from asperity.correction import AffineShift
 from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:

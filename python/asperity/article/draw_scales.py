@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import contact_area, pressure_distribution
 from asperity.article.inputs import LAMBDA0, PIXEL_SIZE, PIXELS, Q0, SIDE, Inputs
 from asperity.article.page import (
     Page,
@@ -15,6 +14,7 @@ from asperity.article.page import (
     stacked,
     tuned_inputs,
 )
+from asperity.contact import contact_area, pressure_distribution
 from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:

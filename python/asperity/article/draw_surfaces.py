@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity._core import LineScan
 from asperity.article.inputs import LAMBDA0, MAGNIFICATION, PIXEL_SIZE, PIXELS, Q0, Inputs
 from asperity.article.page import (
     Page,
@@ -18,6 +17,7 @@ from asperity.article.page import (
 from asperity.article.peaks import located
 from asperity.article.surfaces import Spectra
 from asperity.plot.curves import COLOURS, new_figure
+from asperity.surface import LineScan
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

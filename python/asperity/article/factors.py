@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import AffineShift, PronySeries, SFactor, correction_factor
 from asperity.article.inputs import (
     LOADS,
     MAGNIFICATION,
@@ -27,7 +26,9 @@ from asperity.article.statement import (
     despite_tuning,
     percent,
 )
-from asperity.kinds import Correction
+from asperity.contact import correction_factor
+from asperity.correction import AffineShift, Correction, SFactor
+from asperity.rubber import PronySeries
 
 _Array = NDArray[np.float64]
 GAMMA = 0.5

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Friction
 from asperity.article.compounds import ROOM, T_G, compound
 from asperity.article.inputs import ADHESION, MAGNIFICATION, Q0, Inputs
 from asperity.article.readings import READINGS
@@ -18,6 +17,7 @@ from asperity.article.statement import (
     percent,
     unchecked,
 )
+from asperity.friction import Friction
 
 _Array = NDArray[np.float64]
 _POINTS = (1e-5, 1e-3, 1e-1, 1.0)  # m/s, at which numbers are listed

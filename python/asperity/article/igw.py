@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import contact_area, separation
 from asperity.article.inputs import LOADS, PRESSURES, Q0, Inputs, Model
 from asperity.article.readings import READINGS
 from asperity.article.shifts import FIG13_VELOCITIES, FIG14_PRESSURES, Readings, shifts
@@ -15,6 +14,8 @@ from asperity.article.statement import (
     rests_on_tuning,
     unchecked,
 )
+from asperity.asperities import separation
+from asperity.contact import contact_area
 
 _Array = NDArray[np.float64]
 _SLOW = 1e-9  # m/s

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import (
-    Adhesion,
-    GreenwoodWilliamson,
-    HeightMap,
-    PronySeries,
-    SelfAffineSpectrum,
-    synthesize,
-)
+from asperity.adhesion import Adhesion
 from asperity.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
 from asperity.article.readings import READINGS, Implied, Reading, implied
+from asperity.correction import GreenwoodWilliamson
+from asperity.measured_spectrum import synthesize
+from asperity.rubber import PronySeries
+from asperity.spectrum import SelfAffineSpectrum
+from asperity.surface import HeightMap
 
 Q0 = 2000.0  # 1/m, of both surfaces (Fig. 7, Table 1)
 LAMBDA0 = 2 * math.pi / Q0

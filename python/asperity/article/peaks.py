@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, LineScan, LocalPeaks, friction
 from asperity.article.inputs import (
     LAMBDA0,
     PIXEL_SIZE,
@@ -17,6 +16,9 @@ from asperity.article.inputs import (
     Inputs,
 )
 from asperity.article.statement import Statement, by_construction, by_name, judged, listed
+from asperity.correction import LocalPeaks
+from asperity.friction import friction
+from asperity.surface import HeightMap, LineScan
 
 _Array = NDArray[np.float64]
 DISTANCES = (2.0, 1.0, 0.75, 0.5, 0.25)  # smallest between peaks [lambda0]

@@ -5,8 +5,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import AffineShift, PronySeries, contact_area, mean_pressure
-from asperity._core import pressure_distribution as distribution
 from asperity.article.inputs import (
     LOADS,
     MAGNIFICATION,
@@ -25,7 +23,10 @@ from asperity.article.statement import (
     percent,
     unchecked,
 )
-from asperity.kinds import Correction
+from asperity.contact import contact_area, mean_pressure
+from asperity.contact import pressure_distribution as distribution
+from asperity.correction import AffineShift, Correction
+from asperity.rubber import PronySeries
 
 _Array = NDArray[np.float64]
 _ZETA = (1.1, 2.0, 10.0, 100.0, MAGNIFICATION)

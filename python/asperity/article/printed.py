@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import GreenwoodWilliamson
 from asperity.article.compounds import ROOM, T_G
 from asperity.article.inputs import (
     LOADS,
@@ -18,6 +17,7 @@ from asperity.article.inputs import (
 from asperity.article.readings import PRINTED, READINGS
 from asperity.article.shifts import shifts
 from asperity.article.statement import TUNED, Statement, by_name, listed, unchecked
+from asperity.correction import GreenwoodWilliamson
 
 _Array = NDArray[np.float64]
 

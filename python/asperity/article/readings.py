@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import separation
+from asperity.asperities import separation
 
 Reading = Literal["implicit", "added"]
 READINGS: tuple[Reading, ...] = ("implicit", "added")

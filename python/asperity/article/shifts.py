@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import separation
 from asperity.article.inputs import Q0, Inputs, Model, effective_modulus
+from asperity.asperities import separation
 
 _Array = NDArray[np.float64]
 FIG13_VELOCITIES = (0.001, 0.01, 0.1, 1.0)  # m/s, the article's

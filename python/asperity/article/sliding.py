@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Friction, GreenwoodWilliamson, SFactor, friction
 from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, MAGNIFICATION, Inputs, heights_of
 from asperity.article.readings import READINGS, Reading
-from asperity.kinds import Correction
+from asperity.correction import Correction, GreenwoodWilliamson, SFactor
+from asperity.friction import Friction, friction
 
 _Array = NDArray[np.float64]
 # The article's q1, and that of the rule it cites.

@@ -6,14 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import (
-    HeightMap,
-    SelfAffineFit,
-    SelfAffineSpectrum,
-    TabulatedSpectrum,
-    fit_self_affine,
-    power_spectrum,
-)
 from asperity.article.inputs import PIXEL_SIZE, PIXELS, Q0, SIDE, Inputs
 from asperity.article.statement import (
     Statement,
@@ -23,6 +15,9 @@ from asperity.article.statement import (
     percent,
     unchecked,
 )
+from asperity.measured_spectrum import SelfAffineFit, fit_self_affine, power_spectrum
+from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
+from asperity.surface import HeightMap
 
 _Array = NDArray[np.float64]
 _POINTS = 1000  # of the window

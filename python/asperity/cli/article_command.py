@@ -25,28 +25,23 @@ from asperity.article import (
 from asperity.article.inputs import prepare
 from asperity.article.page import Page
 from asperity.article.statement import Statement
-from asperity.article.summary import OPENING, counted, markdown
+from asperity.article.summary import counted, markdown
 from asperity.cli.friction_commands import tell
-from asperity.io.directory import Mark, begins, check_own_directory, table_of
-from asperity.io.table import write_directory
+from asperity.io.files import check_directory, write_files
 from asperity.plot.curves import check_plot, picture
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
-MARKS: dict[str, list[Mark]] = {
-    **{f"{page}.csv": [table_of(f"article {page}")] for page in PAGES},
-    **{f"{page}.png": [f"{page}.csv"] for page in PAGES},
-    "summary.md": [begins(OPENING)],
-}
+FILES = (*(f"{page}.{kind}" for page in PAGES for kind in ("csv", "png")), "summary.md")
 
 
 def article(args: Namespace) -> None:
     """Write all pictures, tables and the summary, and show how many statements hold."""
     directory = Path(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
-    check_own_directory(directory, "the article", MARKS)
+    check_directory(directory, FILES, force=args.force)
     contents, statements = remake()
-    write_directory(directory, contents)
+    write_files({directory / name: data for name, data in contents.items()})
     tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 

@@ -13,31 +13,28 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import (
-    HeightMap,
-    InvalidInput,
-    NotConverged,
-    SelfAffineFit,
-    TabulatedSpectrum,
-    fit_self_affine,
-)
-from asperity.demo import check_directory, input_files
+from asperity._core import InvalidInput, NotConverged
+from asperity.demo import FILES, input_files
 from asperity.io.fields import MOST_ROWS, named
-from asperity.io.table import Table, check_output, terminal_table, write_directory, write_files
+from asperity.io.files import check_directory, check_output, write_files
+from asperity.io.table import Table, terminal_table
+from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap
 
 
 def demo(args: Namespace) -> None:
     """Write the shipped scan and scene, compute and draw them, show the curve."""
     directory = Path(args.output)
-    check_directory(directory)
+    check_directory(directory, FILES, force=args.force)
     files = input_files()
     with TemporaryDirectory() as aside:
-        write_directory(Path(aside), files)
+        write_files({Path(aside) / name: data for name, data in files.items()})
         scene = load_scene(Path(aside) / "scene.toml")
     scene = replace(scene, path=directory / "scene.toml")
     table, curves = _friction_table([scene], bands=True)
@@ -46,7 +43,7 @@ def demo(args: Namespace) -> None:
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
         files[picture.name] = plot.friction_figure([scene], curves, picture)
-    write_directory(directory, files)
+    write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
     tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)

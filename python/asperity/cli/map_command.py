@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import FrictionMap, InvalidInput, friction, friction_map
+from asperity._core import InvalidInput
 from asperity.cli.friction_commands import check_outputs, spare, tell, tell_notes
+from asperity.friction import friction
+from asperity.friction_map import FrictionMap, friction_map
 from asperity.io.fields import named
-from asperity.io.table import input_lines, write_files
+from asperity.io.files import write_files
+from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
 from asperity.scene.scene import Scene, load_scene
 

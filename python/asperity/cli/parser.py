@@ -9,6 +9,7 @@ from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.article_command import article
 from asperity.cli.options import Parser, number, numbers, pairs, pixel_size, points, sides, whole
+from asperity.measured_spectrum import WINDOWS
 
 
 def parser() -> argparse.ArgumentParser:
@@ -40,6 +41,9 @@ def parser() -> argparse.ArgumentParser:
     def directory(to: argparse.ArgumentParser, default: str) -> None:
         to.add_argument(
             "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
+        )
+        to.add_argument(
+            "--force", action="store_true", help="replace the files of an earlier run there"
         )
 
     demo = verb(
@@ -94,8 +98,8 @@ def parser() -> argparse.ArgumentParser:
     )
     spectrum.add_argument(
         "--window",
-        choices=("split-cosine-bell", "hann", "none"),
-        default="split-cosine-bell",
+        choices=WINDOWS,
+        default=WINDOWS[0],
         help="default: %(default)s",
     )
     spectrum.add_argument(

@@ -6,20 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import (
-    InvalidInput,
-    MasterCurveBuild,
-    NotConverged,
-    PronyFit,
-    WlfFit,
-    build_master_curve,
-)
+from asperity._core import InvalidInput, NotConverged
 from asperity.cli.friction_commands import check_outputs, deliver, spare
+from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
 from asperity.io.fields import named
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.table import Table
 from asperity.plot import rubber as plot_rubber
 from asperity.scene.rubber import quiet_prony
+from asperity.shift_factors import WlfFit
 
 _FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for
 

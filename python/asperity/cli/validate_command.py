@@ -5,18 +5,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity._core import HeightMap, InvalidInput
+from asperity._core import InvalidInput
 from asperity.cli.friction_commands import progress, spare, tell, tell_notes
-from asperity.io.directory import begins, check_own_directory, table_of
 from asperity.io.fields import named
-from asperity.io.table import Table, write_directory
+from asperity.io.files import check_directory, write_files
+from asperity.io.table import Table
 from asperity.plot import curves as plot
 from asperity.scene.scan import read_filled
+from asperity.surface import HeightMap
 from asperity.validation.contacts import Contact, read_contacts, shipped
 from asperity.validation.figures import error_figure, shift_figure
 from asperity.validation.own import own_contacts
 from asperity.validation.predictions import Prediction, models_for, predict
-from asperity.validation.summary import TITLE, error_rows, summary
+from asperity.validation.summary import error_rows, summary
 
 LOADS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)  # those of the shipped rows
 _AREA, _ENERGY, _SHIFT = "area_error.png", "energy_error.png", "shift.png"
@@ -27,15 +28,7 @@ def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
     directory = Path(args.output)
     plot.check_plot(directory / _AREA)
-    check_own_directory(
-        directory,
-        "validate",
-        {
-            "summary.md": [begins(f"{TITLE}\n")],
-            "errors.csv": [table_of("validate")],
-            **{name: ["errors.csv"] for name in (_AREA, _ENERGY, _SHIFT)},
-        },
-    )
+    check_directory(directory, _FILES, force=args.force)
     inputs = [Path(name) for name in (args.rows, args.surface) if name is not None]
     spare([directory / name for name in _FILES], inputs)
     contacts, told, notes = _contacts(args)
@@ -43,9 +36,8 @@ def validate(args: Namespace) -> None:
     text = summary(predictions)
     table = Table("validate", [told], notes, error_rows(predictions))
     pictures = _pictures(contacts, predictions)
-    write_directory(
-        directory, {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
-    )
+    files = {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
+    write_files({directory / name: data for name, data in files.items()})
     tell_notes(notes)
     tell(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
 

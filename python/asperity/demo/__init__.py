@@ -2,14 +2,14 @@
 
 import io
 from importlib.resources import files
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import SelfAffineSpectrum, synthesize
-from asperity.io.directory import Mark, check_own_directory, table_of
+from asperity.measured_spectrum import synthesize
+from asperity.spectrum import SelfAffineSpectrum
 
+FILES = ("scan.npy", "scene.toml", "friction.csv", "friction.png")
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)
 
@@ -38,31 +38,3 @@ def input_files() -> dict[str, bytes]:
     out = io.BytesIO()
     np.save(out, scan())
     return {"scan.npy": out.getvalue(), "scene.toml": scene_text().encode()}
-
-
-def check_directory(directory: Path) -> None:
-    """Refuse, before any work, a directory that the demo cannot or should not write into.
-
-    Raises
-    ------
-    InvalidInput
-        If it cannot be written, or holds files of the demo's names that the demo did not write.
-    """
-    check_own_directory(directory, "the demo", _MARKS)
-
-
-def _is_scan(path: Path) -> bool:
-    try:
-        found = np.load(path, mmap_mode="r")
-    except (ValueError, EOFError):
-        return False
-    return isinstance(found, np.ndarray) and (found.shape, found.dtype) == (SHAPE, np.float32)
-
-
-# A friction.csv alone may be another scene's.
-_MARKS: dict[str, list[Mark]] = {
-    "scan.npy": ["scene.toml", _is_scan],
-    "scene.toml": [lambda path: path.read_bytes() == scene_text().encode()],
-    "friction.csv": ["scene.toml", table_of("friction")],
-    "friction.png": ["friction.csv"],
-}

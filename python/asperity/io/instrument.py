@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, InvalidInput, LineScan
+from asperity._core import InvalidInput
 from asperity.io.fields import named
+from asperity.surface import HeightMap, LineScan
 
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12}
 

@@ -8,9 +8,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, Isotherm, ShiftFactors, StrainSweep
+from asperity._core import InvalidInput
 from asperity.io.instrument import brief
 from asperity.io.read_surface import check_file
+from asperity.shift_factors import ShiftFactors
+from asperity.sweeps import Isotherm, StrainSweep
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 Column = NDArray[np.float64]

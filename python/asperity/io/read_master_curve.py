@@ -5,9 +5,10 @@ from typing import Literal
 
 import numpy as np
 
-from asperity._core import InvalidInput, MasterCurve
+from asperity._core import InvalidInput
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
+from asperity.rubber import MasterCurve
 
 _MASTER_CURVE = ["angular_frequency_rad_s", "storage_modulus_pa", "loss_modulus_pa"]
 

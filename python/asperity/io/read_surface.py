@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, InvalidInput, LineScan
+from asperity._core import InvalidInput
 from asperity.io.instrument import (
     METRES,
     PixelSize,
@@ -24,6 +24,7 @@ from asperity.io.instrument import (
     read_instrument,
     surface_of,
 )
+from asperity.surface import HeightMap, LineScan
 
 
 def read_surface(

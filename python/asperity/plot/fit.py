@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity._core import AdhesionFit
+from asperity.adhesion import AdhesionFit
 from asperity.plot.curves import band_text, colours, new_figure, picture, pressure_text
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 

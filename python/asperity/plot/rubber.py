@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity._core import Isotherm, MasterCurveBuild, PronyFit, WlfFit
+from asperity.dma import MasterCurveBuild, PronyFit
 from asperity.plot.curves import COLOURS, new_figure, picture, shades
+from asperity.shift_factors import WlfFit
+from asperity.sweeps import Isotherm
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, LineScan, SelfAffineFit, TabulatedSpectrum
+from asperity.measured_spectrum import SelfAffineFit
 from asperity.plot.curves import COLOURS, new_figure, picture
 from asperity.scene.scan import Scan, nyquist
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap, LineScan
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

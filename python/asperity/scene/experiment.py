@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import AdhesionFit, InvalidInput, NotConverged, fit_adhesion
+from asperity._core import InvalidInput, NotConverged
+from asperity.adhesion import AdhesionFit, fit_adhesion
 from asperity.io.read_friction import MeasuredFriction
-from asperity.kinds import Rubber, Spectrum
+from asperity.rubber import Rubber
 from asperity.scene.scene import Curves, Progress, Scene
+from asperity.spectrum import Spectrum
 from asperity.uncertainty.draws import Generator
 
 # arguments of Adhesion by the names that files give them

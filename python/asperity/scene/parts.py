@@ -4,15 +4,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from asperity._core import (
-    Adhesion,
+from asperity.adhesion import Adhesion
+from asperity.correction import (
     AffineShift,
+    Correction,
     GreenwoodWilliamson,
-    LineScan,
     LocalPeaks,
     NayakSFactor,
     PeaksThenGreenwoodWilliamson,
-    SelfAffineSpectrum,
     SFactor,
 )
 from asperity.io.fields import (
@@ -28,8 +27,9 @@ from asperity.io.fields import (
     require,
     text,
 )
-from asperity.kinds import Correction, Spectrum
 from asperity.scene.scan import Scan
+from asperity.spectrum import SelfAffineSpectrum, Spectrum
+from asperity.surface import LineScan
 
 Values = dict[str, Any]
 _KIND = {"kind": Field(text)}

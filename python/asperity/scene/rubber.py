@@ -6,16 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from asperity._core import (
-    InvalidInput,
-    MasterCurve,
-    MasterCurveBuild,
-    PronyFit,
-    PronySeries,
-    ShiftFactors,
-    build_master_curve,
-    fit_prony,
-)
+from asperity._core import InvalidInput
+from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve, fit_prony
 from asperity.io.fields import (
     Field,
     arguments,
@@ -34,7 +26,8 @@ from asperity.io.fields import (
 )
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.read_master_curve import read_master_curve
-from asperity.kinds import Rubber
+from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.shift_factors import ShiftFactors
 from asperity.uncertainty.draws import Drawn, Generator, draw_build
 
 Values = dict[str, Any]

@@ -4,24 +4,17 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
-from asperity._core import (
-    HeightMap,
-    InvalidInput,
-    LineScan,
-    TabulatedSpectrum,
-    anisotropy,
-    line_spectrum,
-    power_spectrum,
-)
+from asperity._core import InvalidInput
 from asperity.io.read_surface import read_surface
+from asperity.measured_spectrum import Window, anisotropy, line_spectrum, power_spectrum
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import Detrend, HeightMap, LineScan
 
 Scan = HeightMap | LineScan
-Window = Literal["split-cosine-bell", "hann", "none"]
-Detrend = Literal["plane", "quadratic", "offset"] | None
 
 _LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
@@ -37,7 +30,7 @@ def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Sc
         raise InvalidInput(f"{path}: {error}") from error
 
 
-def surface_spectrum(scan: Scan, *, window: Window, detrend: Detrend) -> TabulatedSpectrum:
+def surface_spectrum(scan: Scan, *, window: Window, detrend: Detrend | None) -> TabulatedSpectrum:
     """C(q) of the scanned surface; of a line scan that of the isotropic one with such profiles, in
     the finest of a few logarithmic bins that scatter little enough for it."""
     if isinstance(scan, HeightMap):
@@ -55,12 +48,12 @@ def nyquist(scan: Scan) -> float:
     return math.pi / (max(scan.pixel_size) if isinstance(scan, HeightMap) else scan.spacing)
 
 
-def flat(scan: Scan, detrend: Detrend) -> Scan:
+def flat(scan: Scan, detrend: Detrend | None) -> Scan:
     """The scan without its trend and without its mean."""
     return scan.detrend(detrend or "offset")
 
 
-def lay(scan: Scan, *, window: Window, detrend: Detrend) -> float | None:
+def lay(scan: Scan, *, window: Window, detrend: Detrend | None) -> float | None:
     """Ratio of the principal slopes; None of a line scan, and of a map too small to tell."""
     if isinstance(scan, LineScan):
         return None

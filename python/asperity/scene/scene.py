@@ -11,16 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import (
-    Adhesion,
-    AdhesionFit,
-    Friction,
-    InvalidInput,
-    contact_area,
-    contact_notes,
-    friction,
-    pressure_distribution,
-)
+from asperity._core import InvalidInput
+from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.contact import contact_area, contact_notes, pressure_distribution
+from asperity.correction import Correction
+from asperity.friction import Friction, friction
 from asperity.io.fields import (
     MOST_ROWS,
     Field,
@@ -36,10 +31,11 @@ from asperity.io.fields import (
     sweep,
     text,
 )
-from asperity.kinds import Correction, Rubber, Spectrum
+from asperity.rubber import Rubber
 from asperity.scene.parts import build_adhesion, build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
+from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import DrawAdhesion, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}

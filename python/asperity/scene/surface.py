@@ -6,14 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from asperity._core import (
-    HeightMap,
-    OutOfRange,
-    SelfAffineFit,
-    SelfAffineSpectrum,
-    TabulatedSpectrum,
-    fit_self_affine,
-)
+from asperity._core import OutOfRange
 from asperity.io.fields import (
     Field,
     arguments,
@@ -28,8 +21,10 @@ from asperity.io.fields import (
     require,
     text,
 )
-from asperity.kinds import Spectrum
+from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
 from asperity.scene.scan import Scan, nyquist, read_filled, surface_spectrum
+from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.surface import HeightMap
 from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectrum
 
 Values = dict[str, Any]

@@ -8,16 +8,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asperity._core import (
-    Adhesion,
-    AdhesionFit,
-    InvalidInput,
-    MasterCurveBuild,
-    PronyFit,
-    SelfAffineFit,
-    friction,
-)
-from asperity.kinds import Correction, Rubber, Spectrum
+from asperity._core import InvalidInput
+from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.correction import Correction
+from asperity.dma import MasterCurveBuild, PronyFit
+from asperity.friction import friction
+from asperity.measured_spectrum import SelfAffineFit
+from asperity.rubber import Rubber
+from asperity.spectrum import Spectrum
 from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
 
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]

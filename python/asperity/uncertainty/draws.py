@@ -7,18 +7,12 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from asperity._core import (
-    Adhesion,
-    AdhesionFit,
-    Isotherm,
-    MasterCurve,
-    MasterCurveBuild,
-    SelfAffineFit,
-    SelfAffineSpectrum,
-    TabulatedSpectrum,
-    build_master_curve,
-)
-from asperity.kinds import Rubber, Spectrum
+from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.dma import MasterCurveBuild, build_master_curve
+from asperity.measured_spectrum import SelfAffineFit
+from asperity.rubber import MasterCurve, Rubber
+from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.sweeps import Isotherm
 
 Generator = np.random.Generator
 Input = TypeVar("Input", Spectrum, Rubber)

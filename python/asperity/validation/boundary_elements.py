@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import HeightMap, InvalidInput, NotConverged
+from asperity._core import InvalidInput, NotConverged
 from asperity.scene.scene import Progress
+from asperity.surface import HeightMap
 
 _Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from importlib.resources import as_file, files
 from pathlib import Path
 
-from asperity._core import InvalidInput, SelfAffineSpectrum
+from asperity._core import InvalidInput
 from asperity.io.read_surface import cell, check_file
-from asperity.kinds import Spectrum
+from asperity.spectrum import SelfAffineSpectrum, Spectrum
 
 _NUMBERS = (
     *("H", "q0", "q1", "h_rms", "rms_slope", "z_max", "z_min"),

@@ -4,8 +4,9 @@ import math
 from collections.abc import Sequence
 from contextlib import nullcontext
 
-from asperity._core import HeightMap, power_spectrum
+from asperity.measured_spectrum import power_spectrum
 from asperity.scene.scene import Progress
+from asperity.surface import HeightMap
 from asperity.validation.boundary_elements import contact, mirrored
 from asperity.validation.contacts import Contact
 

@@ -9,19 +9,19 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import (
+from asperity.contact import correction_factor
+from asperity.correction import (
     AffineShift,
+    Correction,
     GreenwoodWilliamson,
     LocalPeaks,
     NayakSFactor,
     PeaksThenGreenwoodWilliamson,
-    PronySeries,
     SFactor,
-    TabulatedSpectrum,
-    correction_factor,
-    friction,
 )
-from asperity.kinds import Correction, Spectrum
+from asperity.friction import friction
+from asperity.rubber import PronySeries
+from asperity.spectrum import Spectrum, TabulatedSpectrum
 from asperity.validation.contacts import Contact
 
 Quantity = Literal["area", "energy"]

@@ -202,7 +202,7 @@ TEST_CASE("what cannot be fitted is refused by name") {
       [&] {
         fit({w, storage, {1e5, 2e5, 3e5}});
       },
-      "loss_modulus has 3 entries, angular_frequency has 4: must be as many");
+      "loss_modulus (3) and angular_frequency (4) must have equal length");
   refused([&] { fit({w, storage, {1e5, 0, 3e5, 4e5}}); }, "loss_modulus[1] = 0: must be positive and finite");
   refused([&] { fit({w, {1e6, 2e6, -3, 4e6}, loss}); }, "storage_modulus[2] = -3: must be positive and finite");
   refused([&] { fit({{0, 10, 100, 1000}, storage, loss}); }, "angular_frequency[0] = 0: must be positive and finite");

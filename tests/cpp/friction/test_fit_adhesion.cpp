@@ -181,5 +181,5 @@ TEST_CASE("what the points do not determine is refused by name") {
   few.mu[1] = std::nan("");
   refused([&] { (void)few.fit(); }, "mu[1] = nan: must be positive and finite");
   few.mu.pop_back();
-  refused([&] { (void)few.fit(); }, "mu has 2 entries, velocity has 3: must be as many");
+  refused([&] { (void)few.fit(); }, "mu (2) and velocity (3) must have equal length");
 }

@@ -90,7 +90,7 @@ def test_demo_runs_twice_and_prints_where(
     finished: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = (finished / "friction.csv").read_text()
-    assert main(["demo", "--output", str(finished)]) == 0
+    assert main(["demo", "--output", str(finished), "--force"]) == 0
     out = capsys.readouterr().out
     assert "velocity_m_s" in out
     assert str(finished / "friction.csv") in out
@@ -98,27 +98,18 @@ def test_demo_runs_twice_and_prints_where(
     assert (finished / "friction.csv").read_text() == before
 
 
-@pytest.mark.parametrize("name", ["scan.npy", "scene.toml", "friction.csv", "friction.png"])
-def test_demo_does_not_overwrite_what_it_did_not_write(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
-    (tmp_path / name).write_text("mine\n")
-    assert main(["demo", "--output", str(tmp_path)]) == 2
-    out, err = capsys.readouterr()
-    message = f"holds {name}, not the demo's own: choose another --output"
-    assert (out, err) == ("", f"asperity: {tmp_path}: {message}\n")
-    assert [path.name for path in tmp_path.iterdir()] == [name]
-    assert (tmp_path / name).read_text() == "mine\n"
-
-
-def test_demo_does_not_overwrite_a_scan_put_beside_its_scene(
+def test_demo_overwrites_nothing_unless_told_to(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "scene.toml").write_text(demo.scene_text(), encoding="utf-8")
-    np.save(tmp_path / "scan.npy", np.ones((20, 30)))
-    assert main(["demo", "--output", str(tmp_path)]) == 2
-    assert "holds scan.npy, not the demo's own" in capsys.readouterr().err
-    assert np.load(tmp_path / "scan.npy").shape == (20, 30)
+    for name in ("scan.npy", "scene.toml", "friction.csv", "friction.png"):
+        (tmp_path / name).write_text("mine\n")
+        assert main(["demo", "--output", str(tmp_path)]) == 2
+        out, err = capsys.readouterr()
+        message = f"holds {name} already; choose another --output, or replace them with --force"
+        assert (out, err) == ("", f"asperity: {tmp_path}: {message}\n")
+        assert [path.name for path in tmp_path.iterdir()] == [name]
+        assert (tmp_path / name).read_text() == "mine\n"
+        (tmp_path / name).unlink()
 
 
 @pytest.mark.parametrize("before", ["nothing", "an empty directory", "a finished demo"])
@@ -140,13 +131,13 @@ def test_demo_that_fails_leaves_what_was_there(
         raise asperity.NotConverged("mu = 1 with error 2")
 
     monkeypatch.setattr("asperity.scene.scene.friction", fail)
-    assert main(["demo", "--output", str(directory)]) == 1
+    assert main(["demo", "--output", str(directory), "--force"]) == 1
     line = f"asperity: {directory / 'scene.toml'}: mu = 1 with error 2\n"
     assert capsys.readouterr().err == line
     assert contents(tmp_path) == held
 
 
-def test_demo_on_a_full_disk_leaves_nothing(
+def test_demo_on_a_full_disk_leaves_no_half_of_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     directory = tmp_path / "far" / "out"
@@ -161,7 +152,8 @@ def test_demo_on_a_full_disk_leaves_nothing(
     assert main(["demo", "--output", str(directory)]) == 1
     line = f"asperity: {directory / 'friction.csv'}: cannot be written: No space left on device\n"
     assert capsys.readouterr().err == line
-    assert list(tmp_path.iterdir()) == []
+    # those before it are whole, and no part of it is left
+    assert {path.name for path in directory.iterdir()} == {"scan.npy", "scene.toml"}
 
 
 @pytest.mark.parametrize("name", ["taken", "taken/below"])
@@ -170,5 +162,5 @@ def test_demo_into_a_file_is_refused(
 ) -> None:
     (tmp_path / "taken").write_text("")
     assert main(["demo", "--output", str(tmp_path / name)]) == 2
-    reason = f"cannot be written: {tmp_path / 'taken'} is not a directory"
+    reason = f"cannot be written: {tmp_path / 'taken'} is no directory"
     assert capsys.readouterr().err == f"asperity: {tmp_path / name}: {reason}\n"

@@ -146,7 +146,7 @@ def test_a_vertical_shift_that_changes_nothing_is_not_talked_about():
     ("vertical_shift", "message"),
     [
         ("T", 'vertical_shift = "T": must be None, "T/T_ref" or an array of b_T'),
-        ([1.0, 1.0], "vertical_shift has 2 entries, isotherms has 22: must be as many"),
+        ([1.0, 1.0], r"vertical_shift \(2\) and isotherms \(22\) must have equal length"),
         ([0.0] + [1.0] * 21, r"vertical_shift\[0\] = 0: must be positive"),
     ],
 )

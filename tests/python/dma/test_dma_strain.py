@@ -153,7 +153,7 @@ def test_refusals(strain, given, options, error, message):
         ({"strain": [1e-3, 1e-3, 1e-2]}, r"^strain\[1\] = 0\.001: must be above"),
         ({"strain": [0.0, 1e-3, 1e-2]}, r"^strain\[0\] = 0: must be positive"),
         ({"loss_modulus": [1e5, np.nan, 1e5]}, r"^loss_modulus\[1\] = nan: must be positive"),
-        ({"storage_modulus": [1e5, 1e5]}, "^storage_modulus has 2 entries, strain has 3"),
+        ({"storage_modulus": [1e5, 1e5]}, r"^storage_modulus \(2\) and strain \(3\)"),
     ],
 )
 def test_bad_sweeps(changed, message):

@@ -166,20 +166,18 @@ def test_another_temperature_shifts_the_velocity(road_map):
         ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=ADHESION
     )
     for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
-        found = getattr(road_map, quantity)(p, v, shift_factor=a_t)
+        found = getattr(road_map, quantity)(p, v, a_T=a_t)
         np.testing.assert_allclose(found, getattr(other, quantity), rtol=1e-4)
     # on request as if v0 were v0 / a_T
     moved = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3 / a_t)
     other = friction(
         ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=moved
     )
-    found = road_map.mu(p, v, shift_factor=a_t, shift_adhesion=True)
+    found = road_map.mu(p, v, a_T=a_t, shift_adhesion=True)
     np.testing.assert_allclose(found, other.mu, rtol=1e-4)
     # a temperature for each point
-    several = road_map.mu(p, 1e-3, shift_factor=[1.0, 10.0])
-    np.testing.assert_array_equal(
-        several, [road_map.mu(p, 1e-3), road_map.mu(p, 1e-3, shift_factor=10.0)]
-    )
+    several = road_map.mu(p, 1e-3, a_T=[1.0, 10.0])
+    np.testing.assert_array_equal(several, [road_map.mu(p, 1e-3), road_map.mu(p, 1e-3, a_T=10.0)])
 
 
 def test_arrays_hold_what_points_do(road_map):
@@ -252,8 +250,8 @@ def test_what_is_no_number_is_refused(road_map, outside):
         with pytest.raises(InvalidInput, match=name + " = nan: must be a number"):
             road_map.mu(*arguments, outside=outside)
     for shift in (np.nan, 0.0, -1.0, np.inf):
-        with pytest.raises(InvalidInput, match=r"shift_factor = \S+: must be positive and finite"):
-            road_map.mu(2e5, 0.1, shift_factor=shift, outside=outside)
+        with pytest.raises(InvalidInput, match=r"a_T = \S+: must be positive and finite"):
+            road_map.mu(2e5, 0.1, a_T=shift, outside=outside)
     assert np.isnan(road_map.mu(np.nan, 0.1, outside="nan"))
 
 
@@ -341,7 +339,7 @@ def test_bad_boxes_and_tolerances_are_refused():
         ({"velocity": (0.1, 0.1)}, r"velocity = \(0.1, 0.1\): must be \(lo, hi\)"),
         ({"velocity": (0.0, 0.1)}, "velocity = 0: must be positive"),
         ({"pressure": (1e5, np.inf)}, "pressure = inf: must be positive and finite"),
-        ({"pressure": 1e5}, "pressure has 0 dimensions"),
+        ({"pressure": 1e5}, "pressure = 100000"),
         ({"pressure": (1e5, 2e5, 3e5)}, r"pressure = .*: must be \(lo, hi\)"),
     ):
         with pytest.raises(InvalidInput, match=message):

@@ -93,7 +93,7 @@ void GaussPanels::fill(Panel& p) {
   double* const rows = &data_[p.data];
   double w[most], i1[most], i2[most], i1_outside[most], dg[most], ratio[most], tail[LegendreRule::kept];
   for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * rows[Panel::wavenumber * n + i];
-  p.any_outside = angular_integrals(rubber_, {w, n}, i1, i2, i1_outside);
+  p.any_outside = angular_integrals(rubber_, {w, n}, {i1, n}, {i2, n}, {i1_outside, n});
   for (std::size_t i = 0; i < n; ++i) {
     dg[i] = rows[Panel::roughness * n + i] * i2[i];
     ratio[i] = i1[i] / i2[i];
@@ -222,7 +222,7 @@ double GaussPanels::g_to(const Panel& panel, double s) const {
   double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
   place(panel, t, q, roughness);
   for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
-  (void)angular_integrals(rubber_, {q, n}, i1, i2, i1_outside);
+  (void)angular_integrals(rubber_, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += panel.rule->weight[i] * roughness[i] * i2[i];
   return sum;

@@ -1,0 +1,188 @@
+// Every decomposition that the project takes from Eigen: A P = Q R with pivoted columns, its complete orthogonal form,
+// L D L^T; and the active set method for unknowns that are not negative (C. L. Lawson and R. J. Hanson, Solving Least
+// Squares Problems (1974), chapter 23), whose every step is such a decomposition.
+#include "numerics/least_squares.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <limits>
+#include <vector>
+
+#include "asperity/errors.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/nnls.hpp"
+
+namespace asperity {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// The first `count` reflections of Q^T on c. This and what follows is Eigen's own solve(), spelt out: that takes twice
+/// as long to compile.
+template <class Decomposition>
+void reflect(const Decomposition& qr, const MatrixXd& reflections, Index count, VectorXd& c) {
+  double room = 0;
+  for (Index k = 0; k < count; ++k)
+    c.tail(c.size() - k).applyHouseholderOnTheLeft(reflections.col(k).tail(c.size() - k - 1), qr.hCoeffs()[k], &room);
+}
+
+/// R^-1 on the first `count` entries of c, R the upper triangle.
+void divide(const MatrixXd& r, Index count, VectorXd& c) {
+  auto head = c.head(count);
+  r.topLeftCorner(count, count).triangularView<Eigen::Upper>().solveInPlace(head);
+}
+
+/// The same for a few columns, by the inverse of the diagonal.
+void multiply_by_inverse(const MatrixXd& r, Index count, VectorXd& c) {
+  for (Index k = count; k-- > 0;) {
+    c[k] *= 1 / r(k, k);
+    for (Index i = 0; i < k; ++i) c[i] -= c[k] * r(i, k);
+  }
+}
+
+/// min |A_P z - b| over the columns P alone, by a rank revealing QR: of dependent columns some get 0.
+VectorXd solve_passive(const MatrixXd& a, const VectorXd& b, const std::vector<Index>& passive) {
+  MatrixXd columns(a.rows(), static_cast<Index>(passive.size()));
+  for (Index k = 0; k < columns.cols(); ++k) columns.col(k) = a.col(passive[static_cast<std::size_t>(k)]);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  const Index rank = qr.nonzeroPivots();
+  VectorXd c = b, x = VectorXd::Zero(columns.cols());
+  reflect(qr, qr.matrixQR(), rank, c);
+  divide(qr.matrixQR(), rank, c);
+  for (Index k = 0; k < rank; ++k) x[qr.colsPermutation().indices()[k]] = c[k];
+  return x;
+}
+
+/// The shortest of all x for which |A x - b| is least: A P = Q T Z with T of A's rank.
+template <class SolveTriangle>
+VectorXd solve_shortest(const Eigen::CompleteOrthogonalDecomposition<MatrixXd>& qtz, const VectorXd& b,
+                        SolveTriangle solve_triangle) {
+  const MatrixXd& reflections = qtz.matrixQTZ();
+  const Index rank = qtz.rank(), n = qtz.cols();
+  VectorXd c = b, y = VectorXd::Zero(n), x(n);
+  reflect(qtz, reflections, rank, c);
+  solve_triangle(reflections, rank, c);
+  y.head(rank) = c.head(rank);
+  double room = 0;
+  for (Index k = 0; rank < n && k < rank; ++k) {  // Z^T, the reflections of the rows
+    std::swap(y[k], y[rank - 1]);
+    y.tail(n - rank + 1)
+        .applyHouseholderOnTheLeft(reflections.row(k).tail(n - rank).transpose(), qtz.zCoeffs()[k], &room);
+    std::swap(y[k], y[rank - 1]);
+  }
+  for (Index k = 0; k < n; ++k) x[qtz.colsPermutation().indices()[k]] = y[k];
+  return x;
+}
+
+Map<const VectorXd> vector(std::span<const double> values) {
+  return {values.data(), static_cast<Index>(values.size())};
+}
+
+template <class Matrix>
+std::vector<double> columns(const Matrix& matrix) {
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
+}  // namespace
+
+std::vector<double> shortest_solution(std::span<const double> a, std::span<const double> b) {
+  const VectorXd right = vector(b);
+  const MatrixXd matrix = Map<const MatrixXd>(a.data(), right.size(), right.size());
+  return columns(solve_shortest(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(matrix), right, divide));
+}
+
+std::vector<double> inverse_normal(std::span<const double> jacobian, std::span<const double> weight) {
+  const VectorXd w = vector(weight);
+  const MatrixXd j = Map<const MatrixXd>(jacobian.data(), w.size(), static_cast<Index>(jacobian.size()) / w.size());
+  MatrixXd normal = j.transpose() * w.asDiagonal() * j;
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qtz(normal);
+  for (Index k = 0; k < normal.cols(); ++k)
+    normal.col(k) = solve_shortest(qtz, VectorXd::Unit(normal.cols(), k), multiply_by_inverse);
+  return columns(normal);
+}
+
+std::array<double, 3> solve_symmetric(std::span<const double, 9> a, std::span<const double, 3> b) {
+  const Matrix3d matrix = Map<const Matrix3d>(a.data());
+  const Vector3d right = Map<const Vector3d>(b.data()), x = matrix.ldlt().solve(right);
+  return {x[0], x[1], x[2]};
+}
+
+std::array<double, 9> inverse(std::span<const double, 9> a) {
+  std::array<double, 9> result;
+  Map<Matrix3d>(result.data()) = Matrix3d(Matrix3d(Map<const Matrix3d>(a.data())).inverse());
+  return result;
+}
+
+// Conditions of Karush, Kuhn and Tucker, which the answer fulfils to rounding: with g = A^T (b - A x), g_k = 0 where
+// x_k > 0 (the passive set P) and g_k <= 0 where x_k = 0.
+VectorXd nnls(const MatrixXd& original, const VectorXd& right) {
+  const Index n = original.cols();
+  // Unit columns: the choice of the next column and the tolerances know no units. A column of zeros stays at x = 0.
+  VectorXd norm = original.colwise().norm();
+  for (double& value : norm)
+    if (!(value > 0)) value = 1;
+  MatrixXd a(original.rows(), n + 1);
+  a.leftCols(n) = original * norm.cwiseInverse().asDiagonal();
+  a.col(n) = right;
+  // |A x - b| = |R (x; -1)| with [A b] = Q R: Q is not needed, and all that follows is as small as R.
+  if (a.rows() > n + 1) {
+    const Eigen::HouseholderQR<MatrixXd> qr(a);
+    a = MatrixXd(qr.matrixQR().topRows(n + 1).triangularView<Eigen::Upper>());
+  }
+  const VectorXd b = a.col(n);
+  a.conservativeResize(Eigen::NoChange, n);
+
+  const double tolerance = 10 * std::numeric_limits<double>::epsilon() * static_cast<double>(a.rows() + n) * b.norm();
+  VectorXd x = VectorXd::Zero(n);
+  std::vector<Index> passive;
+  std::vector<bool> out(static_cast<std::size_t>(n), true);  // neither passive nor refused since x last changed
+  const Index limit = 30 * n + 100;
+  for (Index step = 0; step < limit; ++step) {
+    const VectorXd gradient = a.transpose() * (b - a * x);
+    Index enters = -1;
+    for (Index k = 0; k < n; ++k)
+      if (out[static_cast<std::size_t>(k)] && gradient[k] > (enters < 0 ? tolerance : gradient[enters])) enters = k;
+    if (enters < 0) return x.cwiseQuotient(norm);
+    out[static_cast<std::size_t>(enters)] = false;
+    passive.push_back(enters);
+    VectorXd z = solve_passive(a, b, passive);
+    // A gradient above zero promises z > 0 for the new column. Where rounding breaks the promise the column depends on
+    // those of P; let in, it would leave at once and come again for ever.
+    if (!(z[z.size() - 1] > 0)) {
+      passive.pop_back();
+      continue;
+    }
+    while (!passive.empty() && !(z.minCoeff() > 0)) {
+      // from x towards z until the first unknown is zero; that one leaves P
+      double share = 1;
+      Index leaves = 0;
+      for (Index i = 0; i < z.size(); ++i) {
+        const double from = x[passive[static_cast<std::size_t>(i)]];
+        if (z[i] <= 0 && from / (from - z[i]) <= share) {
+          share = from / (from - z[i]);
+          leaves = i;
+        }
+      }
+      for (Index i = 0; i < z.size(); ++i) {
+        double& value = x[passive[static_cast<std::size_t>(i)]];
+        value = i == leaves ? 0 : value + share * (z[i] - value);
+      }
+      std::erase_if(passive, [&](Index k) { return !(x[k] > 0); });
+      z = solve_passive(a, b, passive);
+    }
+    x.setZero();
+    for (Index i = 0; i < z.size(); ++i) x[passive[static_cast<std::size_t>(i)]] = z[i];
+    for (Index k = 0; k < n; ++k) out[static_cast<std::size_t>(k)] = !(x[k] > 0);
+  }
+  throw NotConverged("non-negative least squares of " + std::to_string(n) + " unknowns: no end after " +
+                     std::to_string(limit) + " steps");
+}
+
+}  // namespace asperity

@@ -1,0 +1,36 @@
+// The choice between vector units when the program runs.
+#include "numerics/simd.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "asperity/errors.hpp"
+
+namespace asperity {
+
+namespace {
+
+VectorUnit choose() {
+  const char* const wish = std::getenv("ASPERITY_VECTORS");
+  if (wish && std::strcmp(wish, "baseline") != 0 && std::strcmp(wish, "avx2") != 0)
+    throw InvalidInput("ASPERITY_VECTORS = " + std::string(wish) + ": must be baseline or avx2");
+#ifdef __x86_64__
+  if ((wish && std::strcmp(wish, "baseline") == 0) || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    return VectorUnit::baseline;
+  const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512vl") && !wish;
+  return wider ? VectorUnit::avx512 : VectorUnit::avx2;
+#else
+  return VectorUnit::baseline;
+#endif
+}
+
+}  // namespace
+
+VectorUnit vector_unit() {
+  static const VectorUnit chosen = choose();
+  return chosen;
+}
+
+}  // namespace asperity

@@ -1,0 +1,1 @@
+"""What every public object is made of: values, checked arguments, tables."""

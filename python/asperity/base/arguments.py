@@ -1,0 +1,188 @@
+"""Arguments as Python gives them, brought to what the core takes, or refused by their names.
+
+The core checks ranges. What is checked here is the kind: a number, an array, a name, an object.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Protocol, SupportsFloat, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity._core import InvalidInput
+
+Array = NDArray[np.float64]
+Shape = tuple[int, ...]
+Taken = TypeVar("Taken", contravariant=True)
+Kept = TypeVar("Kept", covariant=True)
+
+
+class Given(Protocol[Taken, Kept]):
+    """The type of a field that takes more kinds of arguments than it keeps."""
+
+    def __get__(self, owner: object, cls: type) -> Kept: ...
+    def __set__(self, owner: object, given: Taken) -> None: ...
+
+
+Vector = Given[ArrayLike, Array]
+OptionalVector = Given[ArrayLike | None, Array | None]
+ABSENT: Any = None  # the default of a field whose type is Given
+
+
+def brief(found: object) -> str:
+    """Return what was found, in one short line."""
+    return " ".join(repr(found)[:60].split())
+
+
+def number(found: Any, name: str) -> float:
+    """Return a real number as a float."""
+    if type(found) is float:
+        return found
+    if isinstance(found, SupportsFloat) and not isinstance(found, complex | np.complexfloating):
+        if not isinstance(found, np.ndarray):
+            return float(found)
+        if found.ndim == 0:
+            return float(real_array(found, name))
+    raise InvalidInput(f"{name} = {brief(found)}: must be a number")
+
+
+def number_or_none(found: Any, name: str) -> float | None:
+    """Return a real number as a float, or None."""
+    return None if found is None else number(found, name)
+
+
+def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> int:
+    """Return a whole number of a range."""
+    if isinstance(found, int | np.integer) and lowest <= found <= highest:
+        return int(found)
+    allowed = f"from {lowest} to {highest}" if highest != 2**62 else f"{lowest} or more"
+    raise InvalidInput(f"{name} = {brief(found)}: must be a whole number, {allowed}")
+
+
+def flag(found: Any, name: str) -> bool:
+    """Return True or False."""
+    if isinstance(found, bool | np.bool_):
+        return bool(found)
+    raise InvalidInput(f"{name} = {brief(found)}: must be True or False")
+
+
+def choice(found: Any, name: str, allowed: Sequence[str | None]) -> int:
+    """Return the place of an option among those allowed, which is its number in the core."""
+    if (isinstance(found, str) or found is None) and found in allowed:
+        return allowed.index(found)
+    names = ", ".join("None" if option is None else f'"{option}"' for option in allowed)
+    shown = f'"{found[:60]}"' if isinstance(found, str) else brief(found)
+    raise InvalidInput(f"{name} = {shown}: must be one of {names}")
+
+
+def real_array(found: Any, name: str) -> Array:
+    """Return an array-like of real numbers as float64, of the shape that it has."""
+    if type(found) is float:
+        return np.array(found)
+    return real_numbers(found, name).astype(np.float64, copy=False)
+
+
+def real_numbers(found: Any, name: str) -> NDArray[Any]:
+    """Return an array-like of real numbers in the type that it has."""
+    if is_masked(found) or (isinstance(found, list | tuple) and any(map(is_masked, found))):
+        hint = "leave masked entries out with compressed()"
+        raise InvalidInput(f"{name} is a masked array; {hint}")
+    try:
+        array = np.asarray(found)
+    except (TypeError, ValueError):
+        array = np.array(None)
+    if array.dtype.kind in "biuf":
+        return array
+    raise InvalidInput(f"{name} = {brief(found)}: must be a number or an array of real numbers")
+
+
+def is_masked(found: Any) -> bool:
+    """Whether this is a NumPy masked array, told without importing `numpy.ma`."""
+    return isinstance(found, np.ndarray) and hasattr(found, "mask")
+
+
+def vector(found: Any, name: str) -> Array:
+    """Return a copy of a one-dimensional array-like that nobody can write to."""
+    array = real_array(found, name)
+    if array.ndim != 1:
+        raise InvalidInput(f"{name} has {array.ndim} dimensions; it must have 1")
+    return frozen(np.array(array, order="C"))
+
+
+def vector_or_none(found: Any, name: str) -> Array | None:
+    """Return a vector, or None."""
+    return None if found is None else vector(found, name)
+
+
+def covariance_matrix(found: Any) -> Array:
+    """Return the covariance of three parameters, read-only."""
+    matrix = real_array(found, "covariance")
+    if matrix.shape != (3, 3):
+        raise InvalidInput(f"covariance has shape {matrix.shape}: must be (3, 3)")
+    if not np.isfinite(matrix).all() or np.diag(matrix).min() < 0:
+        raise InvalidInput(
+            f"covariance = {brief(found)}: must be finite, its diagonal not negative"
+        )
+    return frozen(np.array(matrix, order="C"))
+
+
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """Return the array itself, made read-only."""
+    array.setflags(write=False)
+    return array
+
+
+def of_kind(found: Any, name: str, *kinds: type) -> Any:
+    """Return an object of one of the classes of the package."""
+    if isinstance(found, kinds):
+        return found
+    names = [("an " if kind.__name__[0] in "AI" else "a ") + kind.__name__ for kind in kinds]
+    raise InvalidInput(f"{name} = {brief(found)}: must be {' or '.join(names)}")
+
+
+def many(found: Any, name: str, kind: type) -> list[Any]:
+    """Return objects of one class of the package, given as an iterable."""
+    if not isinstance(found, Iterable):
+        raise InvalidInput(f"{name} = {brief(found)}: must be an iterable")
+    return [of_kind(one, f"{name}[{at}]", kind) for at, one in enumerate(found)]
+
+
+def sentences(found: Any, name: str) -> tuple[str, ...]:
+    """Return a tuple of str."""
+    if isinstance(found, Iterable) and not isinstance(found, str | dict):
+        given = tuple(found)
+        if all(isinstance(one, str) for one in given):
+            return given
+    raise InvalidInput(f"{name} = {brief(found)}: must be a tuple of str")
+
+
+def broadcast(**given: Any) -> tuple[Shape, list[Array]]:
+    """Return the shape that arguments have together, and each of them flat in that shape."""
+    if {*map(type, given.values())} == {float}:  # the common scalar, without NumPy's rules
+        return (), [np.array((one,)) for one in given.values()]
+    arrays = {name: real_array(one, name) for name, one in given.items()}
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        raise InvalidInput(_no_shape(arrays)) from None
+    return shape, [np.broadcast_to(array, shape).ravel() for array in arrays.values()]
+
+
+def _no_shape(arrays: dict[str, Array]) -> str:
+    shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+    text = f"shapes {shapes}: must broadcast together"
+    lines = [name for name, array in arrays.items() if array.ndim == 1]
+    if len(lines) > 1:
+        text += f"; {lines[0]}[:, None] gives every {lines[0]} with every {lines[1]}"
+    return text
+
+
+def shaped(flat: NDArray[Any], shape: Shape) -> Any:
+    """Return a result in the shape of its arguments: a scalar for scalars, else a new array."""
+    return flat.reshape(shape) if shape else flat.item()
+
+
+def over(found: Any, name: str, compute: Callable[[Array], NDArray[Any]]) -> Any:
+    """Return f of every entry, in the shape of the argument."""
+    array = real_array(found, name)
+    return shaped(compute(np.ascontiguousarray(array).ravel()), array.shape)

@@ -1,0 +1,90 @@
+"""Results and measured objects as tables; pandas, xarray and matplotlib only when asked for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity.base.value import Value
+
+
+@dataclass(frozen=True)
+class Column:
+    """Numbers along some of a table's dimensions, with their unit and meaning."""
+
+    dimensions: tuple[str, ...]
+    values: ArrayLike
+    unit: str
+    meaning: str = ""
+
+    def attributes(self) -> dict[str, str]:
+        """Return what xarray shows beside the numbers."""
+        return {"units": self.unit} | ({"long_name": self.meaning} if self.meaning else {})
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Coordinates, which say where, and variables, which say what; and facts of the whole."""
+
+    coordinates: Mapping[str, Column]
+    variables: Mapping[str, Column]
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Table(Value):
+    """What measured objects and results can do beside other values."""
+
+    def _columns(self) -> Columns:
+        """Return the columns of the table."""
+        raise NotImplementedError
+
+    def _draw(self, axes: Any) -> None:
+        """Draw the object into matplotlib axes."""
+        raise NotImplementedError
+
+    def to_xarray(self) -> Any:
+        """Return an `xarray.Dataset`: a variable a column, with its unit as attribute."""
+        import xarray
+
+        columns = self._columns()
+
+        def given(part: Mapping[str, Column]) -> dict[str, tuple[Any, ...]]:
+            return {
+                name: (c.dimensions, np.array(c.values), c.attributes()) for name, c in part.items()
+            }
+
+        return xarray.Dataset(
+            given(columns.variables), given(columns.coordinates), dict(columns.attributes)
+        )
+
+    def to_dataframe(self) -> Any:
+        """Return a `pandas.DataFrame`: a row an entry, coordinates before variables."""
+        import pandas
+
+        columns = self._columns()
+        named = {**columns.coordinates, **columns.variables}
+        sizes: dict[str, int] = {}
+        for column in named.values():
+            sizes.update(zip(column.dimensions, np.shape(column.values), strict=True))
+        flat = {name: _in_full(column, sizes).ravel() for name, column in named.items()}
+        return pandas.DataFrame(flat)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw into matplotlib axes, new ones unless given, and return them."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.subplots(layout="constrained")[1]
+        self._draw(ax)
+        return ax
+
+
+def _in_full(column: Column, sizes: Mapping[str, int]) -> NDArray[Any]:
+    """Return the numbers of a column repeated along the dimensions that it does not have."""
+    lengths = [sizes[name] if name in column.dimensions else 1 for name in sizes]
+    places = [[*sizes].index(name) for name in column.dimensions]
+    order = sorted(range(len(places)), key=places.__getitem__)
+    values = np.transpose(np.asarray(column.values), order).reshape(lengths)
+    return np.broadcast_to(values, tuple(sizes.values()))

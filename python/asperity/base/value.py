@@ -1,0 +1,89 @@
+"""Values: frozen, compared by content, pickled by what they were made from, shown in one line."""
+
+from dataclasses import dataclass, field, fields
+from functools import partial
+from html import escape
+from typing import Any, Self, dataclass_transform
+
+import numpy as np
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(field,))
+def value(cls: Any) -> Any:
+    """Make a frozen dataclass whose fields are keyword-only arguments and pattern attributes."""
+    decorate = dataclass(frozen=True, eq=False, repr=False, kw_only=True, match_args=False)
+    made: Any = decorate(cls)
+    made.__match_args__ = tuple(f.name for f in fields(made) if f.init)  # type: ignore[misc]
+    return made
+
+
+class Value:
+    """What every public object can do. `_core` is the object of the compiled core behind it."""
+
+    _core: Any
+    __match_args__: tuple[str, ...]
+    __hash__ = None  # type: ignore[assignment]  # equal arrays have no equal hash
+
+    def _set(self, **values: Any) -> None:
+        """Set attributes of a frozen object while it is made."""
+        self.__dict__.update(values)
+
+    @classmethod
+    def _made(cls, **values: Any) -> Self:
+        """Make an object from values that the core has checked already."""
+        made = object.__new__(cls)
+        made.__dict__.update(values)
+        return made
+
+    def _arguments(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in self.__match_args__}
+
+    def _summary(self) -> dict[str, Any]:
+        """Return what the one-line repr shows: by default the constructor's arguments."""
+        return self._arguments()
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{name}={short(value)}" for name, value in self._summary().items())
+        return f"{type(self).__name__}({shown})"
+
+    def _repr_html_(self) -> str:
+        """Return the same as a table, for notebooks."""
+        cells = {escape(name): escape(short(shown)) for name, shown in self._summary().items()}
+        rows = "".join(f"<tr><th>{name}</th><td>{cell}</td></tr>" for name, cell in cells.items())
+        return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        mine, others = self._arguments(), other._arguments()
+        return all(same(mine[name], others[name]) for name in mine)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(type(self), **self._arguments()), ()
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two attributes are equal; arrays entry by entry, NaN equal to NaN."""
+    if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
+        return False
+    if isinstance(one, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == "f" == other.dtype.kind)
+    return bool(one == other)
+
+
+def short(shown: Any) -> str:
+    """Return a few characters for a value: an array by its ends, a number by four digits."""
+    if isinstance(shown, np.ndarray) and shown.dtype.kind == "f" and shown.size:
+        if shown.ndim == 1 and shown.size <= 3:
+            return "[" + ", ".join(f"{x:.4g}" for x in shown) + "]"
+        lowest, highest = np.nanmin(shown), np.nanmax(shown)
+        return f"<{' x '.join(map(str, shown.shape))} from {lowest:.4g} to {highest:.4g}>"
+    if isinstance(shown, np.ndarray):
+        return f"<{' x '.join(map(str, shown.shape))} {shown.dtype}>"
+    if isinstance(shown, float):
+        return f"{shown:.6g}"
+    if isinstance(shown, tuple) and shown and isinstance(shown[0], str):
+        return f"<{len(shown)} notes>" if len(shown) > 1 else "<1 note>"
+    if isinstance(shown, tuple):
+        return "(" + ", ".join(map(short, shown)) + ")"
+    return repr(shown)

@@ -1,0 +1,253 @@
+"""Real contact area and contact pressure at every magnification (Eqs 1-8, Section 6.1)."""
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    brief,
+    broadcast,
+    choice,
+    number,
+    number_or_none,
+    of_kind,
+    real_array,
+    shaped,
+)
+from asperity.correction import CORRECTIONS, Correction
+from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+
+__all__ = [
+    "contact_area",
+    "contact_notes",
+    "correction_factor",
+    "mean_pressure",
+    "pressure_distribution",
+]
+
+Form = Literal["exact", "interpolated"]
+Method = Literal["gauss", "qag", "qags", "cquad"]
+# in the order of the core's enumerations
+FORMS = ("exact", "interpolated")
+METHODS = ("gauss", "qag", "qags", "cquad")
+
+
+def contact_model(
+    poisson_ratio: float, correction: Correction | None, form: str, rtol: float, method: str
+) -> Any:
+    """Return how the contact is computed, as the core takes it."""
+    if correction is not None and not isinstance(correction, CORRECTIONS):
+        names = ", ".join(kind.__name__ for kind in CORRECTIONS)
+        raise InvalidInput(f"correction = {brief(correction)}: must be None or one of {names}")
+    return _core.ContactModel(
+        number(poisson_ratio, "poisson_ratio"),
+        None if correction is None else correction._core,
+        choice(form, "form", FORMS),
+        number(rtol, "rtol"),
+        choice(method, "method", METHODS),
+    )
+
+
+def surface_and_rubber(spectrum: Spectrum, rubber: Rubber) -> tuple[Any, Any]:
+    """Return the two as the core takes them."""
+    return (
+        of_kind(spectrum, "spectrum", SelfAffineSpectrum, TabulatedSpectrum)._core,
+        of_kind(rubber, "rubber", PronySeries, MasterCurve)._core,
+    )
+
+
+def contact_area(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    form: Form = "exact",
+    wavenumber: ArrayLike | None = None,
+    rtol: float = 1e-6,
+    method: Method = "gauss",
+) -> Any:
+    """Return the real over the nominal contact area, A/A0 [-].
+
+    A/A0 = erf(1 / (2 sqrt G)), G(q) = (1/8) int_q0^q k^3 C(k) I2(v k) dk / ((1 - nu^2) sigma0)^2
+    (Persson 2001; the article's Eq. 7 is its interpolation).
+
+    Parameters
+    ----------
+    spectrum : SelfAffineSpectrum or TabulatedSpectrum
+    rubber : PronySeries or MasterCurve
+    pressure, velocity : array_like
+        sigma0 [Pa] and v [m/s], positive; they broadcast.
+    poisson_ratio : float
+        In [0, 0.5].
+    correction : SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, \
+PeaksThenGreenwoodWilliamson or None
+        None is plain Persson.
+    form : {"exact", "interpolated"}
+        "interpolated" is Eq. 7, (1 + (pi G)^1.5)^(-1/3), which differs by -2.8 to +2.6 %.
+    wavenumber : array_like, shape (n,) or (), optional
+        Where the surface is cut [1/m], within its band: appended as last axis. By default q1.
+    rtol : float
+        Relative tolerance, 1e-12 to 0.1.
+    method : {"gauss", "qag", "qags", "cquad"}
+        Gauss-Legendre panels, or GSL's adaptive integration of that name to check them with, slower
+        by hundreds of times.
+
+    Returns
+    -------
+    float or ndarray
+        In the broadcast shape of pressure and velocity, then wavenumber.
+
+    Raises
+    ------
+    InvalidInput
+    OutOfRange
+        v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
+    NotConverged
+    """
+    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    return _over_wavenumber(
+        _core.contact_area, spectrum, rubber, pressure, velocity, model, wavenumber
+    )
+
+
+def mean_pressure(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    form: Form = "exact",
+    wavenumber: ArrayLike | None = None,
+    rtol: float = 1e-6,
+    method: Method = "gauss",
+) -> Any:
+    """Return the mean contact pressure <sigma> = sigma0 A0 / A [Pa] (Eq. 1) at a magnification.
+
+    It is infinite where there is no contact. Arguments, shape and errors are those of
+    `contact_area`.
+    """
+    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    return _over_wavenumber(
+        _core.mean_pressure, spectrum, rubber, pressure, velocity, model, wavenumber
+    )
+
+
+def correction_factor(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    form: Form = "exact",
+    wavenumber: ArrayLike,
+    rtol: float = 1e-6,
+    method: Method = "gauss",
+) -> Any:
+    """Return the correction factor CF of Section 6.1 [-].
+
+    A_m C_m / (A0 C) = (A_m / A0) / p_T^2 with the corrected area A_m; for the S factor on the
+    friction PF-CF = S A / A0 with the uncorrected A. It is what the integrand of Eq. 22 is weighted
+    with, 1 in full contact. Arguments, shape and errors are those of `contact_area`.
+    """
+    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    return _over_wavenumber(
+        _core.correction_factor, spectrum, rubber, pressure, velocity, model, wavenumber
+    )
+
+
+def contact_notes(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    form: Form = "exact",
+    rtol: float = 1e-6,
+    method: Method = "gauss",
+) -> tuple[str, ...]:
+    """Return sentences that say where the theory or its input leaves its range.
+
+    They are those that `friction` returns as notes, for who asks for the contact area alone.
+    Arguments are those of `contact_area`.
+    """
+    _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
+    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    notes: tuple[str, ...] = _core.contact_notes(*surface_and_rubber(spectrum, rubber), model, p, v)
+    return notes
+
+
+def pressure_distribution(
+    stress: ArrayLike,
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    wavenumber: float | None = None,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    rtol: float = 1e-6,
+    method: Method = "gauss",
+) -> Any:
+    """Return the probability density P(sigma) of the contact pressure [1/Pa] (Eq. 4 solved).
+
+    A Gaussian of variance 2 G sigma0^2 about sigma0 minus its mirror image at -sigma0. Its integral
+    over sigma > 0 is A/A0 and its first moment sigma0; the delta at sigma = 0, of weight 1 - A/A0,
+    is left out.
+
+    Parameters
+    ----------
+    stress : array_like
+        sigma >= 0 [Pa]; broadcasts with pressure and velocity.
+    wavenumber : float, optional
+        The magnification [1/m], above q0; by default q1.
+
+    The others, and the errors, are those of `contact_area`.
+
+    Returns
+    -------
+    float or ndarray
+        In the broadcast shape of stress, pressure and velocity.
+    """
+    shape, (sigma, p, v) = broadcast(stress=stress, pressure=pressure, velocity=velocity)
+    model = contact_model(poisson_ratio, correction, "exact", rtol, method)
+    parts = surface_and_rubber(spectrum, rubber)
+    q = number_or_none(wavenumber, "wavenumber")
+    q = spectrum.q1 if q is None else q
+    return shaped(_core.pressure_distribution(*parts, model, sigma, p, v, q), shape)
+
+
+def _over_wavenumber(
+    function: Callable[..., Any],
+    spectrum: Spectrum,
+    rubber: Rubber,
+    pressure: ArrayLike,
+    velocity: ArrayLike,
+    model: Any,
+    wavenumber: ArrayLike | None,
+) -> Any:
+    """Return a function of pressure and velocity, and of wavenumber as last axis."""
+    shape, (p, v) = broadcast(pressure=pressure, velocity=velocity)
+    q = np.empty(0)
+    if wavenumber is not None:
+        q = real_array(wavenumber, "wavenumber")
+        if q.ndim > 1:
+            raise InvalidInput(f"wavenumber has {q.ndim} dimensions: must have 0 or 1")
+        if not q.size:
+            raise InvalidInput("wavenumber has 0 entries: must be 1 or more")
+        shape += q.shape
+    return shaped(function(*surface_and_rubber(spectrum, rubber), model, p, v, q), shape)

@@ -1,0 +1,348 @@
+"""From isotherms to a rubber: the master curve that they share, and a Prony series through it."""
+
+import warnings
+from collections.abc import Iterable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    ABSENT,
+    Array,
+    Given,
+    OptionalVector,
+    Vector,
+    brief,
+    flag,
+    frozen,
+    many,
+    number,
+    number_or_none,
+    of_kind,
+    real_array,
+    sentences,
+    vector,
+)
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+from asperity.rubber import Extrapolation, MasterCurve, PronySeries, extrapolation_number
+from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
+from asperity.sweeps import Isotherm, draw_moduli, modulus_columns
+
+REDUCED = "Reduced frequency $a_T\\, \\omega$ [rad/s]"
+
+
+def _require_length(array: NDArray[Any], name: str, length: int) -> None:
+    if array.size != length:
+        raise InvalidInput(f"{name} has {array.size} entries; it must have {length}")
+
+
+@value
+class MasterPoints(Table):
+    """The measured points of a master curve, in rising frequency.
+
+    Parameters
+    ----------
+    angular_frequency : array_like, shape (n,)
+        Reduced, a_T w [rad/s].
+    storage_modulus, loss_modulus : array_like, shape (n,)
+        Reduced, E' / b_T and E'' / b_T [Pa].
+    isotherm : array_like of int, shape (n,)
+        The isotherm that a point comes from: its index in rising temperature.
+    """
+
+    angular_frequency: Vector
+    storage_modulus: Vector
+    loss_modulus: Vector
+    isotherm: Given[ArrayLike, NDArray[np.int64]]
+
+    def __post_init__(self) -> None:
+        for name, rows in self._arguments().items():
+            self._set(**{name: vector(rows, name)})
+            _require_length(getattr(self, name), name, self.angular_frequency.size)
+        origin = self.isotherm
+        if not np.all((origin >= 0) & (origin < 2**53) & (origin == np.floor(origin))):
+            raise InvalidInput(f"isotherm = {brief(origin)}: must be whole numbers, 0 or more")
+        self._set(isotherm=frozen(origin.astype(np.int64)))
+
+    def _columns(self) -> Columns:
+        columns = modulus_columns(self, "angular_frequency", "rad/s")
+        origin = Column(("angular_frequency",), self.isotherm, "1", "index of the isotherm")
+        return Columns(columns.coordinates, {**columns.variables, "isotherm": origin})
+
+    def _draw(self, axes: Any) -> None:
+        moduli = self.storage_modulus, self.loss_modulus
+        draw_moduli(axes, self.angular_frequency, *moduli, label=REDUCED, styles=("o", "^"))
+
+
+@value
+class MasterCurveBuild(HasShiftFactors):
+    """What `build_master_curve` returns: a master curve, and a_T [-] over temperature [K].
+
+    Parameters
+    ----------
+    master_curve : MasterCurve
+        At T_ref.
+    shift_factors : ShiftFactors
+        Those of the isotherms.
+    b_T : array_like, shape (n,)
+        Vertical shifts [-]: moduli were divided by them.
+    points : MasterPoints
+        Every measured point, reduced, with its isotherm.
+    residual : float
+        Root mean square of ln E' and ln E'' about the master spline [-].
+    covariance : array_like, shape (n, n), optional
+        That of log10_a_T [-], zero at the isotherm nearest to T_ref.
+    notes : tuple of str
+        What a reader must know: averaged points, small overlaps, undetermined shifts, outliers, and
+        what the other vertical shift would do.
+    """
+
+    master_curve: MasterCurve
+    shift_factors: Given[HasShiftFactors, ShiftFactors]
+    b_T: Vector  # noqa: N815
+    points: MasterPoints
+    residual: float
+    covariance: OptionalVector = ABSENT
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        self._set(
+            master_curve=of_kind(self.master_curve, "master_curve", MasterCurve),
+            shift_factors=shift_factors_of(self.shift_factors),
+            b_T=vector(self.b_T, "b_T"),
+            points=of_kind(self.points, "points", MasterPoints),
+            residual=number(self.residual, "residual"),
+            notes=sentences(self.notes, "notes"),
+        )
+        n = self.temperature.size
+        _require_length(self.b_T, "b_T", n)
+        if np.any(self.points.isotherm >= n):
+            highest = self.points.isotherm.max()
+            raise InvalidInput(f"points.isotherm has {highest}; it must be from 0 to {n - 1}")
+        if self.covariance is not None:
+            covariance = np.array(real_array(self.covariance, "covariance"))
+            if covariance.shape != (n, n) or not np.isfinite(covariance).all():
+                problem = f"must be finite, of shape ({n}, {n})"
+                raise InvalidInput(f"covariance = {brief(covariance)}: {problem}")
+            self._set(covariance=frozen(covariance))
+        self._set(_core=self.shift_factors._core)
+
+    @property
+    def reference_temperature(self) -> float:
+        """T_ref [K]."""
+        return self.shift_factors.reference_temperature
+
+    @property
+    def temperature(self) -> Array:
+        """Temperatures of the isotherms [K], rising, shape (n,)."""
+        return self.shift_factors.temperature
+
+    @property
+    def log10_a_T(self) -> Array:  # noqa: N802
+        """Shift factors of the isotherms [-], shape (n,)."""
+        return self.shift_factors.log10_a_T
+
+    @property
+    def standard_deviation(self) -> Array:
+        """Standard deviation of log10_a_T against the isotherm nearest to T_ref [-], shape (n,).
+
+        It comes from the scatter about the master spline.
+        """
+        deviation = self.shift_factors.standard_deviation
+        return frozen(np.empty(0)) if deviation is None else deviation
+
+    def _summary(self) -> dict[str, Any]:
+        return {
+            "reference_temperature": self.reference_temperature,
+            "temperature": self.temperature,
+            "log10_a_T": self.log10_a_T,
+            "residual": self.residual,
+            "notes": self.notes,
+        }
+
+    def _columns(self) -> Columns:
+        columns = self.shift_factors._columns()
+        b_T = Column(("temperature",), self.b_T, "1", "vertical shift")  # noqa: N806
+        variables = {**columns.variables, "b_T": b_T}
+        facts = {**columns.attributes, "residual": self.residual, "notes": self.notes}
+        return Columns(columns.coordinates, variables, facts)
+
+    def _draw(self, axes: Any) -> None:
+        """Draw the measured points, reduced; `shift_factors.plot()` draws a_T."""
+        self.points._draw(axes)
+        axes.set_title(f"{self.reference_temperature:.4g} K")
+
+
+def build_master_curve(
+    isotherms: Iterable[Isotherm],
+    *,
+    reference_temperature: float,
+    vertical_shift: Literal["T/T_ref"] | ArrayLike | None = None,
+    shift_factors: HasShiftFactors | None = None,
+    smooth: bool = False,
+    extrapolation: Extrapolation | None = None,
+) -> MasterCurveBuild:
+    """Shift isotherms in frequency until neighbours overlap (the article's Section 5.1).
+
+    E(w; T) = b_T E(a_T w; T_ref), for E' and E'' together: from neighbour to neighbour for a start,
+    then all shifts at once, with one cubic spline of ln E' and one of ln E'' in ln w that all
+    isotherms share (variable projection; the knots by generalised cross-validation).
+
+    Parameters
+    ----------
+    isotherms : iterable of Isotherm
+        At two temperatures or more, in any order. Neighbours should overlap by 0.3 decades.
+    reference_temperature : float
+        T_ref [K], within the measured ones.
+    vertical_shift : {None, "T/T_ref"} or array_like
+        b_T: 1, T / T_ref, or one for each isotherm in rising temperature. Moduli are divided by it.
+        It moves a_T, by more than a decade on some rubbers: `notes` says by how much.
+    shift_factors : ShiftFactors, optional
+        a_T from outside, instead of a fit.
+    smooth : bool
+        True: the rows are the master spline at ten frequencies a decade. False: they are the
+        points, those within 0.02 decades averaged.
+    extrapolation : {None, "power-law", "clamp"}
+        As in MasterCurve.
+
+    Returns
+    -------
+    MasterCurveBuild
+
+    Raises
+    ------
+    InvalidInput
+        There is one temperature only, or neighbours have no modulus in common.
+    OutOfRange
+        `reference_temperature` [K] lies outside of the isotherms, or a temperature outside of
+        `shift_factors`.
+    """
+    # numbers of the core's enumeration: 0 for b_T = 1, 1 for T / T_ref, 2 for a table
+    kind, table = 0, np.empty(0)
+    if isinstance(vertical_shift, str):
+        if vertical_shift != "T/T_ref":
+            allowed = 'must be None, "T/T_ref" or an array of b_T'
+            shown = " ".join(vertical_shift[:60].split())
+            raise InvalidInput(f'vertical_shift = "{shown}": {allowed}')
+        kind = 1
+    elif vertical_shift is not None:
+        kind, table = 2, vector(vertical_shift, "vertical_shift")
+    parts = _core.build_master_curve(
+        [isotherm._core for isotherm in many(isotherms, "isotherms", Isotherm)],
+        number(reference_temperature, "reference_temperature"),
+        kind,
+        table,
+        None if shift_factors is None else shift_factors_of(shift_factors)._core,
+        flag(smooth, "smooth"),
+        extrapolation_number(extrapolation),
+    )
+    return _built(parts, extrapolation)
+
+
+def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> MasterCurveBuild:
+    """Return a build from the parts that the core's has."""
+    curve, shifts, b_T, points, residual, notes = parts  # noqa: N806
+    shift_factors = ShiftFactors._of(shifts)
+    return MasterCurveBuild(
+        master_curve=MasterCurve._of(curve, extrapolation, shift_factors),
+        shift_factors=shift_factors,
+        b_T=b_T,
+        points=MasterPoints(**dict(zip(MasterPoints.__match_args__, points, strict=True))),
+        residual=residual,
+        notes=notes,
+    )
+
+
+@value
+class PronyFit(PronySeries):
+    """A PronySeries [Pa] that was fitted, and how well it follows the measurement (`fit_prony`).
+
+    Parameters
+    ----------
+    equilibrium_modulus, moduli, relaxation_times
+        As in PronySeries.
+    storage_residual, loss_residual : float
+        Relative root mean square of E' and of E'' about the fit [-].
+    causal : bool
+        False where E' and E'' contradict each other (Kramers-Kronig) by more than their noise.
+    notes : tuple of str
+        What a reader must know.
+    """
+
+    moduli: Vector
+    relaxation_times: Vector
+    storage_residual: float
+    loss_residual: float
+    causal: bool
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._set(
+            storage_residual=number(self.storage_residual, "storage_residual"),
+            loss_residual=number(self.loss_residual, "loss_residual"),
+            causal=flag(self.causal, "causal"),
+            notes=sentences(self.notes, "notes"),
+        )
+
+    def _columns(self) -> Columns:
+        columns = super()._columns()
+        more = ("storage_residual", "loss_residual", "causal", "notes")
+        facts = {**columns.attributes, **{name: getattr(self, name) for name in more}}
+        return Columns(columns.coordinates, columns.variables, facts)
+
+
+def fit_prony(
+    master_curve: MasterCurve | MasterCurveBuild,
+    *,
+    modes_per_decade: float | None = None,
+    residual: float | None = None,
+) -> PronyFit:
+    """Fit a Prony series to the rows of a master curve.
+
+    Non-negative least squares with relative weights. The relaxation times are equally spaced in the
+    logarithm, from a decade below to a decade above those of the measured frequencies.
+
+    Parameters
+    ----------
+    master_curve : MasterCurve or MasterCurveBuild
+    modes_per_decade : float, optional
+        By default the fewest that reach the noise of the rows.
+    residual : float, optional
+        The fewest that reach this relative root mean square of E' and E'' together instead.
+
+    Returns
+    -------
+    PronyFit
+        A PronySeries [Pa] with its residuals. Prony series are causal: where none follows the rows,
+        E' and E'' contradict each other; `causal` is then False, and a UserWarning says why that
+        may be.
+
+    Raises
+    ------
+    InvalidInput
+    NotConverged
+        No number of modes reaches `residual`.
+    """
+    if isinstance(master_curve, MasterCurveBuild):
+        master_curve = master_curve.master_curve
+    curve = of_kind(master_curve, "master_curve", MasterCurve)
+    core, storage_residual, loss_residual, causal, notes = _core.fit_prony(
+        curve._core,
+        number_or_none(modes_per_decade, "modes_per_decade"),
+        number_or_none(residual, "residual"),
+    )
+    if not causal:
+        for note in notes:
+            warnings.warn(note, UserWarning, stacklevel=2)
+    return PronyFit._of(
+        core,
+        storage_residual=storage_residual,
+        loss_residual=loss_residual,
+        causal=causal,
+        notes=notes,
+    )

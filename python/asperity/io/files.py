@@ -1,0 +1,116 @@
+"""Files written whole or not at all."""
+
+import errno
+import os
+import stat
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from asperity._core import Error, InvalidInput
+
+_DEVICE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}  # no fault of the path's
+
+
+def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+    """Replace a regular file by another, keeping its permissions; write into a device or a FIFO.
+
+    The new content is written under a random name beside the file, which nobody else can have, and
+    takes the file's place when it is complete: whoever dies or reads meanwhile finds one of the two
+    whole. A symbolic link stays, and the file that it leads to is replaced.
+
+    Raises
+    ------
+    InvalidInput
+        The path cannot be written; the message says why.
+    Error
+        The device is full or fails.
+    """
+    with _refused(path):
+        _write(Path(os.path.realpath(path)), content)
+
+
+def write_files(contents: Mapping[Path, bytes]) -> None:
+    """Write every file whole, one after the other, into directories that are made where missing."""
+    for path, content in contents.items():
+        with _refused(path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, content)
+
+
+def check_output(path: Path) -> None:
+    """Refuse, before any work, a path that cannot be written."""
+    with _refused(path):
+        target = Path(os.path.realpath(path))
+        if target.is_dir():
+            raise IsADirectoryError(0, "it is a directory")
+        if not target.parent.is_dir():
+            raise NotADirectoryError(0, f"there is no directory {target.parent.name}")
+        if not target.exists() or target.is_file():
+            with tempfile.TemporaryFile(dir=target.parent):
+                pass  # a trial: permissions alone say little about /proc, or to root
+
+
+def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> None:
+    """Refuse, before any work, a directory that cannot be filled or holds files of these names.
+
+    `force` lets the command replace them.
+    """
+    with _refused(directory):
+        existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
+        if not existing.is_dir():
+            raise NotADirectoryError(0, f"{existing} is no directory")
+        with tempfile.TemporaryFile(dir=existing):
+            pass
+    taken = [name for name in names if os.path.lexists(directory / name)]
+    if taken and not force:
+        raise InvalidInput(
+            f"{directory}: holds {', '.join(taken)} already; choose another --output, or replace "
+            "them with --force"
+        )
+    for name in taken:
+        check_output(directory / name)
+
+
+@contextmanager
+def _refused(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Let a failure name the path that the user named."""
+    try:
+        yield
+    except InvalidInput:
+        raise
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        name = os.fsdecode(path)
+        shown = name if name.isprintable() else repr(name)
+        kind = Error if getattr(error, "errno", None) in _DEVICE else InvalidInput
+        raise kind(f"{shown}: cannot be written: {reason}") from error
+
+
+def _write(target: Path, content: bytes) -> None:
+    mode = None
+    with suppress(FileNotFoundError):
+        mode = target.stat().st_mode
+    if mode is not None and not stat.S_ISREG(mode):
+        target.write_bytes(content)  # a device or a FIFO; a directory refuses
+        return
+    handle, part = tempfile.mkstemp(prefix=".asperity-", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(part, stat.S_IMODE(mode) if mode is not None else 0o666 & ~_umask())
+        os.replace(part, target)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(part)
+        raise
+
+
+def _umask() -> int:
+    """Return which permissions a new file does not get. There is no other way to ask."""
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask

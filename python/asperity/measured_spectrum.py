@@ -1,0 +1,506 @@
+"""From scans to spectra and back: measured, merged and fitted spectra, and maps made from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    Array,
+    Given,
+    Vector,
+    brief,
+    choice,
+    covariance_matrix,
+    frozen,
+    number,
+    number_or_none,
+    of_kind,
+    real_array,
+    vector,
+    whole,
+)
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, around, pixel_sizes
+
+Window = Literal["split-cosine-bell", "hann", "none"]
+Part = Literal["all", "top", "bottom"]
+FitMethod = Literal["least-squares", "slope"]
+Rolloff = Literal["find", "require", "none"]
+# each in the order of the core's enumeration
+WINDOWS, PARTS, METHODS, ROLLOFFS = map(get_args, (Window, Part, FitMethod, Rolloff))
+
+
+def _prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
+    """Return the numbers of a window and of a trend in the core."""
+    return choice(window, "window", WINDOWS), choice(detrend, "detrend", (*DETRENDS, None))
+
+
+def _map(surface: Any) -> Any:
+    """Return the core's object of a map."""
+    if isinstance(surface, LineScan):
+        raise InvalidInput(
+            "surface = a LineScan: must be a HeightMap; line_spectrum takes line scans"
+        )
+    return of_kind(surface, "surface", HeightMap)._core
+
+
+def power_spectrum(
+    surface: HeightMap,
+    *,
+    window: Window = "split-cosine-bell",
+    detrend: Detrend | None = "plane",
+    threads: int = 1,
+    part: Part = "all",
+) -> TabulatedSpectrum:
+    """Return the radially averaged roughness spectrum of a map (the article's Eqs 25-27).
+
+    The map is detrended, windowed and transformed; |h(q)|^2 is averaged over rings round(|q| / dq),
+    dq = 2 pi / longest side, out to the corner of the plane. The mean square of the window is
+    divided out. float32 maps are transformed in single precision, whose noise lies some 14 decades
+    below the highest density.
+
+    Parameters
+    ----------
+    surface : HeightMap
+        A map without drop-outs.
+    window : {"split-cosine-bell", "hann", "none"}
+        "none" is right for periodic maps only, and then with detrend=None: a plane subtracted from
+        a periodic map leaves a saw-tooth.
+    detrend : {"plane", "quadratic", "offset", None}
+        The least-squares surface that is subtracted first.
+    threads : int
+        Threads that the call starts for itself, from 1 to 1024. Sums then differ in rounding.
+    part : {"all", "top", "bottom"}
+        "top" gives the spectrum of max(h, 0), h being the height above the mean plane, divided by
+        the share of points above it (B. N. J. Persson et al., J. Phys.: Condens. Matter 17, R1
+        (2005)); "bottom" that of min(h, 0) likewise. They agree with the whole at large q where
+        heights are Gaussian; on worn tracks the rubber meets the top.
+
+    Returns
+    -------
+    TabulatedSpectrum
+        `wavenumber` is the mean |q| of a ring's modes [1/m], `density` C [m^4], `count` the number
+        of modes of the full plane in the ring: sum(density * count) (2 pi)^2 / area is the mean
+        square height (Parseval). `standard_error` holds for Gaussian heights, whose |h(q)|^2
+        scatter as much as their mean. `flag` says which rows not to trust. Rings beyond the
+        Nyquist wavenumber pi / pixel are incomplete: cut there with `truncated` before taking
+        moments or contact from the spectrum.
+
+    Raises
+    ------
+    InvalidInput
+        The surface is a LineScan, has drop-outs or fewer than 2 x 2 points.
+    """
+    how = _prepared(window, detrend)
+    several = whole(threads, "threads", lowest=1, highest=1024)
+    side = choice(part, "part", PARTS)
+    return around(TabulatedSpectrum, _core.power_spectrum(_map(surface), *how, several, side))
+
+
+@value
+class SpectralDensity(Table):
+    """Spectrum over the plane of wavevectors (see `spectral_density`).
+
+    Attributes
+    ----------
+    wavenumber_y, wavenumber_x : ndarray, shapes (ny,) and (nx,)
+        Components of the wavevector [1/m], rising.
+    density : ndarray, shape (ny, nx)
+        C [m^4].
+    """
+
+    wavenumber_y: Vector
+    wavenumber_x: Vector
+    density: Vector
+
+    def __post_init__(self) -> None:
+        q_y, q_x = (
+            vector(self.wavenumber_y, "wavenumber_y"),
+            vector(self.wavenumber_x, "wavenumber_x"),
+        )
+        density = np.array(real_array(self.density, "density"), order="C")
+        if density.shape != (q_y.size, q_x.size):
+            allowed = f"must have {(q_y.size, q_x.size)}, as the wavenumbers have"
+            raise InvalidInput(f"density has shape {density.shape}: {allowed}")
+        self._set(wavenumber_y=q_y, wavenumber_x=q_x, density=frozen(density))
+
+    def _columns(self) -> Columns:
+        axes = ("wavenumber_y", "wavenumber_x")
+        density = Column(axes, self.density, "m^4", "roughness spectrum C")
+        places = {name: Column((name,), getattr(self, name), "1/m") for name in axes}
+        return Columns(places, {"density": density})
+
+    def _draw(self, axes: Any) -> None:
+        from matplotlib.colors import LogNorm
+
+        shown = np.ma.masked_less_equal(self.density, 0)
+        image = axes.pcolormesh(self.wavenumber_x, self.wavenumber_y, shown, norm=LogNorm())
+        axes.set_aspect("equal")
+        axes.set_xlabel("$q_x$ [1/m]")
+        axes.set_ylabel("$q_y$ [1/m]")
+        axes.figure.colorbar(image, ax=axes, label="Roughness spectrum $C$ [m$^4$]")
+
+
+def spectral_density(
+    surface: HeightMap,
+    *,
+    window: Window = "split-cosine-bell",
+    detrend: Detrend | None = "plane",
+) -> SpectralDensity:
+    """Return C over the whole plane of wavevectors [m^4], which `power_spectrum` averages.
+
+    Parameters
+    ----------
+    surface, window, detrend
+        As in `power_spectrum`.
+
+    Returns
+    -------
+    SpectralDensity
+        Its wavenumbers [1/m] rise, as numpy.fft.fftshift orders them.
+
+    Raises
+    ------
+    InvalidInput
+        The surface is a LineScan, has drop-outs or fewer than 2 x 2 points.
+    """
+    how = _prepared(window, detrend)
+    q_y, q_x, density = map(frozen, _core.spectral_density(_map(surface), *how))
+    return SpectralDensity._made(wavenumber_y=q_y, wavenumber_x=q_x, density=density)
+
+
+@value
+class Anisotropy(Table):
+    """Lay of a surface (see `anisotropy`).
+
+    Attributes
+    ----------
+    across, along : float
+        Rms slopes [-] along the two principal axes, across >= along; equal where the surface is
+        isotropic.
+    direction : float
+        Direction of the lay, along which the slope is least: the angle from x towards y (rising
+        row index), in radians [-].
+    """
+
+    across: float
+    along: float
+    direction: float
+
+    def __post_init__(self) -> None:
+        self._set(**{name: number(found, name) for name, found in self._arguments().items()})
+
+    @property
+    def ratio(self) -> float:
+        """Ratio across / along [-], 1 for an isotropic surface."""
+        return self.across / self.along
+
+    def _columns(self) -> Columns:
+        numbers = self._arguments() | {"ratio": self.ratio}
+        units = {name: "rad" if name == "direction" else "1" for name in numbers}
+        return Columns(
+            {}, {name: Column((), found, units[name]) for name, found in numbers.items()}
+        )
+
+    def _draw(self, axes: Any) -> None:
+        angle = np.linspace(-90, 90, 361)
+        from_lay = np.radians(angle) - self.direction
+        axes.plot(angle, np.hypot(self.along * np.cos(from_lay), self.across * np.sin(from_lay)))
+        axes.axvline(np.degrees(self.direction), color="0.4", linestyle="--", label="lay")
+        axes.set_xlim(-90, 90)
+        axes.set_ylim(0, 1.1 * self.across or None)
+        axes.set_xlabel("Direction from $x$ towards $y$ [°]")
+        axes.set_ylabel("Rms slope [-]")
+        axes.legend(fontsize="small")
+
+
+def anisotropy(
+    surface: HeightMap,
+    *,
+    window: Window = "split-cosine-bell",
+    detrend: Detrend | None = "plane",
+    q_min: float | None = None,
+    q_max: float | None = None,
+) -> Anisotropy:
+    """Return the principal axes of the mean square slopes <dh/dx_i dh/dx_j> = int q_i q_j C d^2q.
+
+    The method is that of M. S. Longuet-Higgins, Phil. Trans. R. Soc. Lond. A 249, 321 (1957). A
+    radial spectrum averages over directions: where the ratio of the slopes is far from 1, it
+    stands for no direction in particular.
+
+    Parameters
+    ----------
+    surface, window, detrend
+        As in `power_spectrum`.
+    q_min, q_max : float, optional
+        The band [1/m]; by default the band of the rows that `power_spectrum` flags neither for the
+        window nor for Nyquist.
+
+    Returns
+    -------
+    Anisotropy
+        The two rms slopes [-] and the direction of the lay.
+
+    Raises
+    ------
+    InvalidInput
+        The band has fewer than 16 modes.
+    """
+    how = _prepared(window, detrend)
+    band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
+    across, along, direction = _core.anisotropy(_map(surface), *how, *band)
+    return Anisotropy._made(across=across, along=along, direction=direction)
+
+
+def line_spectrum(
+    surface: LineScan | HeightMap,
+    *,
+    window: Window = "split-cosine-bell",
+    detrend: Detrend | None = "plane",
+) -> LineSpectrum:
+    """Return the one-dimensional spectrum C1D [m^3] of a line scan, or the mean over a map's rows.
+
+    Each row is detrended (offset, straight line, parabola) and windowed as a scan of its own.
+
+    Parameters
+    ----------
+    surface : LineScan or HeightMap
+        A scan without drop-outs.
+    window, detrend
+        As in `power_spectrum`.
+
+    Returns
+    -------
+    LineSpectrum
+        Two-sided, at positive wavenumbers [1/m]: sum(density * count) / rows times 2 pi / length
+        is the mean square height. `standard_error` counts rows nearer than half a wavelength as
+        one.
+
+    Raises
+    ------
+    InvalidInput
+        The surface has drop-outs or fewer than 4 points along x.
+    """
+    how = _prepared(window, detrend)
+    scan = of_kind(surface, "surface", LineScan, HeightMap)
+    return around(LineSpectrum, _core.line_spectrum(scan._core, *how))
+
+
+def merge_spectra(
+    spectra: Iterable[TabulatedSpectrum], *, per_decade: float | None = None
+) -> TabulatedSpectrum:
+    """Return one spectrum of several scans of a surface, at one or several magnifications.
+
+    Parameters
+    ----------
+    spectra : iterable of TabulatedSpectrum
+        The spectra of the scans.
+    per_decade : float, optional
+        Logarithmic bins in a factor 10 of the wavenumber [1/m], as in `log_binned`, in which rows
+        of all spectra meet; rows that are flagged for the window or Nyquist are left out of bins
+        that have others. Without it all spectra must have the same wavenumbers, and are averaged
+        row by row.
+
+    Returns
+    -------
+    TabulatedSpectrum
+        The mean, weighted by `count` where the spectra have it.
+
+    Raises
+    ------
+    InvalidInput
+        There is nothing to merge, wavenumbers differ without `per_decade`, or some of the spectra
+        have counts and others have none.
+    """
+    if not isinstance(spectra, Iterable):
+        raise InvalidInput(f"spectra = {brief(spectra)}: must be an iterable of TabulatedSpectrum")
+    cores = [of_kind(s, f"spectra[{i}]", TabulatedSpectrum)._core for i, s in enumerate(spectra)]
+    merged = _core.merge_spectra(cores, number_or_none(per_decade, "per_decade"))
+    return around(TabulatedSpectrum, merged)
+
+
+@value
+class SelfAffineFit(Table):
+    """A power law through a measured spectrum (see `fit_self_affine`).
+
+    Attributes
+    ----------
+    spectrum : SelfAffineSpectrum
+        The fit as a spectrum.
+    covariance : ndarray, shape (3, 3)
+        Covariance of rms_height [m], hurst [-] and rolloff [1/m], from the scatter of the rows
+        about the fit; zeros where there is no roll-off.
+    residual : float
+        Weighted rms of ln(C / fit) [-].
+    rows : int
+        Number of rows of the measured spectrum that were used.
+    """
+
+    spectrum: SelfAffineSpectrum
+    covariance: Given[ArrayLike, Array]
+    residual: float
+    rows: int
+
+    def __post_init__(self) -> None:
+        of_kind(self.spectrum, "spectrum", SelfAffineSpectrum)
+        self._set(covariance=covariance_matrix(self.covariance))
+        self._set(residual=number(self.residual, "residual"), rows=whole(self.rows, "rows"))
+
+    @property
+    def rms_height(self) -> float:
+        """Root mean square height on [q0, q1] [m]."""
+        return self.spectrum.rms_height
+
+    @property
+    def hurst(self) -> float:
+        """Hurst exponent H [-]."""
+        return self.spectrum.hurst
+
+    @property
+    def q0(self) -> float:
+        """Wavenumber of the first row that was used [1/m]."""
+        return self.spectrum.q0
+
+    @property
+    def q1(self) -> float:
+        """Wavenumber of the last row that was used [1/m]."""
+        return self.spectrum.q1
+
+    @property
+    def rolloff(self) -> float | None:
+        """Wavenumber at which the flat part ends [1/m]; None where there is no flat part."""
+        return self.spectrum.rolloff
+
+    @property
+    def standard_errors(self) -> dict[str, float]:
+        """Standard errors of rms_height [m], hurst [-] and rolloff [1/m] where there is one."""
+        names = ("rms_height", "hurst", "rolloff")[: 2 if self.rolloff is None else 3]
+        return dict(zip(names, np.sqrt(np.diag(self.covariance)).tolist(), strict=False))
+
+    def _summary(self) -> dict[str, Any]:
+        names = ("rms_height", "hurst", "rolloff", "q0", "q1", "residual", "rows")
+        return {name: getattr(self, name) for name in names}
+
+    def _columns(self) -> Columns:
+        units = {"rms_height": "m", "hurst": "1", "rolloff": "1/m", "q0": "1/m", "q1": "1/m"}
+        numbers = self._summary() | {"rolloff": np.nan if self.rolloff is None else self.rolloff}
+        columns = {name: Column((), n, units.get(name, "1")) for name, n in numbers.items()}
+        for name, error in self.standard_errors.items():
+            columns[f"{name}_error"] = Column((), error, units[name], "standard error")
+        return Columns({}, columns)
+
+    def _draw(self, axes: Any) -> None:
+        self.spectrum._draw(axes)
+        label = f"$H$ = {self.hurst:.3f} ± {self.standard_errors['hurst']:.3f}"
+        axes.lines[-1].set_label(label)
+        axes.legend(fontsize="small")
+
+
+def fit_self_affine(
+    spectrum: TabulatedSpectrum,
+    *,
+    q_min: float | None = None,
+    q_max: float | None = None,
+    method: FitMethod = "least-squares",
+    rolloff: Rolloff = "find",
+) -> SelfAffineFit:
+    """Fit a self-affine spectrum: H, the rms height on the band, a roll-off where there is one.
+
+    The fit is least squares in ln C over ln q, each row weighted by its count where it has one.
+    H = |slope| / 2 - 1 (the article's Eq. 28) is held at 1 where it comes out above by less than
+    three of its standard errors.
+
+    Parameters
+    ----------
+    spectrum : TabulatedSpectrum
+        The measured spectrum.
+    q_min, q_max : float, optional
+        Band of the rows that are used [1/m], whatever their flags. Without q_max the band ends
+        with the last reliable row. Without q_min it begins with the first reliable row, and on a
+        scan, whose own band begins there, with the first row that has 0.4 of the highest density.
+    method : {"least-squares", "slope"}
+        "slope" is the article's Eq. 28 alone: a straight line through all rows with equal weights
+        and no roll-off.
+    rolloff : {"find", "require", "none"}
+        "find" takes a flat part below a roll-off where it leaves clearly less than a straight line
+        does (Schwarz's criterion). "require" refuses a spectrum in which none is found, as on a
+        scan smaller than lambda_0.
+
+    Returns
+    -------
+    SelfAffineFit
+        The law, its covariance and its residual.
+
+    Raises
+    ------
+    InvalidInput
+        There are fewer than 3 rows, a density among them is zero, the slope gives no H in (0, 1],
+        or there is no roll-off where one is required.
+    """
+    core = of_kind(spectrum, "spectrum", TabulatedSpectrum)._core
+    band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
+    how = choice(method, "method", METHODS), choice(rolloff, "rolloff", ROLLOFFS)
+    law, covariance, residual, rows = _core.fit_self_affine(core, *band, *how)
+    return SelfAffineFit._made(
+        spectrum=around(SelfAffineSpectrum, law),
+        covariance=frozen(covariance),
+        residual=residual,
+        rows=rows,
+    )
+
+
+def synthesize(
+    spectrum: Spectrum,
+    *,
+    shape: tuple[int, int],
+    pixel_size: float | tuple[float, float],
+    seed: int,
+    skewness: float = 0.0,
+) -> HeightMap:
+    """Return a periodic map whose modes have the densities of a spectrum and random phases.
+
+    Parameters
+    ----------
+    spectrum : SelfAffineSpectrum or TabulatedSpectrum
+        The densities, met exactly. The part of its band that the grid's modes, from 2 pi / side to
+        the Nyquist corner, do not hold is left out.
+    shape : (int, int)
+        Number of points (ny, nx), 2 or more each.
+    pixel_size : float or (float, float)
+        Spacing of the points [m], or (dy, dx).
+    seed : int
+        The same seed gives the same map on every machine (splitmix64), to rounding.
+    skewness : float
+        Skewness of the heights [-], from -2 (worn) to 2, met to 1e-3: random phases are bent so
+        that the heights follow a gamma distribution (after Wilson and Hilferty) as nearly as the
+        densities allow. 0 leaves the phases random, with the skewness that chance gives them.
+
+    Returns
+    -------
+    HeightMap
+        The map, of mean 0.
+
+    Raises
+    ------
+    InvalidInput
+        The band holds no mode of the grid at all.
+    NotConverged
+        The map has too few long waves to reach the skewness.
+    """
+    core = of_kind(spectrum, "spectrum", SelfAffineSpectrum, TabulatedSpectrum)._core
+    try:
+        ny, nx = shape
+    except (TypeError, ValueError):
+        raise InvalidInput(f"shape = {brief(shape)}: must be two whole numbers (ny, nx)") from None
+    grid = whole(ny, "shape"), whole(nx, "shape")
+    start = whole(seed, "seed", highest=2**64 - 1)
+    options = pixel_sizes(pixel_size), start, number(skewness, "skewness")
+    return around(HeightMap, _core.synthesize(core, grid, *options))

@@ -1,0 +1,309 @@
+"""Rubber: its complex modulus, a Prony series or a measured master curve, and angular integrals."""
+
+import warnings
+from collections.abc import Callable, Iterable
+from typing import Any, Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    ABSENT,
+    Array,
+    Given,
+    Vector,
+    broadcast,
+    choice,
+    frozen,
+    many,
+    number,
+    over,
+    real_array,
+    shaped,
+    vector,
+)
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
+from asperity.sweeps import StrainSweep, draw_moduli, modulus_columns
+
+Extrapolation = Literal["power-law", "clamp"]
+EXTRAPOLATIONS = (
+    "power-law",
+    "clamp",
+    None,
+)  # in the order of the core's enumeration; None is none
+
+
+def extrapolation_number(found: Any) -> int | None:
+    """Return the number that an extrapolation has in the core."""
+    at = choice(found, "extrapolation", EXTRAPOLATIONS)
+    return None if found is None else at
+
+
+def _two_over(
+    frequency: ArrayLike, compute: Callable[[Array], tuple[NDArray[Any], NDArray[Any]]]
+) -> tuple[Any, Any]:
+    array = real_array(frequency, "angular_frequency")
+    first, second = compute(np.ascontiguousarray(array).ravel())
+    return shaped(first, array.shape), shaped(second, array.shape)
+
+
+class _HasModulus(Table):
+    """What every rubber can do."""
+
+    def modulus(self, angular_frequency: ArrayLike) -> Any:
+        """Return the complex modulus E' + i E'' [Pa] at frequencies w [rad/s] of any shape.
+
+        Outside of its range a measured master curve raises OutOfRange.
+        """
+        return over(angular_frequency, "angular_frequency", self._core.modulus)
+
+    def angular_integrals(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
+        """Return (I1 [Pa], I2 [Pa^2]) at frequencies w = v q [rad/s] of any shape.
+
+        I1 = int_0^2pi cos(phi) Im E(w cos phi) dphi is the integral of Eq. 22, and
+        I2 = int_0^2pi \\|E(w cos phi)\\|^2 dphi that of Eq. 7.
+        """
+        return _two_over(angular_frequency, self._core.angular_integrals)
+
+
+@value
+class PronySeries(_HasModulus):
+    """E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k).
+
+    The angular integrals are closed forms. Without terms the rubber is elastic.
+
+    Parameters
+    ----------
+    equilibrium_modulus : float
+        E_inf [Pa], not negative.
+    moduli : array_like, shape (n,)
+        E_k [Pa], positive.
+    relaxation_times : array_like, shape (n,)
+        tau_k [s], positive, in any order.
+
+    Raises
+    ------
+    InvalidInput
+
+    Examples
+    --------
+    >>> from asperity import PronySeries
+    >>> rubber = PronySeries(equilibrium_modulus=1e6, moduli=[1e9], relaxation_times=[1e-6])
+    >>> rubber.modulus(1e6)
+    (501000000+500000000j)
+    """
+
+    equilibrium_modulus: float
+    moduli: Vector
+    relaxation_times: Vector
+
+    def __post_init__(self) -> None:
+        self._set(
+            equilibrium_modulus=number(self.equilibrium_modulus, "equilibrium_modulus"),
+            moduli=vector(self.moduli, "moduli"),
+            relaxation_times=vector(self.relaxation_times, "relaxation_times"),
+        )
+        core = _core.PronySeries(self.equilibrium_modulus, self.moduli, self.relaxation_times)
+        self._set(_core=core)
+
+    @classmethod
+    def _of(cls, core: Any, **others: Any) -> Self:
+        """Make a series from the core's."""
+        return cls._made(
+            equilibrium_modulus=core.equilibrium_modulus(),
+            moduli=frozen(core.moduli()),
+            relaxation_times=frozen(core.relaxation_times()),
+            _core=core,
+            **others,
+        )
+
+    def shifted(self, a_T: float) -> "PronySeries":  # noqa: N803
+        """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder."""
+        return PronySeries._of(self._core.shifted(number(a_T, "a_T")))
+
+    def _columns(self) -> Columns:
+        rows = ("relaxation_time",)
+        return Columns(
+            {"relaxation_time": Column(rows, self.relaxation_times, "s", "tau_k")},
+            {"modulus": Column(rows, self.moduli, "Pa", "E_k")},
+            {"equilibrium_modulus": self.equilibrium_modulus},
+        )
+
+    def _draw(self, axes: Any) -> None:
+        times = self.relaxation_times if self.relaxation_times.size else np.ones(1)
+        w = np.geomspace(0.1 / times.max(), 10 / times.min(), 400)
+        modulus = self.modulus(w)
+        draw_moduli(axes, w, modulus.real, modulus.imag)
+
+
+@value
+class MasterCurve(_HasModulus):
+    """A measured complex modulus.
+
+    Between the rows ln E' and ln E'' over ln w are Steffen's monotone interpolants (M. Steffen,
+    Astron. Astrophys. 239, 443 (1990)).
+
+    Parameters
+    ----------
+    angular_frequency : array_like, shape (n,)
+        w = 2 pi f [rad/s], strictly rising, n >= 2.
+    storage_modulus, loss_modulus : array_like, shape (n,)
+        E', E'' [Pa], positive.
+    extrapolation : {None, "power-law", "clamp"}
+        How the curve goes on over at most one decade at either end: not at all, with the slope that
+        ln E' and ln E'' have at the end, or constant.
+    shift_factors : ShiftFactors, optional
+        Those of the isotherms behind the curve, or the build that has them. `at_strain` places
+        strain sweeps by them.
+
+    Raises
+    ------
+    InvalidInput
+    OutOfRange
+        The methods raise it where they are asked outside of the measured range.
+    """
+
+    angular_frequency: Vector
+    storage_modulus: Vector
+    loss_modulus: Vector
+    extrapolation: Extrapolation | None = None
+    shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
+
+    def __post_init__(self) -> None:
+        for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
+            self._set(**{name: vector(getattr(self, name), name)})
+        rows = self.angular_frequency, self.storage_modulus, self.loss_modulus
+        self._set(_core=_core.MasterCurve(*rows, extrapolation_number(self.extrapolation)))
+        if self.shift_factors is not None:
+            self._set(shift_factors=shift_factors_of(self.shift_factors))
+
+    @classmethod
+    def _of(
+        cls,
+        core: Any,
+        extrapolation: Extrapolation | None,
+        shift_factors: ShiftFactors | None = None,
+    ) -> Self:
+        """Make a curve from the core's."""
+        return cls._made(
+            angular_frequency=frozen(core.angular_frequency()),
+            storage_modulus=frozen(core.storage_modulus()),
+            loss_modulus=frozen(core.loss_modulus()),
+            extrapolation=extrapolation,
+            shift_factors=shift_factors,
+            _core=core,
+        )
+
+    def shifted(self, a_T: float) -> "MasterCurve":  # noqa: N803
+        """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder.
+
+        The new curve has no `shift_factors`.
+        """
+        return MasterCurve._of(self._core.shifted(number(a_T, "a_T")), self.extrapolation)
+
+    def extrapolated_shares(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
+        """Return the shares of I1 and I2 [-] that come from outside of the measured frequencies.
+
+        w cos(phi) always runs to zero. Below the lowest frequency E' is taken as constant and E''
+        as proportional to w.
+        """
+        return _two_over(angular_frequency, self._core.extrapolated_shares)
+
+    def at_strain(
+        self,
+        strain: float,
+        sweeps: Iterable[StrainSweep],
+        *,
+        shift_factors: HasShiftFactors | None = None,
+    ) -> "MasterCurve":
+        """Return the master curve at a large strain (the article's Section 5.1).
+
+        E' and E'' are each multiplied by their own ratio E(strain) / E(0.5 %). Every sweep gives
+        the ratios at its place a_T(T) w on the curve. Between the sweeps the logarithm of a ratio
+        is interpolated (Steffen); beyond the first and the last it is held, and a UserWarning says
+        so.
+
+        Parameters
+        ----------
+        strain : float
+            Amplitude [-], 0.5 is 50 %.
+        sweeps : iterable of StrainSweep
+        shift_factors : ShiftFactors, optional
+            Those of the small strain; by default those that the curve was built with.
+
+        Raises
+        ------
+        InvalidInput
+            There are no shift factors.
+        OutOfRange
+            A sweep lies at a temperature outside of theirs, or the strain outside of a sweep's.
+        """
+        size = number(strain, "strain")
+        known = self.shift_factors if shift_factors is None else shift_factors_of(shift_factors)
+        if known is None:
+            problem = "is missing; the curve does not know at which temperature it holds"
+            raise InvalidInput(f"shift_factors: {problem}")
+        given = [sweep._core for sweep in many(sweeps, "sweeps", StrainSweep)]
+        core, notes = _core.at_strain(self._core, known._core, size, given)
+        for note in notes:
+            warnings.warn(note, UserWarning, stacklevel=2)
+        return MasterCurve._of(core, self.extrapolation)
+
+    def _summary(self) -> dict[str, Any]:
+        shown = self._arguments()
+        shifts = shown.pop("shift_factors")
+        known = {} if shifts is None else {"reference_temperature": shifts.reference_temperature}
+        return shown | known
+
+    def _columns(self) -> Columns:
+        return modulus_columns(self, "angular_frequency", "rad/s")
+
+    def _draw(self, axes: Any) -> None:
+        draw_moduli(axes, self.angular_frequency, self.storage_modulus, self.loss_modulus)
+
+
+Rubber = PronySeries | MasterCurve
+
+
+def effective_modulus(
+    *,
+    modulus: ArrayLike,
+    poisson_ratio: ArrayLike,
+    modulus_2: ArrayLike = np.inf,
+    poisson_ratio_2: ArrayLike = 0.0,
+) -> Any:
+    """Return E* [Pa] of two bodies, 1 / E* = (1 - nu^2) / E + (1 - nu_2^2) / E_2 (Eq. 15).
+
+    Parameters
+    ----------
+    modulus, modulus_2 : array_like
+        E, E_2 [Pa], positive. By default the second body is rigid.
+    poisson_ratio, poisson_ratio_2 : array_like
+        nu, nu_2 [-], in [0, 0.5].
+
+    Returns
+    -------
+    float or ndarray
+        In the shape to which the arguments broadcast.
+
+    Raises
+    ------
+    InvalidInput
+
+    Examples
+    --------
+    >>> from asperity import effective_modulus
+    >>> effective_modulus(modulus=3e6, poisson_ratio=0.5)
+    4000000.0
+    """
+    shape, columns = broadcast(
+        modulus=modulus,
+        poisson_ratio=poisson_ratio,
+        modulus_2=modulus_2,
+        poisson_ratio_2=poisson_ratio_2,
+    )
+    return shaped(_core.effective_modulus(*columns), shape)

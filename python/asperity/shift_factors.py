@@ -1,0 +1,227 @@
+"""Shift factors over temperature, and the laws that are fitted to them."""
+
+from collections.abc import Mapping
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    ABSENT,
+    OptionalVector,
+    Vector,
+    brief,
+    frozen,
+    number,
+    over,
+    vector,
+    vector_or_none,
+)
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import Value, value
+
+
+class _Errors:
+    """A field that holds standard errors by name. Everybody who asks gets a copy."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, instance: object, owner: type) -> dict[str, float]:
+        if instance is None:
+            raise AttributeError(self.name)  # tells dataclass that there is no default
+        return dict(instance.__dict__[self.name])
+
+    def __set__(self, instance: object, given: Mapping[str, float]) -> None:
+        if not isinstance(given, Mapping) or not all(isinstance(name, str) for name in given):
+            raise InvalidInput(f"{self.name} = {brief(given)}: must be a dict of numbers")
+        checked = {
+            name: number(error, f"{self.name}[{brief(name)}]") for name, error in given.items()
+        }
+        instance.__dict__[self.name] = checked
+
+
+@value
+class WlfFit(Value):
+    """The law of Williams, Landel and Ferry through shift factors, as `fit_wlf` returns it.
+
+    log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref).
+
+    Parameters
+    ----------
+    c1 : float
+        [-].
+    c2 : float
+        [K].
+    reference_temperature : float
+        T_ref [K].
+    standard_errors : dict
+        {"c1": [-], "c2": [K]}, from the scatter about the fit.
+    residual : float
+        Root mean square of log10 a_T about the fit [-].
+    """
+
+    c1: float
+    c2: float
+    reference_temperature: float
+    standard_errors: _Errors = _Errors()
+    residual: float
+
+    def __post_init__(self) -> None:
+        for name in ("c1", "c2", "reference_temperature", "residual"):
+            self._set(**{name: number(getattr(self, name), name)})
+
+
+@value
+class ArrheniusFit(Value):
+    """Arrhenius' law through shift factors, as `fit_arrhenius` returns it.
+
+    ln a_T = (E_a / R) (1 / T - 1 / T_ref).
+
+    Parameters
+    ----------
+    activation_energy : float
+        E_a [J/mol].
+    reference_temperature : float
+        T_ref [K].
+    standard_errors : dict
+        {"activation_energy": [J/mol]}, from the scatter about the fit.
+    residual : float
+        Root mean square of log10 a_T about the fit [-].
+    """
+
+    activation_energy: float
+    reference_temperature: float
+    standard_errors: _Errors = _Errors()
+    residual: float
+
+    def __post_init__(self) -> None:
+        for name in ("activation_energy", "reference_temperature", "residual"):
+            self._set(**{name: number(getattr(self, name), name)})
+
+
+class HasShiftFactors(Table):
+    """What shift factors can do, alone or in a build. `_core` is the core's ShiftFactors."""
+
+    reference_temperature: Any
+    temperature: Any
+    log10_a_T: Any  # noqa: N815
+    standard_deviation: Any
+
+    def shift_factor(self, temperature: ArrayLike) -> Any:
+        """Return a_T [-] at temperatures [K] of any shape.
+
+        Steffen's monotone interpolant of log10 a_T. Outside of the measured temperatures it raises
+        OutOfRange.
+        """
+        return over(temperature, "temperature", self._core.shift_factor)
+
+    def fit_wlf(self) -> WlfFit:
+        """Fit log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref) by least squares.
+
+        The law is that of M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77, 3701
+        (1955). Fewer than 4 temperatures raise InvalidInput.
+        """
+        c1, c2, c1_error, c2_error, residual = self._core.fit_wlf()
+        return WlfFit(
+            c1=c1,
+            c2=c2,
+            reference_temperature=self.reference_temperature,
+            standard_errors={"c1": c1_error, "c2": c2_error},
+            residual=residual,
+        )
+
+    def fit_arrhenius(self) -> ArrheniusFit:
+        """Fit ln a_T = (E_a / R) (1 / T - 1 / T_ref) by least squares."""
+        energy, error, residual = self._core.fit_arrhenius()
+        return ArrheniusFit(
+            activation_energy=energy,
+            reference_temperature=self.reference_temperature,
+            standard_errors={"activation_energy": error},
+            residual=residual,
+        )
+
+    def _columns(self) -> Columns:
+        rows = ("temperature",)
+        columns = {"log10_a_T": Column(rows, self.log10_a_T, "1", "shift factor")}
+        if self.standard_deviation is not None:
+            meaning = "standard deviation of log10_a_T"
+            columns["standard_deviation"] = Column(rows, self.standard_deviation, "1", meaning)
+        return Columns(
+            {"temperature": Column(rows, self.temperature, "K")},
+            columns,
+            {"reference_temperature": self.reference_temperature},
+        )
+
+
+@value
+class ShiftFactors(HasShiftFactors):
+    """Shift factors over temperature, measured or from a table.
+
+    Parameters
+    ----------
+    reference_temperature : float
+        T_ref [K], where a_T = 1.
+    temperature : array_like, shape (n,)
+        T [K], strictly rising, n >= 2.
+    log10_a_T : array_like, shape (n,)
+        [-]; above 0 below T_ref.
+    standard_deviation : array_like, shape (n,), optional
+        That of log10_a_T [-].
+
+    Raises
+    ------
+    InvalidInput
+    """
+
+    reference_temperature: float
+    temperature: Vector
+    log10_a_T: Vector  # noqa: N815
+    standard_deviation: OptionalVector = ABSENT
+
+    def __post_init__(self) -> None:
+        self._set(
+            reference_temperature=number(self.reference_temperature, "reference_temperature"),
+            temperature=vector(self.temperature, "temperature"),
+            log10_a_T=vector(self.log10_a_T, "log10_a_T"),
+            standard_deviation=vector_or_none(self.standard_deviation, "standard_deviation"),
+        )
+        deviation = np.empty(0) if self.standard_deviation is None else self.standard_deviation
+        self._set(
+            _core=_core.ShiftFactors(
+                self.reference_temperature, self.temperature, self.log10_a_T, deviation
+            )
+        )
+
+    @classmethod
+    def _of(cls, core: Any) -> Self:
+        """Make shift factors from the core's, which have standard deviations."""
+        return cls._made(
+            reference_temperature=core.reference_temperature(),
+            temperature=frozen(core.temperature()),
+            log10_a_T=frozen(core.log10_a_T()),
+            standard_deviation=frozen(core.standard_deviation()),
+            _core=core,
+        )
+
+    def _draw(self, axes: Any) -> None:
+        deviation = self.standard_deviation
+        bars = None if deviation is None else 2 * deviation
+        label = None if bars is None else "± 2 standard deviations"
+        axes.errorbar(self.temperature, self.log10_a_T, bars, fmt="o-", capsize=3, label=label)
+        axes.set_xlabel("Temperature $T$ [K]")
+        axes.set_ylabel("$\\log_{10} a_T$ [-]")
+        if label:
+            axes.legend()
+
+
+def shift_factors_of(found: Any) -> ShiftFactors:
+    """Return ShiftFactors, given as they are or by the build that they are part of."""
+    if isinstance(found, ShiftFactors):
+        return found
+    if isinstance(found, HasShiftFactors):
+        return found.shift_factors  # type: ignore[attr-defined, no-any-return]
+    allowed = "must be a ShiftFactors or what build_master_curve returned"
+    raise InvalidInput(f"shift_factors = {brief(found)}: {allowed}")

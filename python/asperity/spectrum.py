@@ -1,0 +1,389 @@
+"""Roughness spectra C(q): self-affine or tabulated; their moments, cut-offs and profiles."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import (
+    ABSENT,
+    Given,
+    OptionalVector,
+    Vector,
+    frozen,
+    number,
+    number_or_none,
+    over,
+    vector,
+    vector_or_none,
+)
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+from asperity.surface import around
+
+Flags = Given[ArrayLike | None, NDArray[np.uint8] | None]
+
+
+class _Spectrum(Table):
+    """What the spectra of a surface can do alike."""
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square slope h' = sqrt(2 pi int q^3 C dq) [-]."""
+        return float(_core.rms_slope(self._core))
+
+    @property
+    def nayak_parameter(self) -> float:
+        """Nayak's parameter m0 m4 / m2^2 of a profile [-].
+
+        It is 1.5 for a single wavenumber, and the larger the wider the band (P. R. Nayak,
+        J. Lubr. Technol. 93, 398 (1971)).
+        """
+        return float(_core.nayak_parameter(self._core))
+
+    def at(self, wavenumber: ArrayLike) -> Any:
+        """Return C(q) [m^4] at wavenumbers [1/m] of any shape.
+
+        A self-affine spectrum is 0 outside its band.
+
+        Raises
+        ------
+        OutOfRange
+            A wavenumber lies beyond the rows of a table.
+        """
+        return over(wavenumber, "wavenumber", lambda q: _core.density(self._core, q))
+
+    def line_density(self, wavenumber: ArrayLike) -> Any:
+        """Return the spectrum of the surface's profiles, C1D(q) = int C(sqrt(q^2 + k^2)) dk [m^3].
+
+        The integral runs over all k, and the spectrum is two-sided: its integral over wavenumbers
+        of both signs is the mean square height. `wavenumber` [1/m] may have any shape.
+        """
+        return over(wavenumber, "wavenumber", lambda q: _core.line_density(self._core, q))
+
+    def autocorrelation(self, distance: ArrayLike) -> Any:
+        """Return <h(x) h(0)> = 2 pi int q C J0(q |x|) dq [m^2] (the article's Eqs 5-6).
+
+        `distance` |x| [m] may have any shape. The error is below 1e-8 of the value at 0, which is
+        the mean square height.
+        """
+        return over(distance, "distance", lambda r: _core.autocorrelation(self._core, r))
+
+    def cutoff_for_slope(self, slope: float = 1.3) -> float:
+        """Return the wavenumber [1/m] up to which the cumulative rms slope is `slope` [-].
+
+        It is the upper cut-off of the text below Eq. 22, and q1 where the whole spectrum has less.
+        """
+        return float(_core.cutoff_for_slope(self._core, number(slope, "slope")))
+
+    def cutoff_for_contamination(self, size: float) -> float:
+        """Return 2 pi / `size` of the contamination particles [m], but at most q1 [1/m]."""
+        return float(_core.cutoff_for_contamination(self._core, number(size, "size")))
+
+    def truncated(self, *, q0: float | None = None, q1: float | None = None) -> Self:
+        """Return the same densities on a narrower band [1/m].
+
+        Raises
+        ------
+        InvalidInput
+            The band would be wider.
+        """
+        lower, upper = number_or_none(q0, "q0"), number_or_none(q1, "q1")
+        return around(type(self), _core.truncated(self._core, lower, upper))
+
+    def scaled(self, factor: float) -> Self:
+        """Return the spectrum with all densities multiplied by `factor` [-]."""
+        return around(type(self), _core.scaled(self._core, number(factor, "factor")))
+
+
+@value
+class SelfAffineSpectrum(_Spectrum):
+    """Spectrum of a self-affine surface.
+
+    C(q) = C_r (q / q_r)^(-2 (H + 1)) on [q_r, q1], flat on [q0, q_r] and zero elsewhere. C_r
+    follows from rms_height^2 = 2 pi int_q0^q1 q C dq, so that the rms height is exact on the band.
+
+    Parameters
+    ----------
+    rms_height : float
+        Root mean square height h_rms on the band [m].
+    hurst : float
+        Hurst exponent H in (0, 1] [-].
+    q0, q1 : float
+        Lower and upper cut-off, as angular wavenumbers 2 pi / wavelength [1/m].
+    rolloff : float, optional
+        Roll-off q_r [1/m], q0 < q_r < q1; without it the power law starts at q0.
+
+    Raises
+    ------
+    InvalidInput
+        A number is out of its range.
+
+    Examples
+    --------
+    The asphalt of Table 1; its rms slope is above 1.3, at which the cut-off rule ends a spectrum:
+
+    >>> from asperity import SelfAffineSpectrum
+    >>> road = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
+    >>> round(road.rms_slope, 2), round(road.cutoff_for_slope() / 2000, 1)
+    (2.76, 11.7)
+    """
+
+    rms_height: float
+    hurst: float
+    q0: float
+    q1: float
+    rolloff: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("rms_height", "hurst", "q0", "q1"):
+            self._set(**{name: number(getattr(self, name), name)})
+        self._set(rolloff=number_or_none(self.rolloff, "rolloff"))
+        self._set(_core=_core.SelfAffineSpectrum(*self._arguments().values()))
+
+    @staticmethod
+    def from_article(*, h0: float, hurst: float, q0: float, q1: float) -> SelfAffineSpectrum:
+        """Return Eq. 12 as printed, C = (h0 / q0)^2 (H / 2 pi) (q / q0)^(-2 (H + 1)), cut at q1.
+
+        Its rms height is not h0 [m] but h0 / sqrt(2) for q1 >> q0 [1/m]. Use it to reproduce the
+        article only.
+        """
+        given = {"h0": h0, "hurst": hurst, "q0": q0, "q1": q1}
+        numbers = [number(found, name) for name, found in given.items()]
+        return around(SelfAffineSpectrum, _core.SelfAffineSpectrum.from_article(*numbers))
+
+    def extended(self, *, q0: float | None = None, q1: float | None = None) -> SelfAffineSpectrum:
+        """Return the same law on another band [1/m], wider or narrower.
+
+        The power law goes on beyond the old ends, or the flat part below a roll-off. C(q) stays,
+        and the rms height follows from it.
+        """
+        band = number_or_none(q0, "q0"), number_or_none(q1, "q1")
+        return around(SelfAffineSpectrum, self._core.extended(*band))
+
+    def _columns(self) -> Columns:
+        ends = [self.q0, self.q1] if self.rolloff is None else [self.q0, self.rolloff, self.q1]
+        wavenumber = Column(("wavenumber",), ends, "1/m")
+        density = Column(("wavenumber",), self.at(ends), "m^4", "roughness spectrum C")
+        return Columns({"wavenumber": wavenumber}, {"density": density}, self._arguments())
+
+    def _draw(self, axes: Any) -> None:
+        columns = self._columns()
+        axes.loglog(columns.coordinates["wavenumber"].values, columns.variables["density"].values)
+        axes.set_xlabel("Wavenumber $q$ [1/m]")
+        axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+
+
+class _Rows(Table):
+    """What spectra that are given row by row can do alike."""
+
+    _unit: str
+    _label: str
+    wavenumber: Any
+    density: Any
+    count: Any
+    standard_error: Any
+    flag: Any
+
+    def _check(self) -> None:
+        for name in ("wavenumber", "density"):
+            self._set(**{name: vector(getattr(self, name), name)})
+        for name in ("count", "standard_error"):
+            self._set(**{name: vector_or_none(getattr(self, name), name)})
+        self._set(flag=_flags(self.flag))
+        for name in ("count", "standard_error", "flag"):
+            column = getattr(self, name)
+            if column is not None and column.size == 0:  # to the core, a column that is not given
+                raise InvalidInput(f"{name} has 0 entries: must have one for each wavenumber")
+        self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
+
+    @property
+    def reliable(self) -> NDArray[np.bool_]:
+        """Whether a row has no flag: bool, shape (n,)."""
+        trusted = np.ones(self.wavenumber.size, bool) if self.flag is None else self.flag == 0
+        return frozen(trusted)
+
+    def log_binned(self, *, per_decade: float = 10.0) -> Self:
+        """Return count-weighted means over bins of equal width in ln q, from the lowest row on.
+
+        Each row is brought to the bin's mean wavenumber along the local power law. Flagged rows
+        are left out of bins that have others. Under a Hann window neighbouring rows are alike, and
+        the errors of bins come out a quarter too small.
+
+        Parameters
+        ----------
+        per_decade : float
+            Number of bins in a factor 10 of the wavenumber.
+        """
+        return around(type(self), self._core.log_binned(number(per_decade, "per_decade")))
+
+    def _summary(self) -> dict[str, Any]:
+        band = {"q0": float(self.wavenumber[0]), "q1": float(self.wavenumber[-1])}
+        return {"rows": self.wavenumber.size, **band, "reliable": int(self.reliable.sum())}
+
+    def _columns(self) -> Columns:
+        row = ("wavenumber",)
+        variables = {"density": Column(row, self.density, self._unit, self._label)}
+        if self.count is not None:
+            variables["count"] = Column(row, self.count, "1", "modes averaged")
+        if self.standard_error is not None:
+            variables["standard_error"] = Column(row, self.standard_error, self._unit)
+        if self.flag is not None:
+            variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
+        return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables)
+
+    def _draw(self, axes: Any) -> None:
+        shown, good = self.density > 0, self.reliable
+        measured = self._draw_where(axes, shown & good, label="measured")
+        if np.any(shown & ~good):
+            self._draw_where(axes, shown & ~good, color="0.65", label="flagged: do not trust")
+        if self.standard_error is not None:
+            mean, error = self.density[shown], self.standard_error[shown]
+            lower = np.maximum(mean - error, mean / 10)
+            shade = {"color": measured.get_color(), "alpha": 0.2, "label": "± standard error"}
+            axes.fill_between(self.wavenumber[shown], lower, mean + error, **shade)
+        axes.set_xscale("log")
+        if shown.any():
+            axes.set_yscale("log")
+        axes.set_xlabel("Wavenumber $q$ [1/m]")
+        axes.set_ylabel(f"{self._label} [m$^{self._unit[-1]}$]")
+        if len(axes.get_legend_handles_labels()[1]) > 1:
+            axes.legend(fontsize="small")
+
+    def _draw_where(self, axes: Any, rows: NDArray[np.bool_], **style: Any) -> Any:
+        q, density = self.wavenumber[rows], self.density[rows]
+        return axes.plot(q, density, ".", markersize=3, **style)[0]
+
+
+def _flags(found: Any) -> NDArray[np.uint8] | None:
+    """Return the flags of rows, sums of 1, 2 and 4."""
+    if found is None:
+        return None
+    given = vector(found, "flag")
+    wrong = ~np.isin(given, range(8))
+    if wrong.any():
+        i = int(wrong.argmax())
+        raise InvalidInput(f"flag[{i}] = {given[i]}: must be a whole number from 0 to 7")
+    return frozen(given.astype(np.uint8))
+
+
+@value
+class TabulatedSpectrum(_Rows, _Spectrum):
+    """Spectrum of a surface, given at wavenumbers.
+
+    It is log-log linear between rows, and linear in q where one of two rows is zero. Beyond the
+    rows it raises OutOfRange.
+
+    Parameters
+    ----------
+    wavenumber : array_like, shape (n,)
+        Angular wavenumbers [1/m], strictly rising, n >= 2.
+    density : array_like, shape (n,)
+        C(q) [m^4], not negative.
+    count : array_like, shape (n,), optional
+        Modes averaged in each row, which are the weights of a fit.
+    standard_error : array_like, shape (n,), optional
+        Standard error of the density [m^4].
+    flag : array_like of int, shape (n,), optional
+        Why a row is not to be trusted, as a sum of numbers. 1: the scan holds fewer than 16 (split
+        cosine bell) or 10 (Hann) periods. 2: the row lies above half of pi / pixel, where
+        roughness finer than the pixels is folded back. 4: the row has so few modes that their mean
+        is uncertain by more than a quarter. 0: the row is reliable. The attribute is uint8.
+
+    Raises
+    ------
+    InvalidInput
+        The columns differ in length, or an entry is out of its range.
+    """
+
+    _unit = "m^4"
+    _label = "Roughness spectrum $C(q)$"
+    wavenumber: Vector
+    density: Vector
+    count: OptionalVector = ABSENT
+    standard_error: OptionalVector = ABSENT
+    flag: Flags = ABSENT
+
+    def __post_init__(self) -> None:
+        self._check()
+
+    @property
+    def rms_height(self) -> float:
+        """Root mean square height sqrt(2 pi int q C dq) [m]."""
+        return float(_core.rms_height(self._core))
+
+    @property
+    def q0(self) -> float:
+        """Wavenumber of the first row [1/m]."""
+        return float(self.wavenumber[0])
+
+    @property
+    def q1(self) -> float:
+        """Wavenumber of the last row [1/m]."""
+        return float(self.wavenumber[-1])
+
+    def _summary(self) -> dict[str, Any]:
+        moments = {"rms_height": self.rms_height, "rms_slope": self.rms_slope}
+        return super()._summary() | moments
+
+
+@value
+class LineSpectrum(_Rows):
+    """Two-sided spectrum C1D of profiles, at positive wavenumbers.
+
+    Its integral over wavenumbers of both signs is h_rms^2.
+
+    Parameters
+    ----------
+    wavenumber : array_like, shape (n,)
+        Angular wavenumbers [1/m], strictly rising, n >= 2.
+    density : array_like, shape (n,)
+        C1D [m^3], not negative.
+    count, standard_error, flag : array_like, shape (n,), optional
+        As in TabulatedSpectrum.
+
+    Raises
+    ------
+    InvalidInput
+        The columns differ in length, or an entry is out of its range.
+    """
+
+    _unit = "m^3"
+    _label = "Profile spectrum $C_{1D}(q)$"
+    wavenumber: Vector
+    density: Vector
+    count: OptionalVector = ABSENT
+    standard_error: OptionalVector = ABSENT
+    flag: Flags = ABSENT
+
+    def __post_init__(self) -> None:
+        self._check()
+
+    def isotropic(self, *, per_decade: float | None = 10.0) -> TabulatedSpectrum:
+        """Return the spectrum C [m^4] of the isotropic surface that has such profiles.
+
+        C(q) = -(1/pi) int_q^inf dC1D/dk dk / sqrt(k^2 - q^2), the inverse Abel transform, is exact
+        for the power laws between the rows. Beyond the last row the slope of the last factor of 2
+        goes on. Flagged rows that come out negative are left out.
+
+        Parameters
+        ----------
+        per_decade : float, optional
+            Logarithmic bins in a factor 10 of the wavenumber, over which rows are averaged first,
+            since the rows of one profile scatter as much as their mean. None takes the rows as
+            they are.
+
+        Raises
+        ------
+        InvalidInput
+            A density is zero, or the spectrum rises too steeply for any isotropic surface.
+        """
+        binned = self if per_decade is None else self.log_binned(per_decade=per_decade)
+        return around(TabulatedSpectrum, binned._core.isotropic())
+
+
+Spectrum = SelfAffineSpectrum | TabulatedSpectrum

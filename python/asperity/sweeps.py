@@ -1,0 +1,162 @@
+"""Sweeps of frequency and of strain, as dynamic mechanical analysis measures them."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from asperity import _core
+from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, number, sentences, vector
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+
+
+def modulus_columns(rows: Any, along: str, unit: str, **attributes: Any) -> Columns:
+    """Return E' and E'' of an object that has them along one of its attributes."""
+    dimension = (along,)
+    return Columns(
+        {along: Column(dimension, getattr(rows, along), unit)},
+        {
+            "storage_modulus": Column(dimension, rows.storage_modulus, "Pa", "E'"),
+            "loss_modulus": Column(dimension, rows.loss_modulus, "Pa", "E''"),
+        },
+        attributes,
+    )
+
+
+def draw_moduli(
+    axes: Any,
+    x: Array,
+    storage: Array,
+    loss: Array,
+    *,
+    label: str = "Angular frequency $\\omega$ [rad/s]",
+    styles: tuple[str, str] = ("-", "-"),
+) -> None:
+    """Draw E' and E'' with logarithmic scales."""
+    axes.loglog(x, storage, styles[0], color="C0", markersize=3, label="$E'$")
+    axes.loglog(x, loss, styles[1], color="C1", markersize=3, label="$E''$")
+    axes.set_xlabel(label)
+    axes.set_ylabel("Modulus [Pa]")
+    axes.legend()
+
+
+@value
+class Isotherm(Table):
+    """A frequency sweep at one temperature and small strain.
+
+    Points within 1 % of each other in frequency are averaged in the logarithm; `notes` says so.
+
+    Parameters
+    ----------
+    temperature : float
+        T [K], 100 or more.
+    angular_frequency : array_like, shape (n,)
+        w = 2 pi f [rad/s], in any order; four different ones or more.
+    storage_modulus, loss_modulus : array_like, shape (n,)
+        E', E'' [Pa], positive. Where rubber was measured in shear, E = 3 G.
+    notes : tuple of str, optional
+        Only for rows that come from an Isotherm: they rise, and are taken as they are.
+
+    Attributes
+    ----------
+    angular_frequency, storage_modulus, loss_modulus : ndarray
+        The rows after averaging, in rising frequency.
+    notes : tuple of str
+        What was done to the points.
+
+    Raises
+    ------
+    InvalidInput
+        The message names the row.
+    """
+
+    temperature: float
+    angular_frequency: Vector
+    storage_modulus: Vector
+    loss_modulus: Vector
+    notes: Given[Iterable[str] | None, tuple[str, ...]] = ABSENT
+
+    def __post_init__(self) -> None:
+        self._set(temperature=number(self.temperature, "temperature"))
+        rows = [
+            vector(getattr(self, name), name)
+            for name in ("angular_frequency", "storage_modulus", "loss_modulus")
+        ]
+        notes = None if self.notes is None else sentences(self.notes, "notes")
+        core = _core.Isotherm(self.temperature, *rows, notes)
+        self._set(
+            _core=core,
+            angular_frequency=frozen(core.angular_frequency()),
+            storage_modulus=frozen(core.storage_modulus()),
+            loss_modulus=frozen(core.loss_modulus()),
+            notes=core.notes(),
+        )
+
+    def _columns(self) -> Columns:
+        return modulus_columns(
+            self, "angular_frequency", "rad/s", temperature=self.temperature, notes=self.notes
+        )
+
+    def _draw(self, axes: Any) -> None:
+        draw_moduli(
+            axes,
+            self.angular_frequency,
+            self.storage_modulus,
+            self.loss_modulus,
+            styles=("o-", "^:"),
+        )
+        axes.set_title(f"{self.temperature:.4g} K")
+
+
+@value
+class StrainSweep(Table):
+    """A sweep of strain at one temperature and one frequency.
+
+    Parameters
+    ----------
+    temperature : float
+        T [K], 100 or more.
+    angular_frequency : float
+        w = 2 pi f [rad/s].
+    strain : array_like, shape (n,)
+        Amplitudes [-], strictly rising; 0.5 is 50 %.
+    storage_modulus, loss_modulus : array_like, shape (n,)
+        E', E'' [Pa], positive.
+
+    Raises
+    ------
+    InvalidInput
+        The message names the row.
+    """
+
+    temperature: float
+    angular_frequency: float
+    strain: Vector
+    storage_modulus: Vector
+    loss_modulus: Vector
+
+    def __post_init__(self) -> None:
+        for name in ("temperature", "angular_frequency"):
+            self._set(**{name: number(getattr(self, name), name)})
+        for name in ("strain", "storage_modulus", "loss_modulus"):
+            self._set(**{name: vector(getattr(self, name), name)})
+        self._set(_core=_core.StrainSweep(*self._arguments().values()))
+
+    def _columns(self) -> Columns:
+        return modulus_columns(
+            self,
+            "strain",
+            "1",
+            temperature=self.temperature,
+            angular_frequency=self.angular_frequency,
+        )
+
+    def _draw(self, axes: Any) -> None:
+        draw_moduli(
+            axes,
+            self.strain,
+            self.storage_modulus,
+            self.loss_modulus,
+            label="Strain amplitude [-]",
+            styles=("o-", "^:"),
+        )
+        axes.set_title(f"{self.temperature:.4g} K, {self.angular_frequency:.3g} rad/s")
