@@ -179,14 +179,14 @@ def _read(path: Path, text: str, **given: object) -> HeightMap | LineScan:
 def test_profile_with_positions(tmp_path: Path) -> None:
     scan = _read(tmp_path / "scan.xyz", POSITIONS + "0 1\n0.5 2\n1 3\n1.5 5\n")
     assert isinstance(scan, LineScan)
-    assert scan.spacing == pytest.approx(0.5e-6, rel=1e-12)
+    assert scan.spacing == pytest.approx(0.5e-6, rel=1e-12, abs=0)
     np.testing.assert_allclose(scan.heights, [1e-9, 2e-9, 3e-9, 5e-9])
 
 
 def test_unit_of_an_instrument_file_is_that_of_all_its_lengths(tmp_path: Path) -> None:
     scan = _read(tmp_path / "scan.xyz", "0 1\n1 2\n2 3\n", unit="mm")
     assert isinstance(scan, LineScan)
-    assert scan.spacing == pytest.approx(1e-3, rel=1e-12)
+    assert scan.spacing == pytest.approx(1e-3, rel=1e-12, abs=0)
     np.testing.assert_allclose(scan.heights, [1e-3, 2e-3, 3e-3])
 
 
@@ -205,7 +205,7 @@ def test_positions_that_were_rounded_in_print(tmp_path: Path, spacing: float, di
     rows = "".join(f"{x:.10g},{np.sin(x):.5f},,\n" for x in positions)
     scan = _read(tmp_path / "scan.csv", DEKTAK + rows)
     assert isinstance(scan, LineScan)
-    assert scan.spacing == pytest.approx(positions[-1] / 399 * 1e-6, rel=1e-12)
+    assert scan.spacing == pytest.approx(positions[-1] / 399 * 1e-6, rel=1e-12, abs=0)
     np.testing.assert_allclose(scan.heights, np.sin(positions) * 1e-6, atol=1e-11)
 
 
@@ -256,7 +256,7 @@ def test_matrix_with_a_header_that_states_unit_and_size(tmp_path: Path) -> None:
         surface = _read(path, GWYDDION)
     assert isinstance(surface, HeightMap)
     np.testing.assert_allclose(surface.heights, np.arange(1, 13).reshape(3, 4) * 1e-9)
-    assert surface.pixel_size == pytest.approx((3e-6, 2e-6), rel=1e-12)
+    assert surface.pixel_size == pytest.approx((3e-6, 2e-6), rel=1e-12, abs=0)
     with pytest.raises(InvalidInput, match=r"scan\.txt: line 6: 'high' is not a number"):
         _read(path, GWYDDION.replace("7", "high"))
     with pytest.raises(InvalidInput, match=r"scan\.txt: pixel_size is missing"):

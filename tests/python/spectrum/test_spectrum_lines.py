@@ -56,7 +56,7 @@ def test_line_density_integrates_to_the_mean_square_height():
         q = low + (high - low) * np.sin(t) ** 2
         dq = np.pi / 4 * (high - low) * np.sin(2 * t)
         total += np.sum(weights * dq * spectrum.line_density(q))
-    assert 2 * total == pytest.approx(spectrum.rms_height**2, rel=1e-9)
+    assert 2 * total == pytest.approx(spectrum.rms_height**2, rel=1e-9, abs=0)
 
 
 @each("rows", [2, 40, 300])
@@ -151,7 +151,7 @@ def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
     np.testing.assert_allclose(found.density, expected, rtol=1e-10, atol=1e-13 * expected.max())
     if window == "none" and detrend is not None:
         total = np.sum(found.density * found.count) / len(z) * 2 * np.pi / (n * dx)
-        assert total == pytest.approx(np.mean(flat**2), rel=1e-9)
+        assert total == pytest.approx(np.mean(flat**2), rel=1e-9, abs=0)
 
 
 def test_line_spectrum_of_a_float32_scan_is_that_of_its_own_numbers():

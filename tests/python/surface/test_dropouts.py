@@ -146,15 +146,17 @@ def test_an_isolated_point_is_the_mean_of_both_lines_by_the_cube_of_their_nearne
     row, column = ROUGH[8, [11, 13]].mean(), ROUGH[[7, 9], 12].mean()
     dy, dx = pixel_size
     expected = (row / dx**3 + column / dy**3) / (1 / dx**3 + 1 / dy**3)
-    assert filled(heights, pixel_size=pixel_size)[8, 12] == pytest.approx(expected, rel=1e-13)
+    assert filled(heights, pixel_size=pixel_size)[8, 12] == pytest.approx(
+        expected, rel=1e-13, abs=0
+    )
 
 
 def test_a_point_on_the_edge_and_a_missing_row_have_one_line_to_go_by():
     heights = ROUGH.copy()
     heights[0, 4] = heights[6, 0] = heights[15] = NAN
     found = filled(heights)
-    assert found[0, 4] == pytest.approx(ROUGH[0, [3, 5]].mean(), rel=1e-13)
-    assert found[6, 0] == pytest.approx(ROUGH[[5, 7], 0].mean(), rel=1e-13)
+    assert found[0, 4] == pytest.approx(ROUGH[0, [3, 5]].mean(), rel=1e-13, abs=0)
+    assert found[6, 0] == pytest.approx(ROUGH[[5, 7], 0].mean(), rel=1e-13, abs=0)
     np.testing.assert_allclose(found[15], ROUGH[[14, 16]].mean(axis=0), rtol=0, atol=1e-20)
 
 
@@ -165,7 +167,7 @@ def test_deep_in_a_hole_the_diagonals_count_too():
     heights[0, 2] = heights[4, 2] = heights[2, 0] = heights[2, 4] = 0.0
     share = 2**-1.5
     expected = share * (8 + 16) / (2 + 2 * share)
-    assert filled(heights, pixel_size=1)[2, 2] == pytest.approx(expected, rel=1e-13)
+    assert filled(heights, pixel_size=1)[2, 2] == pytest.approx(expected, rel=1e-13, abs=0)
 
 
 @pytest.mark.parametrize("turn", [np.asarray, np.transpose])

@@ -56,9 +56,9 @@ def test_scan_as_it_is(name: str) -> None:
     assert isinstance(scan, HeightMap if len(shape) == 2 else LineScan)
     assert scan.heights.shape == shape
     found = scan.pixel_size if isinstance(scan, HeightMap) else scan.spacing
-    assert found == pytest.approx(distance, rel=1e-7)
-    assert scan.detrend("plane").rms_height == pytest.approx(rms_height, rel=1e-5)
-    assert scan.dropout_fraction == pytest.approx(dropouts, rel=1e-12)
+    assert found == pytest.approx(distance, rel=1e-7, abs=0)
+    assert scan.detrend("plane").rms_height == pytest.approx(rms_height, rel=1e-5, abs=0)
+    assert scan.dropout_fraction == pytest.approx(dropouts, rel=1e-12, abs=0)
 
 
 def test_scan_states_its_own_unit() -> None:
