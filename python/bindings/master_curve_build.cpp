@@ -1,6 +1,7 @@
 // Isotherms shifted onto one curve.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "arguments.hpp"
@@ -40,7 +41,7 @@ MasterPoints points_of(const Built& built) {
 
 /// A build from what it shows of itself.
 Built made(const py::object& curve, const py::object& shift_factors, const py::object& b_T, const py::object& given,
-           Number<"residual"> residual, const Sentences<"notes">& notes) {
+           Number<"residual"> residual, const py::object& covariance, const Sentences<"notes">& notes) {
   const ShiftTable& shifts = shifts_of(shift_factors);
   const auto& points = object_of<MasterPoints>(given, "points", "a MasterPoints");
   Built built{{object_of<MasterCurve>(curve, "master_curve", "a MasterCurve"),
@@ -48,6 +49,7 @@ Built made(const py::object& curve, const py::object& shift_factors, const py::o
                vector_of(b_T, "b_T"),
                {},
                residual,
+               {},
                notes}};
   const std::size_t isotherms = shifts.temperature().size();
   const auto column = [&](const char* name) { return vector_of(points.values[name], std::string("points.") + name); };
@@ -59,6 +61,9 @@ Built made(const py::object& curve, const py::object& shift_factors, const py::o
                          std::to_string(wanted));
   };
   require_size("b_T", built.build.b_T.size(), isotherms);
+  const Array matrix = real_array(covariance, "covariance");
+  built.build.covariance.assign(matrix.data(), matrix.data() + matrix.size());
+  require_size("covariance", built.build.covariance.size(), isotherms * isotherms);
   require_size("points.storage_modulus", storage.size(), w.size());
   require_size("points.loss_modulus", loss.size(), w.size());
   require_size("points.isotherm", origin.size(), w.size());
@@ -114,7 +119,7 @@ isotherm : index of the isotherm of origin, in rising temperature.
                           "What build_master_curve returns: a master curve, and a_T [-] over temperature [K].");
   built
       .def(py::init(&made), py::kw_only(), py::arg("master_curve"), py::arg("shift_factors"), py::arg("b_T"),
-           py::arg("points"), py::arg("residual"), py::arg("notes") = py::tuple())
+           py::arg("points"), py::arg("residual"), py::arg("covariance"), py::arg("notes") = py::tuple())
       .def_property_readonly(
           "master_curve", [](const Built& b) { return b.build.master_curve; }, "A MasterCurve at T_ref.")
       .def_property_readonly(
@@ -128,7 +133,24 @@ isotherm : index of the isotherm of origin, in rising temperature.
           "log10_a_T", [](const Built& b) { return flat(b.build.shifts.log10_a_T()); }, "Their shift factors [-].")
       .def_property_readonly(
           "standard_deviation", [](const Built& b) { return flat(b.build.shifts.standard_deviation()); },
-          "Of log10_a_T against the isotherm nearest to T_ref, from the scatter about the master spline.")
+          "Of log10_a_T against the isotherm nearest to T_ref. Above 0.3 the data do not fix the shift: see "
+          "`undetermined` and `notes`.")
+      .def_property_readonly(
+          "covariance",
+          [](const Built& b) {
+            const auto n = static_cast<py::ssize_t>(b.build.shifts.temperature().size());
+            return frozen(shaped<double>(b.build.covariance, {n, n}));
+          },
+          "Shape (n, n): of log10_a_T, zero at the isotherm nearest to T_ref and where a_T was given.")
+      .def_property_readonly(
+          "undetermined",
+          [](const Built& b) {
+            const std::vector<double>& deviation = b.build.shifts.standard_deviation();
+            py::array_t<bool> flags(static_cast<py::ssize_t>(deviation.size()));
+            std::ranges::transform(deviation, flags.mutable_data(), [](double s) { return s > undetermined_shift; });
+            return frozen(std::move(flags));
+          },
+          "Whether the data leave a shift open, bool: its standard deviation exceeds 0.3 decades.")
       .def_property_readonly(
           "b_T", [](const Built& b) { return flat(b.build.b_T); }, "Vertical shifts: moduli were divided by them.")
       .def_property_readonly("points", &points_of, "MasterPoints: every measured point, reduced, with its isotherm.")
@@ -146,16 +168,23 @@ isotherm : index of the isotherm of origin, in rising temperature.
           "fit_wlf", [](const Built& b) { return wlf(b.build.shifts); }, wlf_text)
       .def(
           "fit_arrhenius", [](const Built& b) { return arrhenius(b.build.shifts); }, arrhenius_text);
-  value_semantics(built, {"master_curve", "shift_factors", "b_T", "points", "residual", "notes"});
+  value_semantics(built, {"master_curve", "shift_factors", "b_T", "points", "residual", "covariance", "notes"});
 
+  m.def(
+      "draw_master_curve", [](const Built& b, std::uint64_t seed) { return Built{draw_master_curve(b.build, seed)}; },
+      py::arg("build"), py::arg("seed"), py::call_guard<py::gil_scoped_release>(),
+      "A build as its errors would have it: a_T drawn from `covariance`, the points moved, and the coefficients of the "
+      "spline through them drawn from their own covariance.");
   m.def(
       "build_master_curve", &build, py::arg("isotherms"), py::kw_only(), py::arg("reference_temperature"),
       py::arg("vertical_shift") = py::none(), py::arg("shift_factors") = py::none(), py::arg("smooth") = false,
       py::arg("extrapolation") = py::none(),
       R"(Isotherms shifted in frequency until neighbours overlap (the article's Section 5.1): E(w; T) = b_T E(a_T w; T_ref).
 
-E' and E'' together: from neighbour to neighbour for a start, then all shifts at once, with one cubic spline of ln E' and
-one of ln E'' in ln w that all isotherms share (variable projection; knots by generalised cross-validation).
+E' and E'' together: neighbours in pairs for a start, then all shifts at once, with one penalised cubic spline of ln E'
+and one of ln E'' in ln w that all isotherms share. Shifts and smoothness maximise the restricted likelihood (REML),
+whose determinant makes an overlap that is given up no gain; residuals that are correlated within isotherms make the data
+count by as much less. a_T falls with temperature.
 
 Parameters
 ----------

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,18 +89,28 @@ struct MasterPoint {
   std::size_t isotherm;                  // of origin: index in rising temperature
 };
 
+/// A shift with a larger standard deviation [decades] is one that the data do not fix.
+inline constexpr double undetermined_shift = 0.3;
+
 struct MasterCurveBuild {
   MasterCurve master_curve;
   ShiftTable shifts;
   std::vector<double> b_T;
   std::vector<MasterPoint> points;  // in rising frequency
   double residual;                  // rms of ln E', ln E'' about the master spline
+  std::vector<double> covariance;   // of log10 a_T, n rows of n: zero at the isotherm nearest to T_ref
   std::vector<std::string> notes;
 };
 
-/// Horizontal shifts on E' and E'' together: pairwise for a start, then all at once about one master spline.
+/// Horizontal shifts on E' and E'' together: neighbours in pairs for a start, then all at once about one master spline,
+/// by their restricted likelihood. A shift whose standard deviation exceeds 0.3 decades is one that the data do not
+/// fix; a note says so.
 ASPERITY_EXPORT MasterCurveBuild build_master_curve(std::span<const Isotherm> isotherms,
                                                     const MasterCurveOptions& options);
+
+/// A build as its errors would have it: log10 a_T drawn from its covariance, the points moved, and the spline through
+/// them with coefficients drawn from their own; smooth, extrapolated by power laws. The same for the same seed.
+ASPERITY_EXPORT MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t seed);
 
 struct PronyFitOptions {
   std::optional<double> modes_per_decade = std::nullopt;  // default: the fewest modes that reach the noise

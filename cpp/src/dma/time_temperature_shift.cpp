@@ -1,0 +1,123 @@
+// All shifts at once: the likeliest, begun where pairs of neighbours say and with noise of 3 % more, which is then
+// taken away in turn. Residuals that are correlated within isotherms are misfit between isotherms, of which there is
+// less to learn than of noise: the data then count by the share of points that are independent.
+#include "dma/time_temperature_shift.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dma/pair_search.hpp"
+#include "numerics/quasi_newton.hpp"
+
+namespace asperity {
+
+bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b) {
+  const auto [a_low, a_high] = std::ranges::minmax(a.storage_modulus());
+  const auto [b_low, b_high] = std::ranges::minmax(b.storage_modulus());
+  return a_low / b_a <= b_high / b_b && b_low / b_b <= a_high / b_a;
+}
+
+namespace {
+
+// Steps end where they would gain less of -ln L: a hundredth of a standard deviation at the end, less on the way there.
+constexpr double gain = 1e-4, rough_gain = 1e-2;
+constexpr int most_steps = 200;
+
+ShiftFit descend(ShiftLikelihood& likelihood, const Smoothness& smoothness, Eigen::VectorXd unknowns, double weight,
+                 std::initializer_list<double> floors) {
+  ShiftFit fit{std::move(unknowns), {}, weight, 0};
+  likelihood.weight = weight;
+  for (const double floor : floors) {
+    likelihood.floor = floor;
+    if (floor == *floors.begin())
+      for (std::size_t m = 0; m < moduli; ++m)  // as much smoother as the noise is larger
+        fit.unknowns[fit.unknowns.size() - 2 + static_cast<Eigen::Index>(m)] +=
+            std::log1p(std::pow(floor / smoothness.noise[m], 2));
+    const bool last = floor == *(floors.end() - 1);
+    fit.value = minimize(likelihood, fit.unknowns, fit.inverse, last ? gain : rough_gain, most_steps);
+  }
+  Eigen::VectorXd gradient;
+  fit.value = likelihood(fit.unknowns, gradient);  // so that its splines are those of the end
+  return fit;
+}
+
+ShiftFit from_pairs(ShiftLikelihood& likelihood, const Smoothness& smoothness, double weight) {
+  const SweepPoints& points = likelihood.points();
+  const std::vector<double> steps = search_steps(points, smoothness, weight);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(steps.size() + moduli));
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    start[static_cast<Eigen::Index>(k)] = std::log(steps[k] / (points.temperature[k + 1] - points.temperature[k]));
+  return descend(likelihood, smoothness, start, weight, {0.03, 0.01, 0.003, least_noise});
+}
+
+std::vector<double> about(std::vector<double> shift, std::size_t fixed) {
+  const double there = shift[fixed];
+  for (double& s : shift) s -= there;
+  return shift;
+}
+
+}  // namespace
+
+ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness, const Eigen::VectorXd& near,
+                    double weight) {
+  return descend(likelihood, smoothness, near, weight, {0.01, 0.003, least_noise});
+}
+
+ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness) {
+  ShiftFit fit = from_pairs(likelihood, smoothness, 1);
+  const double share = independent_share(likelihood);
+  constexpr double few = 0.6;  // below, the way through the pairs may be another
+  if (share < few) {
+    const ShiftFit other = from_pairs(likelihood, smoothness, share);
+    const double weight = std::max(share, independent_share(likelihood));
+    const auto cost = [&](const ShiftFit& of) {
+      Eigen::VectorXd gradient;
+      likelihood.weight = weight;
+      return likelihood(of.unknowns, gradient);
+    };
+    if (cost(other) < cost(fit)) fit = other;
+    return descend(likelihood, smoothness, fit.unknowns, weight, {least_noise});
+  }
+  return share < 1 ? descend(likelihood, smoothness, fit.unknowns, share, {least_noise}) : fit;
+}
+
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed) {
+  const Smoothness smoothness = local_smoothness(points);
+  ShiftLikelihood likelihood(points, smoothness);
+  const ShiftFit fit = fit_shifts(likelihood, smoothness);
+  const std::vector<double> shift = likelihood.shifts(fit.unknowns);
+  MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
+  spline.move(-shift[fixed]);
+  Eigen::MatrixXd covariance = shift_covariance(likelihood, fit, fixed);
+  return {std::move(spline), about(shift, fixed), std::move(covariance), fit.unknowns, fit.weight};
+}
+
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted& first) {
+  const Smoothness smoothness = local_smoothness(points);
+  ShiftLikelihood likelihood(points, smoothness);
+  const ShiftFit fit = fit_shifts(likelihood, smoothness, first.unknowns, first.weight);
+  MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
+  return {std::move(spline), about(likelihood.shifts(fit.unknowns), fixed), {}, fit.unknowns, fit.weight};
+}
+
+Disagreement moduli_apart(const SweepPoints& points, std::size_t fixed, const Shifted& both, double least) {
+  const Smoothness smoothness = local_smoothness(points);
+  ShiftLikelihood storage(points, smoothness, {true, false}), loss(points, smoothness, {false, true});
+  const ShiftFit of_storage = fit_shifts(storage, smoothness, both.unknowns, both.weight);
+  const ShiftFit of_loss = fit_shifts(loss, smoothness, both.unknowns, both.weight);
+  Disagreement result{about(storage.shifts(of_storage.unknowns), fixed), about(loss.shifts(of_loss.unknowns), fixed),
+                      std::vector<double>(points.isotherms(), 0.0)};
+  const auto distance = [&](std::size_t i) { return std::fabs(result.storage[i] - result.loss[i]); };
+  bool far = false;
+  for (std::size_t i = 0; i < points.isotherms(); ++i) far = far || distance(i) > least;
+  if (!far) return result;
+  const Eigen::MatrixXd covariance =
+      shift_covariance(storage, of_storage, fixed) + shift_covariance(loss, of_loss, fixed);
+  for (std::size_t i = 0; i < points.isotherms(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (i != fixed) result.deviations[i] = distance(i) / std::sqrt(covariance(at, at));
+  }
+  return result;
+}
+
+}  // namespace asperity
