@@ -26,8 +26,7 @@ struct ArrheniusTag {
 
 }  // namespace
 
-py::object wlf(const ShiftTable& shifts) {
-  const WlfFit fit = shifts.fit_wlf();
+py::object wlf(const WlfFit& fit) {
   Record<WlfTag> record;
   record.values["c1"] = fit.c1;
   record.values["c2"] = fit.c2;
@@ -40,8 +39,7 @@ py::object wlf(const ShiftTable& shifts) {
   return py::cast(record);
 }
 
-py::object arrhenius(const ShiftTable& shifts) {
-  const ArrheniusFit fit = shifts.fit_arrhenius();
+py::object arrhenius(const ArrheniusFit& fit) {
   Record<ArrheniusTag> record;
   record.values["activation_energy"] = fit.activation_energy;
   record.values["reference_temperature"] = fit.reference;
@@ -153,8 +151,10 @@ InvalidInput
           },
           "Of log10_a_T, shape (n,), or None.")
       .def("shift_factor", &shift_factor, py::arg("temperature"), shift_text)
-      .def("fit_wlf", &wlf, wlf_text)
-      .def("fit_arrhenius", &arrhenius, arrhenius_text);
+      .def(
+          "fit_wlf", [](const ShiftTable& s) { return wlf(s.fit_wlf()); }, wlf_text)
+      .def(
+          "fit_arrhenius", [](const ShiftTable& s) { return arrhenius(s.fit_arrhenius()); }, arrhenius_text);
   value_semantics(shifts, {"reference_temperature", "temperature", "log10_a_T", "standard_deviation"});
 }
 

@@ -26,12 +26,14 @@ struct Built {
 const ShiftTable& shifts_of(const py::object& found);
 
 /// Of shift factors, alone and in a build.
-py::object wlf(const ShiftTable& shifts);
-py::object arrhenius(const ShiftTable& shifts);
+py::object wlf(const WlfFit& fit);
+py::object arrhenius(const ArrheniusFit& fit);
 py::object shift_factor(const ShiftTable& shifts, const py::object& temperature);
 inline constexpr auto wlf_text =
     "log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref) through the shift factors by least squares (M. L. Williams, R. F. "
-    "Landel, J. D. Ferry, J. Am. Chem. Soc. 77, 3701 (1955)): a WlfFit. InvalidInput with fewer than 4 temperatures.";
+    "Landel, J. D. Ferry, J. Am. Chem. Soc. 77, 3701 (1955)): a WlfFit. Standard "
+    "errors follow from the covariance of a build, and from the scatter about the law where there is more or no "
+    "covariance; a row at the reference is no data. InvalidInput with fewer than 4 temperatures.";
 inline constexpr auto arrhenius_text =
     "ln a_T = (E_a / R) (1 / T - 1 / T_ref) through the shift factors by least squares: an ArrheniusFit.";
 inline constexpr auto shift_text =

@@ -165,9 +165,10 @@ isotherm : index of the isotherm of origin, in rising temperature.
           "shift_factor", [](const Built& b, const py::object& t) { return shift_factor(b.build.shifts, t); },
           py::arg("temperature"), shift_text)
       .def(
-          "fit_wlf", [](const Built& b) { return wlf(b.build.shifts); }, wlf_text)
+          "fit_wlf", [](const Built& b) { return wlf(b.build.shifts.fit_wlf(b.build.covariance)); }, wlf_text)
       .def(
-          "fit_arrhenius", [](const Built& b) { return arrhenius(b.build.shifts); }, arrhenius_text);
+          "fit_arrhenius", [](const Built& b) { return arrhenius(b.build.shifts.fit_arrhenius(b.build.covariance)); },
+          arrhenius_text);
   value_semantics(built, {"master_curve", "shift_factors", "b_T", "points", "residual", "covariance", "notes"});
 
   m.def(

@@ -3,6 +3,7 @@
 #   scenes       ten thousand random scenes against GSL's adaptive integration, a thousand of them with tables
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   properties   the property tests on 2000 drawn examples each
+#   isotherms    shift factors of 400 random sets of isotherms, and 200 bands on mu from isotherms
 #   catalogue    every regime in which methods fail
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
@@ -39,6 +40,10 @@ maps() {
 
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
+isotherms() {
+  "$python" tests/stability/random_isotherms.py && "$python" tests/stability/coverage_isotherms.py
+}
+
 catalogue() { "$python" tests/stability/catalogue.py; }
 
 sanitize() { ctests sanitize; }
@@ -58,11 +63,11 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue scenes maps properties sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue isotherms scenes maps properties sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | scenes | maps | properties | sanitize | threads | memcheck) ;;
-    *) sed -n '2,10s/^# //p' "$0" >&2; exit 2 ;;
+    catalogue | isotherms | scenes | maps | properties | sanitize | threads | memcheck) ;;
+    *) sed -n '2,11s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -63,8 +63,11 @@ class ASPERITY_EXPORT ShiftTable {
   [[nodiscard]] const std::vector<double>& standard_deviation() const { return deviation_; }
   /// a_T at a temperature [K]: Steffen's interpolant of log10 a_T; OutOfRange outside of the table.
   [[nodiscard]] double shift_factor(double temperature) const;
-  [[nodiscard]] WlfFit fit_wlf() const;
-  [[nodiscard]] ArrheniusFit fit_arrhenius() const;
+  /// Least squares. Standard errors: from the covariance of log10 a_T (n rows of n, as of a build) where it is given,
+  /// times the scatter over that which it explains where there is more; without it from the scatter about the law. A
+  /// row at the reference is no data: any law goes through it.
+  [[nodiscard]] WlfFit fit_wlf(std::span<const double> covariance = {}) const;
+  [[nodiscard]] ArrheniusFit fit_arrhenius(std::span<const double> covariance = {}) const;
 
  private:
   double reference_;

@@ -1,4 +1,5 @@
-// A build drawn from its errors: log10 a_T from its normal distribution, then the coefficients of the spline about the
+// A build drawn from its errors: log10 a_T from its normal distribution, the smoothness from what isotherms leave open
+// of it, then the coefficients of the spline about the
 // points moved there from theirs, N(c, s^2 (B^T B + P)^-1) (G. Wahba, J. R. Stat. Soc. B 45, 133 (1983)), the noise s
 // larger where the residuals are correlated. Nothing is searched for.
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <memory>
 
 #include "dma/master_spline.hpp"
+#include "numerics/interpolate.hpp"
 #include "numerics/random.hpp"
 
 namespace asperity {
@@ -51,9 +53,9 @@ Eigen::VectorXd drawn_shifts(const std::vector<double>& covariance, std::size_t 
 MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t seed) {
   const SweepPoints points = measured_points(build);
   const std::size_t n = points.isotherms();
-  const Smoothness smoothness = local_smoothness(points);
+  Smoothness smoothness = local_smoothness(points);
   ShiftLikelihood likelihood(points, smoothness);
-  // smoothness and noise are those of the build itself
+  // the noise is that of the build itself
   const std::array<double, moduli> factor = fit_factors(likelihood, build.shifts.log10_a_T());
   const double share = independent_share(likelihood);
   const MasterSpline own = master_spline(likelihood, 0);
@@ -62,6 +64,15 @@ MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t 
   const Eigen::VectorXd moved = drawn_shifts(build.covariance, n, random);
   std::vector<double> log10_a_T = build.shifts.log10_a_T();
   for (std::size_t i = 0; i < n; ++i) log10_a_T[i] += moved[static_cast<Eigen::Index>(i)];
+  // T_ref between isotherms moves with its neighbours, and all the rest against it
+  const double at_reference = Steffen(points.temperature, log10_a_T)(build.shifts.reference());
+  for (double& a : log10_a_T) a -= at_reference;
+  for (std::size_t modulus = 0; modulus < moduli; ++modulus)
+    for (std::size_t i = 0; i < n; ++i) {
+      double& log_penalty = smoothness.log_penalty[modulus][i];
+      log_penalty = std::clamp(log_penalty + smoothness.spread[modulus][i] * random.normal(), lowest_log_penalty,
+                               highest_log_penalty);
+    }
   likelihood.data(log10_a_T, factor, nullptr);
   MasterSpline spline = master_spline(likelihood, 0);
   for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
@@ -72,7 +83,8 @@ MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t 
   }
 
   std::vector<MasterPoint> reduced = build.points;
-  for (MasterPoint& p : reduced) p.angular_frequency *= std::pow(10, moved[static_cast<Eigen::Index>(p.isotherm)]);
+  for (MasterPoint& p : reduced)
+    p.angular_frequency *= std::pow(10, log10_a_T[p.isotherm] - build.shifts.log10_a_T()[p.isotherm]);
   std::ranges::stable_sort(reduced, {}, &MasterPoint::angular_frequency);
   ShiftTable shifts(build.shifts.reference(), points.temperature, log10_a_T, build.shifts.standard_deviation());
   MasterCurve curve =

@@ -1,6 +1,7 @@
-// How smooth a master curve is where each isotherm lies, from the isotherms alone: for every isotherm the penalty that
-// is most likely (REML) on its own points and, at half weight, on those of its neighbours, with one noise for all of
-// them. Found on grids, so that no start decides.
+// How smooth a master curve is where each isotherm lies, from the isotherms alone: for every isotherm the mean of
+// ln lambda over its likelihood (REML) on its own points and, at half weight, on those of its neighbours, with one
+// noise for all of them. The mean and not the likeliest, which jumps to the stiffest wherever few points show no
+// curvature.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,9 @@ namespace {
 
 constexpr std::size_t penalties = 29;
 double log_penalty(std::size_t i) {
-  return -16 + static_cast<double>(i);
+  return lowest_log_penalty + (highest_log_penalty - lowest_log_penalty) * static_cast<double>(i) / (penalties - 1);
+}
+return -16 + static_cast<double>(i);
 }  // above e^12 a spline is smooth over 2 decades
 
 /// Of a modulus, isotherm by isotherm and penalty by penalty.
@@ -41,25 +44,29 @@ Alone alone(const SweepPoints& points, std::size_t modulus) {
   return result;
 }
 
-/// The likeliest penalties for a noise; returned is -2 ln of the likelihood of isotherm and noise.
-double penalties_for(const Alone& of, double variance, std::vector<double>& chosen) {
+/// The penalties for a noise; returned is -2 ln of the likelihood of isotherm and noise.
+double penalties_for(const Alone& of, double variance, std::vector<double>& chosen, std::vector<double>& spread) {
   const std::size_t n = of.residual.size();
   double total = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const auto own = [&](std::size_t isotherm, std::size_t i) {
       return of.residual[isotherm][i] / variance + of.log_determinant[isotherm][i];
     };
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t best = 0;
+    std::array<double, penalties> value;
+    for (std::size_t i = 0; i < penalties; ++i)
+      value[i] = own(k, i) + (k > 0 ? own(k - 1, i) / 2 : 0) + (k + 1 < n ? own(k + 1, i) / 2 : 0);
+    const double least = *std::ranges::min_element(value);
+    double weight = 0, mean = 0, square = 0, average = 0;
     for (std::size_t i = 0; i < penalties; ++i) {
-      const double value = own(k, i) + (k > 0 ? own(k - 1, i) / 2 : 0) + (k + 1 < n ? own(k + 1, i) / 2 : 0);
-      if (value < least) {
-        least = value;
-        best = i;
-      }
+      const double likely = std::exp((least - value[i]) / 2);
+      weight += likely;
+      mean += likely * log_penalty(i);
+      square += likely * log_penalty(i) * log_penalty(i);
+      average += likely * own(k, i);
     }
-    chosen[k] = log_penalty(best);
-    total += own(k, best);
+    chosen[k] = mean / weight;
+    spread[k] = std::sqrt(std::max(0.0, square / weight - chosen[k] * chosen[k]));
+    total += average / weight;
   }
   return total;
 }
@@ -71,14 +78,15 @@ Smoothness local_smoothness(const SweepPoints& points) {
   const double freedom = static_cast<double>(points.x.size() - 3 * points.isotherms());
   for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
     const Alone of = alone(points, modulus);
-    std::vector<double> chosen(points.isotherms());
+    std::vector<double> chosen(points.isotherms()), spread(points.isotherms());
     double least = std::numeric_limits<double>::infinity();
     for (double noise = least_noise; noise < 0.5; noise *= 1.25) {
-      const double value = penalties_for(of, noise * noise, chosen) + freedom * std::log(noise * noise);
+      const double value = penalties_for(of, noise * noise, chosen, spread) + freedom * std::log(noise * noise);
       if (value < least) {
         least = value;
         result.noise[modulus] = noise;
         result.log_penalty[modulus] = chosen;
+        result.spread[modulus] = spread;
       }
     }
   }

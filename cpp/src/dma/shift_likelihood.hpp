@@ -31,9 +31,13 @@ struct SweepPoints {
 };
 SweepPoints gather(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T);
 
+/// ln of penalties that differ in effect: above, a spline is smooth over 2 decades.
+inline constexpr double lowest_log_penalty = -16, highest_log_penalty = 12;
+
 /// What the isotherms show of themselves, before they are shifted: how smooth the curve is where each of them lies.
 struct Smoothness {
   std::array<std::vector<double>, moduli> log_penalty;  // ln(noise^2 / variance of third differences), of each
+  std::array<std::vector<double>, moduli> spread;       // standard deviations of these
   std::array<double, moduli> noise;                     // standard deviation of ln E', ln E''
 };
 Smoothness local_smoothness(const SweepPoints& points);

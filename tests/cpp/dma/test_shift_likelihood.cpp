@@ -140,7 +140,7 @@ TEST_CASE("white noise is correlated as the coefficients are") {
 TEST_CASE("the likelihood of one smoothness is that of dense matrices") {
   const std::vector<Isotherm> isotherms = sweeps(0.02);
   const SweepPoints points = gather(isotherms, std::vector<double>(5, 1.0));
-  const Smoothness smoothness{{std::vector<double>(5, 2.0), std::vector<double>(5, -1.0)}, {0.02, 0.02}};
+  const Smoothness smoothness{{std::vector<double>(5, 2.0), std::vector<double>(5, -1.0)}, {}, {0.02, 0.02}};
   ShiftLikelihood likelihood(points, smoothness);
   likelihood.floor = 0.01;
   const std::vector<double> shift{0, -0.6, -1.4, -2.0, -2.9};
