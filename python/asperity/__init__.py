@@ -57,9 +57,9 @@ from asperity._core import (
     spectral_density,
     synthesize,
 )
-from asperity.io.read import read_surface
 from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
-from asperity.uncertainty.uncertainty import FrictionBand, friction_band
+from asperity.io.read_surface import read_surface
+from asperity.uncertainty.band import FrictionBand, friction_band
 
 __all__ = [
     "Adhesion",

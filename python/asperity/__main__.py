@@ -2,6 +2,6 @@
 
 import sys
 
-from asperity.cli.cli import main
+from asperity.cli.main import main
 
 sys.exit(main())

@@ -21,7 +21,7 @@ from curves import Curve, curves
 
 import asperity
 from asperity.kinds import Correction
-from asperity.plot.plot import COLOURS, picture
+from asperity.plot.curves import COLOURS, picture
 from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped
 from asperity.validation.predictions import MODELS, Model, predict

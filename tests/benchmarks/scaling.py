@@ -15,7 +15,7 @@ import timing
 from curves import Curve, curves
 
 import asperity
-from asperity.plot.plot import COLOURS, new_figure, picture
+from asperity.plot.curves import COLOURS, new_figure, picture
 
 TERMS = (1, 2, 5, 10, 20, 50, 100, 200)
 POINTS = tuple(10**k for k in range(7))

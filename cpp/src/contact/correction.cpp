@@ -6,8 +6,8 @@
 #include <string>
 
 #include "contact/macro_modulus.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/overloaded.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/visit.hpp"
 
 namespace asperity {
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "asperity/asperities.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/integrate.hpp"
+#include "numerics/adaptive_quadrature.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

@@ -1,21 +1,16 @@
 // Isotherms become one master curve: shifts fitted or given, points reduced, E(w; T) = b_T E(a_T w; T_ref) (J. D.
 // Ferry, Viscoelastic Properties of Polymers, Wiley 1980, chapter 11).
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <string>
 
 #include "asperity/dma.hpp"
 #include "dma/master_curve_notes.hpp"
 #include "dma/time_temperature_shift.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/interpolate.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
-
-using std::numbers::ln10;
 
 namespace {
 

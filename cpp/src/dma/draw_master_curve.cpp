@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "dma/master_spline.hpp"
-#include "numerics/interpolate.hpp"
+#include "numerics/interpolation.hpp"
 #include "numerics/random.hpp"
 
 namespace asperity {

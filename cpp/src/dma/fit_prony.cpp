@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "asperity/dma.hpp"
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 #include "numerics/nnls.hpp"
 
 namespace asperity {

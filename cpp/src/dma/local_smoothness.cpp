@@ -16,8 +16,6 @@ constexpr std::size_t penalties = 29;
 double log_penalty(std::size_t i) {
   return lowest_log_penalty + (highest_log_penalty - lowest_log_penalty) * static_cast<double>(i) / (penalties - 1);
 }
-return -16 + static_cast<double>(i);
-}  // above e^12 a spline is smooth over 2 decades
 
 /// Of a modulus, isotherm by isotherm and penalty by penalty.
 struct Alone {

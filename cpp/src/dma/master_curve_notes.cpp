@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/checks.hpp"
-#include "numerics/interpolate.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

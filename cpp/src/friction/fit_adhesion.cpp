@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "asperity/friction.hpp"
-#include "contact/contact_checks.hpp"
-#include "friction/adhesion_curve.hpp"
-#include "numerics/checks.hpp"
+#include "contact/conditions.hpp"
+#include "friction/robust_fit.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

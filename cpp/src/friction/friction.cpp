@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/contact_checks.hpp"
-#include "contact/notes.hpp"
+#include "contact/conditions.hpp"
 #include "contact/solver/solver.hpp"
-#include "numerics/checks.hpp"
+#include "contact/validity.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "numerics/legendre.hpp"
+#include "numerics/gauss_legendre.hpp"
 
 namespace asperity {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "asperity/errors.hpp"
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

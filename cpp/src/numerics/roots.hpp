@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "asperity/rubber.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/interpolate.hpp"
-#include "rubber/angular_table.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
+#include "rubber/angular_interpolant.hpp"
 
 namespace asperity {
 

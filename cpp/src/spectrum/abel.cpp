@@ -4,8 +4,8 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/integrate.hpp"
+#include "numerics/adaptive_quadrature.hpp"
+#include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/integrate.hpp"
+#include "numerics/adaptive_quadrature.hpp"
+#include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {

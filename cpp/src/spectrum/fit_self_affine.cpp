@@ -5,7 +5,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 #include "numerics/minimum.hpp"
 
 namespace asperity {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/fourier.hpp"
+#include "numerics/fft.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/reliability.hpp"
 #include "spectrum/window.hpp"

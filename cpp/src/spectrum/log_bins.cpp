@@ -4,7 +4,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "numerics/checks.hpp"
+#include "numerics/arguments.hpp"
 #include "spectrum/window.hpp"
 
 namespace asperity {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asperity/spectrum.hpp"
-#include "surface/trend.hpp"
+#include "surface/detrend.hpp"
 
 namespace asperity {
 

@@ -2,8 +2,8 @@
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
-#include "spectrum/mode_columns.hpp"
+#include "numerics/arguments.hpp"
+#include "spectrum/fft2d.hpp"
 #include "spectrum/reliability.hpp"
 
 namespace asperity {

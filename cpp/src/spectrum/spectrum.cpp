@@ -5,11 +5,11 @@
 #include <numbers>
 #include <string>
 
-#include "numerics/checks.hpp"
-#include "numerics/overloaded.hpp"
+#include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
+#include "numerics/visit.hpp"
 #include "spectrum/segments.hpp"
-#include "spectrum/tabulated_spectrum.hpp"
+#include "spectrum/tabulated.hpp"
 
 namespace asperity {
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
-#include "numerics/checks.hpp"
-#include "numerics/fourier.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/fft.hpp"
 #include "numerics/random.hpp"
 #include "spectrum/segments.hpp"
 

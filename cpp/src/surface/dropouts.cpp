@@ -6,8 +6,8 @@
 #include <string>
 
 #include "asperity/surface.hpp"
-#include "numerics/checks.hpp"
-#include "surface/surface_rows.hpp"
+#include "numerics/arguments.hpp"
+#include "surface/rows.hpp"
 
 namespace asperity {
 

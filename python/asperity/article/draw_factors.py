@@ -18,7 +18,7 @@ from asperity.article.page import (
     tuned_inputs,
 )
 from asperity.article.peaks import located
-from asperity.plot.plot import COLOURS, new_figure
+from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

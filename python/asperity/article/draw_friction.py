@@ -12,7 +12,7 @@ from asperity.article.affine import printed_eq12
 from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, Q0, Inputs
 from asperity.article.page import Page, asphalt_inputs, page, stacked
 from asperity.article.sliding import CUTOFFS, Sliding, of_asphalt
-from asperity.plot.plot import COLOURS, new_figure
+from asperity.plot.curves import COLOURS, new_figure
 
 _LISTED = (1e-3, 1e-2, 1e-1, 1.0)  # m/s, of Table 1's friction
 _Row = tuple[str, str, float, str, str]

@@ -8,7 +8,7 @@ from asperity.article.inputs import Inputs
 from asperity.article.page import Page, page, sandpaper_inputs, stacked, tuned_inputs
 from asperity.article.readings import READINGS
 from asperity.article.shifts import Readings, Shifts
-from asperity.plot.plot import COLOURS, new_figure
+from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,7 +15,7 @@ from asperity.article.page import (
     stacked,
     tuned_inputs,
 )
-from asperity.plot.plot import COLOURS, new_figure
+from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.colors import ListedColormap

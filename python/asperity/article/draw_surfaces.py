@@ -17,7 +17,7 @@ from asperity.article.page import (
 )
 from asperity.article.peaks import located
 from asperity.article.surfaces import Spectra
-from asperity.plot.plot import COLOURS, new_figure
+from asperity.plot.curves import COLOURS, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,5 +1,5 @@
 """The command line."""
 
-from asperity.cli.cli import main
+from asperity.cli.main import main
 
 __all__ = ["main"]

@@ -26,10 +26,10 @@ from asperity.article.inputs import prepare
 from asperity.article.page import Page
 from asperity.article.statement import Statement
 from asperity.article.summary import OPENING, counted, markdown
-from asperity.cli.commands import tell
+from asperity.cli.friction_commands import tell
 from asperity.io.directory import Mark, begins, check_own_directory, table_of
 from asperity.io.table import write_directory
-from asperity.plot.plot import check_plot, picture
+from asperity.plot.curves import check_plot, picture
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.cli.commands import band_progress, check_outputs, deliver, spare
+from asperity.cli.friction_commands import band_progress, check_outputs, deliver, spare
 from asperity.io.fields import nearest
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
-from asperity.plot import plot_fit
+from asperity.plot import fit as plot_fit
 from asperity.scene.experiment import (
     PARAMETERS,
     Experiment,

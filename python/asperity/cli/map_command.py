@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import FrictionMap, InvalidInput, friction, friction_map
-from asperity.cli.commands import check_outputs, spare, tell, tell_notes
+from asperity.cli.friction_commands import check_outputs, spare, tell, tell_notes
 from asperity.io.fields import named
 from asperity.io.table import input_lines, write_files
-from asperity.plot import plot_map
+from asperity.plot import friction_map as plot_map
 from asperity.scene.scene import Scene, load_scene
 
 _RTOL = 1e-4

@@ -14,11 +14,11 @@ from asperity._core import (
     WlfFit,
     build_master_curve,
 )
-from asperity.cli.commands import check_outputs, deliver, spare
+from asperity.cli.friction_commands import check_outputs, deliver, spare
 from asperity.io.fields import named
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.table import Table
-from asperity.plot import plot_rubber
+from asperity.plot import rubber as plot_rubber
 from asperity.scene.rubber import quiet_prony
 
 _FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for

@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import HeightMap, InvalidInput
-from asperity.cli.commands import progress, spare, tell, tell_notes
+from asperity.cli.friction_commands import progress, spare, tell, tell_notes
 from asperity.io.directory import begins, check_own_directory, table_of
 from asperity.io.fields import named
 from asperity.io.table import Table, write_directory
-from asperity.plot import plot
+from asperity.plot import curves as plot
 from asperity.scene.scan import read_filled
 from asperity.validation.contacts import Contact, read_contacts, shipped
 from asperity.validation.figures import error_figure, shift_figure

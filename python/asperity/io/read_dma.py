@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, Isotherm, ShiftFactors, StrainSweep
 from asperity.io.instrument import brief
-from asperity.io.read import check_file
+from asperity.io.read_surface import check_file
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 Column = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.io.instrument import brief
-from asperity.io.read import cell, filled_lines
+from asperity.io.read_surface import cell, filled_lines
 
 # by the name of the column, which carries the unit
 _COLUMNS = {

@@ -33,7 +33,7 @@ from asperity.io.fields import (
     truth,
 )
 from asperity.io.read_dma import read_isotherms, read_shift_factors
-from asperity.io.read_rubber import read_master_curve
+from asperity.io.read_master_curve import read_master_curve
 from asperity.kinds import Rubber
 from asperity.uncertainty.draws import Drawn, Generator, draw_build
 

@@ -17,7 +17,7 @@ from asperity._core import (
     line_spectrum,
     power_spectrum,
 )
-from asperity.io.read import read_surface
+from asperity.io.read_surface import read_surface
 
 Scan = HeightMap | LineScan
 Window = Literal["split-cosine-bell", "hann", "none"]

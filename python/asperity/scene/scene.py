@@ -40,7 +40,7 @@ from asperity.kinds import Correction, Rubber, Spectrum
 from asperity.scene.parts import build_adhesion, build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
-from asperity.uncertainty.uncertainty import Bounds, DrawAdhesion, swept_band
+from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}

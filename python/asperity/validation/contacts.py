@@ -8,7 +8,7 @@ from importlib.resources import as_file, files
 from pathlib import Path
 
 from asperity._core import InvalidInput, SelfAffineSpectrum
-from asperity.io.read import cell, check_file
+from asperity.io.read_surface import cell, check_file
 from asperity.kinds import Spectrum
 
 _NUMBERS = (

@@ -7,8 +7,8 @@ from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING
 
-from asperity.plot.plot import COLOURS, new_figure, picture
-from asperity.plot.plot import colours as colours_for
+from asperity.plot.curves import COLOURS, new_figure, picture
+from asperity.plot.curves import colours as colours_for
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,

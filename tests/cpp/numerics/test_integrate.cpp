@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "asperity/errors.hpp"
-#include "numerics/integrate.hpp"
+#include "numerics/adaptive_quadrature.hpp"
 
 using namespace asperity;
 

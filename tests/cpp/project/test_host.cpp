@@ -25,7 +25,7 @@
 #include "asperity/dma.hpp"
 #include "asperity/friction.hpp"
 #ifndef ASPERITY_SHARED
-#include "numerics/integrate.hpp"
+#include "numerics/adaptive_quadrature.hpp"
 #endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

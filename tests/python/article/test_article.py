@@ -18,7 +18,7 @@ from asperity.article.readings import PRINTED
 from asperity.article.statement import VERDICTS
 from asperity.article.summary import OPENING
 from asperity.cli import article_command as command
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from helpers.summaries import COLUMNS, PUBLISHED, numbers, same, statements
 
 pytest.importorskip("matplotlib")

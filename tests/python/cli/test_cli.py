@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.io.table import Table, terminal_table
 from helpers.scenes import SCENE
 

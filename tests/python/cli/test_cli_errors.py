@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.io.table import write_files
 from helpers.scenes import SCENE
 
@@ -234,7 +234,7 @@ def test_what_stops_the_work_is_one_line(
 INTERRUPTED = """
 import os, signal, sys, threading
 from asperity.scene import scene
-from asperity.cli.cli import main
+from asperity.cli.main import main
 scene._CHUNK = 1  # slow enough to be interrupted
 threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
 sys.exit(main(["friction", "long.toml", "--output", "mu.csv"]))

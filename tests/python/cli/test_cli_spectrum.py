@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from helpers.scenes import SCENE
 
 SIDE, PIXEL = 256, 1e-6

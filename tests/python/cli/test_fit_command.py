@@ -8,7 +8,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.io.read_friction import read_friction
 
 SCENE = """

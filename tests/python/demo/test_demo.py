@@ -10,7 +10,7 @@ import pytest
 
 import asperity
 from asperity import demo
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.scene.scene import Curves
 
 
@@ -78,7 +78,7 @@ def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.Mon
         drawn.extend(results)  # the band is narrower than the line: no pixel shows it
         return b""
 
-    monkeypatch.setattr("asperity.plot.plot.friction_figure", watch)
+    monkeypatch.setattr("asperity.plot.curves.friction_figure", watch)
     assert main(["demo", "--output", str(tmp_path)]) == 0
     (curves,) = drawn
     assert curves.band is not None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity import fit_prony, read_strain_sweep
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers.measured import ALPHA, B2, COLUMNS, UNITS, polyisoprene, present, published, shear
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
 

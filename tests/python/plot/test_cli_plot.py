@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from helpers.scenes import SCENE
 
 pytest.importorskip("matplotlib")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.demo import scene_text
 
 DATA = Path(os.environ.get("ASPERITY_DATA", Path(__file__).parents[3].parent / "shared" / "data"))

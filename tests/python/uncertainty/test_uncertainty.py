@@ -21,9 +21,9 @@ from asperity import (
     friction,
     friction_band,
 )
-from asperity.cli.cli import main
+from asperity.cli.main import main
+from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import Drawn, drawn_rubber, drawn_spectrum
-from asperity.uncertainty.uncertainty import relative_band, swept_band
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 from coverage_isotherms import trial

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.cli import main
+from asperity.cli.main import main
 from asperity.validation.contacts import read_contacts, shipped
 from asperity.validation.predictions import (
     MODELS,

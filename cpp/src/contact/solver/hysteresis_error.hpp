@@ -1,7 +1,7 @@
 // The error of a panel's hysteresis.
 #pragma once
 
-#include "contact/solver/gauss_panels.hpp"
+#include "contact/solver/panels.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {

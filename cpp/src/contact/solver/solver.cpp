@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "contact/contact_checks.hpp"
-#include "numerics/checks.hpp"
+#include "contact/conditions.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 

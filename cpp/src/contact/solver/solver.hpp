@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/solver/gauss_path.hpp"
-#include "contact/solver/persson.hpp"
+#include "contact/solver/gsl_solver.hpp"
+#include "contact/solver/panel_solver.hpp"
 
 namespace asperity {
 

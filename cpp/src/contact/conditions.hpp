@@ -1,0 +1,56 @@
+// What contact and friction ask of their arguments alike.
+#pragma once
+
+#include <span>
+
+#include "asperity/contact.hpp"
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+inline void check_contact(const ContactModel& model, std::span<const double> pressure,
+                          std::span<const double> velocity) {
+  require_poisson("poisson_ratio", model.poisson_ratio);
+  require_rtol(model.rtol);
+  validate(model.correction);
+  require_same_size("velocity", velocity.size(), "pressure", pressure.size());
+  if (velocity.empty()) throw InvalidInput("pressure, velocity: have 0 entries, must have 1 or more");
+  for (const double p : pressure) require_positive("pressure", p);
+  for (const double v : velocity) require_positive("velocity", v);
+}
+
+/// Whether products of a number keep all their digits.
+inline bool tellable(double value) { return value >= 1e-280 && value <= 1e280; }
+
+/// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
+inline void check_g(double g, double pressure) {
+  if (!(g >= 1e-280 && g <= 1e180))  // its square and its root are told too
+    throw InvalidInput("pressure = " + show(pressure) + ": leads to G = " + show(g) +
+                       ", must be such that G is in [1e-280, 1e180]");
+}
+
+/// work(), with the point added to what a NotConverged says.
+template <class Work>
+void at_point(double pressure, double velocity, Work work) {
+  try {
+    work();
+  } catch (const NotConverged& error) {
+    throw NotConverged("pressure = " + show(pressure) + ", velocity = " + show(velocity) + ": " + error.what());
+  }
+}
+
+/// OutOfRange with the velocity in it where v q0 or v q1 leaves a measured master curve.
+inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
+  const auto* curve = std::get_if<MasterCurve>(&rubber);
+  if (!curve) return;
+  constexpr double rounding = 1e-12;
+  const auto [q0, q1] = band(spectrum);
+  const double lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
+  if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
+    throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
+                     " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) +
+                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s: velocities from " +
+                     show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
+}
+
+}  // namespace asperity

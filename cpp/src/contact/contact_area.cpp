@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "asperity/contact.hpp"
+#include "contact/conditions.hpp"
+#include "contact/solver/solver.hpp"
+#include "contact/validity.hpp"
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  const auto [q0, q1] = band(spectrum);
+  if (wavenumber.empty()) return {q1};
+  for (const double q : wavenumber) {
+    require_positive("wavenumber", q);
+    if (q < q0 || q > q1)
+      throw OutOfRange("wavenumber = " + show(q) + ": the spectrum's band is [" + show(q0) + ", " + show(q1) + "] 1/m");
+  }
+  return {wavenumber.begin(), wavenumber.end()};
+}
+
+/// The surface as far as the highest of the wavenumbers: what lies beyond has no part in G there.
+std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const double> wavenumber) {
+  std::vector<Segment> surface = segments(spectrum);
+  const double highest = std::ranges::max(wavenumber);
+  while (surface.size() > 1 && surface.back().a >= highest) surface.pop_back();
+  Segment& last = surface.back();
+  if (last.a < highest && highest < last.b) {
+    last.at_b = last.density(highest);
+    last.b = highest;
+  }
+  return surface;
+}
+
+/// One for each wavenumber.
+std::vector<AreaG> area_gs(const ContactModel& model, std::span<const Segment> surface,
+                           std::span<const double> wavenumber) {
+  std::vector<AreaG> result;
+  for (const double q : wavenumber) result.emplace_back(model, surface, q);
+  return result;
+}
+
+/// Calls visit(index of point, index of wavenumber, uncorrected-by-S G, shift) for every combination; G is
+/// negative where there is no contact at all.
+template <class Visit>
+void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber,
+             const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
+             std::span<const double> wavenumber, Visit visit) {
+  check_contact(model, pressure, velocity);
+  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  Solver solver(surface, rubber, model, false, {});
+  for (const std::size_t i : by_velocity(velocity)) {
+    const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
+    if (shift.state == ContactState::no_contact) {
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
+      continue;
+    }
+    at_point(pressure[i], velocity[i], [&] {
+      solver.solve(pressure[i], velocity[i], shift.p);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, solver.g(wavenumber[j]), shift);
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                 std::span<const double> pressure, std::span<const double> velocity,
+                                 std::span<const double> wavenumber) {
+  const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
+  std::vector<double> result(pressure.size() * q.size());
+  std::vector<AreaG> area_g = area_gs(model, surface, q);
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t j, double g, const Shift&) {
+            result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g[j](g), model.form);
+          });
+  return result;
+}
+
+std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                       std::span<const double> pressure, std::span<const double> velocity) {
+  check_contact(model, pressure, velocity);
+  Notes notes(spectrum, model.correction);
+  if (std::holds_alternative<NoCorrection>(model.correction)) {
+    for (const double v : velocity) notes.add({}, v, 0, {});
+    return notes.texts();
+  }
+  const std::vector<Segment> surface = segments(spectrum);
+  const double q1 = band(spectrum)[1];
+  Worth worth_of(surface, model.form, q1);
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
+          [&](std::size_t i, std::size_t, double g, const Shift& shift) {
+            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+          });
+  return notes.texts();
+}
+
+std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                  std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> wavenumber) {
+  std::vector<double> result = contact_area(spectrum, rubber, model, pressure, velocity, wavenumber);
+  const std::size_t columns = pressure.empty() ? 0 : result.size() / pressure.size();
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = result[i] > 0 ? pressure[i / columns] / result[i] : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                      std::span<const double> pressure, std::span<const double> velocity,
+                                      std::span<const double> wavenumber) {
+  const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
+  std::vector<double> result(pressure.size() * q.size());
+  const std::optional<SFunction> s = s_in_integrand(model.correction);
+  std::vector<AreaG> area_g = area_gs(model, surface, q);
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
+            double& factor = result[i * q.size() + j];
+            if (g < 0) {
+              factor = 0;
+            } else if (s) {
+              const double share = contact_share(g, model.form);
+              factor = share * (*s)(share);
+            } else {
+              factor = contact_share(area_g[j](g), model.form) / (shift.p * shift.p);
+            }
+          });
+  return result;
+}
+
+std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                          std::span<const double> stress, std::span<const double> pressure,
+                                          std::span<const double> velocity, double wavenumber) {
+  require_same_size("stress", stress.size(), "pressure", pressure.size());
+  if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
+  for (const double sigma : stress) require_not_negative("stress", sigma);
+  const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
+  std::vector<double> result(pressure.size());
+  AreaG area_g(model, surface, wavenumber);
+  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
+          [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
+            if (uncorrected < 0) return;
+            const double g = area_g(uncorrected), x = stress[i] / pressure[i];
+            const double from_nominal = (stress[i] - pressure[i]) / pressure[i];
+            if (g == 0)
+              throw InvalidInput("wavenumber = " + show(wavenumber) +
+                                 ": must be above q0, where the pressure is a delta at its nominal value");
+            // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
+            const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
+            result[i] = -bell * std::expm1(-x / g) / pressure[i];
+          });
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,65 @@
+// The solver: Persson's G and the hysteresis that follows from it, with an error of its own.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contact/solver/contact_integral.hpp"
+#include "contact/solver/panels.hpp"
+
+namespace asperity {
+
+/// With R = I1 / I2 and F of `FrontIntegral` Eq. 22 reads, by parts,
+///   mu_H = 4 (1 - nu^2) sigma0 int R dF = 4 (1 - nu^2) sigma0 (R F at q1 - int F dR),
+/// where R does not know the front at all and pressure and shift only scale G.
+class GaussPath {
+ public:
+  GaussPath(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+
+  /// A velocity, at which any number of points follow.
+  void start(double velocity, std::span<const double> stops) { panels_.start(velocity, stops); }
+
+  /// Solves for G, and for mu_H where `front` is given. NotConverged where the tolerance is not reached.
+  void solve(double pressure, double shift, const FrontIntegral* front);
+
+  struct Hysteresis {
+    double value = 0, error = 0;
+    double outside = 0;  // part of value from frequencies outside of the measured range
+  };
+  [[nodiscard]] const Hysteresis& hysteresis() const { return hysteresis_; }
+  /// G at a wavenumber, q0 to q1, and the relative error of every such G.
+  [[nodiscard]] double g(double wavenumber) const;
+  [[nodiscard]] double relative_error() const;
+  /// dmu_H / dln q where P S is 1.
+  [[nodiscard]] double full_density(double wavenumber) const;
+
+  struct Part {
+    double lower, upper;  // [1/m]
+    double hysteresis;
+  };
+  /// The panels in order; their hysteresis sums to the whole.
+  [[nodiscard]] std::vector<Part> parts() const;
+
+ private:
+  struct Visit {
+    std::size_t panel;
+    double g_lower = 0, g_part = 0;  // G at its lower end, at unit load; its own share of the relative error
+    double value = 0, error = 0, outside = 0;
+  };
+  void evaluate(double scale, const FrontIntegral* front);
+  void add_hysteresis(std::size_t index, double scale, const FrontIntegral& front);
+  void refine(bool hysteresis_good, bool g_good);
+  [[nodiscard]] const Visit& visit_at(double wavenumber) const;
+
+  GaussPanels panels_;
+  double stiffening_, rtol_;
+  double scale_ = 0, mu_factor_ = 0, density_factor_ = 0, g_relative_error_ = 0;
+  Hysteresis hysteresis_;
+  std::vector<Visit> visits_, next_;
+  struct Ends {
+    std::vector<double> g, f, f2;
+  } ends_;  // at the upper end of each visit
+};
+
+}  // namespace asperity

@@ -1,0 +1,231 @@
+#include "contact/solver/panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/solver/panel_error.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/kernels.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t most = LegendreRule::most;
+constexpr double longest = 4;  // in s: on longer ones the last coefficients tell errors too small
+constexpr double beside_front = 2.5;
+constexpr double rounding = 4e-16;
+constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: most is to be resolved at its foot
+
+/// By how much coefficients fall from degree to degree: by what the ellipse about the panel allows that reaches the
+/// nearest singularity. That of a Prony series is pi / 2 off the real axis of ln w, that of a table at the knot before.
+double decay_of(const Panel& panel) {
+  const double length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double decay = std::exp(-std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1));
+  constexpr double with_knots = 0.35;
+  return panel.tabulated ? std::fmax(decay, with_knots) : decay;
+}
+
+/// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
+/// everywhere is done with fewer, but the last coefficients tell the error only from some on.
+std::size_t nodes_for(const Panel& panel, double rtol) {
+  const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
+  // at the front F is rougher, elsewhere the square root lies off the panel
+  const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : panel.tabulated ? 1 : 1.2);
+  const double nodes = 4 + digits * std::numbers::ln10 / (2 * falling);
+  const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
+  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
+}
+
+}  // namespace
+
+double Panel::t(double at) const {
+  const double from_start = at - start, half = linear / 2;
+  return square > 0 ? from_start / (half + std::sqrt(half * half + from_start)) : from_start / linear;
+}
+
+GaussPanels::GaussPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
+    : surface_(surface), rubber_(rubber), rtol_(rtol) {
+  const double stiffening = 1 / (1 - poisson_ratio * poisson_ratio);
+  g_factor_ = stiffening * stiffening / 8;
+}
+
+/// The nodes of the panel's rule from its lower end up to `upper`.
+void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double* roughness) const {
+  const double middle = (p.lower + upper) / 2, half = (upper - p.lower) / 2;
+  for (std::size_t i = 0; i < p.rule->n; ++i) {
+    const double t = middle + half * p.rule->node[i], s = p.s(t), q = p.segment->a * std::exp(s);
+    wavenumber[i] = q;
+    roughness[i] = g_factor_ * (q * q) * (q * q) * p.segment->density_at(s) * (half * (p.linear + 2 * p.square * t));
+  }
+}
+
+std::size_t GaussPanels::add(Panel panel) {
+  panel.tabulated = std::holds_alternative<MasterCurve>(rubber_);
+  panel.decay = decay_of(panel);
+  panel.rule = &legendre_rule(nodes_for(panel, rtol_));
+  panel.fading = std::pow(panel.decay, static_cast<double>(panel.rule->n));
+  panel.data = data_.size();
+  panel.child = panel.filled = 0;
+  data_.resize(data_.size() + Panel::rows * panel.rule->n);
+  place(panel, panel.upper, &data_[panel.data + Panel::wavenumber * panel.rule->n],
+        &data_[panel.data + Panel::roughness * panel.rule->n]);
+  panels_.push_back(panel);
+  return panels_.size() - 1;
+}
+
+void GaussPanels::differentiate(const Panel& p, const double* f, double* slope, Panel::Smooth& of) const {
+  const std::size_t n = p.rule->n;
+  kernels().differentiate(*p.rule, f, slope, &of.lower, &of.upper, of.tail);
+  of.change = 0;
+  for (std::size_t i = 0; i < n; ++i) of.change += std::fabs(slope[i]);
+  const double last = std::fmax(larger(of.tail, 0), larger(of.tail, 1) * p.decay);
+  of.far = last * p.fading;
+}
+
+void GaussPanels::fill(Panel& p) {
+  if (p.filled == starts_) return;
+  p.filled = starts_;
+  const LegendreRule& rule = *p.rule;
+  const std::size_t n = rule.n;
+  const Kernels& loops = kernels();
+  double* const rows = &data_[p.data];
+  double w[most], i1[most], i2[most], i1_outside[most], dg[most], ratio[most], tail[LegendreRule::kept];
+  for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * rows[Panel::wavenumber * n + i];
+  p.any_outside = angular_integrals(rubber_, {w, n}, i1, i2, i1_outside);
+  for (std::size_t i = 0; i < n; ++i) {
+    dg[i] = rows[Panel::roughness * n + i] * i2[i];
+    ratio[i] = i1[i] / i2[i];
+  }
+  loops.integrate(rule, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
+  double* const slope = rows + Panel::slope * n;
+  differentiate(p, ratio, slope, p.r);
+  for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
+  loops.add_up(rule, ratio, &p.full, tail);
+  p.full_error = 4 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
+  if (p.twice) {
+    for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
+    differentiate(p, ratio, rows + Panel::curvature * n, p.dr_dg);
+  }
+  if (p.any_outside) {
+    p.full_outside = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      ratio[i] = i1_outside[i] / i2[i];
+      p.full_outside += rule.weight[i] * ratio[i] * dg[i];
+    }
+    loops.differentiate(rule, ratio, rows + Panel::outside_slope * n, &p.outside_lower, &p.outside_upper, tail);
+  }
+  p.g_error = 2 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
+}
+
+std::size_t GaussPanels::children(std::size_t index) {
+  if (panels_[index].child == 0) {
+    Panel first = panels_[index], second = first;
+    const double share = first.at_front && !first.twice ? front_share : 0.5;
+    first.upper = second.lower = first.lower + share * (first.upper - first.lower);
+    second.at_front = second.twice = second.rooted = false;
+    const std::size_t child = add(first);
+    (void)add(second);
+    panels_[index].child = child;
+  }
+  const std::size_t child = panels_[index].child;
+  fill(panels_[child]);
+  fill(panels_[child + 1]);
+  return child;
+}
+
+void GaussPanels::find_edges(const Segment& segment, bool front, std::span<const double> stops,
+                             std::span<const double> knots) {
+  const double end = segment.length();
+  edges_.assign({0, end});
+  const auto cut = [&](double s) {
+    if (s > 0 && s < end) edges_.push_back(s);
+  };
+  const double start = front ? beside_front : 0, pieces = std::ceil((end - start) / longest);
+  cut(start);
+  for (double i = 1; i < pieces; ++i) cut(start + (end - start) * i / pieces);
+  for (const double q : stops)
+    if (q > segment.a && q < segment.b) cut(segment.offset(q));
+  const auto first = std::ranges::upper_bound(knots, velocity_ * segment.a);
+  for (auto knot = first; knot != knots.end() && *knot < velocity_ * segment.b; ++knot)
+    cut(segment.offset(*knot / velocity_));
+  std::ranges::sort(edges_);
+  const auto repeated = std::ranges::unique(edges_);
+  edges_.erase(repeated.begin(), repeated.end());
+}
+
+/// Where the front lies is told by the roughness alone, as I2 changes slowly beside it.
+void GaussPanels::lay_out(std::span<const double> stops) {
+  panels_.clear();
+  data_.clear();
+  roots_.clear();
+  const auto* curve = std::get_if<MasterCurve>(&rubber_);
+  const std::span<const double> knots = curve ? curve->knots() : std::span<const double>{};
+  double before = 0;  // int q^4 C ds
+  for (const Segment& segment : surface_) {
+    if (segment.at_a == 0 && segment.at_b == 0) continue;
+    find_edges(segment, before == 0, stops, knots);
+    for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
+      const double knot = edges_[i], end = edges_[i + 1];
+      bool on_ramp = false;
+      for (double from = knot, to; from < end; from = to) {
+        const double length = end - from, q = segment.a * std::exp(from);
+        const double here = before + (from > 0 ? segment.moment(3, q) : 0);
+        const double rate = (q * q) * (q * q) * segment.density_at(from);
+        const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
+        Panel p{};
+        p.segment = &segment;
+        p.start = from;
+        p.at_front = here == 0;
+        p.twice = p.at_front && rate > 0 && !curve;
+        to = end;
+        // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
+        // zero begins: panels that grow away from both
+        const double ramp =
+            from == 0 && rate == 0 && here > 0 ? length * std::sqrt(here / segment.moment(3, segment.b)) : 0;
+        if (ramp > 0 && ramp < length / 2) on_ramp = true;
+        if (on_ramp || (curve && here > 0 && behind <= length / 4))
+          to = std::fmin(end, from > knot ? from + 3 * (from - knot) : from + (on_ramp ? ramp : 2 * behind));
+        const double part = to - from;
+        if (here == 0 || (curve && from == knot)) {
+          p.square = 1;
+          p.upper = std::sqrt(part);
+        } else if (behind < 4 * part) {
+          p.linear = 2 * std::sqrt(behind);
+          p.square = 1;
+          p.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
+        } else {
+          p.linear = 1;
+          p.upper = part;
+        }
+        p.rooted = p.square > 0 && p.linear == 0 && rate > 0;
+        roots_.push_back(add(p));
+      }
+    }
+    before += segment.moment(3, segment.b);
+  }
+  laid_out_ = !curve && stops.empty();
+}
+
+void GaussPanels::start(double velocity, std::span<const double> stops) {
+  velocity_ = velocity;
+  ++starts_;
+  if (!laid_out_ || !stops.empty()) lay_out(stops);
+  for (const std::size_t root : roots_) fill(panels_[root]);
+}
+
+double GaussPanels::g_to(const Panel& panel, double s) const {
+  const double t = panel.t(s);
+  if (!(t > panel.lower)) return 0;
+  const std::size_t n = panel.rule->n;
+  double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
+  place(panel, t, q, roughness);
+  for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
+  (void)angular_integrals(rubber_, {q, n}, i1, i2, i1_outside);
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += panel.rule->weight[i] * roughness[i] * i2[i];
+  return sum;
+}
+
+}  // namespace asperity

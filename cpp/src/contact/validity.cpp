@@ -1,0 +1,119 @@
+#include "contact/validity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Lorenz et al., the article's Ref. [37]: the spectrum is cut where the rms slope reaches it.
+constexpr double slope_limit = 1.3;
+// B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006): local heating lowers the friction above it.
+constexpr double flash_velocity = 0.01;  // [m/s]
+// Beyond it the contact area of the Greenwood-Williamson shift stops falling with the load.
+constexpr double separation_limit = 3;  // d~ / h_rms
+constexpr double share_limit = 0.05;
+
+template <class C>
+bool lacks_q0(const Correction& correction) {
+  const auto* c = std::get_if<C>(&correction);
+  return c && !c->q0;
+}
+
+/// Wavenumbers of a measured spectrum that are flagged for the window (up to the first) or for Nyquist (from the second
+/// on); 0 and infinity where none is.
+std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
+  std::array<double, 2> ends{0, std::numeric_limits<double>::infinity()};
+  const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
+  if (!table) return ends;
+  const auto& flag = table->quality().flag;
+  for (std::size_t i = 0; i < flag.size(); ++i) {
+    if (flag[i] & few_periods) ends[0] = table->wavenumber()[i];
+    if (flag[i] & near_nyquist) ends[1] = std::min(ends[1], table->wavenumber()[i]);
+  }
+  return ends;
+}
+
+std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correction& correction) {
+  if (std::holds_alternative<NoCorrection>(correction)) return {};
+  const double alpha = nayak_parameter(spectrum);
+  if (alpha >= lowest_measured_nayak && alpha <= highest_measured_nayak) return {};
+  return alpha;
+}
+
+}  // namespace
+
+Notes::Notes(const Spectrum& spectrum, const Correction& correction)
+    : rms_slope_(rms_slope(spectrum)),
+      corrected_(!std::holds_alternative<NoCorrection>(correction)),
+      unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
+      flagged_ends_(flagged_ends(spectrum)),
+      lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
+                  (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
+
+void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const MeasuredWorth& worth) {
+  fast_ |= velocity > flash_velocity;
+  full_ |= shift.state == ContactState::full;
+  no_contact_ |= shift.state == ContactState::no_contact;
+  far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
+  extrapolated_ |= extrapolated_share > share_limit;
+  worse_ |= worth.worse;
+  light_ |= corrected_ && worth.light;
+}
+
+// One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
+std::vector<std::string> Notes::texts() const {
+  std::vector<std::string> result;
+  // a spectrum cut by the rule itself ends at the limit to rounding
+  if (rms_slope_ > slope_limit * (1 + 1e-9))
+    result.push_back("the rms slope is " + show(rms_slope_, 4) + ", above " + show(slope_limit) +
+                     ", where the cut-off rule ends the spectrum: see cutoff_for_slope");
+  if (flagged_ends_[0] > 0)
+    result.push_back("the measured spectrum is uncertain up to " + show(flagged_ends_[0], 4) +
+                     " 1/m, where the scan holds too few periods: see its flag");
+  if (std::isfinite(flagged_ends_[1]))
+    result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
+                     " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
+  if (fast_)
+    result.push_back("above " + show(flash_velocity) +
+                     " m/s flash heating, which is not modelled, lowers the friction (Persson 2006, J. Phys.: Condens. "
+                     "Matter 18, 7789)");
+  if (extrapolated_)
+    result.push_back("more than " + show(100 * share_limit) +
+                     " % of the hysteresis comes from frequencies outside of the measured ones at some points: see "
+                     "extrapolated_share");
+  if (lowest_bin_)
+    result.emplace_back(
+        "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of the "
+        "macro-asperities: give q0");
+  if (unmeasured_nayak_)
+    result.push_back("the error of this correction is not known here: Nayak's parameter of the spectrum is " +
+                     show(*unmeasured_nayak_, 3) + ", those of the boundary-element contacts it was measured on are " +
+                     show(lowest_measured_nayak) + " to " + show(highest_measured_nayak));
+  if (light_)
+    result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
+                     show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
+  if (worse_)
+    result.emplace_back(
+        "the affine shift takes the contact area further from that of boundary elements than no correction would at "
+        "some points: NayakSFactor is nearer");
+  if (full_)
+    result.emplace_back(
+        "Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest point "
+        "z_min");
+  if (far_)
+    result.push_back("Greenwood-Williamson has left its range at some points, where the separation is above " +
+                     show(separation_limit) + " rms heights: the area there does not fall with the load as it must");
+  if (no_contact_)
+    result.emplace_back(
+        "Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above the highest point "
+        "z_max; area and mu are 0 there");
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,162 @@
+// Shift factors over temperature, and the laws through them: WLF (M. L. Williams, R. F. Landel, J. D. Ferry, J. Am.
+// Chem. Soc. 77, 3701 (1955)) and Arrhenius.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "asperity/dma.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
+#include "numerics/minimum.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double gas_constant = 8.31446261815324;  // [J/(mol K)], CODATA 2018, exact
+
+struct Sums {
+  double uu = 0, uy = 0;
+};
+
+/// log10 a_T against the reference from log10 a_T against an isotherm: less the value there, which is interpolated.
+Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftTable& shifts) {
+  const std::vector<double>& t = shifts.temperature();
+  require_same_size("covariance", covariance.size(), "temperature squared", t.size() * t.size());
+  const auto n = static_cast<Eigen::Index>(t.size());
+  const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, shifts.reference());
+  const auto k = static_cast<Eigen::Index>(above - t.begin()) - 1;
+  const double share = std::clamp((shifts.reference() - *(above - 1)) / (*above - *(above - 1)), 0.0, 1.0);
+  Eigen::MatrixXd less = Eigen::MatrixXd::Identity(n, n);
+  less.col(k).array() -= 1 - share;
+  less.col(k + 1).array() -= share;
+  return less * Eigen::Map<const Eigen::MatrixXd>(covariance.data(), n, n) * less.transpose();
+}
+
+/// The covariance of least-squares parameters, G C G^T, G = (J^T J)^-1 J^T, J the slopes of the law in them. C is
+/// given, or s^2 for every row but one at the reference; where the residuals r are larger than C makes them, tr((I - J
+/// G) C (I - J G)^T), as much larger.
+Eigen::MatrixXd parameter_covariance(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left,
+                                     std::span<const double> covariance, const ShiftTable& shifts) {
+  const Eigen::MatrixXd inverse = (slopes.transpose() * slopes).inverse();
+  const double sum = left.squaredNorm();
+  if (std::ranges::all_of(covariance, [](double c) { return c == 0; })) {  // none, or a_T was given
+    const bool given = std::ranges::find(shifts.temperature(), shifts.reference()) != shifts.temperature().end();
+    const Eigen::Index freedom = slopes.rows() - slopes.cols() - (given ? 1 : 0);
+    // as many rows as parameters: the law goes through them all, and how far it is off they do not say
+    if (freedom < 1) return Eigen::MatrixXd::Constant(slopes.cols(), slopes.cols(), HUGE_VAL);
+    return sum / static_cast<double>(freedom) * inverse;
+  }
+  const Eigen::MatrixXd of_rows = about_reference(covariance, shifts);
+  const Eigen::MatrixXd onto = inverse * slopes.transpose();
+  const Eigen::MatrixXd off = Eigen::MatrixXd::Identity(left.size(), left.size()) - slopes * onto;
+  const double expected = (off * of_rows * off.transpose()).trace();
+  const double excess = expected > 0 ? std::max(1.0, sum / expected) : 1;
+  return excess * onto * of_rows * onto.transpose();
+}
+
+}  // namespace
+
+ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::vector<double> log10_a_T,
+                       std::vector<double> standard_deviation)
+    : reference_(reference),
+      temperature_(std::move(temperature)),
+      log10_a_T_(std::move(log10_a_T)),
+      deviation_(std::move(standard_deviation)) {
+  require_positive("reference_temperature", reference_);
+  require_same_size("log10_a_T", log10_a_T_.size(), "temperature", temperature_.size());
+  if (temperature_.size() < 2)
+    throw InvalidInput("temperature has " + std::to_string(temperature_.size()) +
+                       " entries: must be 2 or more for shift factors");
+  require_each_positive("temperature", temperature_);
+  require_rising("temperature", temperature_);
+  for (std::size_t i = 0; i < log10_a_T_.size(); ++i)
+    require_finite("log10_a_T[" + std::to_string(i) + "]", log10_a_T_[i]);
+  if (!deviation_.empty()) {
+    require_same_size("standard_deviation", deviation_.size(), "temperature", temperature_.size());
+    for (std::size_t i = 0; i < deviation_.size(); ++i)
+      require_not_negative("standard_deviation[" + std::to_string(i) + "]", deviation_[i]);
+  }
+}
+
+double ShiftTable::shift_factor(double temperature) const {
+  require_finite("temperature", temperature);
+  if (!(temperature >= temperature_.front() && temperature <= temperature_.back()))
+    throw OutOfRange("temperature = " + show(temperature, 6) + ": shift factors are known in [" +
+                     show(temperature_.front(), 6) + ", " + show(temperature_.back(), 6) + "] K");
+  return std::pow(10, Steffen(temperature_, log10_a_T_)(temperature));
+}
+
+// With d = T - T_ref and a given c2, log10 a_T = c1 u, u = -d / (c2 + d), is linear in c1: c2 is searched for alone, in
+// ln(c2 + lowest d), from where c2 + T - T_ref vanishes at the lowest temperature to where the law is a straight line.
+WlfFit ShiftTable::fit_wlf(std::span<const double> covariance) const {
+  const std::size_t n = temperature_.size();
+  if (n < 4) throw InvalidInput("temperature has " + std::to_string(n) + " entries: must be 4 or more for a WLF fit");
+  const double lowest = temperature_.front() - reference_;
+  const auto sums = [&](double c2) {
+    Sums s;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double d = temperature_[i] - reference_, u = -d / (c2 + d);
+      s.uu += u * u;
+      s.uy += u * log10_a_T_[i];
+    }
+    return s;
+  };
+  const auto left = [&](double x) {
+    const double c2 = std::exp(x) - lowest;
+    const Sums s = sums(c2);
+    const double c1 = s.uy / s.uu;
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double d = temperature_[i] - reference_;
+      sum += std::pow(log10_a_T_[i] + c1 * d / (c2 + d), 2);
+    }
+    return sum;
+  };
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  constexpr double step = 0.1;
+  for (double x = 0; x <= std::log(1e5); x += step)  // c2 + lowest d from 1 K to 1e5 K
+    if (const double found = left(x); found < least) {
+      least = found;
+      best = x;
+    }
+  const double x = golden_section(left, best - step, best + step, 1e-10);
+  const double c2 = std::exp(x) - lowest;
+  const Sums s = sums(c2);
+  const double c1 = s.uy / s.uu;
+
+  Eigen::MatrixXd slopes(n, 2);
+  Eigen::VectorXd residual(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double d = temperature_[i] - reference_;
+    slopes.row(at) << -d / (c2 + d), c1 * d / std::pow(c2 + d, 2);
+    residual[at] = log10_a_T_[i] + c1 * d / (c2 + d);
+  }
+  const Eigen::MatrixXd variance = parameter_covariance(slopes, residual, covariance, *this);
+  return {c1,
+          c2,
+          reference_,
+          std::sqrt(variance(0, 0)),
+          std::sqrt(variance(1, 1)),
+          std::sqrt(residual.squaredNorm() / static_cast<double>(n))};
+}
+
+ArrheniusFit ShiftTable::fit_arrhenius(std::span<const double> covariance) const {
+  const std::size_t n = temperature_.size();
+  Eigen::MatrixXd slopes(n, 1);  // of log10 a_T in E_a / (R ln 10)
+  for (std::size_t i = 0; i < n; ++i) slopes(static_cast<Eigen::Index>(i), 0) = 1 / temperature_[i] - 1 / reference_;
+  const double square = slopes.squaredNorm();
+  if (square == 0) throw InvalidInput("temperature: is the reference throughout, must differ for an Arrhenius fit");
+  const auto shift = Eigen::Map<const Eigen::VectorXd>(log10_a_T_.data(), static_cast<Eigen::Index>(n));
+  const double slope = slopes.col(0).dot(shift) / square;
+  const Eigen::VectorXd residual = shift - slope * slopes.col(0);
+  const double unit = gas_constant * std::numbers::ln10;
+  return {unit * slope, reference_, unit * std::sqrt(parameter_covariance(slopes, residual, covariance, *this)(0, 0)),
+          std::sqrt(residual.squaredNorm() / static_cast<double>(n))};
+}
+
+}  // namespace asperity

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "asperity/build_friction_map.hpp"
+#include "asperity/friction_map.hpp"
+#include "asperity/version.hpp"
+#include "friction_map/format.hpp"
+#include "friction_map/refine.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/parallel_for.hpp"
+
+namespace asperity {
+
+namespace {
+
+// What the file may hold.
+constexpr double smallest = 1e-300, largest = 1e300;
+
+void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
+  for (const auto& [name, box] : {std::pair{"pressure", request.pressure}, std::pair{"velocity", request.velocity}}) {
+    for (const double side : box) {
+      require_positive(name, side);
+      if (side < smallest || side > largest) refuse(name, side, "in [1e-300, 1e300]");
+    }
+    if (!(box[0] * (1 + 1e-6) < box[1]))
+      throw InvalidInput(std::string(name) + " = (" + show(box[0]) + ", " + show(box[1]) +
+                         "): must be (lo, hi) with lo < hi, a millionth apart or more");
+  }
+  require_rtol(request.rtol);
+  if (!adhesion) return;
+  validate(*adhesion);
+  for (const auto& [name, value] : {std::pair{"shear_stress", adhesion->shear_stress},
+                                    std::pair{"reference_velocity", adhesion->reference_velocity}})
+    if (value != 0 && (value < smallest || value > largest)) refuse(name, value, "in [1e-300, 1e300] for a map");
+  if (adhesion->width > largest) refuse("width", adhesion->width, "at most 1e300 for a map");
+}
+
+/// Those at 81 points of the box, evenly in the logarithms, edges and corners too.
+std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                  const std::optional<Adhesion>& adhesion, const MapRequest& request) {
+  constexpr int steps = 8;
+  const auto between = [](const std::array<double, 2>& box, int i) {
+    const double share = static_cast<double>(i) / steps;
+    return i == 0 ? box[0] : i == steps ? box[1] : std::exp((1 - share) * std::log(box[0]) + share * std::log(box[1]));
+  };
+  std::vector<double> pressure, velocity;
+  for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
+    for (int j = 0; j <= steps; ++j) {
+      velocity.push_back(between(request.velocity, i));
+      pressure.push_back(between(request.pressure, j));
+    }
+  return friction(spectrum, rubber, model, adhesion, pressure, velocity).notes;
+}
+
+/// The finished map against the solver on random points, 200 pressures a velocity, on as many threads as there are.
+void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, MapCertificate& certificate) {
+  constexpr std::size_t block = 20'000, pressures = 200;
+  const unsigned parts = std::max(1u, std::thread::hardware_concurrency());
+  Random random;
+  const auto [x_lo, x_hi] = frame.x();
+  const double y_lo = frame.ln_pressure(0), y_hi = frame.ln_pressure(1);
+  std::vector<MapPlace> places;
+  std::vector<double> errors;
+  for (std::size_t done = 0; done < request.checked; done += places.size()) {
+    if (request.watch) request.watch();
+    places.resize(std::min(block * parts, request.checked - done));
+    errors.resize(places.size());
+    double x = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (i % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
+      places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.shear(x)};
+    }
+    in_parts(parts, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
+      const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& [ln_hysteresis, ln_area] = truth[i - begin].f;
+        const double y = places[i].z + frame.shear(places[i].x);
+        MapPoint found;
+        map.at(std::exp(y), std::exp(places[i].x), found, FrictionMap::Outside::clamp);
+        errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);
+        if (frame.hysteresis())
+          errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
+      }
+    });
+    for (const double error : errors) {
+      certificate.largest_checked_error = std::fmax(certificate.largest_checked_error, error);
+      if (!(error <= certificate.max_error)) ++certificate.exceeded;
+    }
+  }
+  certificate.checked = request.checked;
+}
+
+}  // namespace
+
+std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                              const std::optional<Adhesion>& adhesion, const MapRequest& request) {
+  check_request(request, adhesion);
+  std::string text = "asperity " + std::string(version()) + "\n";
+  for (const std::string& note : notes_of(spectrum, rubber, model, adhesion, request))
+    text.append("note: ").append(note).append("\n");
+  text += request.text;
+  MapRequest whole = request;
+  whole.text = text;
+
+  const MapFrame frame(spectrum, rubber, model, request);
+  const RefinedMap refined = refine(frame, request.rtol, request.watch);
+  MapCertificate certificate{.max_error = refined.max_error};
+  std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
+  if (request.checked == 0) return file;
+  FrictionMap map;
+  std::string why;
+  if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
+  check(frame, map, request, certificate);
+  if (certificate.largest_checked_error > request.rtol)
+    throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
+                       " was reached, on one of " + std::to_string(request.checked) + " random points");
+  return map_file(frame, refined.tree, adhesion, whole, certificate);
+}
+
+void write_whole(const std::string& path, std::span<const unsigned char> bytes) {
+  // beside what a link points to, under a name that nobody has
+  const std::string target = std::filesystem::weakly_canonical(path).string();
+  std::string beside;
+  std::FILE* file = nullptr;
+  const auto refuse = [&] {
+    const std::string reason = std::strerror(errno);
+    if (file) std::remove(beside.c_str());
+    throw InvalidInput("path = " + path + ": cannot be written: " + reason);
+  };
+  for (int i = 0; !file && i < 1000; ++i) {
+    beside = target + "." + std::to_string(i) + ".part";
+    file = std::fopen(beside.c_str(), "wbx");
+    if (!file && errno != EEXIST) refuse();
+  }
+  if (!file) refuse();
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (std::fclose(file) != 0 || !written || std::rename(beside.c_str(), target.c_str()) != 0) refuse();
+}
+
+}  // namespace asperity

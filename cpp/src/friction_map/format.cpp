@@ -1,0 +1,145 @@
+#include "friction_map/format.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "asperity/friction_map.hpp"
+
+namespace asperity {
+
+namespace {
+
+class Writer {
+ public:
+  void u32(std::uint64_t value) { number(value, 4); }
+  void u64(std::uint64_t value) { number(value, 8); }
+  void f64(double value) { number(std::bit_cast<std::uint64_t>(value), 8); }
+  void text(std::string_view characters) { bytes.insert(bytes.end(), characters.begin(), characters.end()); }
+  void pad() { bytes.resize((bytes.size() + 7) / 8 * 8); }
+
+  std::vector<unsigned char> bytes;
+
+ private:
+  void number(std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<unsigned char>(value >> (8 * i)));
+  }
+};
+
+/// Grids of entries that lead from a place to its cell.
+class Index {
+ public:
+  struct Grid {
+    std::uint32_t x, z, wide, high;  // of the whole
+    std::uint32_t columns, rows, first;
+  };
+
+  explicit Index(const MapTree& tree) : tree_(tree), cell_(tree.nodes().size(), 0) {
+    for (std::size_t i = 0; i < cell_.size(); ++i)
+      if (tree.nodes()[i].child < 0 && tree.nodes()[i].needed) cell_[i] = cells++;
+    for (std::uint32_t band = 0; band < tree.bands(); ++band)
+      grids.push_back({0, band * MapTree::unit, MapTree::unit, MapTree::unit, 1, 1, 0});
+    for (std::size_t k = 0; k < grids.size(); ++k) fill(k);
+  }
+
+  std::vector<Grid> grids;
+  std::vector<std::int32_t> entries;
+  std::int32_t cells = 0;
+
+ private:
+  /// As fine as the leaves in it where that takes no more than `dense` entries a leaf; finer parts have a grid of
+  /// their own.
+  void fill(std::size_t k) {
+    constexpr std::uint64_t dense = 8;
+    Grid grid = grids[k];
+    std::uint32_t narrowest = grid.wide, lowest = grid.high;
+    std::uint64_t leaves = 0;
+    for (const MapTree::Leaf& leaf : tree_.nodes()) {
+      if (leaf.child >= 0 || leaf.x + leaf.wide <= grid.x || leaf.x >= grid.x + grid.wide ||
+          leaf.z + leaf.high <= grid.z || leaf.z >= grid.z + grid.high)
+        continue;
+      narrowest = std::min(narrowest, leaf.wide);
+      lowest = std::min(lowest, leaf.high);
+      ++leaves;
+    }
+    while (std::uint64_t{grid.wide / narrowest} * (grid.high / lowest) > std::max<std::uint64_t>(dense * leaves, 2))
+      (grid.wide / narrowest > grid.high / lowest ? narrowest : lowest) *= 2;
+    grid.columns = grid.wide / narrowest;
+    grid.rows = grid.high / lowest;
+    grid.first = static_cast<std::uint32_t>(entries.size());
+    grids[k] = grid;
+    entries.resize(entries.size() + std::size_t{grid.columns} * grid.rows);
+    for (std::uint32_t i = 0; i < grid.columns; ++i)
+      for (std::uint32_t j = 0; j < grid.rows; ++j) {
+        const std::uint32_t x = grid.x + i * narrowest, z = grid.z + j * lowest;
+        const std::size_t at = tree_.leaf_around(2 * x + narrowest + 1, 2 * z + lowest + 1);
+        const MapTree::Leaf& leaf = tree_.nodes()[at];
+        std::int32_t& entry = entries[grid.first + std::size_t{i} * grid.rows + j];
+        if (leaf.wide >= narrowest && leaf.high >= lowest) {
+          entry = cell_[at];
+        } else {
+          entry = -1 - static_cast<std::int32_t>(grids.size());
+          grids.push_back({x, z, narrowest, lowest, 1, 1, 0});
+        }
+      }
+  }
+
+  const MapTree& tree_;
+  std::vector<std::int32_t> cell_;
+};
+
+}  // namespace
+
+std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, const std::optional<Adhesion>& adhesion,
+                                    const MapRequest& request, const MapCertificate& certificate) {
+  const Index index(tree);
+  const Adhesion sticking = adhesion.value_or(Adhesion{.shear_stress = 0});
+  Writer out;
+  out.text("ASPERMAP");
+  out.u32(0x01020304);
+  out.u32(1);
+  out.u64(0);  // the size, when it is known
+  for (const auto& box : {request.pressure, request.velocity})
+    for (const double side : box) out.f64(side);
+  for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error}) out.f64(x);
+  out.u64(certificate.checked);
+  out.u64(certificate.exceeded);
+  for (const double x : {sticking.shear_stress, sticking.reference_velocity, sticking.width}) out.f64(x);
+  out.u32(frame.hysteresis());
+  out.u32(tree.bands());
+  out.u32(frame.shear_nodes().size() / 2);
+  out.u32(index.grids.size());
+  out.u32(index.entries.size());
+  out.u32(static_cast<std::uint64_t>(index.cells));
+  out.u32(request.text.size());
+  out.u32(0);
+  for (const double z : tree.cuts()) out.f64(z);
+  for (const double s : frame.shear_nodes()) out.f64(s);
+  for (const Index::Grid& grid : index.grids) {
+    const auto [wide, high] = tree.size({grid.x, grid.z, grid.wide, grid.high});
+    out.f64(tree.x(grid.x));
+    out.f64(tree.z(grid.z));
+    out.f64(grid.columns / wide);
+    out.f64(grid.rows / high);
+    for (const std::uint32_t n : {grid.columns, grid.rows, grid.first, 0u}) out.u32(n);
+  }
+  for (const std::int32_t entry : index.entries) out.u32(static_cast<std::uint32_t>(entry));
+  out.pad();
+  for (const MapTree::Leaf& leaf : tree.nodes()) {
+    if (leaf.child >= 0 || !leaf.needed) continue;
+    out.f64(tree.x(leaf.x));
+    out.f64(tree.z(leaf.z));
+    for (const double c : leaf.polynomial) out.f64(c);
+  }
+  out.text(request.text);
+  out.pad();
+  Writer size;
+  size.u64(out.bytes.size() + 8);
+  std::ranges::copy(size.bytes, out.bytes.begin() + 16);
+  const std::uint32_t sum = map_detail::crc32(out.bytes.data(), out.bytes.size());
+  out.u32(sum);
+  out.u32(0);
+  return std::move(out.bytes);
+}
+
+}  // namespace asperity

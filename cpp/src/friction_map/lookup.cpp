@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "asperity/build_friction_map.hpp"
+#include "asperity/friction_map.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/kernels.hpp"
+
+namespace asperity {
+
+namespace {
+
+struct MapLoops {
+  bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* shift,
+                  std::size_t n, double* speed, double* shifted);
+  void (*logarithms)(const double* x, double* ln, std::size_t n);
+  void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
+  bool (*entries)(const map_detail::Grid& grid, const std::int32_t* all, const double* x, const double* z,
+                  std::size_t n, std::int32_t* entry);
+  void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
+                      double* h, double* a);
+  void (*exponentials)(const double* x, double* e, std::size_t n);
+  void (*add_adhesion)(const double* ln_area, const double* ln_p, const double* ln_v, double ln_shear_stress,
+                       double ln_reference, double fall, std::size_t n, double* mu);
+};
+
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wpsabi"  // nothing with more than two numbers in it leaves this file
+#endif
+
+namespace baseline {
+using Part [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+#include "friction_map/lookup_loops.inc"
+}  // namespace baseline
+
+#if defined(__x86_64__) && !defined(__clang__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+namespace avx2 {
+using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+#include "friction_map/lookup_loops.inc"
+}  // namespace avx2
+#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+namespace avx512 {
+using Part [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+#include "friction_map/lookup_loops.inc"
+}  // namespace avx512
+#pragma GCC pop_options
+
+MapLoops choose() {
+  if (std::strcmp(kernels().name, "avx2") != 0) return baseline::loops();
+  const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512vl") && !std::getenv("ASPERITY_VECTORS");
+  return wider ? avx512::loops() : avx2::loops();
+}
+#else
+MapLoops choose() { return baseline::loops(); }
+#endif
+
+const MapLoops& map_loops() {
+  static const MapLoops chosen = choose();
+  return chosen;
+}
+
+constexpr std::size_t block = 512;
+
+}  // namespace
+
+class FrictionMapBatch {
+ public:
+  FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
+      : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
+
+  /// mu of points [begin, begin + n), at most a block; how many come before the first without a value.
+  std::size_t mu(const MapColumns& points, std::size_t begin, std::size_t n, double* mu) {
+    const double* const pressure = column(points.pressure, begin, n, pressure_);
+    const double* const velocity = column(points.velocity, begin, n, velocity_);
+    const double* const shift = column(points.shift, begin, n, shift_);
+    const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, shift, n, speed_, x_);
+    if (!within) {  // rare: one by one
+      std::size_t good = n;
+      for (std::size_t i = n; i-- > 0;) {
+        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {shift[i], shifts_adhesion_});
+        if (std::isnan(mu[i])) good = i;
+      }
+      return good;
+    }
+    loops_.logarithms_of_both(x_, pressure, x_, ln_p_, n);
+    find_cells(n);
+    loops_.polynomials(map_.cells_.data(), cell_, x_, z_, n, h_, a_);
+    if (map_.info_.hysteresis) {
+      loops_.exponentials(h_, mu, n);
+    } else {
+      std::fill_n(mu, n, 0.0);
+    }
+    if (map_.info_.shear_stress == 0) return n;
+    const bool unshifted = shifts_adhesion_ || (points.shift.size() == 1 && points.shift[0] == 1);
+    if (!unshifted) loops_.logarithms(speed_, speed_, n);
+    loops_.add_adhesion(a_, ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n,
+                        mu);
+    return n;
+  }
+
+ private:
+  /// z_ and cell_ of x_ and ln_p_.
+  void find_cells(std::size_t n) {
+    if (map_.shear_.empty()) {
+      std::copy_n(ln_p_, n, z_);
+    } else {
+      double slope;
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.shear(x_[i], slope);
+    }
+    const bool one_band = map_.cuts_.size() == 2;
+    if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;
+    for (std::size_t i = 0; i < n; ++i)
+      cell_[i] = static_cast<std::int32_t>((map_.cell_at(x_[i], z_[i]) - map_.cells_.data()) /
+                                           static_cast<std::ptrdiff_t>(map_detail::cell_size));
+  }
+
+  /// A column's part, or its only entry as often as it is needed.
+  static const double* column(std::span<const double> all, std::size_t begin, std::size_t n, double* room) {
+    if (all.size() > 1) return &all[begin];
+    std::fill_n(room, n, all[0]);
+    return room;
+  }
+
+  const FrictionMap& map_;
+  FrictionMap::Outside outside_;
+  bool shifts_adhesion_;
+  const MapLoops& loops_;
+  double pressure_[block], velocity_[block], shift_[block];
+  double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
+  std::int32_t cell_[block];
+};
+
+std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                    bool shifts_adhesion, std::span<double> mu) {
+  for (const auto& [name, column] : {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity},
+                                     std::pair{"shift", points.shift}})
+    if (column.size() != 1) require_same_size(name, column.size(), "mu", mu.size());
+  FrictionMapBatch batch(map, outside, shifts_adhesion);
+  std::size_t first_bad = mu.size();
+  for (std::size_t i = 0; i < mu.size(); i += block) {
+    const std::size_t n = std::min(block, mu.size() - i), good = batch.mu(points, i, n, &mu[i]);
+    if (good < n) first_bad = std::min(first_bad, i + good);
+  }
+  return first_bad;
+}
+
+}  // namespace asperity

@@ -1,0 +1,157 @@
+#include "friction_map/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/macro_modulus.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/hermite.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// What an error of the shear moves is a kink at a cut, by as much as s is off.
+constexpr double shear_share = 0.01;
+constexpr std::size_t most_intervals = 16384;
+
+/// States of the Greenwood-Williamson correction: none, beyond the theory's range, within it, full.
+int state_of(const Shift& shift) {
+  if (shift.state == ContactState::no_contact) return 0;
+  if (shift.state == ContactState::full) return 3;
+  return shift.separation_over_rms > 3 ? 1 : 2;
+}
+
+}  // namespace
+
+std::array<double, 5> derivative_weights(std::size_t k) {
+  constexpr double w[3][5] = {{-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}};
+  std::array<double, 5> result;
+  for (std::size_t i = 0; i < 5; ++i) result[i] = k <= 2 ? w[k][i] / 12 : -w[4 - k][4 - i] / 12;
+  return result;
+}
+
+MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const MapRequest& request)
+    : spectrum_(spectrum), rubber_(rubber), model_(model), rtol_(request.rtol), velocity_(request.velocity) {
+  model_.rtol = std::clamp(request.rtol * 1e-3, 1e-12, 1e-6);
+  x_lo_ = std::log(velocity_[0]);
+  x_hi_ = std::log(velocity_[1]);
+  y_lo_ = std::log(request.pressure[0]);
+  y_hi_ = std::log(request.pressure[1]);
+  if (macro_modulus(model_.correction, spectrum_, rubber_, velocity_[0], model_.poisson_ratio)) {
+    make_shear(shear_share * request.rtol);
+    cut_bands();
+  } else {
+    cuts_ = {y_lo_, y_hi_};
+  }
+  const auto* prony = std::get_if<PronySeries>(&rubber_);
+  hysteresis_ = !prony || !prony->moduli().empty();
+}
+
+double MapFrame::shear(double x) const {
+  if (shear_.empty()) return 0;
+  const std::size_t intervals = shear_.size() / 2 - 1;
+  const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), at = (x - x_lo_) / h;
+  const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(intervals - 1)));
+  const double* const s = &shear_[2 * i];
+  return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i)).value;
+}
+
+void MapFrame::make_shear(double tolerance) {
+  const auto exact = [&](double x) {
+    const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
+    return std::log(*macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio));
+  };
+  for (std::size_t intervals = 16;; intervals *= 2) {
+    const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), step = h / 8;
+    shear_.clear();
+    for (std::size_t i = 0; i <= intervals; ++i) {
+      const double x = x_lo_ + static_cast<double>(i) * h;
+      const std::size_t k = i == 0 ? 0 : i == intervals ? 4 : 2;
+      const std::array<double, 5> weights = derivative_weights(k);
+      double slope = 0;
+      for (std::size_t j = 0; j < 5; ++j)
+        slope += weights[j] * exact(x + (static_cast<double>(j) - static_cast<double>(k)) * step) / step;
+      shear_.insert(shear_.end(), {exact(x), slope});
+    }
+    double error = 0;
+    for (std::size_t i = 0; i < 4 * intervals; ++i) {
+      const double x = x_lo_ + (static_cast<double>(i) + 0.5) * h / 4;
+      error = std::fmax(error, std::fabs(shear(x) - exact(x)));
+    }
+    if (error <= tolerance || intervals == most_intervals) return;
+  }
+}
+
+void MapFrame::cut_bands() {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (std::size_t i = 0; i < shear_.size(); i += 2) {
+    lowest = std::fmin(lowest, shear_[i]);
+    highest = std::fmax(highest, shear_[i]);
+  }
+  const double bottom = y_lo_ - highest, top = y_hi_ - lowest;
+  const auto state = [&](double z) {
+    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + shear(x_lo_)), velocity_[0],
+                                 model_.poisson_ratio));
+  };
+  constexpr double step = 0.02;
+  const auto steps = static_cast<std::size_t>(std::ceil((top - bottom) / step));
+  cuts_ = {bottom};
+  int before = state(bottom);
+  const auto refuse_no_contact = [&](double z) {
+    const double apart = (x_hi_ - x_lo_) / static_cast<double>(shear_.size() / 2 - 1);
+    std::size_t node = 0;  // one where z is in the box, or nearly
+    while (node + 2 < shear_.size() && (z + shear_[node] < y_lo_ || z + shear_[node] > y_hi_)) node += 2;
+    const double y = std::clamp(z + shear_[node], y_lo_, y_hi_);
+    throw InvalidInput("pressure = (" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + "): at " +
+                       show(std::exp(y), 6) + " Pa and " +
+                       show(std::exp(x_lo_ + static_cast<double>(node / 2) * apart), 6) +
+                       " m/s the Greenwood-Williamson correction finds no contact (d~ >= z_max): must be such that "
+                       "there is contact everywhere");
+  };
+  if (before == 0) refuse_no_contact(bottom);
+  for (std::size_t i = 1; i <= steps; ++i) {
+    double a = cuts_.front() + static_cast<double>(i - 1) * step, b = i == steps ? top : a + step;
+    int after = state(b);
+    if (after == 0) refuse_no_contact(b);
+    if (after != before) {
+      for (int k = 0; k < 50 && b - a > 1e-14; ++k) {
+        const double middle = a + (b - a) / 2;
+        (state(middle) == before ? a : b) = middle;
+      }
+      cuts_.push_back(b);
+      before = after;
+    }
+  }
+  cuts_.push_back(top);
+}
+
+std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places) const {
+  if (places.empty()) return {};
+  std::vector<double> pressure, velocity;
+  for (const MapPlace& place : places) {
+    pressure.push_back(std::exp(place.z + shear(place.x)));
+    velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
+  }
+  const Friction f = [&] {
+    try {
+      return friction(spectrum_, rubber_, model_, {}, pressure, velocity);
+    } catch (const NotConverged& error) {
+      throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a thousandth of it, found " +
+                         error.what());
+    }
+  }();
+  std::vector<MapSample> result;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double h = f.hysteresis[i], a = f.contact_area[i];
+    for (const auto& [name, value] : {std::pair{"A/A0", a}, std::pair{"mu_H", hysteresis_ ? h : 1}})
+      if (!std::isnormal(value))
+        throw InvalidInput("pressure = " + show(pressure[i]) + " at velocity = " + show(velocity[i]) + ": " + name +
+                           " = " + show(value) + ", whose logarithm cannot be mapped");
+    result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, h > 0 ? f.error_estimate[i] / h : model_.rtol});
+  }
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,259 @@
+#include "numerics/fft.hpp"
+
+#include <fftw3.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// FFTW's planner is not thread-safe, execution is. The copy of FFTW in here is private (its symbols are
+/// hidden), so that this lock covers every use of it and the host's own FFTW is left alone.
+std::mutex& planner() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// The two precisions of FFTW under one name.
+template <class T>
+struct Fftw;
+
+template <>
+struct Fftw<double> {
+  using Complex = fftw_complex;
+  using Plan = fftw_plan;
+  static Plan real(int n, double* in, Complex* out, unsigned flags) { return fftw_plan_dft_r2c_1d(n, in, out, flags); }
+  static Plan many(int n, int count, int distance, Complex* in, Complex* out, unsigned flags) {
+    return fftw_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, FFTW_FORWARD, flags);
+  }
+  static void run(Plan p, double* in, Complex* out) { fftw_execute_dft_r2c(p, in, out); }
+  static void run(Plan p, Complex* in, Complex* out) { fftw_execute_dft(p, in, out); }
+  static void destroy(Plan p) { fftw_destroy_plan(p); }
+};
+
+template <>
+struct Fftw<float> {
+  using Complex = fftwf_complex;
+  using Plan = fftwf_plan;
+  static Plan real(int n, float* in, Complex* out, unsigned flags) { return fftwf_plan_dft_r2c_1d(n, in, out, flags); }
+  static Plan many(int n, int count, int distance, Complex* in, Complex* out, unsigned flags) {
+    return fftwf_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, FFTW_FORWARD, flags);
+  }
+  static void run(Plan p, float* in, Complex* out) { fftwf_execute_dft_r2c(p, in, out); }
+  static void run(Plan p, Complex* in, Complex* out) { fftwf_execute_dft(p, in, out); }
+  static void destroy(Plan p) { fftwf_destroy_plan(p); }
+};
+
+int side(std::size_t n) {
+  if (n > 1U << 30) throw InvalidInput("shape: a side of " + std::to_string(n) + " points: must be at most 2^30");
+  return static_cast<int>(n);
+}
+
+template <class T>
+auto* raw(std::complex<T>* modes) {
+  return reinterpret_cast<Fftw<T>::Complex*>(modes);
+}
+
+/// Plans under the lock, and gives the plan back under the lock.
+template <class F, class Make>
+std::shared_ptr<void> planned(Make make) {
+  typename F::Plan plan;
+  {
+    const std::scoped_lock lock(planner());
+    plan = make();
+  }
+  if (!plan) throw Error("FFTW could not plan this transform");
+  return {plan, [](void* p) {
+            const std::scoped_lock lock(planner());
+            F::destroy(static_cast<F::Plan>(p));
+          }};
+}
+
+constexpr std::size_t large_page = std::size_t{2} << 20;
+
+struct Block {
+  void* data = nullptr;
+  std::size_t bytes = 0;
+};
+
+/// The last large block that was given back, kept for the next scan of about that size: the system clears fresh
+/// pages, which takes a tenth of a transform's time.
+class Reserve {
+ public:
+  static Reserve& get() {
+    static Reserve reserve;
+    return reserve;
+  }
+  ~Reserve() { std::free(kept_.data); }
+
+  Block take(std::size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    return kept_.bytes >= bytes && kept_.bytes <= 2 * bytes ? std::exchange(kept_, {}) : Block{};
+  }
+  void give(Block block) {
+    if (block.bytes >= large_page && block.bytes <= most) {
+      const std::scoped_lock lock(mutex_);
+      std::swap(block, kept_);
+    }
+    std::free(block.data);
+  }
+
+ private:
+  static constexpr std::size_t most = std::size_t{64} << 20;
+  std::mutex mutex_;
+  Block kept_;
+};
+
+Block allocate(std::size_t wanted) {
+  const bool large = wanted >= large_page;
+  const std::size_t bytes = (wanted + 63) / 64 * 64;
+  if (large)
+    if (const Block kept = Reserve::get().take(bytes); kept.data) return kept;
+  Block fresh{nullptr, bytes};
+  if (posix_memalign(&fresh.data, large ? large_page : 64, bytes) != 0) throw std::bad_alloc();
+#ifdef __linux__
+  if (large) madvise(fresh.data, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
+#endif
+  return fresh;
+}
+
+}  // namespace
+
+template <class T>
+Scratch<T>::Scratch(std::size_t size) {
+  const Block block = allocate(size * sizeof(T));
+  data_ = static_cast<T*>(block.data);
+  bytes_ = block.bytes;
+}
+
+template <class T>
+Scratch<T>::~Scratch() {
+  Reserve::get().give({data_, bytes_});
+}
+
+// FFTW's real transforms of floats take three times as long as complex ones of half the length. So even rows z of
+// floats go as x_j = z_2j + i z_2j+1, X being the transform of h = n / 2 numbers, and
+//   Z_k = (X_k + conj X_h-k) / 2 + t_k (X_k - conj X_h-k),  t_k = -i / 2 exp(-2 pi i k / n),
+// where k and h - k share their terms: Z_h-k = conj((X_k + conj X_h-k) / 2 - t_k (X_k - conj X_h-k)).
+template <class T>
+RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
+  const Scratch<T> in(n);
+  const Scratch<std::complex<T>> out(n / 2 + 1);
+  const auto flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
+  if (std::is_same_v<T, float> && n % 2 == 0) {
+    for (std::size_t k = 0; k <= n / 4; ++k)
+      twiddles_.emplace_back(
+          std::polar(0.5, -std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
+    auto* const pairs = reinterpret_cast<std::complex<T>*>(in.data());
+    plan_ = planned<Fftw<T>>([&] {
+      const int half = side(n / 2);
+      return Fftw<T>::many(half, 1, half, raw(pairs), raw(out.data()), flags);
+    });
+  } else {
+    plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real(side(n), in.data(), raw(out.data()), flags); });
+  }
+}
+
+namespace {
+
+using Quad = float __attribute__((vector_size(16)));  // two complex floats
+
+Quad load(const std::complex<float>* from) {
+  Quad v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+void store(Quad v, std::complex<float>* to) { std::memcpy(static_cast<void*>(to), &v, sizeof v); }
+
+/// From the transform of h pairs to the h + 1 modes of the 2 h numbers, in place.
+void untangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
+  z[h] = z[0].real() - z[0].imag();
+  z[0] = z[0].real() + z[0].imag();
+  const Quad conjugate = {1, -1, 1, -1};
+  std::size_t k = 1;
+  for (; 2 * k + 2 < h; k += 2) {
+    const Quad a = load(z + k), mirror = load(z + h - k - 1), t = load(twiddle + k);
+    const Quad b = __builtin_shufflevector(mirror, mirror, 2, 3, 0, 1) * conjugate;
+    const Quad mean = 0.5F * (a + b), d = a - b;
+    const Quad turned = __builtin_shufflevector(t, t, 0, 0, 2, 2) * d - conjugate *
+                                                                            __builtin_shufflevector(t, t, 1, 1, 3, 3) *
+                                                                            __builtin_shufflevector(d, d, 1, 0, 3, 2);
+    const Quad low = mean + turned, high = (mean - turned) * conjugate;
+    store(low, z + k);
+    store(__builtin_shufflevector(high, high, 2, 3, 0, 1), z + h - k - 1);
+  }
+  for (; 2 * k <= h; ++k) {
+    const std::complex<float> a = z[k], b = std::conj(z[h - k]), turned = twiddle[k] * (a - b);
+    z[h - k] = std::conj(0.5F * (a + b) - turned);
+    z[k] = 0.5F * (a + b) + turned;
+  }
+}
+
+}  // namespace
+
+template <class T>
+void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
+  const auto plan = static_cast<Fftw<T>::Plan>(plan_.get());
+  if constexpr (std::is_same_v<T, float>)
+    if (!twiddles_.empty()) {
+      Fftw<T>::run(plan, raw(reinterpret_cast<std::complex<T>*>(in)), raw(out));
+      return untangle(out, n_ / 2, twiddles_.data());
+    }
+  Fftw<T>::run(plan, in, raw(out));
+}
+
+template <class T>
+ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::size_t distance) {
+  const Scratch<std::complex<T>> in(distance * count), out(distance * count);
+  plan_ = planned<Fftw<T>>([&] {
+    return Fftw<T>::many(side(n), side(count), side(distance), raw(in.data()), raw(out.data()),
+                         FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+  });
+}
+
+template <class T>
+void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
+  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
+}
+
+template class Scratch<float>;
+template class Scratch<double>;
+template class Scratch<std::complex<float>>;
+template class Scratch<std::complex<double>>;
+template class RealTransform<float>;
+template class RealTransform<double>;
+template class ComplexTransform<float>;
+template class ComplexTransform<double>;
+
+std::vector<double> backward_transform(std::vector<std::complex<double>>& modes, Grid shape) {
+  std::vector<double> heights(shape[0] * shape[1]);
+  const auto plan = planned<Fftw<double>>([&] {
+    return fftw_plan_dft_c2r_2d(side(shape[0]), side(shape[1]), raw(modes.data()), heights.data(), FFTW_ESTIMATE);
+  });
+  fftw_execute(static_cast<fftw_plan>(plan.get()));
+  return heights;
+}
+
+std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape) {
+  std::vector<std::complex<double>> modes(shape[0] * (shape[1] / 2 + 1));
+  const auto plan = planned<Fftw<double>>([&] {
+    return fftw_plan_dft_r2c_2d(side(shape[0]), side(shape[1]), heights.data(), raw(modes.data()), FFTW_ESTIMATE);
+  });
+  fftw_execute(static_cast<fftw_plan>(plan.get()));
+  return modes;
+}
+
+}  // namespace asperity

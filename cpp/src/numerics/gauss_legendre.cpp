@@ -1,0 +1,89 @@
+#include "numerics/gauss_legendre.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+using Real = long double;  // where it is longer the tables are good to the last digit
+using Polynomials = std::array<Real, LegendreRule::most + 1>;
+
+/// P_0 .. P_n at x.
+Polynomials legendre(std::size_t n, Real x) {
+  Polynomials p{1, x};
+  for (std::size_t k = 1; k < n; ++k) {
+    const auto d = static_cast<Real>(k);
+    p[k + 1] = ((2 * d + 1) * x * p[k] - d * p[k - 1]) / (d + 1);
+  }
+  return p;
+}
+
+LegendreRule make_rule(std::size_t n) {
+  LegendreRule r{};
+  r.n = n;
+  const auto size = static_cast<Real>(n);
+  std::vector<Real> weight(n);
+  std::vector<Polynomials> p(n), slope(n), integral(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Real x = -std::cos(std::numbers::pi_v<Real> * (static_cast<Real>(i) + 0.75L) / (size + 0.5L));
+    for (int step = 0; step < 10; ++step) {
+      const Polynomials at = legendre(n, x);
+      x -= at[n] * (1 - x * x) / (size * (at[n - 1] - x * at[n]));
+    }
+    p[i] = legendre(n, x);
+    weight[i] = 2 * (1 - x * x) / (size * size * p[i][n - 1] * p[i][n - 1]);
+    r.node[i] = static_cast<double>(x);
+    r.weight[i] = static_cast<double>(weight[i]);
+    integral[i][0] = x + 1;
+    for (std::size_t k = 1; k < n; ++k) {
+      const auto d = static_cast<Real>(k);
+      slope[i][k] = d * (p[i][k - 1] - x * p[i][k]) / (1 - x * x);
+      integral[i][k] = (p[i][k + 1] - p[i][k - 1]) / (2 * d + 1);
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    std::array<Real, LegendreRule::most> cumulative{}, change{};
+    Real lower = 0, upper = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Real coefficient = (static_cast<Real>(k) + 0.5L) * weight[j] * p[j][k];
+      upper += coefficient;
+      lower += k % 2 ? -coefficient : coefficient;
+      for (std::size_t i = 0; i < n; ++i) {
+        cumulative[i] += coefficient * integral[i][k];
+        change[i] += coefficient * slope[i][k];
+      }
+      if (k == n / 2 || k + 1 == n / 2) r.tail[j][LegendreRule::tails + n / 2 - k] = static_cast<double>(coefficient);
+      const std::size_t from_last = n - 1 - k;
+      if (from_last >= LegendreRule::tails) continue;
+      r.tail[j][from_last] = static_cast<double>(coefficient);
+      r.tail_integral[j][from_last] = static_cast<double>(integral[j][k]);
+      r.tail_slope[j][from_last] = static_cast<double>(weight[j] * slope[j][k]);
+    }
+    r.at_lower[j] = static_cast<double>(lower);
+    r.at_upper[j] = static_cast<double>(upper);
+    for (std::size_t i = 0; i < n; ++i) {
+      r.cumulative[j][i] = static_cast<double>(cumulative[i]);
+      r.slope[j][i] = static_cast<double>(weight[i] * change[i]);
+    }
+  }
+  return r;
+}
+
+}  // namespace
+
+const LegendreRule& legendre_rule(std::size_t n) {
+  static const std::vector<LegendreRule> rules = [] {
+    std::vector<LegendreRule> made;
+    for (const std::size_t size : {8, 12, 16, 20, 24, 28, 32}) made.push_back(make_rule(size));
+    return made;
+  }();
+  for (const LegendreRule& rule : rules)
+    if (rule.n >= n) return rule;
+  return rules.back();
+}
+
+}  // namespace asperity

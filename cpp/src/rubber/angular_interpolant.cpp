@@ -1,0 +1,154 @@
+#include "rubber/angular_interpolant.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t order = 12;
+
+/// From values at the Chebyshev nodes of [-1, 1] to the polynomial through them.
+struct Basis {
+  double node[order];
+  double chebyshev[order][order];              // [degree][node]
+  double power[order][order] = {{1}, {0, 1}};  // [degree][power]
+  Basis() {
+    for (std::size_t i = 0; i < order; ++i) {
+      const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / order;
+      node[i] = std::cos(angle);
+      for (std::size_t j = 0; j < order; ++j)
+        chebyshev[j][i] = (j == 0 ? 1.0 : 2.0) / order * std::cos(static_cast<double>(j) * angle);
+    }
+    for (std::size_t j = 2; j < order; ++j)
+      for (std::size_t k = 0; k < order; ++k) power[j][k] = (k > 0 ? 2 * power[j - 1][k - 1] : 0) - power[j - 2][k];
+  }
+};
+const Basis& basis() {
+  static const Basis result;
+  return result;
+}
+
+/// Two polynomials side by side.
+struct Polynomials {
+  Pair coefficient[order] = {};
+
+  /// Through the values at the nodes. Returns the last two Chebyshev coefficients in units of `tolerance`.
+  double fit(const Pair (&value)[order], Pair tolerance) {
+    double tail = 0;
+    for (std::size_t j = 0; j < order; ++j) {
+      Pair chebyshev{};  // one by one: a matrix straight to the powers would lose digits
+      for (std::size_t i = 0; i < order; ++i) chebyshev += basis().chebyshev[j][i] * value[i];
+      for (std::size_t k = 0; k <= j; ++k) coefficient[k] += basis().power[j][k] * chebyshev;
+      if (j + 2 >= order) tail += std::fabs(chebyshev[0] / tolerance[0]) + std::fabs(chebyshev[1] / tolerance[1]);
+    }
+    return tail;
+  }
+  Pair operator()(double u) const {
+    Pair sum = coefficient[order - 1];
+    for (std::size_t k = order - 1; k-- > 0;) sum = sum * u + coefficient[k];
+    return sum;
+  }
+};
+
+/// Frequencies of the same exponent and first six binary digits.
+std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
+
+}  // namespace
+
+/// I1 and I2 are analytic in t = (w - low) / (high - low), or its root where the panel begins at a branch point. A part
+/// covers t up to `upper`.
+struct AngularTable::Part {
+  bool root;
+  double upper, scale, shift;  // the polynomials' variable is scale t + shift
+  bool told;                   // whether a part of I1 that is worth telling comes from outside
+  Polynomials all, outside;
+};
+
+AngularTable::AngularTable(std::span<const ModulusPiece> pieces)
+    : sums_(pieces),
+      lowest_(pieces.front().high),
+      highest_(pieces.back().high),
+      made_(std::make_unique<std::atomic<const Parts*>[]>(sums_.edges().size())) {
+  const std::span<const double> edges = sums_.edges();
+  for (std::uint32_t p = 0; p + 1 < edges.size(); ++p) first_.resize(bucket(edges[p + 1]) - bucket(edges[0]) + 1, p);
+  first_.push_back(static_cast<std::uint32_t>(edges.size() - 2));
+}
+
+AngularTable::~AngularTable() {
+  for (std::size_t p = 0; p < sums_.edges().size(); ++p) delete made_[p].load();
+}
+
+const AngularTable::Parts& AngularTable::parts(std::size_t panel) const {
+  if (const Parts* const made = made_[panel].load(std::memory_order_acquire)) return *made;
+  auto mine = std::make_unique<Parts>();
+  append(panel, 0, 1, *mine);
+  const Parts* first = nullptr;  // of threads that come at once the first leaves its own
+  return made_[panel].compare_exchange_strong(first, mine.get(), std::memory_order_acq_rel) ? *mine.release() : *first;
+}
+
+/// The parts from t0 to t1, as many as it takes until the last coefficients are small.
+void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts) const {
+  const double low = sums_.edges()[panel], high = sums_.edges()[panel + 1];
+  constexpr double tolerance = 1e-12, of_outside = 1e-10, worth_telling = 1e-7;
+  Part part{sums_.at_branch(panel), t1, 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), false, {}, {}};
+  Pair all[order], outside[order];
+  for (std::size_t i = 0; i < order; ++i) {
+    const double t = (t0 + t1 + basis().node[i] * (t1 - t0)) / 2;
+    const AngularIntegrals at = sums_.at(low + (high - low) * (part.root ? t * t : t), panel);
+    all[i] = Pair{at.i1, at.i2};
+    outside[i] = Pair{at.i1_outside, at.i2_outside};
+    part.told |= at.i1_outside > worth_telling * at.i1;
+  }
+  const Pair size = all[order - 1];
+  const double tail = part.all.fit(all, tolerance * size) + part.outside.fit(outside, of_outside * size);
+  constexpr std::size_t most = 64;
+  constexpr double shortest = 1e-12, rounding = 100;  // of the tail, which halving no longer mends
+  if (tail <= 1 || ((parts.size() >= most || t1 - t0 < shortest) && tail <= rounding)) {
+    parts.push_back(part);
+  } else if (parts.size() < most && t1 - t0 >= shortest) {
+    append(panel, t0, (t0 + t1) / 2, parts);
+    append(panel, (t0 + t1) / 2, t1, parts);
+  } else {
+    throw NotConverged("angular integrals between w = " + show(low) + " and " + show(high) + " rad/s: " + show(tail) +
+                       " times the tolerance");
+  }
+}
+
+AngularTable::Place AngularTable::find(double w) const {
+  const std::span<const double> edges = sums_.edges();
+  const double at = std::clamp(w, lowest_, highest_);
+  const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
+  const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
+  const double low = above[-1], fraction = (at - low) / (*above - low);
+  auto part = parts(static_cast<std::size_t>(above - edges.begin()) - 1).begin();
+  const double t = part->root ? std::sqrt(fraction) : fraction;
+  while (t > part->upper) ++part;
+  return {*part, part->scale * t + part->shift};
+}
+
+AngularIntegrals AngularTable::operator()(double w) const {
+  const auto [part, u] = find(w);
+  const Pair all = part.all(u), outside = part.outside(u);
+  return {all[0], all[1], std::clamp(outside[0], 0.0, all[0]), std::clamp(outside[1], 0.0, all[1])};
+}
+
+bool AngularTable::operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+  bool told = false;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const auto [part, u] = find(w[i]);
+    const Pair all = part.all(u);
+    i1[i] = all[0];
+    i2[i] = all[1];
+    if (i1_outside) i1_outside[i] = part.told ? std::clamp(part.outside(u)[0], 0.0, all[0]) : 0;
+    told |= part.told;
+  }
+  return told;
+}
+
+}  // namespace asperity

@@ -1,0 +1,48 @@
+// The sums of angular_sums.hpp as polynomials, a panel's when first asked for.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rubber/angular_quadrature.hpp"
+
+namespace asperity {
+
+/// I1 and I2 to 1e-12, the parts that come from outside to 1e-10 of them. Where rows stand so near to each other that
+/// the rounding of w shows, to 1e-10; NotConverged beyond.
+class AngularTable {
+ public:
+  explicit AngularTable(std::span<const ModulusPiece> pieces);
+  ~AngularTable();
+  AngularTable(const AngularTable&) = delete;
+  AngularTable(AngularTable&&) = delete;
+  AngularTable& operator=(const AngularTable&) = delete;
+  AngularTable& operator=(AngularTable&&) = delete;
+
+  /// At `w`, which may miss the ends of the pieces by its rounding.
+  [[nodiscard]] AngularIntegrals operator()(double w) const;
+  /// At each of `w`; true if a part of I1 that is worth telling comes from outside. `i1_outside` may be null.
+  bool operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const;
+
+ private:
+  struct Part;
+  struct Place {
+    const Part& part;
+    double u;
+  };
+  using Parts = std::vector<Part>;
+  [[nodiscard]] Place find(double w) const;
+  [[nodiscard]] const Parts& parts(std::size_t panel) const;
+  void append(std::size_t panel, double t0, double t1, Parts& parts) const;
+
+  AngularSums sums_;
+  double lowest_, highest_;                            // [rad/s]
+  std::vector<std::uint32_t> first_;                   // panel at the lower end of each bucket of frequencies
+  std::unique_ptr<std::atomic<const Parts*>[]> made_;  // of each panel; null before its first use
+};
+
+}  // namespace asperity

@@ -1,0 +1,52 @@
+// I1 and I2 of a modulus known piece by piece, from their definition, at a cost that hardly grows with the pieces.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "asperity/rubber.hpp"
+#include "numerics/adaptive_quadrature.hpp"
+#include "numerics/pair.hpp"
+#include "rubber/modulus_piece.hpp"
+
+namespace asperity {
+
+/// With w' = w cos(phi) and u = w' / w
+///   I1 = 4 int u E''(w') dw' / sqrt(w^2 - w'^2),   I2 = 4 int |E(w')|^2 dw' / sqrt(w^2 - w'^2),   0 < w' < w.
+/// The pieces are cut into panels short enough for one Gauss rule: in phi, where the kernel is 1, for a panel nearer to
+/// w than it is long; in w', of nodes that serve every w, for one further off. All below u = `far` enters at once by
+/// 1 / sqrt(1 - u^2) = sum_m b_m u^2m, whose moments are carried from panel to panel.
+class AngularSums {
+ public:
+  static constexpr double far = 0.7;
+
+  /// `pieces` adjoin each other and outlive the sums. The first is the end of the tail, in which E' is constant and E''
+  /// proportional to w: it begins at `far` times the lowest frequency that can be asked for.
+  explicit AngularSums(std::span<const ModulusPiece> pieces);
+
+  /// Where the panels begin, and the last one ends.
+  [[nodiscard]] std::span<const double> edges() const { return edges_; }
+  /// Whether a panel begins where a piece does, which is a branch point of the kind (w - low)^(n/2) for all above it.
+  [[nodiscard]] bool at_branch(std::size_t panel) const { return edges_[panel] == panels_[panel].piece->low; }
+  /// At `w` in `panel`.
+  [[nodiscard]] AngularIntegrals at(double w, std::size_t panel) const;
+
+ private:
+  static constexpr std::size_t terms = 48;  // far^(2 terms) b_terms = 1e-16
+  struct Panel {
+    const ModulusPiece* piece;
+    double node[GaussRule::size];  // w'
+    Pair weight[GaussRule::size];  // of the kernel in I1 and in I2
+    Pair moment[terms];            // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
+  };
+  void add_up();
+  [[nodiscard]] Pair in_phi(double w, std::size_t panel) const;
+  [[nodiscard]] Pair below(double w, std::size_t panel) const;
+
+  std::vector<double> edges_;
+  std::vector<Panel> panels_;
+  std::size_t first_measured_ = 0, end_measured_ = 0;  // panels
+};
+
+}  // namespace asperity

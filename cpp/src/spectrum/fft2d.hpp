@@ -1,0 +1,107 @@
+// The Fourier modes of a map, column by column: what every two-dimensional spectrum is summed from.
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <cstring>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "numerics/fft.hpp"
+#include "numerics/parallel_for.hpp"
+#include "spectrum/preparation.hpp"
+#include "surface/rows.hpp"
+
+namespace asperity {
+
+/// Copies without reading the target's cache lines first, where the processor can: right for what is next read when
+/// it has left the cache anyway.
+template <class T>
+void store_past_cache(const std::complex<T>* from, std::size_t count, std::complex<T>* to) {
+#ifdef __SSE2__
+  const auto* const source = reinterpret_cast<const __m128i*>(from);
+  auto* const target = reinterpret_cast<__m128i*>(to);
+  for (std::size_t i = 0; i < count * sizeof *from / sizeof *source; ++i)
+    _mm_stream_si128(target + i, _mm_load_si128(source + i));
+#else
+  std::copy_n(from, count, to);
+#endif
+}
+
+/// take(part, k_x, column) for k_x = 0 .. nx / 2, where column holds the ny modes sum w h exp(-i (..)) of that k_x; the
+/// other half plane is its mirror image. Parts run in threads of their own.
+///
+/// Rows, then columns, a few at a time: what is read once from memory is detrended, weighed and transformed while it is
+/// in the cache, and a column is taken before it leaves it. The half plane of modes between the two is all the memory
+/// that is used.
+template <class T, class Take>
+void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned threads, Take take) {
+  const auto [ny, nx] = map.shape();
+  const std::size_t half = nx / 2 + 1;
+  // an odd number of cache lines a row: columns of a power of two would all fall into the same few cache sets
+  const std::size_t pitch = Scratch<std::complex<T>>::aligned(half) + ((half / 8) % 2 == 1 ? 8 : 0);
+  const Scratch<std::complex<T>> plane(ny * pitch);
+
+  const bool past_cache = ny * pitch * sizeof(std::complex<T>) > std::size_t{12} << 20;
+  const std::vector<T> wx(prepared.wx.begin(), prepared.wx.end());
+  const RealTransform<T> along_rows(nx);
+  in_parts(threads, ny, [&](unsigned, std::size_t begin, std::size_t end) {
+    const Scratch<T> row(nx);
+    const Scratch<std::complex<T>> modes(pitch);
+    RowReader<T> read(map);
+    for (std::size_t y = begin; y < end; ++y) {
+      const T* const heights = read(y);
+      const T wy = static_cast<T>(prepared.wy[y]);
+      if (prepared.trend)
+        prepared.trend->subtract_and_weigh(y, heights, wy, wx.data(), row.data());
+      else
+        for (std::size_t x = 0; x < nx; ++x) row.data()[x] = heights[x] * (wy * wx[x]);
+      if (y + 1 < end) read.fetch(y + 1);  // on its way from memory while this one is transformed
+      std::complex<T>* const to = plane.data() + y * pitch;
+      std::complex<T>* const at = past_cache ? modes.data() : to;
+      along_rows(row.data(), at);
+      std::fill(at + half, at + pitch, std::complex<T>());
+      if (past_cache) store_past_cache(at, pitch, to);
+    }
+  });
+
+  constexpr std::size_t together = 64 / sizeof(std::complex<T>);  // one cache line of each row
+  constexpr std::size_t ahead = 32;                               // rows that are fetched before they are needed
+  const std::size_t blocks = (half + together - 1) / together;
+  // columns behind each other in memory, a cache line apart from a power of two
+  const std::size_t length = Scratch<std::complex<T>>::aligned(ny) + 8;
+  const ComplexTransform<T> along_columns(ny, together, length);
+  in_parts(threads, blocks, [&](unsigned part, std::size_t begin, std::size_t end) {
+    const Scratch<std::complex<T>> in(length * together), out(length * together);
+    std::fill_n(in.data(), length * together, std::complex<T>());
+    for (std::size_t block = begin; block < end; ++block) {
+      const std::size_t first = block * together, columns = std::min(together, half - first);
+      const std::complex<T>* from = plane.data() + first;
+      for (std::size_t y = 0; y < ny; ++y, from += pitch) {
+        __builtin_prefetch(from + (y + ahead < ny ? ahead * pitch : 0));
+        for (std::size_t k = 0; k < together; ++k)  // as one piece each
+          std::memcpy(in.data() + k * length + y, from + k, sizeof *from);
+      }
+      along_columns(in.data(), out.data());
+      for (std::size_t k = 0; k < columns; ++k) take(part, first + k, out.data() + k * length);
+    }
+  });
+}
+
+/// The same for heights of either type: take(part, k_x, column) with columns of complex floats or doubles.
+template <class Take>
+void for_each_mode_column(const HeightMap& map, const Preparation& prepared, unsigned threads, Take take) {
+  std::visit(
+      [&](const auto* data) {
+        using T = std::remove_cvref_t<decltype(*data)>;
+        for_each_column<T>(map, prepared, threads, take);
+      },
+      map.data());
+}
+
+}  // namespace asperity

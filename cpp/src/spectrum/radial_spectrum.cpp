@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "asperity/spectrum.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/pair.hpp"
+#include "spectrum/fft2d.hpp"
+#include "spectrum/reliability.hpp"
+#include "spectrum/tabulated.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// Sums over the modes of a ring.
+struct Ring {
+  Pair power{};  // of |h|^2 and of its square
+  Pair modes{};  // of |q| / dq, and their number
+};
+
+/// Rings round(|q| / dq) of the mode plane, dq = 2 pi / longest side, out to the corner.
+class Rings {
+ public:
+  Rings(HeightMap::Shape shape, HeightMap::PixelSize pixel)
+      : shape_(shape), ly_(static_cast<double>(shape[0]) * pixel[0]), lx_(static_cast<double>(shape[1]) * pixel[1]) {
+    // sides in units of dx, so that the rings do not depend on the unit of length: exact for square pixels
+    side_y_ = static_cast<double>(shape[0]) * (pixel[0] / pixel[1]);
+    side_x_ = static_cast<double>(shape[1]);
+    longest_ = std::max(side_y_, side_x_);
+    for (std::size_t k = 0; k <= shape[0] / 2; ++k) squared_radius_.push_back(std::pow(radius(k, side_y_), 2));
+    const double corner = std::sqrt(std::pow(radius(shape[1] / 2, side_x_), 2) + squared_radius_.back());
+    count_ = static_cast<std::size_t>(corner + 0.5) + 1;
+  }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
+
+  /// Rings that are being summed, and room for half a column, k_y = 0 .. ny / 2.
+  struct Sums {
+    std::vector<Ring> own, mirrored;  // of columns that are their own mirror image, and of the others
+    std::vector<Pair> power;
+    std::vector<double> length;
+    std::vector<int> ring;
+    explicit Sums(const Rings& rings)
+        : own(rings.size()),
+          mirrored(rings.size()),
+          power(rings.squared_radius_.size()),
+          length(power.size()),
+          ring(power.size()) {}
+  };
+
+  /// Adds the modes of column k_x, all ny of them, k_y and -k_y together: they lie in one ring.
+  template <class T>
+  void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
+    const std::size_t ny = shape_[0], last = ny / 2;
+    const double x = radius(kx, side_x_), x2 = x * x;
+    const double* const y2 = squared_radius_.data();
+    double* const length = sums.length.data();
+    int* const ring = sums.ring.data();
+    for (std::size_t ky = 0; ky <= last; ++ky) {
+      length[ky] = std::sqrt(x2 + y2[ky]);
+      ring[ky] = static_cast<int>(length[ky] + 0.5);
+    }
+    Pair* const power = sums.power.data();
+    for (std::size_t ky = 1; ky <= last; ++ky) {
+      const double above = norm(column[ky]), below = norm(column[ny - ky]);
+      power[ky] = Pair{above + below, above * above + below * below};
+    }
+    // off the axes k_x = 0 and k_x = nx / 2 a mode stands for its mirror image too
+    Ring* const rings = (kx == 0 || 2 * kx == shape_[1] ? sums.own : sums.mirrored).data();
+    for (std::size_t ky = 1; 2 * ky < ny; ++ky) {
+      Ring& sum = rings[ring[ky]];
+      sum.power += power[ky];
+      sum.modes += Pair{length[ky], 1};
+    }
+    const auto single = [&](std::size_t ky) {
+      const double alone = norm(column[ky]);
+      rings[ring[ky]].power += Pair{alone, alone * alone};
+      rings[ring[ky]].modes += 0.5 * Pair{length[ky], 1};
+    };
+    single(0);
+    if (2 * last == ny) single(last);
+  }
+
+ private:
+  template <class T>
+  static double norm(std::complex<T> z) {
+    return static_cast<double>(z.real()) * z.real() + static_cast<double>(z.imag()) * z.imag();
+  }
+
+  /// |q| / dq of the k-th mode along a side.
+  [[nodiscard]] double radius(std::size_t k, double side) const { return static_cast<double>(k) * longest_ / side; }
+
+  HeightMap::Shape shape_;
+  double ly_, lx_, side_y_, side_x_, longest_;
+  std::size_t count_;
+  std::vector<double> squared_radius_;  // of k_y = 0 .. ny / 2
+};
+
+std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads) {
+  std::vector<Rings::Sums> sums(threads, Rings::Sums(rings));
+  for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
+    rings.add_column(kx, column, sums[part]);
+  });
+  std::vector<Ring> total(rings.size());
+  for (const Rings::Sums& part : sums)
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      total[r].power += part.own[r].power + Pair{2, 4} * part.mirrored[r].power;
+      total[r].modes += part.own[r].modes + 2 * part.mirrored[r].modes;
+    }
+  return total;
+}
+
+/// The heights above (or below) the mean plane, the others set to it, and the share of the points that they are.
+std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detrend> detrend, Part part) {
+  const HeightMap flat = detrend ? map.detrend(*detrend) : map;
+  const double mean = flat.statistics().mean;
+  double points = 0;
+  HeightMap side = map_rows(flat, [&](std::size_t, std::span<double> row) {
+    for (double& z : row) {
+      const bool mine = part == Part::top ? z > mean : z < mean;
+      z = mine ? z - mean : 0;
+      points += mine;
+    }
+  });
+  const auto [ny, nx] = map.shape();
+  return {std::move(side), points / (static_cast<double>(ny) * static_cast<double>(nx))};
+}
+
+}  // namespace
+
+// |h|^2 of a mode is spread like its own mean (exponentially, for a Gaussian surface), so that its square, whose mean
+// is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike.
+TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
+                                 Part part) {
+  if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
+  if (part != Part::all) {
+    require_plane(map);
+    const auto [side, share] = one_side(map, detrend, part);
+    const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
+    return share > 0 ? scaled_table(spectrum, 1 / share) : spectrum;  // a constant map has no side
+  }
+  const Preparation prepared = prepare(map, window, detrend, threads);
+  const auto [ny, nx] = map.shape();
+  const auto [dy, dx] = map.pixel_size();
+  const Rings rings(map.shape(), map.pixel_size());
+  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads);
+  const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
+  const Reliability reliable(window, shorter, std::max(dy, dx), prepared.ring_variance_factor);
+  std::vector<double> wavenumber, density;
+  RowQuality quality;
+  for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
+    const Ring& sum = sums[ring];
+    const double modes = 2 * sum.modes[1];  // k_y and -k_y were counted as one
+    if (modes == 0) continue;               // non-square pixels leave rings empty near the corner
+    wavenumber.push_back(rings.dq() * 2 * sum.modes[0] / modes);
+    density.push_back(prepared.scale * sum.power[0] / modes);
+    quality.count.push_back(modes);
+    quality.standard_error.push_back(prepared.scale * std::sqrt(prepared.ring_variance_factor * sum.power[1] / 2) /
+                                     modes);
+    quality.flag.push_back(reliable.flag(wavenumber.back(), modes));
+  }
+  if (wavenumber.size() < 2)
+    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
+                       "): must have more points, these make one ring of wavenumbers only");
+  return {std::move(wavenumber), std::move(density), std::move(quality)};
+}
+
+}  // namespace asperity

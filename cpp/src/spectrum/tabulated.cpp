@@ -1,0 +1,98 @@
+#include "spectrum/tabulated.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "numerics/arguments.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+namespace {
+
+void require_each_not_negative(std::string_view name, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    require_not_negative(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
+}
+
+/// The rows of either spectrum.
+void validate_rows(const std::vector<double>& wavenumber, const std::vector<double>& density,
+                   const RowQuality& quality) {
+  require_same_size("density", density.size(), "wavenumber", wavenumber.size());
+  if (wavenumber.size() < 2)
+    throw InvalidInput("wavenumber has " + std::to_string(wavenumber.size()) + " entries: must be 2 or more");
+  require_each_positive("wavenumber", wavenumber);
+  require_rising("wavenumber", wavenumber);
+  require_band("wavenumber: its last entry", wavenumber.front(), wavenumber.back());
+  require_each_not_negative("density", density);
+  const auto require_rows = [&](std::string_view name, std::size_t size) {
+    if (size > 0) require_same_size(name, size, "wavenumber", wavenumber.size());
+  };
+  require_rows("count", quality.count.size());
+  require_rows("standard_error", quality.standard_error.size());
+  require_rows("flag", quality.flag.size());
+  require_each_not_negative("count", quality.count);
+  require_each_not_negative("standard_error", quality.standard_error);
+  for (std::size_t i = 0; i < quality.flag.size(); ++i)
+    if (quality.flag[i] > (few_periods | near_nyquist | few_modes))
+      refuse("flag[" + std::to_string(i) + "]", quality.flag[i], "from 0 to 7");
+}
+
+}  // namespace
+
+TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
+    : wavenumber_(std::move(wavenumber)), density_(std::move(density)), quality_(std::move(quality)) {
+  validate_rows(wavenumber_, density_, quality_);
+}
+
+LineSpectrum::LineSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
+    : wavenumber_(std::move(wavenumber)), density_(std::move(density)), quality_(std::move(quality)) {
+  validate_rows(wavenumber_, density_, quality_);
+}
+
+TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, double q1) {
+  const std::vector<Segment> pieces = segments(table);
+  // Between a cut and a zero the straight line would turn into a power law: it cannot be cut there.
+  for (const Segment& s : pieces)
+    for (const auto& [name, cut] : {std::pair{"q0", q0}, std::pair{"q1", q1}})
+      if (s.straight && s.a < cut && cut < s.b && s.at_a != s.at_b)
+        refuse(name, cut, "at a row where the density beside it is 0, " + show(s.a) + " or " + show(s.b));
+
+  std::vector<double> q, c;
+  RowQuality quality;
+  const auto add_row = [&](std::size_t i) {
+    q.push_back(table.wavenumber()[i]);
+    c.push_back(table.density()[i]);
+    const RowQuality& old = table.quality();
+    if (!old.count.empty()) quality.count.push_back(old.count[i]);
+    if (!old.standard_error.empty()) quality.standard_error.push_back(old.standard_error[i]);
+    if (!old.flag.empty()) quality.flag.push_back(old.flag[i]);
+  };
+  // A row put in at a cut is no measurement of its own: its count is 0, the rest is that of the row outside.
+  const auto add_cut = [&](double cut, std::size_t outside) {
+    add_row(outside);
+    q.back() = cut;
+    const double density_at_cut = density(table, cut), density_outside = c.back();
+    c.back() = density_at_cut;
+    if (!quality.count.empty()) quality.count.back() = 0;
+    if (!quality.standard_error.empty() && density_outside > 0)
+      quality.standard_error.back() *= density_at_cut / density_outside;
+  };
+  const auto& rows = table.wavenumber();
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(rows, q0) - rows.begin());
+  if (rows[first] != q0) add_cut(q0, first - 1);
+  std::size_t i = first;
+  for (; i < rows.size() && rows[i] <= q1; ++i) add_row(i);
+  if (q.empty() || q.back() != q1) add_cut(q1, i);
+  return {std::move(q), std::move(c), std::move(quality)};
+}
+
+TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor) {
+  std::vector<double> values = table.density();
+  RowQuality quality = table.quality();
+  for (double& value : values) value *= factor;
+  for (double& error : quality.standard_error) error *= factor;
+  return {table.wavenumber(), std::move(values), std::move(quality)};
+}
+
+}  // namespace asperity

@@ -1,0 +1,299 @@
+"""What the verbs of the shell command do."""
+
+import importlib.util
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from asperity._core import (
+    HeightMap,
+    InvalidInput,
+    NotConverged,
+    SelfAffineFit,
+    TabulatedSpectrum,
+    fit_self_affine,
+)
+from asperity.demo import check_directory, input_files
+from asperity.io.fields import MOST_ROWS, named
+from asperity.io.table import Table, check_output, terminal_table, write_directory, write_files
+from asperity.plot import curves as plot
+from asperity.plot import surface as plot_surface
+from asperity.scene import scan
+from asperity.scene.scan import read_filled, surface_spectrum
+from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
+
+
+def demo(args: Namespace) -> None:
+    """Write the shipped scan and scene, compute and draw them, show the curve."""
+    directory = Path(args.output)
+    check_directory(directory)
+    files = input_files()
+    with TemporaryDirectory() as aside:
+        write_directory(Path(aside), files)
+        scene = load_scene(Path(aside) / "scene.toml")
+    scene = replace(scene, path=directory / "scene.toml")
+    table, curves = _friction_table([scene], bands=True)
+    files["friction.csv"] = _bytes(table.csv())
+    picture = directory / "friction.png"
+    missing = importlib.util.find_spec("matplotlib") is None
+    if not missing:
+        files[picture.name] = plot.friction_figure([scene], curves, picture)
+    write_directory(directory, files)
+    shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
+    tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
+    tell_notes(table.notes)
+    band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
+    drawn = "none, pip install asperity[plot]" if missing else str(picture)
+    tell(
+        f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
+        f"scene:   {scene.path}\n"
+        f"table:   {directory / 'friction.csv'}\n"
+        f"picture: {drawn}\n"
+    )
+
+
+def friction(args: Namespace) -> None:
+    """Friction of one scene, or of several under one another."""
+    outputs = check_outputs(args)
+    scenes = [load_scene(name) for name in args.scene]
+    spare(outputs, [source for scene in scenes for source in scene.sources])
+    table, curves = _friction_table(scenes, bands=args.plot is not None)
+    deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+
+
+def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
+    """mu of every scene. A band, where standard errors are known, is computed for a picture and
+    where a scene asks for it; it has columns where all scenes ask."""
+    curves = [_curves(scene, band=bands or scene.asks_for_band) for scene in scenes]
+    columns: dict[str, list[Any]] = {}
+    asked = all(scene.asks_for_band for scene in scenes)
+    for scene, result in zip(scenes, curves, strict=True):
+        pressure, velocity = scene.points
+        names = {"scene": [str(scene.path)] * pressure.size} if len(scenes) > 1 else {}
+        points = {"pressure_pa": pressure, "velocity_m_s": velocity}
+        values = {name: getattr(result, name).ravel() for name in COLUMNS}
+        if asked and result.band is not None:
+            values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
+        for name, column in {**names, **points, **values}.items():
+            columns.setdefault(name, []).extend(column)
+    several = len(scenes) > 1
+    notes = [
+        f"{scene.path}: {note}" if several else note
+        for scene, result in zip(scenes, curves, strict=True)
+        for note in result.notes
+    ]
+    return Table("friction", [_inputs(scene) for scene in scenes], notes, columns), curves
+
+
+def _curves(scene: Scene, *, band: bool) -> Curves:
+    curves = scene.friction(progress(str(scene.path)))
+    if not (band and scene.has_errors):
+        return curves
+    return curves.within(scene.band(curves.mu, band_progress(scene)))
+
+
+def progress(title: str) -> Progress:
+    """A bar on a terminal, after two seconds of work, where tqdm is installed."""
+    if not sys.stderr.isatty() or importlib.util.find_spec("tqdm") is None:
+        return nullcontext
+    bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
+    shown = "{l_bar}{bar}| {elapsed}<{remaining}"
+    return lambda chunks: bar(chunks, desc=title, delay=2, leave=False, bar_format=shown)
+
+
+def band_progress(scene: Scene) -> Progress:
+    """The same while a band is drawn."""
+    return progress(f"{scene.path}, band")
+
+
+def area(args: Namespace) -> None:
+    """A/A0 of a scene at every pressure, velocity and wavenumber."""
+    outputs = check_outputs(args)
+    scene = load_scene(args.scene)
+    spare(outputs, scene.sources)
+    rows = scene.pressure.size * scene.velocity.size * args.points
+    if rows > MOST_ROWS:
+        problem = (
+            f"pressures, velocities and --points make {rows} rows: must be at most {MOST_ROWS}"
+        )
+        raise InvalidInput(f"{scene.path}: {problem}")
+    wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
+    values = scene.contact_area(wavenumber, progress(str(scene.path)))
+    grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
+    names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
+    columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}
+    table = Table(
+        "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
+    )
+    deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
+
+
+def spectrum(args: Namespace) -> None:
+    """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
+    path = Path(args.file)
+    spare(check_outputs(args), [path])
+    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
+    with named(None, {**flags, "max_fraction": "--max-dropouts"}):
+        raw, filled = read_filled(
+            path,
+            max_fraction=args.max_dropouts,
+            channel=args.channel,
+            pixel_size=args.pixel_size,
+            unit=args.unit,
+        )
+    how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
+    with named(path, {}):
+        measured = surface_spectrum(filled, **how)
+    flat = scan.flat(filled, how["detrend"])
+    ratio = scan.lay(filled, **how)
+    fit, notes = _fit(measured, args)
+    whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
+    cutoff = whole.cutoff_for_slope(1.3)
+    inputs: dict[str, Any] = {
+        "file": str(path),
+        "channel": args.channel,
+        "shape": list(raw.heights.shape),
+        "pixel_size_m": list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing,
+        "dropout_fraction": raw.dropout_fraction,
+        "window": args.window,
+        "detrend": args.detrend,
+    }
+    for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
+        if given is not None:
+            inputs[key] = given
+    found = {
+        "rms_height_m": whole.rms_height,
+        "rms_slope": whole.rms_slope,
+        "rms_slope_by_differences": flat.rms_slope,
+        "skewness": flat.skewness,
+        "kurtosis": flat.kurtosis,
+        "z_max_m": flat.z_max,
+        "z_min_m": flat.z_min,
+        "slope_cutoff_1.3_per_m": cutoff,
+    }
+    if ratio is not None:
+        found["slope_anisotropy"] = ratio
+    if (band := scan.trusted(measured)) is not None:
+        found |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
+    if fit is not None:
+        found |= _fitted(fit)
+    notes += scan.scan_notes(filled, ratio)
+    if cutoff >= whole.q1:
+        notes.append("the rms slope stays below 1.3 up to pi / pixel")
+    columns = _rows(measured)
+    table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
+    drawn = cutoff if cutoff < whole.q1 else None
+    draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
+    deliver(args, table, draw, found)
+
+
+def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
+    columns: dict[str, list[Any]] = {
+        "wavenumber_per_m": measured.wavenumber.tolist(),
+        "density_m4": measured.density.tolist(),
+    }
+    if measured.count is not None and measured.standard_error is not None:
+        columns["standard_error_m4"] = measured.standard_error.tolist()
+        columns["count"] = [round(modes) for modes in measured.count.tolist()]
+    if measured.flag is not None:
+        columns["flag"] = measured.flag.tolist()
+    return columns
+
+
+def _fitted(fit: SelfAffineFit) -> dict[str, float]:
+    found = {
+        "fit_q0_per_m": fit.q0,
+        "fit_q1_per_m": fit.q1,
+        "fit_hurst": fit.hurst,
+        "fit_hurst_standard_error": fit.standard_errors["hurst"],
+        "fit_rms_height_m": fit.rms_height,
+        "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
+        "fit_residual": fit.residual,
+    }
+    if fit.rolloff is not None:
+        found["fit_rolloff_per_m"] = fit.rolloff
+        found["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
+    return found
+
+
+def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[str]]:
+    """The self-affine fit, or a note that says why there is none."""
+    q_min, q_max = args.q_min, args.q_max
+    if q_min is not None and q_max is not None and q_min >= q_max:
+        raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
+    try:
+        with named(None, {"q_min": "--q-min", "q_max": "--q-max"}):
+            return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
+    except (InvalidInput, NotConverged) as error:
+        return None, [f"no self-affine fit: {error}"]
+
+
+def _inputs(scene: Scene) -> dict[str, Any]:
+    return {"scene": str(scene.path), **scene.inputs, "derived": scene.derived}
+
+
+def check_outputs(args: Namespace) -> list[Path]:
+    """Files to be written, refused before any work where they cannot be."""
+    if args.plot is not None:
+        plot.check_plot(Path(args.plot))
+    outputs = [Path(name) for name in (args.output, args.plot) if name is not None]
+    for path in outputs:
+        check_output(path)
+    if len({path.resolve() for path in outputs}) < len(outputs):
+        raise InvalidInput(f"{outputs[0]}: --output and --plot must be two files")
+    return outputs
+
+
+def spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+    """Refuse to write over what is read."""
+    taken = {path.resolve() for path in inputs}
+    for path in outputs:
+        if path.resolve() in taken:
+            raise InvalidInput(f"{path}: is an input: choose another name for the output")
+
+
+def deliver(
+    args: Namespace,
+    table: Table,
+    draw: Callable[[Path], bytes],
+    found: Mapping[str, float] | None = None,
+) -> None:
+    """Write files, then print what was found, the notes, and the table where no file takes it."""
+    text = table.json() if args.json else table.csv()
+    files = {} if args.plot is None else {Path(args.plot): draw(Path(args.plot))}
+    if args.output is not None:
+        files[Path(args.output)] = _bytes(text)
+    write_files(files)
+    for name, value in (found or {}).items():
+        print(f"{name} = {value:.6g}", file=sys.stderr)
+    tell_notes(table.notes)
+    if args.output is None:
+        tell(text)
+
+
+def tell(text: str) -> None:
+    """Write to standard output; a failure names it."""
+    try:
+        print(text, end="", flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, "standard output") from error
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode(errors="backslashreplace")  # file names need not be UTF-8
+
+
+def tell_notes(notes: Sequence[str]) -> None:
+    """Write notes to standard error."""
+    for note in notes:
+        print("note:", note, file=sys.stderr)

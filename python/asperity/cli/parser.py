@@ -1,0 +1,273 @@
+"""The verbs of the shell command and their options."""
+
+import argparse
+from collections.abc import Callable
+
+from asperity._core import __version__
+from asperity.cli import fit_command, map_command, rubber_command
+from asperity.cli import friction_commands as commands
+from asperity.cli import validate_command as validation
+from asperity.cli.article_command import article
+from asperity.cli.options import Parser, number, numbers, pairs, pixel_size, points, sides, whole
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of the whole command line."""
+    result = Parser(
+        prog="asperity", description="Rubber contact area and friction on rough surfaces."
+    )
+    result.add_argument("--version", action="version", version=__version__)
+    verbs = result.add_subparsers(required=True, metavar="VERB")
+
+    def verb(
+        name: str, run: Callable[[argparse.Namespace], None], summary: str, example: str
+    ) -> argparse.ArgumentParser:
+        added = verbs.add_parser(
+            name,
+            help=summary,
+            description=summary[0].upper() + summary[1:] + ".",
+            epilog=f"example:\n  asperity {name} {example}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        added.set_defaults(run=run)
+        return added
+
+    def outputs(to: argparse.ArgumentParser) -> None:
+        to.add_argument("--output", metavar="FILE", help="where to write (default: the terminal)")
+        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+        to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
+
+    def directory(to: argparse.ArgumentParser, default: str) -> None:
+        to.add_argument(
+            "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
+        )
+
+    demo = verb(
+        "demo", commands.demo, "friction of rubber on a shipped asphalt scan", "--output tryout"
+    )
+    directory(demo, "asperity-demo")
+
+    friction = verb(
+        "friction",
+        commands.friction,
+        "friction coefficient over velocity and pressure; several scenes in one picture",
+        "dry.toml wet.toml --output mu.csv --plot mu.pdf",
+    )
+    friction.add_argument("scene", metavar="SCENE.toml", nargs="+")
+    outputs(friction)
+
+    area = verb(
+        "area",
+        commands.area,
+        "relative contact area over wavenumber",
+        "scene.toml --points 400 --output area.csv --plot area.png",
+    )
+    area.add_argument("scene", metavar="SCENE.toml")
+    area.add_argument(
+        "--points",
+        type=points,
+        default=200,
+        help="wavenumbers, logarithmic (default: %(default)s)",
+    )
+    outputs(area)
+
+    spectrum = verb(
+        "spectrum",
+        commands.spectrum,
+        "roughness spectrum of a scan, with rms height, rms slope and a self-affine fit",
+        "scan.npy --pixel-size 2e-6,1e-6 --unit um --detrend quadratic --plot spectrum.png",
+    )
+    spectrum.add_argument("file", metavar="FILE")
+    spectrum.add_argument(
+        "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
+    )
+    spectrum.add_argument(
+        "--unit",
+        metavar="UNIT",
+        help="of the heights (m, mm, um, nm, pm), where the file states none",
+    )
+    spectrum.add_argument(
+        "--channel",
+        type=whole,
+        default=0,
+        help="of a file with several maps (default: %(default)s)",
+    )
+    spectrum.add_argument(
+        "--window",
+        choices=("split-cosine-bell", "hann", "none"),
+        default="split-cosine-bell",
+        help="default: %(default)s",
+    )
+    spectrum.add_argument(
+        "--detrend",
+        choices=("plane", "quadratic", "offset", "none"),
+        default="plane",
+        help="default: %(default)s",
+    )
+    spectrum.add_argument(
+        "--max-dropouts",
+        type=number,
+        default=0.10,
+        metavar="SHARE",
+        help="refuse a scan with more of its points missing (default: %(default)s)",
+    )
+    spectrum.add_argument(
+        "--q-min", type=number, metavar="Q", help="fit above [1/m] (default: what is reliable)"
+    )
+    spectrum.add_argument(
+        "--q-max", type=number, metavar="Q", help="fit below [1/m] (default: what is reliable)"
+    )
+    spectrum.add_argument(
+        "--method",
+        choices=("least-squares", "slope"),
+        default="least-squares",
+        help="of the fit: weighted, with a roll-off where there is one, or Eq. 28 alone "
+        "(default: %(default)s)",
+    )
+    outputs(spectrum)
+
+    rubber = verb(
+        "rubber",
+        rubber_command.rubber,
+        "master curve, shift factors and Prony series of DMA isotherms",
+        "dma.csv --columns frequency=f,temperature=T,storage=G1,loss=G2 "
+        "--units frequency=Hz,temperature=C,modulus=MPa --modulus G --plot rubber.png",
+    )
+    rubber.add_argument("file", metavar="FILE", nargs="+")
+    rubber.add_argument(
+        "--columns",
+        type=pairs,
+        required=True,
+        metavar="NAME=COLUMN,...",
+        help="names in the files of frequency, temperature, storage, loss",
+    )
+    rubber.add_argument(
+        "--units",
+        type=pairs,
+        required=True,
+        metavar="NAME=UNIT,...",
+        help="frequency=Hz or rad/s, temperature=K or C, modulus=Pa, kPa, MPa or GPa",
+    )
+    rubber.add_argument(
+        "--modulus", choices=("E", "G"), required=True, help="Young's or shear moduli"
+    )
+    rubber.add_argument(
+        "--poisson-ratio",
+        type=number,
+        default=0.5,
+        metavar="NU",
+        help="for E = 2 (1 + nu) G (default: %(default)s)",
+    )
+    rubber.add_argument(
+        "--temperatures",
+        type=numbers,
+        metavar="T,T,...",
+        help="one for each file, where the files have no column of them",
+    )
+    rubber.add_argument(
+        "--reference-temperature",
+        type=number,
+        metavar="T",
+        help="[K] (default: that of the middle isotherm)",
+    )
+    rubber.add_argument(
+        "--vertical-shift", choices=("T/T_ref",), help="divide moduli by b_T (default: none)"
+    )
+    rubber.add_argument(
+        "--shift", metavar="FILE", help="take a_T from a table, temperature_k,log10_a_t"
+    )
+    outputs(rubber)
+    fit = verb(
+        "fit",
+        fit_command.fit,
+        "adhesion from measured friction, beside the scene's hysteresis",
+        "scene.toml measured.csv --hold width=0.1 --output fit.csv --plot fit.png",
+    )
+    fit.add_argument("scene", metavar="SCENE.toml")
+    fit.add_argument(
+        "measured",
+        metavar="MEASURED.csv",
+        help="columns mu, velocity_m_s (or velocity_mm_s, velocity_km_h) and, where pressures "
+        "differ, pressure_pa (pressure_kpa, pressure_mpa)",
+    )
+    fit.add_argument(
+        "--hold",
+        type=pairs,
+        metavar="NAME=VALUE,...",
+        help="keep shear_stress_pa, reference_velocity_m_s or width",
+    )
+    outputs(fit)
+
+    mapped = verb(
+        "map",
+        map_command.friction_map_of,
+        "friction map for simulators, certified; or what a map's file says",
+        "scene.toml --output road.fmap --plot map.png\n  asperity map --info road.fmap",
+    )
+    mapped.add_argument("scene", metavar="SCENE.toml", nargs="?")
+    mapped.add_argument("--info", metavar="FILE", help="tell what is in a map's file")
+    for name, unit in (("pressure", "Pa"), ("velocity", "m/s")):
+        mapped.add_argument(
+            f"--{name}",
+            type=sides,
+            metavar="LO,HI",
+            help=f"of the map [{unit}] (default: the scene's)",
+        )
+    mapped.add_argument(
+        "--rtol", type=number, help="relative (default: the scene's [solver] rtol, or 1e-4)"
+    )
+    mapped.add_argument(
+        "--checked",
+        type=whole,
+        metavar="N",
+        help="random points that the map is checked on (default: 1000000)",
+    )
+    mapped.add_argument("--output", metavar="FILE", help="where to write the map")
+    mapped.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+    mapped.add_argument("--json", action="store_true", help="tell it as JSON")
+
+    validate = verb(
+        "validate",
+        validation.validate,
+        "the measured error of every correction, against boundary-element contacts",
+        "--output worth",
+    )
+    directory(validate, "asperity-validate")
+    validate.add_argument(
+        "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
+    )
+    validate.add_argument(
+        "--surface",
+        metavar="FILE",
+        help="a map of your own, pressed by boundary elements (needs asperity[bem])",
+    )
+    validate.add_argument(
+        "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
+    )
+    validate.add_argument("--unit", metavar="UNIT", help="of its heights, where it states none")
+    validate.add_argument("--channel", type=whole, help="of a file with several maps (default: 0)")
+    validate.add_argument(
+        "--detrend",
+        choices=("plane", "quadratic", "offset", "none"),
+        help="before it is pressed (default: plane)",
+    )
+    validate.add_argument(
+        "--q0",
+        type=number,
+        metavar="Q",
+        help="wavenumber of its macro-asperities [1/m]; without it peaks and IGW are left out",
+    )
+    validate.add_argument(
+        "--loads", type=numbers, metavar="P,P,...", help="p / (E* h') (default: those of the rows)"
+    )
+    validate.add_argument(
+        "--periodic", action="store_true", help="the map continues at its opposite sides"
+    )
+    remade = verb(
+        "article",
+        article,
+        "the article remade: its figures and table, and its statements checked",
+        "--output remade",
+    )
+    directory(remade, "asperity-article")
+    return result

@@ -1,0 +1,96 @@
+"""Measured friction beside the theory with fitted adhesion, as in the article's Fig. 15."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asperity._core import AdhesionFit
+from asperity.plot.curves import band_text, colours, new_figure, picture, pressure_text
+from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> bytes:
+    """Points, total, hysteresis and adhesion: the original theory, and beside it the modified."""
+    figure, panels = new_figure(len(fits))
+    figure.set_size_inches(4.6 * len(fits) + 2.2, 3.9)
+    titles = ["(a) original", "(b) modified"] if len(fits) == 2 else ["original"]
+    if len(fits) == 1 and fits[0].scene.correction is not None:
+        titles = ["modified"]
+    highest = 1.1 * max(
+        float(experiment.measured.mu.max()), *(float(f.curves.mu.max()) for f in fits)
+    )
+    for axes, fit, title in zip(panels, reversed(fits), titles, strict=True):
+        _draw(axes, fit, experiment)
+        axes.set_title(title, fontsize="medium")
+        axes.set_ylim(0, highest)
+        axes.set_xscale("log")
+        axes.set_xlabel("Sliding velocity $v$ [m/s]")
+    panels[0].set_ylabel("Friction coefficient $\\mu$ [-]")
+    entries: dict[str, Any] = {}  # of both panels, each once: points may be put aside in one alone
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    figure.legend(list(entries.values()), list(entries), loc="outside right upper")
+    return picture(figure, path)
+
+
+def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
+    curves, scene = fit.curves, fit.scene
+    x, y = experiment.measured.velocity, experiment.measured.mu
+    aside = np.zeros(y.shape, bool)
+    if fit.adhesion is not None:
+        aside = fit.adhesion.outliers
+        _write(axes, _parameters(fit.adhesion))
+    else:
+        _write(axes, "no adhesion fits:\nsee the notes")
+    nearest = nearest_pressure(scene, experiment.pressure)
+    order = np.argsort(scene.velocity)
+    v = scene.velocity[order]
+    for i, (load, colour) in enumerate(
+        zip(scene.pressure, colours(scene.pressure.size), strict=True)
+    ):
+        of_load = nearest == i
+        label = f"measured, {pressure_text(float(load))}"
+        kept = of_load & ~aside
+        axes.plot(x[kept], y[kept], "o", color=colour, markersize=3.5, label=label)
+        axes.plot(x[of_load & aside], y[of_load & aside], "x", color=colour, markersize=4.5)
+        if curves.band is not None:
+            low, high = (bound[i, order] for bound in curves.band)
+            axes.fill_between(v, low, high, color=colour, alpha=0.2, linewidth=0)
+        axes.plot(v, curves.mu[i, order], "-", color=colour, linewidth=1.8)
+        axes.plot(v, curves.hysteresis[i, order], "--", color=colour, linewidth=1.2)
+        axes.plot(v, curves.adhesion[i, order], ":", color=colour, linewidth=1.2)
+    for dashes, name in (("-", "total"), ("--", "hysteresis"), (":", "adhesion")):
+        axes.plot([], [], dashes, color="0.3", label=name)
+    if aside.any():
+        axes.plot([], [], "x", color="0.3", markersize=4.5, label="put aside")
+    if curves.band is not None:
+        label = band_text(scene.sampling["level"])
+        axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
+
+
+def _write(axes: "Axes", text: str) -> None:
+    paper = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5}
+    axes.text(0.03, 0.97, text, transform=axes.transAxes, va="top", fontsize="small", bbox=paper)
+
+
+def _parameters(fit: AdhesionFit) -> str:
+    errors = fit.standard_errors
+    stress = _with_error(fit.shear_stress / 1e6, errors["shear_stress"] / 1e6)
+    velocity = _with_error(1e3 * fit.reference_velocity, 1e3 * errors["reference_velocity"])
+    width = _with_error(fit.width, errors["width"])
+    return f"$\\tau_{{f0}}$ = {stress} MPa\n$v_0$ = {velocity} mm/s\n$c$ = {width}"
+
+
+def _with_error(value: float, error: float) -> str:
+    """Two digits of the error, and of the value as many places; "held" where there is no error."""
+    if error == 0:
+        return f"{value:.4g} (held)"
+    places = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{places}f} ± {error:.{places}f}"

@@ -1,0 +1,63 @@
+"""A friction map as a picture: mu over velocity and pressure, and how far it is off."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import FrictionMap
+from asperity.plot.curves import new_figure, picture, shades
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_VELOCITIES, _PRESSURES = 241, 161
+_Errors = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+
+
+def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
+    """mu with its level lines on the left; on the right its relative error, which `errors` gives at
+    pressures and velocities, in colours that end at the error it was certified for."""
+    from matplotlib.colors import LogNorm
+    from matplotlib.ticker import MaxNLocator
+
+    # between the lattices that cells are made on
+    pressure = _inside(made.pressure, _PRESSURES)[:, None]
+    velocity = _inside(made.velocity, _VELOCITIES)[None, :]
+    figure, (left, right) = new_figure(2)
+    mu = made.mu(pressure, velocity)
+    ticks = MaxNLocator(8).tick_values(float(mu.min()), float(mu.max()))
+    filled = left.contourf(velocity[0], pressure[:, 0], mu, 200, cmap=shades())
+    filled.set_edgecolor("face")  # no hairlines between the fills of a vector picture
+    label = "Friction coefficient $\\mu$ [-]"
+    figure.colorbar(filled, ax=left, label=label, ticks=ticks, format="%.3g")
+    left.contour(velocity[0], pressure[:, 0], mu, ticks, colors="white", linewidths=0.7)
+    off = np.broadcast_to(errors(pressure, velocity), mu.shape)
+    worst = max(made.max_error, 1e-15)
+    norm = LogNorm(worst * 1e-4, worst)
+    drawn = right.pcolormesh(
+        velocity[0], pressure[:, 0], np.maximum(off, worst * 1e-4), norm=norm, cmap=shades()
+    )
+    drawn.set_rasterized(True)
+    figure.colorbar(drawn, ax=right, label="Relative error of $\\mu$ [-]", extend="both")
+    beyond = f"{made.exceeded} of {made.checked:,} random points beyond"
+    right.set_title(f"{made.cells} cells, certified: {worst:.2g}; {beyond}", fontsize="small")
+    for axes in (left, right):
+        _label(axes)
+        axes.set_xlim(made.velocity)
+        axes.set_ylim(made.pressure)
+    return picture(figure, path)
+
+
+def _inside(sides: tuple[float, float], count: int) -> NDArray[np.float64]:
+    shares = (np.arange(count) + 0.5) / count
+    return np.asarray(sides[0] * (sides[1] / sides[0]) ** shares)
+
+
+def _label(axes: "Axes") -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("Sliding velocity $v$ [m/s]")
+    axes.set_ylabel("Nominal pressure $\\sigma_0$ [Pa]")

@@ -1,0 +1,122 @@
+"""Figures of a master curve: isotherms, the curve, shift factors, the Prony fit (matplotlib)."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity._core import Isotherm, MasterCurveBuild, PronyFit, WlfFit
+from asperity.plot.curves import COLOURS, new_figure, picture, shades
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_STORAGE, _LOSS, _TAN = COLOURS[0], COLOURS[1], COLOURS[2]
+
+
+def rubber_figure(
+    isotherms: Sequence[Isotherm],
+    build: MasterCurveBuild,
+    wlf: WlfFit | None,
+    prony: PronyFit | None,
+    path: Path,
+) -> bytes:
+    """Isotherms as measured, the master curve (the article's Fig. 5), a_T, what the fit leaves."""
+    figure, (first, second, third, fourth) = new_figure(4)
+    _draw_isotherms(first, isotherms)
+    first.set_title("(a) isotherms", fontsize="medium")
+    _draw_master(second, build, prony)
+    reference = build.reference_temperature
+    second.set_title(f"(b) master curve at {reference:.4g} K", fontsize="medium")
+    _draw_shifts(third, build, wlf)
+    third.set_title("(c) shift factors", fontsize="medium")
+    _draw_residual(fourth, build, prony)
+    fourth.set_title("(d) points about the Prony fit", fontsize="medium")
+    return picture(figure, path)
+
+
+def _draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
+    temperatures = np.array([isotherm.temperature for isotherm in isotherms])
+    span = max(float(np.ptp(temperatures)), 1.0)
+    for isotherm in isotherms:
+        colour = shades()((isotherm.temperature - temperatures.min()) / span)
+        w = isotherm.angular_frequency
+        axes.plot(w, isotherm.storage_modulus, "o-", markersize=2.5, linewidth=0.8, color=colour)
+        axes.plot(w, isotherm.loss_modulus, "^:", markersize=2.5, linewidth=0.8, color=colour)
+    for extreme in (temperatures.min(), temperatures.max()):
+        colour = shades()((extreme - temperatures.min()) / span)
+        axes.plot([], [], color=colour, label=f"{extreme:.4g} K")
+    axes.plot([], [], "o-", color="0.4", markersize=2.5, label="$E'$")
+    axes.plot([], [], "^:", color="0.4", markersize=2.5, label="$E''$")
+    _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
+
+
+def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
+    points = build.points
+    w = points.angular_frequency
+    axes.plot(w, points.storage_modulus, "o", markersize=2.5, color=_STORAGE, label="$E'$")
+    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=_LOSS, label="$E''$")
+    if prony is not None:
+        dense = np.geomspace(w[0], w[-1], 300)
+        fitted = prony.modulus(dense)
+        axes.plot(dense, fitted.real, color="black", linewidth=0.9, label="Prony fit")
+        axes.plot(dense, fitted.imag, color="black", linewidth=0.9)
+    _logarithmic(axes, "Reduced frequency $a_T\\, \\omega$ [rad/s]", "Modulus [Pa]")
+    right = axes.twinx()
+    tan = points.loss_modulus / points.storage_modulus
+    right.plot(w, tan, ".", markersize=2.5, color=_TAN)
+    axes.plot([], [], ".", color=_TAN, label="$\\tan\\delta$")
+    right.set_ylabel("$\\tan\\delta$ [-]", color=_TAN)
+    right.set_ylim(0, 1.6 * float(tan.max()))
+    right.tick_params(direction="in", colors=_TAN)
+    axes.legend(loc="best", fontsize="small")
+
+
+def _draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> None:
+    axes.errorbar(
+        build.temperature,
+        build.log10_a_T,
+        yerr=2 * build.standard_deviation,
+        fmt="o",
+        markersize=4,
+        capsize=3,
+        color=_STORAGE,
+        label="measured, ± 2 standard deviations",
+    )
+    if wlf is not None:
+        t = np.linspace(build.temperature[0], build.temperature[-1], 200)
+        d = t - wlf.reference_temperature
+        label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\nresidual {wlf.residual:.2g}"
+        axes.plot(t, -wlf.c1 * d / (wlf.c2 + d), color=_LOSS, label=label)
+    axes.set_xlabel("Temperature $T$ [K]")
+    axes.set_ylabel("$\\log_{10} a_T$ [-]")
+    axes.legend(loc="best", fontsize="small")
+
+
+def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
+    axes.axhline(0, color="0.4", linewidth=0.8)
+    axes.set_xlabel("Reduced frequency $a_T\\, \\omega$ [rad/s]")
+    axes.set_ylabel("Measured / fit - 1 [%]")
+    axes.set_xscale("log")
+    if prony is None:
+        return
+    points = build.points
+    fitted = prony.modulus(points.angular_frequency)
+    for measured, fit, mark, colour, name, rms in (
+        (points.storage_modulus, fitted.real, "o", _STORAGE, "$E'$", prony.storage_residual),
+        (points.loss_modulus, fitted.imag, "^", _LOSS, "$E''$", prony.loss_residual),
+    ):
+        miss = 100 * (measured / fit - 1)
+        label = f"{name}, rms {100 * rms:.2g} %"
+        w = points.angular_frequency
+        axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
+    axes.legend(loc="best", fontsize="small")
+
+
+def _logarithmic(axes: "Axes", x: str, y: str) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.legend(loc="best", fontsize="small")

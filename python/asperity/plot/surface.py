@@ -1,0 +1,127 @@
+"""Figures of a scan and its spectrum (matplotlib)."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import HeightMap, LineScan, SelfAffineFit, TabulatedSpectrum
+from asperity.plot.curves import COLOURS, new_figure, picture
+from asperity.scene.scan import Scan, nyquist
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_PIXELS = 1000  # of a side, in a picture: a larger map is thinned out
+
+
+def spectrum_figure(
+    raw: Scan,
+    flat: Scan,
+    spectrum: TabulatedSpectrum,
+    fit: SelfAffineFit | None,
+    cutoff: float | None,
+    path: Path,
+) -> bytes:
+    """The scan as measured, without its trend (the article's Fig. 6), and its spectrum (Fig. 7)."""
+    figure, (left, middle, right) = new_figure(3)
+    for axes, scan, title in (
+        (left, raw, "(a) as measured"),
+        (middle, flat, "(b) trend removed, holes filled"),
+    ):
+        if isinstance(scan, HeightMap):
+            _draw_map(figure, axes, scan)
+        else:
+            _draw_line(axes, scan)
+        axes.set_title(title, fontsize="medium")
+    _draw_spectrum(right, spectrum.truncated(q1=min(nyquist(flat), spectrum.q1)), fit, cutoff)
+    right.set_title("(c) spectrum", fontsize="medium")
+    return picture(figure, path)
+
+
+def _draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
+    ny, nx = scan.heights.shape
+    step = -(-max(ny, nx) // _MOST_PIXELS)
+    shown = np.asarray(scan.heights[::step, ::step], dtype=float)
+    size = np.array([ny * scan.pixel_size[0], nx * scan.pixel_size[1]])
+    length, length_unit = _unit(float(size.max()))
+    height, height_unit = _unit(float(np.nanmax(np.abs(shown))))
+    low, high = np.nanpercentile(shown / height, [0.2, 99.8])
+    axes.set_facecolor("0.6")  # drop-outs
+    image = axes.imshow(
+        shown / height,
+        extent=(0, size[1] / length, size[0] / length, 0),
+        cmap="cividis",
+        vmin=float(low),
+        vmax=float(high),
+        interpolation="nearest",
+    )
+    axes.set_xlabel(f"$x$ [{length_unit}]")
+    axes.set_ylabel(f"$y$ [{length_unit}]")
+    figure.colorbar(image, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
+
+
+def _draw_line(axes: "Axes", scan: LineScan) -> None:
+    x = np.arange(scan.heights.size) * scan.spacing
+    length, length_unit = _unit(float(x[-1]))
+    height, height_unit = _unit(float(np.nanmax(np.abs(scan.heights))))
+    axes.plot(x / length, scan.heights / height, color=COLOURS[0], linewidth=0.7)
+    axes.set_xlim(0, float(x[-1]) / length)
+    axes.set_xlabel(f"$x$ [{length_unit}]")
+    axes.set_ylabel(f"height [{height_unit}]")
+
+
+def _draw_spectrum(
+    axes: "Axes", spectrum: TabulatedSpectrum, fit: SelfAffineFit | None, cutoff: float | None
+) -> None:
+    q, density, good = spectrum.wavenumber, spectrum.density, spectrum.reliable
+    shown = density > 0
+    _draw_band(axes, spectrum)
+    for rows, colour, label in (
+        (good & shown, COLOURS[0], "measured"),
+        (~good & shown, "0.65", "flagged: do not trust"),
+    ):
+        if rows.any():
+            axes.plot(q[rows], density[rows], ".", markersize=3, color=colour, label=label)
+    if fit is not None:
+        fitted = np.geomspace(fit.q0, fit.q1, 200)
+        label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
+        if fit.rolloff is not None:
+            label += f"\nroll-off {fit.rolloff:.3g}/m"
+        axes.plot(fitted, fit.spectrum.at(fitted), color=COLOURS[1], linewidth=1.5, label=label)
+    if cutoff is not None:
+        axes.axvline(cutoff, color="0.4", linestyle="--", label="rms slope 1.3")
+    axes.set_xscale("log")
+    if shown.any():
+        axes.set_yscale("log")
+    axes.set_xlabel("Wavenumber $q$ [1/m]")
+    axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+    axes.legend(loc="best", fontsize="small")
+
+
+def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:
+    """One standard error to either side, where it is less than the density."""
+    if spectrum.standard_error is None:
+        return
+    q, density, error = spectrum.wavenumber, spectrum.density, spectrum.standard_error
+    lower: NDArray[np.float64] = np.maximum(density - error, density / 10)
+    where = density > 0
+    axes.fill_between(
+        q[where],
+        lower[where],
+        (density + error)[where],
+        color=COLOURS[0],
+        alpha=0.2,
+        linewidth=0,
+        label="± standard error",
+    )
+
+
+def _unit(size: float) -> tuple[float, str]:
+    """The metric unit in which a length is a number from 1 to 1000."""
+    for factor, name in ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm")):
+        if size >= factor:
+            return factor, name
+    return 1e-9, "nm"
