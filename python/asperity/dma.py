@@ -151,10 +151,18 @@ class MasterCurveBuild(HasShiftFactors):
     def standard_deviation(self) -> Array:
         """Standard deviation of log10_a_T against the isotherm nearest to T_ref [-], shape (n,).
 
-        It comes from the scatter about the master spline.
+        Above 0.3 the data do not fix the shift: see `undetermined` and `notes`.
         """
         deviation = self.shift_factors.standard_deviation
         return frozen(np.empty(0)) if deviation is None else deviation
+
+    def _covariance_of_shifts(self) -> Array:
+        return np.empty(0) if self.covariance is None else self.covariance
+
+    @property
+    def undetermined(self) -> NDArray[np.bool_]:
+        """Whether the data leave a shift open: its standard deviation exceeds 0.3 decades."""
+        return frozen(self.standard_deviation > 0.3)
 
     def _summary(self) -> dict[str, Any]:
         return {
@@ -189,9 +197,11 @@ def build_master_curve(
 ) -> MasterCurveBuild:
     """Shift isotherms in frequency until neighbours overlap (the article's Section 5.1).
 
-    E(w; T) = b_T E(a_T w; T_ref), for E' and E'' together: from neighbour to neighbour for a start,
-    then all shifts at once, with one cubic spline of ln E' and one of ln E'' in ln w that all
-    isotherms share (variable projection; the knots by generalised cross-validation).
+    E(w; T) = b_T E(a_T w; T_ref), for E' and E'' together: neighbours in pairs first, then all
+    shifts at once, with one penalised cubic spline of ln E' and one of ln E'' in ln w that all
+    isotherms share. Shifts and smoothness maximise the restricted likelihood (REML), whose
+    determinant makes an overlap that is given up no gain; residuals that are correlated within
+    isotherms make the data count by as much less. a_T falls with temperature.
 
     Parameters
     ----------
@@ -245,7 +255,7 @@ def build_master_curve(
 
 def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> MasterCurveBuild:
     """Return a build from the parts that the core's has."""
-    curve, shifts, b_T, points, residual, notes = parts  # noqa: N806
+    curve, shifts, b_T, points, residual, covariance, notes = parts  # noqa: N806
     shift_factors = ShiftFactors._of(shifts)
     return MasterCurveBuild(
         master_curve=MasterCurve._of(curve, extrapolation, shift_factors),
@@ -253,8 +263,28 @@ def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> Maste
         b_T=b_T,
         points=MasterPoints(**dict(zip(MasterPoints.__match_args__, points, strict=True))),
         residual=residual,
+        covariance=covariance,
         notes=notes,
     )
+
+
+def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
+    """Return a build as its errors would have it: a_T drawn from `covariance`, the points moved.
+
+    The coefficients of the spline through the points are drawn from their own covariance.
+    """
+    if build.covariance is None:
+        raise InvalidInput("build: has no covariance to draw from")
+    parts = _core.draw_master_curve(
+        build.master_curve._core,
+        build.shift_factors._core,
+        build.b_T,
+        *build.points._arguments().values(),
+        build.residual,
+        build.covariance,
+        seed,
+    )
+    return _built(parts, "power-law")
 
 
 @value

@@ -10,6 +10,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
+    Array,
     OptionalVector,
     Vector,
     brief,
@@ -118,13 +119,17 @@ class HasShiftFactors(Table):
         """
         return over(temperature, "temperature", self._core.shift_factor)
 
+    def _covariance_of_shifts(self) -> Array:
+        """Return that of log10_a_T; empty where it is not known."""
+        return np.empty(0)
+
     def fit_wlf(self) -> WlfFit:
         """Fit log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref) by least squares.
 
         The law is that of M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77, 3701
         (1955). Fewer than 4 temperatures raise InvalidInput.
         """
-        c1, c2, c1_error, c2_error, residual = self._core.fit_wlf()
+        c1, c2, c1_error, c2_error, residual = self._core.fit_wlf(self._covariance_of_shifts())
         return WlfFit(
             c1=c1,
             c2=c2,
@@ -135,7 +140,7 @@ class HasShiftFactors(Table):
 
     def fit_arrhenius(self) -> ArrheniusFit:
         """Fit ln a_T = (E_a / R) (1 / T - 1 / T_ref) by least squares."""
-        energy, error, residual = self._core.fit_arrhenius()
+        energy, error, residual = self._core.fit_arrhenius(self._covariance_of_shifts())
         return ArrheniusFit(
             activation_energy=energy,
             reference_temperature=self.reference_temperature,

@@ -30,12 +30,12 @@ void bind_shift_factors(py::module_& m) {
              });
            })
       .def("fit_wlf",
-           [](const ShiftTable& s) {
-             const WlfFit fit = s.fit_wlf();
+           [](const ShiftTable& s, const Array& covariance) {
+             const WlfFit fit = s.fit_wlf(span_of(covariance));
              return py::make_tuple(fit.c1, fit.c2, fit.c1_error, fit.c2_error, fit.residual);
            })
-      .def("fit_arrhenius", [](const ShiftTable& s) {
-        const ArrheniusFit fit = s.fit_arrhenius();
+      .def("fit_arrhenius", [](const ShiftTable& s, const Array& covariance) {
+        const ArrheniusFit fit = s.fit_arrhenius(span_of(covariance));
         return py::make_tuple(fit.activation_energy, fit.activation_energy_error, fit.residual);
       });
 }
@@ -58,7 +58,7 @@ void bind_sweeps(py::module_& m) {
       }));
 }
 
-/// (master curve, shift factors, b_T, columns of the points, residual, notes)
+/// (master curve, shift factors, b_T, columns of the points, residual, covariance, notes)
 py::tuple parts_of(MasterCurveBuild build) {
   std::vector<double> w, storage, loss;
   std::vector<std::int64_t> isotherm;
@@ -70,8 +70,10 @@ py::tuple parts_of(MasterCurveBuild build) {
   }
   const py::tuple points = py::make_tuple(array_of(std::move(w)), array_of(std::move(storage)),
                                           array_of(std::move(loss)), array_of(std::move(isotherm)));
+  const auto n = static_cast<py::ssize_t>(build.b_T.size());
+  const py::array covariance = array_of(std::move(build.covariance), {n, n});
   return py::make_tuple(std::move(build.master_curve), std::move(build.shifts), array_of(std::move(build.b_T)), points,
-                        build.residual, tuple_of(build.notes));
+                        build.residual, covariance, tuple_of(build.notes));
 }
 
 py::tuple built(const std::vector<Isotherm>& isotherms, double reference_temperature, int vertical_shift,
@@ -83,6 +85,15 @@ py::tuple built(const std::vector<Isotherm>& isotherms, double reference_tempera
   if (shift_factors != nullptr) options.shift_table = *shift_factors;
   if (extrapolation) options.extrapolation = static_cast<Extrapolation>(*extrapolation);
   return parts_of(released([&] { return build_master_curve(isotherms, options); }));
+}
+
+py::tuple drawn(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
+                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
+                const Array& covariance, std::uint64_t seed) {
+  MasterCurveBuild build{curve, shifts, vector_of(b_T), {}, residual, vector_of(covariance), {}};
+  for (py::ssize_t i = 0; i < w.size(); ++i)
+    build.points.push_back({w.at(i), storage.at(i), loss.at(i), static_cast<std::size_t>(isotherm.at(i))});
+  return parts_of(released([&] { return draw_master_curve(build, seed); }));
 }
 
 /// (series, residual of E', residual of E'', causal, notes)
@@ -108,6 +119,7 @@ void bind_dma(py::module_& m) {
   bind_shift_factors(m);
   bind_sweeps(m);
   m.def("build_master_curve", &built);
+  m.def("draw_master_curve", &drawn);
   m.def("fit_prony", &fitted);
   m.def("at_strain", &large_strain);
 }

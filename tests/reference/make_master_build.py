@@ -2,7 +2,8 @@
 
 WLF: log10 a_T = -c1 d / (c2 + d), d = T - T_ref: both derivatives of the sum of squares are zero
 (Newton in two unknowns, from scipy's fit). Second evaluation: c1 eliminated, the derivative in c2
-bisected. Standard errors: s^2 (J^T J)^-1, s^2 the sum of squares over n - 2.
+bisected. Standard errors: s^2 (J^T J)^-1, s^2 the sum of squares over n - 2, n without
+a row at the reference, which any law goes through.
 Arrhenius: ln a_T = (E_a / R) (1 / T - 1 / T_ref), a straight line through the origin: the normal
 equation, and scipy. R = 8.31446261815324 J/(mol K), exact.
 """
@@ -61,7 +62,8 @@ def wlf(temperature, y, reference):
         )
     n, total = len(d), wlf_sum(c1, c2, d, y)
     jacobian = mp.matrix([[-di / (c2 + di), c1 * di / (c2 + di) ** 2] for di in d])
-    covariance = mp.inverse(jacobian.T * jacobian) * total / (n - 2)
+    data = sum(1 for di in d if di != 0)  # any law goes through the reference
+    covariance = mp.inverse(jacobian.T * jacobian) * total / (data - 2)
     return c1, c2, mp.sqrt(covariance[0, 0]), mp.sqrt(covariance[1, 1]), mp.sqrt(total / n)
 
 
@@ -74,7 +76,8 @@ def arrhenius(temperature, y, reference):
     again = np.linalg.lstsq(uu[:, None], np.array(y, float), rcond=None)[0][0]
     tables.agree("master_build", slope, mp.mpf(float(again)), 1e-12)
     total = mp.fsum((yi - slope * ui) ** 2 for ui, yi in zip(u, y, strict=True))
-    error = mp.sqrt(total / (len(u) - 1) / mp.fdot(u, u))
+    data = sum(1 for ui in u if ui != 0)  # any law goes through the reference
+    error = mp.sqrt(total / (data - 1) / mp.fdot(u, u))
     return GAS * slope, GAS * error, mp.sqrt(total / len(u)) / mp.log(10)
 
 

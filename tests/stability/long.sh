@@ -4,6 +4,7 @@
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
+#   isotherms    shift factors of 400 random sets of isotherms, and 200 bands on mu from isotherms
 #   catalogue    every regime in which methods fail
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
@@ -42,6 +43,10 @@ tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }
 
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
+isotherms() {
+  "$python" tests/stability/random_isotherms.py && "$python" tests/stability/coverage_isotherms.py
+}
+
 catalogue() { "$python" tests/stability/catalogue.py; }
 
 sanitize() { ctests sanitize; }
@@ -61,10 +66,10 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue scenes maps tests properties sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue isotherms scenes maps tests properties sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
+    catalogue | isotherms | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
     *) sed -n '2,11s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,8 +63,11 @@ class ASPERITY_EXPORT ShiftTable {
   [[nodiscard]] const std::vector<double>& standard_deviation() const { return deviation_; }
   /// a_T at a temperature [K]: Steffen's interpolant of log10 a_T; OutOfRange outside of the table.
   [[nodiscard]] double shift_factor(double temperature) const;
-  [[nodiscard]] WlfFit fit_wlf() const;
-  [[nodiscard]] ArrheniusFit fit_arrhenius() const;
+  /// Least squares. Standard errors: from the covariance of log10 a_T (n rows of n, as of a build) where it is given,
+  /// times the scatter over that which it explains where there is more; without it from the scatter about the law. A
+  /// row at the reference is no data: any law goes through it.
+  [[nodiscard]] WlfFit fit_wlf(std::span<const double> covariance = {}) const;
+  [[nodiscard]] ArrheniusFit fit_arrhenius(std::span<const double> covariance = {}) const;
 
  private:
   double reference_;
@@ -88,18 +92,28 @@ struct MasterPoint {
   std::size_t isotherm;                  // of origin: index in rising temperature
 };
 
+/// A shift with a larger standard deviation [decades] is one that the data do not fix.
+inline constexpr double undetermined_shift = 0.3;
+
 struct MasterCurveBuild {
   MasterCurve master_curve;
   ShiftTable shifts;
   std::vector<double> b_T;
   std::vector<MasterPoint> points;  // in rising frequency
   double residual;                  // rms of ln E', ln E'' about the master spline
+  std::vector<double> covariance;   // of log10 a_T, n rows of n: zero at the isotherm nearest to T_ref
   std::vector<std::string> notes;
 };
 
-/// Horizontal shifts on E' and E'' together: pairwise for a start, then all at once about one master spline.
+/// Horizontal shifts on E' and E'' together: neighbours in pairs for a start, then all at once about one master spline,
+/// by their restricted likelihood. A shift whose standard deviation exceeds 0.3 decades is one that the data do not
+/// fix; a note says so.
 ASPERITY_EXPORT MasterCurveBuild build_master_curve(std::span<const Isotherm> isotherms,
                                                     const MasterCurveOptions& options);
+
+/// A build as its errors would have it: log10 a_T drawn from its covariance, the points moved, and the spline through
+/// them with coefficients drawn from their own; smooth, extrapolated by power laws. The same for the same seed.
+ASPERITY_EXPORT MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t seed);
 
 struct PronyFitOptions {
   std::optional<double> modes_per_decade = std::nullopt;  // default: the fewest modes that reach the noise

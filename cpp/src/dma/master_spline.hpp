@@ -1,40 +1,41 @@
-// A master curve as two cubic splines that isotherms share, and the shifts that bring them onto it.
+// A master curve as two penalised splines that isotherms share, and how far its coefficients are known.
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
+#include <optional>
 #include <vector>
+
+#include "dma/shift_likelihood.hpp"
 
 namespace asperity {
 
-/// Points of all isotherms in logarithms, before any shift.
-struct SweepPoints {
-  Eigen::VectorXd x;              // ln w
-  Eigen::VectorXd storage, loss;  // ln E', ln E'', vertical shift taken out
-  std::vector<Eigen::Index> isotherm;
-  Eigen::Index isotherms;
-};
-
-/// Cubic B-splines of ln E' and ln E'' over x + shift with equal knots, and the shifts that suit them best.
+/// ln E' and ln E'' over log10 of the reduced frequency.
 struct MasterSpline {
-  double lower, spacing;                   // first knot, distance of knots, in x
-  Eigen::VectorXd storage, loss;           // coefficients
-  Eigen::VectorXd shift;                   // of each isotherm, in x; that of `fixed` is as given
-  Eigen::MatrixXd covariance;              // of the shifts
-  double storage_residual, loss_residual;  // rms
-  double validation;                       // generalised cross-validation: what a new point would miss by, squared
+  double lowest, highest;  // of the points, log10 w
+  double lower;            // first knot
+  std::array<std::vector<double>, moduli> coefficients;
+  std::array<double, moduli> residual;  // standard deviation of the points about the curve
 
-  [[nodiscard]] double upper() const { return lower + spacing * static_cast<double>(storage.size() - 3); }
-  /// ln E', ln E'' at x.
+  /// ln E', ln E'' at x = log10 w.
   [[nodiscard]] Eigen::Vector2d at(double x) const;
+  /// At ten frequencies a decade, moved by `shift` [decades].
+  [[nodiscard]] MasterCurve sampled(double shift, std::optional<Extrapolation> extrapolation) const;
+  /// The same curve in frequencies that are `distance` [decades] higher.
+  void move(double distance);
 };
 
-/// All shifts at once, from `start` on.
-MasterSpline fit_master_spline(const SweepPoints& points, const Eigen::VectorXd& start, Eigen::Index fixed);
+/// The splines of the last evaluation of a likelihood. `shifted` shifts were fitted to the points too.
+MasterSpline master_spline(ShiftLikelihood& likelihood, std::size_t shifted);
 
-/// The same for moduli that are a little different, from the shifts and with about the knots of the first.
-MasterSpline refit_master_spline(const SweepPoints& points, const MasterSpline& first, Eigen::Index fixed);
+/// What share of the points counts as independent, their residuals being correlated within isotherms: (1 - r) / (1 + r)
+/// for a correlation r of neighbours, one isotherm being one point at the least.
+double independent_share(ShiftLikelihood& likelihood);
 
-/// The splines for shifts that are known.
-MasterSpline master_spline_at(const SweepPoints& points, const Eigen::VectorXd& shift);
+/// The spline for shifts that are known.
+MasterSpline master_spline_at(const SweepPoints& points, const std::vector<double>& shift);
+
+/// ln of the factors on the penalties that are likeliest for shifts that are known; evaluates the likelihood there.
+std::array<double, moduli> fit_factors(ShiftLikelihood& likelihood, std::span<const double> shift);
 
 }  // namespace asperity

@@ -1,5 +1,7 @@
-// Shift factors a_T over temperature: interpolation of log10 a_T, and the fits of Williams, Landel and Ferry,
-// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), J. Am. Chem. Soc. 77, 3701 (1955), and of Arrhenius.
+// Shift factors over temperature, and the laws through them: WLF (M. L. Williams, R. F. Landel, J. D. Ferry, J. Am.
+// Chem. Soc. 77, 3701 (1955)) and Arrhenius.
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,8 +19,44 @@ namespace {
 constexpr double gas_constant = 8.31446261815324;  // [J/(mol K)], CODATA 2018, exact
 
 struct Sums {
-  double weight = 0, uu = 0, uy = 0;
+  double uu = 0, uy = 0;
 };
+
+/// log10 a_T against the reference from log10 a_T against an isotherm: less the value there, which is interpolated.
+Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftTable& shifts) {
+  const std::vector<double>& t = shifts.temperature();
+  require_same_size("covariance", covariance.size(), "temperature squared", t.size() * t.size());
+  const auto n = static_cast<Eigen::Index>(t.size());
+  const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, shifts.reference());
+  const auto k = static_cast<Eigen::Index>(above - t.begin()) - 1;
+  const double share = std::clamp((shifts.reference() - *(above - 1)) / (*above - *(above - 1)), 0.0, 1.0);
+  Eigen::MatrixXd less = Eigen::MatrixXd::Identity(n, n);
+  less.col(k).array() -= 1 - share;
+  less.col(k + 1).array() -= share;
+  return less * Eigen::Map<const Eigen::MatrixXd>(covariance.data(), n, n) * less.transpose();
+}
+
+/// The covariance of least-squares parameters, G C G^T, G = (J^T J)^-1 J^T, J the slopes of the law in them. C is
+/// given, or s^2 for every row but one at the reference; where the residuals r are larger than C makes them, tr((I - J
+/// G) C (I - J G)^T), as much larger.
+Eigen::MatrixXd parameter_covariance(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left,
+                                     std::span<const double> covariance, const ShiftTable& shifts) {
+  const Eigen::MatrixXd inverse = (slopes.transpose() * slopes).inverse();
+  const double sum = left.squaredNorm();
+  if (std::ranges::all_of(covariance, [](double c) { return c == 0; })) {  // none, or a_T was given
+    const bool given = std::ranges::find(shifts.temperature(), shifts.reference()) != shifts.temperature().end();
+    const Eigen::Index freedom = slopes.rows() - slopes.cols() - (given ? 1 : 0);
+    // as many rows as parameters: the law goes through them all, and how far it is off they do not say
+    if (freedom < 1) return Eigen::MatrixXd::Constant(slopes.cols(), slopes.cols(), HUGE_VAL);
+    return sum / static_cast<double>(freedom) * inverse;
+  }
+  const Eigen::MatrixXd of_rows = about_reference(covariance, shifts);
+  const Eigen::MatrixXd onto = inverse * slopes.transpose();
+  const Eigen::MatrixXd off = Eigen::MatrixXd::Identity(left.size(), left.size()) - slopes * onto;
+  const double expected = (off * of_rows * off.transpose()).trace();
+  const double excess = expected > 0 ? std::max(1.0, sum / expected) : 1;
+  return excess * onto * of_rows * onto.transpose();
+}
 
 }  // namespace
 
@@ -54,7 +92,7 @@ double ShiftTable::shift_factor(double temperature) const {
 
 // With d = T - T_ref and a given c2, log10 a_T = c1 u, u = -d / (c2 + d), is linear in c1: c2 is searched for alone, in
 // ln(c2 + lowest d), from where c2 + T - T_ref vanishes at the lowest temperature to where the law is a straight line.
-WlfFit ShiftTable::fit_wlf() const {
+WlfFit ShiftTable::fit_wlf(std::span<const double> covariance) const {
   const std::size_t n = temperature_.size();
   if (n < 4) throw InvalidInput("temperature has " + std::to_string(n) + " entries: must be 4 or more for a WLF fit");
   const double lowest = temperature_.front() - reference_;
@@ -90,39 +128,35 @@ WlfFit ShiftTable::fit_wlf() const {
   const Sums s = sums(c2);
   const double c1 = s.uy / s.uu;
 
-  // covariance s^2 (J^T J)^-1, J = (u, c1 d / (c2 + d)^2)
-  double uv = 0, vv = 0;
+  Eigen::MatrixXd slopes(n, 2);
+  Eigen::VectorXd residual(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double d = temperature_[i] - reference_, u = -d / (c2 + d), v = c1 * d / std::pow(c2 + d, 2);
-    uv += u * v;
-    vv += v * v;
+    const auto at = static_cast<Eigen::Index>(i);
+    const double d = temperature_[i] - reference_;
+    slopes.row(at) << -d / (c2 + d), c1 * d / std::pow(c2 + d, 2);
+    residual[at] = log10_a_T_[i] + c1 * d / (c2 + d);
   }
-  const double sum = left(x), variance = sum / static_cast<double>(n - 2);
-  const double determinant = s.uu * vv - uv * uv;
+  const Eigen::MatrixXd variance = parameter_covariance(slopes, residual, covariance, *this);
   return {c1,
           c2,
           reference_,
-          std::sqrt(variance * vv / determinant),
-          std::sqrt(variance * s.uu / determinant),
-          std::sqrt(sum / static_cast<double>(n))};
+          std::sqrt(variance(0, 0)),
+          std::sqrt(variance(1, 1)),
+          std::sqrt(residual.squaredNorm() / static_cast<double>(n))};
 }
 
-ArrheniusFit ShiftTable::fit_arrhenius() const {
+ArrheniusFit ShiftTable::fit_arrhenius(std::span<const double> covariance) const {
   const std::size_t n = temperature_.size();
-  Sums s;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double u = 1 / temperature_[i] - 1 / reference_;
-    s.uu += u * u;
-    s.uy += u * std::numbers::ln10 * log10_a_T_[i];
-  }
-  if (s.uu == 0) throw InvalidInput("temperature: must differ from the reference for an Arrhenius fit");
-  const double slope = s.uy / s.uu;  // E_a / R
-  double left = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    left += std::pow(log10_a_T_[i] - slope * (1 / temperature_[i] - 1 / reference_) / std::numbers::ln10, 2);
-  const double variance = left * std::pow(std::numbers::ln10, 2) / static_cast<double>(n - 1);
-  return {gas_constant * slope, reference_, gas_constant * std::sqrt(variance / s.uu),
-          std::sqrt(left / static_cast<double>(n))};
+  Eigen::MatrixXd slopes(n, 1);  // of log10 a_T in E_a / (R ln 10)
+  for (std::size_t i = 0; i < n; ++i) slopes(static_cast<Eigen::Index>(i), 0) = 1 / temperature_[i] - 1 / reference_;
+  const double square = slopes.squaredNorm();
+  if (square == 0) throw InvalidInput("temperature: is the reference throughout, must differ for an Arrhenius fit");
+  const auto shift = Eigen::Map<const Eigen::VectorXd>(log10_a_T_.data(), static_cast<Eigen::Index>(n));
+  const double slope = slopes.col(0).dot(shift) / square;
+  const Eigen::VectorXd residual = shift - slope * slopes.col(0);
+  const double unit = gas_constant * std::numbers::ln10;
+  return {unit * slope, reference_, unit * std::sqrt(parameter_covariance(slopes, residual, covariance, *this)(0, 0)),
+          std::sqrt(residual.squaredNorm() / static_cast<double>(n))};
 }
 
 }  // namespace asperity

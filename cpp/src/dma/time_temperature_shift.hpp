@@ -1,4 +1,4 @@
-// Isotherms against each other: how far along ln w each must move to lie on its neighbours.
+// Isotherms against each other: how far along log10 w each must move to lie on one curve with all others.
 #pragma once
 
 #include <string>
@@ -9,26 +9,42 @@
 
 namespace asperity {
 
-constexpr double least_overlap = 0.3;  // decades that neighbours should share
-
-std::string kelvin(const Isotherm& isotherm);
-
 /// Whether the values of two sweeps meet at all: E' of one lies within that of the other somewhere.
 bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b);
 
-/// The points of all isotherms in logarithms, divided by b_T.
-SweepPoints gather(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T);
+/// The likeliest shifts, and the likelihood there.
+struct ShiftFit {
+  Eigen::VectorXd unknowns;  // of ShiftLikelihood
+  Eigen::MatrixXd inverse;   // of the Hessian, as the search has it
+  double weight;             // of the data against the prior
+  double value;
+};
+/// From the pair search, or from unknowns that are known to be near.
+ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness);
+ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness, const Eigen::VectorXd& near,
+                    double weight);
 
-/// log10 a_T of the isotherms, their deviations and the spline they lie on.
+/// The covariance of the shifts [decades squared], zero at `fixed`: the curvature of the likelihood, and where a
+/// plateau lets an isotherm slide farther than that says, how far.
+Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, std::size_t fixed);
+
+/// log10 a_T of the isotherms about `fixed`, their covariance and the spline they lie on.
 struct Shifted {
   MasterSpline spline;
-  std::vector<double> log10_a_T, deviation;
+  std::vector<double> log10_a_T;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd unknowns;
+  double weight;
 };
-/// From neighbour to neighbour, then all at once; the isotherm nearest to the reference stays where its neighbours put
-/// it.
-Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference);
-/// The same with other vertical shifts, from what the first ones gave.
-Shifted joint_shifts(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, double reference,
-                     const Shifted& first);
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed);
+/// The same with other vertical shifts, from what the first ones gave; no covariance.
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted& first);
+
+/// log10 a_T about `fixed` by E' alone and by E'' alone, and how far apart they are in standard deviations of that: 0
+/// where none is farther than `least` [decades].
+struct Disagreement {
+  std::vector<double> storage, loss, deviations;
+};
+Disagreement moduli_apart(const SweepPoints& points, std::size_t fixed, const Shifted& both, double least);
 
 }  // namespace asperity

@@ -7,6 +7,7 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
+#include "numerics/random.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -14,24 +15,6 @@ namespace asperity {
 using std::numbers::pi;
 
 namespace {
-
-/// Splitmix64 (Steele, Lea and Flood, OOPSLA 2014): the same stream on every machine.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// Uniform in [0, 1).
-  double operator()() {
-    state_ += 0x9e3779b97f4a7c15;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Where the modes of a grid lie, in the half plane that a real transform keeps.
 struct Modes {

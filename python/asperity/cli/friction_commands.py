@@ -94,7 +94,7 @@ def _curves(scene: Scene, *, band: bool) -> Curves:
     curves = scene.friction(progress(str(scene.path)))
     if not (band and scene.has_errors):
         return curves
-    return replace(curves, band=scene.band(curves.mu, band_progress(scene)))
+    return curves.within(scene.band(curves.mu, band_progress(scene)))
 
 
 def progress(title: str) -> Progress:

@@ -96,7 +96,7 @@ class Experiment:
         refit = None
         if adhesion is not None and scene.has_measured_errors:
             refit = partial(self._refit, scene, adhesion)
-        return replace(curves, band=scene.band(curves.mu, progress, refit))
+        return curves.within(scene.band(curves.mu, progress, refit))
 
     def _refit(
         self,

@@ -3,7 +3,7 @@
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -36,7 +36,7 @@ from asperity.scene.parts import build_adhesion, build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
 from asperity.spectrum import Spectrum
-from asperity.uncertainty.band import DrawAdhesion, swept_band
+from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
 
 _POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
@@ -69,6 +69,10 @@ class Curves:
     shift_factor: NDArray[np.float64]
     error_estimate: NDArray[np.float64]
     band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
+
+    def within(self, band: Bounds) -> "Curves":
+        """The same with a band on mu, and what there is to say of it."""
+        return replace(self, band=(band.lower, band.upper), notes=[*self.notes, *band.notes])
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,10 +153,10 @@ class Scene:
         mu: NDArray[np.float64],
         progress: Progress = nullcontext,
         refit: DrawAdhesion | None = None,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
         with named(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
-            lower, upper = swept_band(
+            band = swept_band(
                 self.surface.drawn,
                 self.built_rubber.drawn,
                 self.adhesion,
@@ -167,7 +171,7 @@ class Scene:
                 refit=refit,
                 **self.sampling,
             )
-        return mu * lower, mu * upper
+        return Bounds(mu * band.lower, mu * band.upper, band.notes)
 
     def contact_area(
         self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext

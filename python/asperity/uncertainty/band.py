@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asperity._core import InvalidInput
+from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
 from asperity.base.arguments import broadcast, number, of_kind, shaped, whole
 from asperity.base.table import Column, Columns, Table
@@ -21,9 +21,18 @@ from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
 
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
-Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 _SWEPT = 13  # velocities at which the band of a sweep is computed
+_FAILURES = (InvalidInput, NotConverged, OutOfRange)
+_FAILED = 0.1  # share of draws that may fail: without more of them a band would be another
+
+
+class Bounds(NamedTuple):
+    """The two ends of a band, and what there is to say of it."""
+
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    notes: tuple[str, ...]
 
 
 @value
@@ -40,6 +49,8 @@ class FrictionBand(Table):
         In (0, 1) [-].
     samples : int
         How many draws there were.
+    notes : tuple of str
+        How many of them failed and were left out, if any.
     """
 
     lower: Any
@@ -48,6 +59,7 @@ class FrictionBand(Table):
     velocity: Any
     level: float
     samples: int
+    notes: tuple[str, ...] = ()
 
     def _columns(self) -> Columns:
         axes = tuple(f"axis_{i}" for i in range(np.ndim(self.lower)))
@@ -93,9 +105,11 @@ def friction_band(
         A fit is drawn from the covariance of its parameters, a table from the standard errors of
         its rows (of logarithmic bins, ten a decade). A plain spectrum has no errors.
     rubber : MasterCurveBuild, MasterCurve or PronySeries
-        The isotherms of a build are drawn with the scatter about its master spline, and shifted
-        and smoothed anew, so that shift factors scatter as their standard deviations say. A plain
-        rubber has no errors.
+        log10 a_T of a build is drawn from its covariance, and the coefficients of the spline
+        through the points moved there from theirs: the scatter of the points about the spline,
+        less what smoothing averages out, more where residuals are correlated within isotherms. A
+        build does not know a calibration error that all isotherms share, nor what vertical shift
+        the rubber has: its notes tell what b_T = T / T_ref would do. A plain rubber has no errors.
     pressure, velocity : array_like
         [Pa], [m/s], broadcast.
     poisson_ratio, correction, adhesion, form
@@ -140,7 +154,7 @@ def friction_band(
         "form": form,
     }
     mu = friction(plain, solid.plain, pressure=p, velocity=v, adhesion=adhesion, **options).mu
-    lower, upper = relative_band(
+    band = relative_band(
         surface,
         solid,
         adhesion,
@@ -150,12 +164,13 @@ def friction_band(
         level=level,
     )
     return FrictionBand(
-        lower=mu * shaped(lower, shape),
-        upper=mu * shaped(upper, shape),
+        lower=mu * shaped(band.lower, shape),
+        upper=mu * shaped(band.upper, shape),
         pressure=p,
         velocity=v,
         level=float(level),
         samples=int(samples),
+        notes=band.notes,
     )
 
 
@@ -171,8 +186,10 @@ def relative_band(
     progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
     refit: DrawAdhesion | None = None,
 ) -> Bounds:
-    """Quantiles of mu of drawn inputs over mu of the plain ones; 1 where there is no friction.
-    `refit` gives the adhesion that goes with a drawn spectrum and rubber."""
+    """Return quantiles of mu of drawn inputs over mu of the plain ones; 1 without friction.
+
+    `refit` gives the adhesion that goes with a drawn spectrum and rubber.
+    """
     whole(samples, "samples", lowest=20)
     whole(seed, "seed")
     if not 0 < number(level, "level") < 1:
@@ -186,12 +203,27 @@ def relative_band(
         of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, solid, rng)
         return friction(surface, solid, adhesion=of_draw, **options).mu
 
+    found: list[Any] = []
+    problem: Exception | None = None
+    failed = 0
     with progress(range(samples)) as shown:
-        drawn = np.array([draw() for _ in shown])
+        for _ in shown:
+            try:
+                found.append(draw())
+            except _FAILURES as error:
+                problem, failed = error, failed + 1
+                if failed > _FAILED * samples:
+                    raise
+    notes = () if problem is None else (_left_out(failed, samples, problem),)
+    drawn = np.array(found)
     ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)
-    return lower, upper
+    return Bounds(lower, upper, notes)
+
+
+def _left_out(failed: int, samples: int, problem: Exception) -> str:
+    return f"the band leaves out {failed} of {samples} draws that failed, the last with: {problem}"
 
 
 def swept_band(
@@ -210,10 +242,10 @@ def swept_band(
         few = np.geomspace(few[0], few[-1], _SWEPT)
     p, v = np.meshgrid(pressure, few, indexing="ij")
     points = {"pressure": p.ravel(), "velocity": v.ravel()}
-    lower, upper = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
+    band = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
 
     def everywhere(bound: NDArray[np.float64]) -> NDArray[np.float64]:
         rows = bound.reshape(p.shape)
         return np.array([np.interp(np.log(velocity), np.log(few), row) for row in rows])
 
-    return everywhere(lower), everywhere(upper)
+    return Bounds(everywhere(band.lower), everywhere(band.upper), band.notes)

@@ -8,11 +8,10 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.dma import MasterCurveBuild, build_master_curve
+from asperity.dma import MasterCurveBuild, draw_master_curve
 from asperity.measured_spectrum import SelfAffineFit
 from asperity.rubber import MasterCurve, Rubber
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
-from asperity.sweeps import Isotherm
 
 Generator = np.random.Generator
 Input = TypeVar("Input", Spectrum, Rubber)
@@ -73,7 +72,7 @@ def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> Sel
 
 
 def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
-    """Of a build, the master curve of isotherms that scatter as its own do."""
+    """Of a build, the master curve as the errors of its shifts and of its spline would have it."""
     if not isinstance(source, MasterCurveBuild):
         return Drawn[Rubber](source)
 
@@ -84,29 +83,9 @@ def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
 
 
 def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:
-    """The build of isotherms that scatter about its master spline as the measured ones do."""
-    points = build.points
-    isotherms = []
-    for i, temperature in enumerate(build.temperature):
-        mine = points.isotherm == i
-        noise = np.exp(build.residual * rng.normal(size=(2, int(mine.sum()))))
-        isotherms.append(
-            Isotherm(
-                temperature=temperature,
-                angular_frequency=points.angular_frequency[mine] / 10 ** build.log10_a_T[i],
-                storage_modulus=points.storage_modulus[mine] * build.b_T[i] * noise[0],
-                loss_modulus=points.loss_modulus[mine] * build.b_T[i] * noise[1],
-            )
-        )
-    given = not build.standard_deviation.any()  # then a_T came from a table
-    return build_master_curve(
-        isotherms,
-        reference_temperature=build.reference_temperature,
-        vertical_shift=build.b_T,
-        shift_factors=build if given else None,
-        smooth=True,
-        extrapolation="power-law",  # ends move with the shift factors
-    )
+    """log10 a_T from its covariance, the spline through the points moved there from its own. No
+    search: the likeliest shifts of other noise are not drawn, but errors about these."""
+    return draw_master_curve(build, int(rng.integers(2**63)))
 
 
 def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:

@@ -6,7 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asperity import InvalidInput, OutOfRange, PronySeries, ShiftFactors, read_shift_factors
+from asperity import (
+    InvalidInput,
+    MasterCurveBuild,
+    OutOfRange,
+    PronySeries,
+    ShiftFactors,
+    read_shift_factors,
+)
 from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_shift, worst
 
 TABLE = Path(__file__).parents[2] / "reference/master_build.csv"
@@ -54,7 +61,8 @@ def test_residuals_tell_the_two_laws_apart():
 def test_wlf_fit_of_noisy_isotherms_within_its_errors():
     build = built(sweeps(noise=0.01, seed=5))
     fit = build.fit_wlf()
-    assert fit == build.shift_factors.fit_wlf()
+    by_scatter = build.shift_factors.fit_wlf()
+    assert (fit.c1, fit.c2, fit.residual) == (by_scatter.c1, by_scatter.c2, by_scatter.residual)
     assert fit.c1 == pytest.approx(8.86, abs=5 * fit.standard_errors["c1"])
     assert fit.c2 == pytest.approx(101.6, abs=5 * fit.standard_errors["c2"])
     assert fit.standard_errors["c1"] < 0.05
@@ -138,3 +146,65 @@ def test_bad_files_of_shift_factors(tmp_path, text, message):
     with pytest.raises(InvalidInput, match=message) as caught:
         read_shift_factors(file, reference_temperature=T_REF)
     assert str(caught.value).startswith(f"{file}: ")
+
+
+FIVE = np.linspace(273.15, 313.15, 5)
+
+
+def stated_over_scatter(fits):
+    """Of c1 and c2 of WLF and of E_a: stated variance over the variance that they have."""
+    wlf, arrhenius = zip(*fits, strict=True)
+    found = [
+        ([getattr(f, n) for f in wlf], [f.standard_errors[n] for f in wlf]) for n in ("c1", "c2")
+    ]
+    found.append(
+        (
+            [f.activation_energy for f in arrhenius],
+            [f.standard_errors["activation_energy"] for f in arrhenius],
+        )
+    )
+    return np.array([np.sqrt(np.mean(np.square(error))) / np.std(value) for value, error in found])
+
+
+def test_stated_errors_of_laws_are_their_scatter():
+    """Five temperatures, that of the reference among them: four are data."""
+    rng = np.random.default_rng(8)
+
+    def fits():
+        found = []
+        for law in (true_shift(FIVE), 5e3 * (1 / FIVE - 1 / T_REF)):
+            scattered = law + 1e-3 * rng.standard_normal(5)
+            scattered[2] = 0
+            table = ShiftFactors(reference_temperature=T_REF, temperature=FIVE, log10_a_T=scattered)
+            found.append(table)
+        return found[0].fit_wlf(), found[1].fit_arrhenius()
+
+    ratio = stated_over_scatter([fits() for _ in range(2000)])
+    np.testing.assert_allclose(ratio, 1, atol=0.06)  # before: 0.82, 0.82 and 0.87
+
+
+def test_stated_errors_of_laws_follow_the_covariance_of_a_build():
+    """Errors of shift factors add up from step to step; the law takes them as they are."""
+    rng = np.random.default_rng(9)
+    build = built(sweeps(FIVE, noise=0.003), T_REF)
+    parts = {n: getattr(build, n) for n in ("master_curve", "b_T", "points", "residual")}
+
+    def scattered(law):
+        shift = law + rng.multivariate_normal(np.zeros(5), build.covariance)
+        shift[2] = 0
+        table = ShiftFactors(reference_temperature=T_REF, temperature=FIVE, log10_a_T=shift)
+        return MasterCurveBuild(**parts, shift_factors=table, covariance=build.covariance)
+
+    def fits():
+        wlf, arrhenius = true_shift(FIVE), 5e3 * (1 / FIVE - 1 / T_REF)
+        return scattered(wlf).fit_wlf(), scattered(arrhenius).fit_arrhenius()
+
+    ratio = stated_over_scatter([fits() for _ in range(1000)])
+    # more scatter than the covariance explains, by chance too, makes an error larger, never smaller
+    assert (ratio > 0.95).all()
+    assert (ratio < 1.4).all()
+
+
+def test_a_law_through_as_many_rows_as_it_has_constants_does_not_know_its_errors():
+    table = ShiftFactors(reference_temperature=300, temperature=[300, 310], log10_a_T=[0, -1])
+    assert table.fit_arrhenius().standard_errors["activation_energy"] == np.inf

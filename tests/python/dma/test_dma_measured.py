@@ -29,7 +29,8 @@ def test_polyisoprene_has_the_published_wlf_with_the_published_vertical_shift(ce
     t = polyisoprene().temperature
     density = (1 + ALPHA * (reference - 273.15)) / (1 + ALPHA * (t - 273.15))
     build = polyisoprene(reference, vertical_shift=t / reference * density)
-    np.testing.assert_allclose(build.log10_a_T, published(build), atol=0.04)
+    np.testing.assert_allclose(build.log10_a_T, published(build), atol=0.05)  # 3 deviations
+    assert 0.01 < build.standard_deviation.max() < 0.03
     assert build.residual < 0.008  # 0.011 without the density
 
 
@@ -51,13 +52,26 @@ def test_one_of_two_rubbers_follows_wlf():
     assert simple.fit_wlf().residual < 0.03
     assert simple.residual < 0.04
     assert not [note for note in simple.notes if "superpose" in note]
-    assert other.fit_wlf().residual > 0.1
+    assert other.fit_wlf().residual > 0.05
     assert [note for note in other.notes if "these isotherms do not superpose" in note]
     for build, count in ((simple, 9), (other, 10)):
         assert build.temperature.size == count
         assert (np.diff(build.log10_a_T) < 0).all()
-        assert build.standard_deviation.max() < 0.05
+        assert build.standard_deviation.max() < 0.1
+        assert not build.undetermined.any()
         assert build.fit_arrhenius().residual > build.fit_wlf().residual
+
+
+def test_moduli_that_ask_for_different_shifts_are_told():
+    """E' alone puts the coldest isotherm of the EPDM at 3.4, E'' alone at 1.9 decades."""
+    (note,) = [note for note in shear("epdm_70").notes if note.startswith("E' alone and E'' alone")]
+    assert "most at 263.151 K" in note
+    said = re.search(r"would be ([\d.]+) and ([\d.]+), ([\d.]+) decades apart", note)
+    assert said is not None
+    storage, loss, apart = map(float, said.groups())
+    assert storage == pytest.approx(3.4, abs=0.1)
+    assert loss == pytest.approx(1.85, abs=0.1)
+    assert apart == pytest.approx(storage - loss, abs=0.06)
 
 
 def test_prony_series_of_a_measured_rubber():

@@ -1,0 +1,120 @@
+// Notes of a build of a master curve: small overlaps, shifts that the data do not fix, moduli that ask for different
+// shifts, points off the curve, and the vertical shift that was not taken.
+#include "dma/master_curve_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double least_overlap = 0.3;  // decades that neighbours should share
+
+}  // namespace
+
+std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference) {
+  std::vector<double> b_T;
+  for (const Isotherm& i : isotherms) b_T.push_back(i.temperature() / reference);
+  return b_T;
+}
+
+double residual_of(const MasterSpline& spline) {
+  return std::hypot(spline.residual[0], spline.residual[1]) / std::sqrt(2);
+}
+
+void note_overlaps(const std::vector<Isotherm>& isotherms, const std::vector<double>& log10_a_T, Notes& notes) {
+  for (std::size_t i = 1; i < isotherms.size(); ++i) {
+    const auto ends = [&](std::size_t k) {
+      const auto& w = isotherms[k].angular_frequency();
+      return std::pair{std::log10(w.front()) + log10_a_T[k], std::log10(w.back()) + log10_a_T[k]};
+    };
+    const auto [a, b] = ends(i - 1);
+    const auto [c, d] = ends(i);
+    const double shared = std::min(b, d) - std::max(a, c);
+    if (shared < least_overlap * (1 + 1e-6))
+      notes.push_back("isotherms at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) + " overlap by " +
+                      show(std::max(0.0, shared), 2) + " decades, less than " + show(least_overlap) +
+                      ": the shift between them is uncertain");
+  }
+}
+
+void note_undetermined(const std::vector<Isotherm>& isotherms, const std::vector<double>& deviation, Notes& notes) {
+  for (std::size_t i = 0; i < isotherms.size(); ++i)
+    if (deviation[i] > undetermined_shift)
+      notes.push_back("the shift at " + kelvin(isotherms[i]) +
+                      " is undetermined, moduli between there and the reference are too flat to tell: standard "
+                      "deviation " +
+                      show(deviation[i], 3) + " decades");
+}
+
+void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreement& apart, std::size_t fixed,
+                       Notes& notes) {
+  constexpr double beyond_chance = 4;  // standard deviations
+  std::size_t worst = fixed;
+  const auto distance = [&](std::size_t i) { return std::fabs(apart.storage[i] - apart.loss[i]); };
+  for (std::size_t i = 0; i < isotherms.size(); ++i)
+    if (apart.deviations[i] > beyond_chance && distance(i) > std::max(undetermined_shift, distance(worst))) worst = i;
+  if (worst == fixed) return;
+  notes.push_back("E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) +
+                  ": log10 a_T against " + kelvin(isotherms[fixed]) + " would be " + show(apart.storage[worst], 3) +
+                  " and " + show(apart.loss[worst], 3) + ", " + show(distance(worst), 2) +
+                  " decades apart; standard deviations do not hold this");
+}
+
+void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, const MasterSpline& spline,
+                   const std::vector<double>& shift, Notes& notes) {
+  struct Miss {
+    std::size_t isotherm, row;
+    double storage, loss;
+  };
+  std::vector<Miss> misses;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < isotherms.size(); ++i)
+    for (std::size_t k = 0; k < isotherms[i].angular_frequency().size(); ++k) {
+      const Eigen::Vector2d there = spline.at(std::log10(isotherms[i].angular_frequency()[k]) + shift[i]);
+      misses.push_back({i, k, std::log(isotherms[i].storage_modulus()[k] / b_T[i]) - there[0],
+                        std::log(isotherms[i].loss_modulus()[k] / b_T[i]) - there[1]});
+      sizes.push_back(std::fabs(misses.back().storage));
+      sizes.push_back(std::fabs(misses.back().loss));
+    }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double limit = std::max(1.4826 * 6 * *middle, 0.02);  // 6 standard deviations, and 2 %
+  const auto size = [](const Miss& m) { return std::max(std::fabs(m.storage), std::fabs(m.loss)); };
+  std::erase_if(misses, [&](const Miss& m) { return size(m) <= limit; });
+  if (misses.size() > 5 + sizes.size() / 100) {
+    notes.push_back(std::to_string(misses.size()) + " of " + std::to_string(sizes.size() / 2) +
+                    " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
+                    " %: these isotherms do not superpose (a vertical shift may be needed, or the rubber is not "
+                    "thermorheologically simple)");
+    return;
+  }
+  for (const Miss& m : misses)
+    notes.push_back("isotherm at " + kelvin(isotherms[m.isotherm]) + ": row " + std::to_string(m.row) + " at " +
+                    show(isotherms[m.isotherm].angular_frequency()[m.row], 4) + " rad/s lies " +
+                    show(100 * std::expm1(size(m)), 3) + " % off the master curve");
+}
+
+void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,
+                         double reference, Notes& notes) {
+  const std::vector<double> b_T = temperature_ratios(isotherms, reference);
+  for (std::size_t i = 1; i < isotherms.size(); ++i)
+    if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i])) return;
+  const SweepPoints points = gather(isotherms, b_T);
+  const Shifted ratio = joint_shifts(points, fixed, first);
+  const double here = Steffen(points.temperature, first.log10_a_T)(reference);
+  const double there = Steffen(points.temperature, ratio.log10_a_T)(reference);
+  double worst = 0;
+  for (std::size_t i = 0; i < isotherms.size(); ++i)
+    worst = std::max(worst, std::fabs((ratio.log10_a_T[i] - there) - (first.log10_a_T[i] - here)));
+  if (!(worst > 0.1)) return;
+  notes.push_back("vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " +
+                  show(worst, 2) + " decades, and the residual be " + show(residual_of(ratio.spline), 2) +
+                  " instead of " + show(residual_of(first.spline), 2));
+}
+
+}  // namespace asperity

@@ -1,0 +1,88 @@
+// How far shifts are known: the inverse Hessian of -ln L, and the reach of each step. On a plateau the determinant of
+// the likelihood draws isotherms together, and its curvature is no information; what the data say is how far one may
+// slide there before the residual alone tells.
+#include <algorithm>
+#include <cmath>
+
+#include "dma/time_temperature_shift.hpp"
+
+namespace asperity {
+
+namespace {
+
+Eigen::MatrixXd hessian(ShiftLikelihood& likelihood, const ShiftFit& fit) {
+  const Eigen::Index n = fit.unknowns.size();
+  Eigen::MatrixXd result(n, n);
+  Eigen::VectorXd above, below;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double width = 0.1 * std::sqrt(std::clamp(fit.inverse(i, i), 1e-10, 1e-2));
+    Eigen::VectorXd at = fit.unknowns;
+    at[i] += width;
+    likelihood(at, above);
+    at[i] -= 2 * width;
+    likelihood(at, below);
+    result.col(i) = (above - below) / (2 * width);
+  }
+  return (result + result.transpose()) / 2;
+}
+
+/// How far all isotherms beyond a step may move before the residual part of -ln L rises by 2, two standard deviations
+/// were it a parabola: no farther than `limit`.
+double reach_of(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vector<double>& shift, std::size_t step,
+                double way, double from, double limit) {
+  const std::array<double, moduli> factor = likelihood.log_factors(fit.unknowns);
+  const double here = likelihood.misfit(shift, factor);
+  std::vector<double> moved = shift;
+  const auto rise = [&](double distance) {
+    for (std::size_t k = step + 1; k < shift.size(); ++k) moved[k] = shift[k] + way * distance;
+    return fit.weight * (likelihood.misfit(moved, factor) - here);
+  };
+  double inside = 0, risen = 0, outside = std::min(from, limit);
+  for (;;) {
+    const double there = rise(outside);
+    if (there >= 2) return inside + (outside - inside) * (2 - risen) / (there - risen);
+    if (outside >= limit) return limit;
+    inside = outside;
+    risen = there;
+    outside = std::min(1.5 * outside, limit);
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, std::size_t fixed) {
+  const SweepPoints& points = likelihood.points();
+  const std::vector<double> shift = likelihood.shifts(fit.unknowns);
+  const auto steps = static_cast<Eigen::Index>(shift.size()) - 1;
+  likelihood.weight = fit.weight;
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> curvature(hessian(likelihood, fit));
+  // the prior alone has the curvature 1 / spread^2 or more; less is rounding
+  const Eigen::VectorXd variance =
+      curvature.eigenvalues().cwiseMax(1 / (RatePrior::spread * RatePrior::spread)).cwiseInverse();
+  const Eigen::MatrixXd inverse =
+      curvature.eigenvectors() * variance.asDiagonal() * curvature.eigenvectors().transpose();
+
+  // of the steps: d step = step d ln rate; where the data reach farther, as much wider
+  Eigen::VectorXd scale(steps);
+  for (Eigen::Index i = 0; i < steps; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double step = shift[at] - shift[at + 1], deviation = step * std::sqrt(inverse(i, i));
+    const double limit = std::max(points.length(at), points.length(at + 1)) + 1;
+    const double start = 2 * deviation;
+    const double reach =
+        std::max(reach_of(likelihood, fit, shift, at, -1, start, limit),
+                 reach_of(likelihood, fit, shift, at, 1, std::min(start, step), std::min(step, limit)));
+    scale[i] = step * std::max(1.0, reach / 2 / deviation);
+  }
+  const Eigen::MatrixXd of_steps = scale.asDiagonal() * inverse.topLeftCorner(steps, steps) * scale.asDiagonal();
+
+  // shift of isotherm i about the fixed one: the steps between them, down from a colder one and up from a hotter one
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(steps + 1, steps);
+  const auto reference = static_cast<Eigen::Index>(fixed);
+  for (Eigen::Index i = 0; i <= steps; ++i)
+    for (Eigen::Index k = std::min(i, reference); k < std::max(i, reference); ++k) sum(i, k) = i > reference ? -1 : 1;
+  return sum * of_steps * sum.transpose();
+}
+
+}  // namespace asperity
