@@ -20,7 +20,7 @@ import timing
 from curves import Curve, curves
 
 import asperity
-from asperity.kinds import Correction
+from asperity.correction import Correction
 from asperity.plot.curves import COLOURS, picture
 from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped
