@@ -18,7 +18,7 @@ import timing
 import work_precision
 
 import friction
-from asperity.io.table import write_files
+from asperity.io.files import write_files
 
 ROOT = Path(__file__).parents[2]
 DOCS, README = ROOT / "docs" / "benchmarks", ROOT / "README.md"

@@ -17,10 +17,10 @@ from pathlib import Path
 from typing import Any
 
 import timing
-from asperity.kinds import Correction
 from curves import Curve, curves
 
 import asperity
+from asperity.correction import Correction
 from asperity.plot.curves import COLOURS, picture
 from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped

@@ -12,7 +12,8 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from asperity.io.table import Table, write_directory
+from asperity.io.files import write_files
+from asperity.io.table import Table
 
 Call = Callable[[], Any]
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -137,4 +138,4 @@ def run(make: Callable[[], Report], description: str | None) -> None:
     report = make()
     print(report.text, end="")
     if directory is not None:
-        write_directory(directory, report.files)
+        write_files({directory / name: data for name, data in report.files.items()})

@@ -43,16 +43,22 @@ inline void require_span(std::string_view name, double highest, double lowest) {
 inline void require_poisson(std::string_view name, double value) {
   if (!(value >= 0 && value <= 0.5)) refuse(name, value, "in [0, 0.5]");
 }
+/// The name of one entry of an argument.
+inline std::string entry(std::string_view name, std::size_t i) {
+  std::string text(name);
+  text += '[';
+  text += std::to_string(i);
+  text += ']';
+  return text;
+}
 inline void require_each_positive(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0) || !std::isfinite(values[i]))
-      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "positive and finite");
+    if (!(values[i] > 0) || !std::isfinite(values[i])) refuse(entry(name, i), values[i], "positive and finite");
 }
 inline void require_rising(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 1; i < values.size(); ++i)
     if (!(values[i] > values[i - 1]))
-      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
-             "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+      refuse(entry(name, i), values[i], "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
 }
 /// Beyond this ratio ln(q1 / q0) has lost its digits.
 inline void require_band(std::string_view name, double lowest, double highest) {

@@ -197,7 +197,7 @@ def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
         message = " ".join(str(error).split())
         if names:  # at the head of a clause, and wherever a value is told
             name = f"({'|'.join(names)})"
-            pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = )"
+            pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = | \(\d)"
             message = re.sub(pattern, lambda found: names[found[1] or found[2]], message)
         raise type(error)(message if path is None else f"{path}: {message}") from error
 

@@ -222,40 +222,27 @@ BY = f"{asperity.__version__} article"
 
 
 def stub(mark: str) -> Callable[[], tuple[dict[str, bytes], list[object]]]:
-    tables = {n: f"# asperity {BY} {n[:-4]}\n{mark}" for n in command.MARKS if n[-4:] == ".csv"}
-    files = {name: tables.get(name, mark).encode() for name in command.MARKS}
+    tables = {n: f"# asperity {BY} {n[:-4]}\n{mark}" for n in command.FILES if n[-4:] == ".csv"}
+    files = {name: tables.get(name, mark).encode() for name in command.FILES}
     return lambda: (
         files | {"summary.md": f"{OPENING}{BY}`. {mark}".encode()},
         [],
     )
 
 
-def test_it_writes_over_its_own_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for mark in ("old", "new"):
-        monkeypatch.setattr(command, "remake", stub(mark))
-        assert main(["article", "--output", str(tmp_path / "out")]) == 0
-    for name in command.MARKS:
+def test_it_replaces_its_files_when_told_to(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = str(tmp_path / "out")
+    monkeypatch.setattr(command, "remake", stub("old"))
+    assert main(["article", "--output", out]) == 0
+    monkeypatch.setattr(command, "remake", stub("new"))
+    assert main(["article", "--output", out]) == 2
+    assert "fig01.csv" in (problem := capsys.readouterr().err)
+    assert "already; choose another --output, or replace them with --force" in problem
+    assert main(["article", "--output", out, "--force"]) == 0
+    for name in command.FILES:
         assert (tmp_path / "out" / name).read_text().endswith("new")
-
-
-@pytest.mark.parametrize("name", ["fig01.png", "fig01.csv", "summary.md"])
-def test_it_spares_what_another_wrote(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
-    (tmp_path / name).write_text("# What each correction is worth\n")
-    assert main(["article", "--output", str(tmp_path)]) == 2
-    message = f"holds {name}, not the article's own: choose another --output"
-    assert capsys.readouterr().err == f"asperity: {tmp_path}: {message}\n"
-    assert [path.name for path in tmp_path.iterdir()] == [name]
-
-
-def test_a_file_in_place_of_the_directory_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "taken").write_text("")
-    assert main(["article", "--output", str(tmp_path / "taken")]) == 2
-    reason = f"cannot be written: {tmp_path / 'taken'} is not a directory"
-    assert capsys.readouterr().err == f"asperity: {tmp_path / 'taken'}: {reason}\n"
 
 
 def test_without_matplotlib_it_says_what_to_install(
@@ -268,7 +255,7 @@ def test_without_matplotlib_it_says_what_to_install(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_full_disk_leaves_nothing(
+def test_a_full_disk_is_said(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     replace = os.replace
@@ -282,4 +269,3 @@ def test_a_full_disk_leaves_nothing(
     monkeypatch.setattr(command, "remake", stub(""))
     assert main(["article", "--output", str(tmp_path / "out")]) == 1
     assert "fig09.csv: cannot be written: No space left on device" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []

@@ -173,8 +173,11 @@ def test_without_tqdm_there_is_no_bar(
 def test_extras_are_those_of_the_readme() -> None:
     text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
     extras = tomllib.loads(text)["project"]["optional-dependencies"]
-    assert set(extras) == {"plot", "io", "bem", "all", "test"}
-    assert [name.partition(">")[0] for name in extras["all"]] == ["asperity[plot,io]", "tqdm"]
+    assert set(extras) == {"plot", "io", "tables", "bem", "all", "test"}
+    assert [name.partition(">")[0] for name in extras["all"]] == [
+        "asperity[plot,tables,io]",
+        "tqdm",
+    ]
 
 
 def test_area_has_the_notes_of_the_contact(

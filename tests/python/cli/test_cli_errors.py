@@ -10,7 +10,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.io.table import write_files
+from asperity.io.files import write_files
 from helpers.cases import each
 from helpers.scenes import SCENE
 
@@ -27,7 +27,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
     [
         (["friction", "none.toml"], "none.toml: cannot be read: No such file or directory"),
         (["friction", "scene.toml", "--output", "no/mu.csv"], "no/mu.csv: cannot be written"),
-        (["friction", "scene.toml", "--output", "."], ".: cannot be written: not a regular file"),
+        (["friction", "scene.toml", "--output", "."], ".: cannot be written: it is a directory"),
         (["friction", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
         ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
         (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
@@ -149,59 +149,57 @@ def test_not_converged_is_no_bad_input(
 def test_failing_disk_leaves_nothing(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write = Path.write_bytes
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
 
-    def full(path: Path, data: bytes) -> int:
-        if data.startswith(b"# asperity"):
-            write(path, data[:10])
-            raise OSError(28, "No space left on device")
-        return write(path, data)
-
-    monkeypatch.setattr(Path, "write_bytes", full)
+    monkeypatch.setattr("os.fsync", full)
     before = names(folder)
-    assert main(["friction", "scene.toml", "--output", "mu.csv", "--plot", "mu.png"]) == 1
+    assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 1
     line = "asperity: mu.csv: cannot be written: No space left on device\n"
     assert capsys.readouterr().err == line
     assert names(folder) == before
 
 
-@pytest.mark.parametrize("linked", [True, False])
-@pytest.mark.parametrize("before", [{}, {"a": b"1", "b": b"2", "c": b"3"}, {"b": b"2"}])
-@pytest.mark.parametrize("failing", ["a", "b", "c"])
-@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_files_written_before_a_failure_are_put_back(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    linked: bool,
-    before: dict[str, bytes],
-    failing: str,
-    failure: BaseException,
+def test_a_file_is_the_old_one_or_the_new_one_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for name, content in before.items():
-        (tmp_path / name).write_bytes(content)
     replace = os.replace
+    for failure in (OSError(28, "No space left on device"), KeyboardInterrupt()):
+        (tmp_path / "b").write_bytes(b"old")
+        (tmp_path / "b").chmod(0o640)
 
-    def fail(part: Path, target: Path) -> None:
-        if target.name == failing and part.suffix == ".part":
-            raise failure
-        replace(part, target)
+        def fail(part: Path, target: Path, failure: BaseException = failure) -> None:
+            if target.name == "b":
+                raise failure
+            replace(part, target)
 
-    def link(*_: object) -> None:
-        raise PermissionError(1, "no links here")
-
-    monkeypatch.setattr("os.replace", fail)
-    if not linked:
-        monkeypatch.setattr("os.link", link)
-    with pytest.raises((asperity.Error, KeyboardInterrupt)) as caught:
-        write_files({tmp_path / name: b"new" for name in "abc"})
-    if isinstance(failure, OSError):
-        place = tmp_path / failing
-        assert str(caught.value) == f"{place}: cannot be written: No space left on device"
-    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
-    monkeypatch.undo()
+        monkeypatch.setattr("os.replace", fail)
+        with pytest.raises((asperity.Error, KeyboardInterrupt)) as caught:
+            write_files({tmp_path / name: b"new" for name in "abc"})
+        if isinstance(failure, OSError):
+            problem = "cannot be written: No space left on device"
+            assert str(caught.value) == f"{tmp_path / 'b'}: {problem}"
+        assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {
+            "a": b"new",
+            "b": b"old",
+        }
+        monkeypatch.undo()
     write_files({tmp_path / name: b"new" for name in "abc"})
     written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     assert written == dict.fromkeys("abc", b"new")
+    assert (tmp_path / "b").stat().st_mode & 0o777 == 0o640
+
+
+def test_no_name_for_the_parts_is_known_beforehand(tmp_path: Path) -> None:
+    """Another process with the same number, or a planted link, takes nobody's place."""
+    planted = tmp_path / "planted"
+    planted.write_bytes(b"mine")
+    for i in range(20):
+        (tmp_path / f".asperity-{os.getpid()}-{i}.part").symlink_to(planted)
+    write_files({tmp_path / "a": b"new"})
+    assert planted.read_bytes() == b"mine"
+    assert (tmp_path / "a").read_bytes() == b"new"
+    assert not (tmp_path / "a").is_symlink()
 
 
 @each(

@@ -150,7 +150,10 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
         (BASE + "[solver]\nform = 'fast'\n", "[solver] form = "),
         (BASE + "[solver]\nmethod = 'simpson'\n", '[solver] method = "simpson": must be one of'),
         (BASE + "[solver]\nmehtod = 'qag'\n", "[solver] mehtod: unknown key, did you mean method?"),
-        (BASE.replace("[1e-8,", "[1e-8, 1.0,"), "[rubber] moduli_pa has 3 entries"),
+        (
+            BASE.replace("[1e-8,", "[1e-8, 1.0,"),
+            "[rubber] moduli_pa (3) and [rubber] relaxation_times_s (4) must have equal length",
+        ),
         (BASE.replace("[1e-8,", "[-1e-8,"), "[rubber] relaxation_times_s[0] = -1e-08: must be"),
         (BASE.replace("= 2e6", "= -2e6"), "[rubber] equilibrium_modulus_pa = -2000000"),
         (

@@ -286,25 +286,23 @@ def test_bad_rows_are_refused_in_one_line(message, tmp_path, capsys):
 def test_rows_are_not_written_over(tmp_path, capsys):
     path = tmp_path / "errors.csv"
     path.write_text(FILE.read_text())
-    assert main(["validate", "--rows", str(path), "--output", str(tmp_path)]) == 2
-    assert "holds errors.csv, not validate's own" in capsys.readouterr().err
+    command = ["validate", "--rows", str(path), "--output", str(tmp_path)]
+    assert main(command) == 2
+    assert "holds errors.csv already" in capsys.readouterr().err
+    assert main([*command, "--force"]) == 2
+    assert "is an input" in capsys.readouterr().err
     assert read_contacts(path) == CONTACTS
 
 
-def test_files_of_another_are_not_written_over(tmp_path, capsys):
-    (tmp_path / "summary.md").write_text("my notes")
-    assert main(["validate", "--output", str(tmp_path)]) == 2
-    assert "holds summary.md, not validate's own" in capsys.readouterr().err
-    assert (tmp_path / "summary.md").read_text() == "my notes"
-
-
-def test_its_own_files_are_written_again(undrawn, written):
+def test_files_are_written_over_when_it_is_told_to(undrawn, written, capsys):
     before = (written / "summary.md").read_text()
-    assert main(["validate", "--output", str(written)]) == 0
+    assert main(["validate", "--output", str(written)]) == 2
+    assert "summary.md" in capsys.readouterr().err
+    assert main(["validate", "--output", str(written), "--force"]) == 0
     assert (written / "summary.md").read_text() == before
 
 
 def test_a_file_is_no_directory(tmp_path, capsys):
     (tmp_path / "worth").write_text("")
     assert main(["validate", "--output", str(tmp_path / "worth")]) == 2
-    assert "is not a directory" in capsys.readouterr().err
+    assert "is no directory" in capsys.readouterr().err
