@@ -8,6 +8,7 @@
 #include <asperity/friction_map.hpp>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,9 @@ double growth(const brush::Tire& tire, const asperity::FrictionMap& map) {
 int run(const std::string& path) {
   const Scene scene;
   const asperity::MapRequest box{.pressure = {1e4, 5e5}, .velocity = {1e-3, 50}, .checked = 100'000};
-  asperity::write_whole(path, asperity::build_friction_map(scene.road, scene.rubber, scene.model, scene.adhesion, box));
+  const std::vector<unsigned char> file =
+      asperity::build_friction_map(scene.road, scene.rubber, scene.model, scene.adhesion, box);
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(file.data()), std::ssize(file));
   asperity::FrictionMap map;
   std::string why;
   if (!map.load(path.c_str(), why)) {

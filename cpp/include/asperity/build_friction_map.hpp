@@ -45,7 +45,4 @@ struct MapColumns {
 ASPERITY_EXPORT std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
                                     bool shifts_adhesion, std::span<double> mu);
 
-/// Writes a file whole or not at all; InvalidInput with the path and the reason where it cannot be written.
-ASPERITY_EXPORT void write_whole(const std::string& path, std::span<const unsigned char> bytes);
-
 }  // namespace asperity

@@ -1,10 +1,7 @@
 // Builds a friction map: checks of the request, refinement, and random points on which the finished file is checked.
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
@@ -120,26 +117,6 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
     throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
                        " was reached, on one of " + std::to_string(request.checked) + " random points");
   return map_file(frame, refined.tree, adhesion, whole, certificate);
-}
-
-void write_whole(const std::string& path, std::span<const unsigned char> bytes) {
-  // beside what a link points to, under a name that nobody has
-  const std::string target = std::filesystem::weakly_canonical(path).string();
-  std::string beside;
-  std::FILE* file = nullptr;
-  const auto refuse = [&] {
-    const std::string reason = std::strerror(errno);
-    if (file) std::remove(beside.c_str());
-    throw InvalidInput("path = " + path + ": cannot be written: " + reason);
-  };
-  for (int i = 0; !file && i < 1000; ++i) {
-    beside = target + "." + std::to_string(i) + ".part";
-    file = std::fopen(beside.c_str(), "wbx");
-    if (!file && errno != EEXIST) refuse();
-  }
-  if (!file) refuse();
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  if (std::fclose(file) != 0 || !written || std::rename(beside.c_str(), target.c_str()) != 0) refuse();
 }
 
 }  // namespace asperity

@@ -3,9 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <locale>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -14,17 +12,10 @@
 namespace asperity {
 
 /// A number as a person would write it, with all the digits that matter.
-inline std::string show(double value, int digits = 12) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());  // a host may have made a decimal comma the default of its streams
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
+std::string show(double value, int digits = 12);
 
-[[noreturn]] inline void refuse(std::string_view name, double value, std::string_view allowed) {
-  throw InvalidInput(std::string(name) + " = " + show(value) + ": must be " + std::string(allowed));
-}
+/// InvalidInput: "name = value: must be allowed".
+[[noreturn]] void refuse(std::string_view name, double value, std::string_view allowed);
 
 // Written so that NaN fails every one of them.
 inline void require_positive(std::string_view name, double value) {
@@ -43,32 +34,13 @@ inline void require_span(std::string_view name, double highest, double lowest) {
 inline void require_poisson(std::string_view name, double value) {
   if (!(value >= 0 && value <= 0.5)) refuse(name, value, "in [0, 0.5]");
 }
-/// The name of one entry of an argument.
-inline std::string entry(std::string_view name, std::size_t i) {
-  std::string text(name);
-  text += '[';
-  text += std::to_string(i);
-  text += ']';
-  return text;
-}
-inline void require_each_positive(std::string_view name, std::span<const double> values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0) || !std::isfinite(values[i])) refuse(entry(name, i), values[i], "positive and finite");
-}
-inline void require_rising(std::string_view name, std::span<const double> values) {
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (!(values[i] > values[i - 1]))
-      refuse(entry(name, i), values[i], "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
-}
+void require_each_positive(std::string_view name, std::span<const double> values);
+void require_rising(std::string_view name, std::span<const double> values);
 /// Beyond this ratio ln(q1 / q0) has lost its digits.
 inline void require_band(std::string_view name, double lowest, double highest) {
   if (!(highest / lowest <= 1e300)) refuse(name, highest, "at most 1e300 times the lowest, " + show(lowest));
 }
-inline void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
-  if (size != other_size)
-    throw InvalidInput(std::string(name) + " (" + std::to_string(size) + ") and " + std::string(other) + " (" +
-                       std::to_string(other_size) + ") must have equal length");
-}
+void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size);
 /// Spans that results are written to must be as long as their argument.
 inline void require_room(std::span<const double> w, std::span<const double> i1, std::span<const double> i2) {
   require_same_size("i1", i1.size(), "angular_frequency", w.size());

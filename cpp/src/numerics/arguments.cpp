@@ -1,0 +1,40 @@
+// The texts of refused arguments: out of line, as every file checks arguments and none needs to compile this again.
+#include "numerics/arguments.hpp"
+
+#include <locale>
+#include <sstream>
+
+namespace asperity {
+
+std::string show(double value, int digits) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());  // a host may have made a decimal comma the default of its streams
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+void refuse(std::string_view name, double value, std::string_view allowed) {
+  throw InvalidInput(std::string(name) + " = " + show(value) + ": must be " + std::string(allowed));
+}
+
+void require_each_positive(std::string_view name, std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0) || !std::isfinite(values[i]))
+      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "positive and finite");
+}
+
+void require_rising(std::string_view name, std::span<const double> values) {
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(values[i] > values[i - 1]))
+      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
+             "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+}
+
+void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
+  if (size != other_size)
+    throw InvalidInput(std::string(name) + " (" + std::to_string(size) + ") and " + std::string(other) + " (" +
+                       std::to_string(other_size) + ") must have equal length");
+}
+
+}  // namespace asperity
