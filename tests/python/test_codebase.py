@@ -111,14 +111,11 @@ LAYERS += ["plot_surface", "plot_rubber", "plot_map", "experiment", "plot_fit", 
 LAYERS += ["rubber_command", "fit_command", "map_command", "validation.boundary_elements"]
 LAYERS += ["validation.contacts", "validation.predictions", "validation.figures"]
 LAYERS += ["validation.summary", "validation.own", "validation.command", "validation"]
-LAYERS += ["article", "article.compounds", "article.readings", "article.inputs"]
-LAYERS += ["article.statement", "article.page", "article.surfaces", "article.affine"]
-LAYERS += ["article.peaks", "article.persson", "article.shifts", "article.asperities"]
-LAYERS += ["article.factors", "article.matches", "article.igw", "article.printed"]
-LAYERS += ["article.sliding", "article.friction", "article.draw_surfaces"]
-LAYERS += ["article.draw_scales", "article.draw_factors", "article.draw_igw"]
-LAYERS += ["article.draw_friction", "article.summary", "article.command", "options"]
-LAYERS += ["verbs", "cli", "__main__"]
+LAYERS += ["article", "article.compounds", "article.readings", "article.statement"]
+LAYERS += ["article.inputs", "article.page", "article.peaks", "article.surfaces"]
+LAYERS += ["article.theory", "article.separation", "article.asperities", "article.factors"]
+LAYERS += ["article.tuning", "article.sliding", "article.summary", "article.command"]
+LAYERS += ["options", "verbs", "cli", "__main__"]
 
 
 def includes(path):
