@@ -1,192 +1,215 @@
-"""Section 6.1 checked: correction factors of Figs 8 to 12, Eq. 8 and gamma."""
+"""Section 6.1 checked: correction factors and contact areas over magnification; Figs 8 to 12."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections import defaultdict
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity.article.inputs import (
-    LOADS,
+    LAMBDA0,
     MAGNIFICATION,
+    PIXELS,
     PRESSURES,
-    Q0,
-    UNTUNED,
+    SIDE,
     VELOCITY,
     Inputs,
     Model,
     magnifications,
 )
-from asperity.article.persson import areas
-from asperity.article.shifts import shifts
-from asperity.article.statement import (
-    Statement,
-    by_construction,
-    by_name,
-    despite_tuning,
-    percent,
+from asperity.article.page import (
+    LOG,
+    page,
+    panel,
+    sandpaper_inputs,
+    scan_inputs,
+    stacked,
+    tuned_inputs,
 )
-from asperity.contact import correction_factor
+from asperity.article.peaks import located
+from asperity.article.readings import Array
+from asperity.article.separation import shifts
+from asperity.article.statement import Finding, Findings
 from asperity.correction import AffineShift, Correction, SFactor
-from asperity.rubber import PronySeries
+from asperity.plot.curves import COLOURS, new_figure
 
-_Array = NDArray[np.float64]
-GAMMA = 0.5
-PRINTED_P_T1 = (2.5, 2.0)  # Figs 8 and 9
-END = f"{MAGNIFICATION:g} q0"
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
-
-@dataclass(frozen=True, eq=False)
-class Factors:
-    """A/A0 and correction factors at the three pressures (rows) over magnification, 0.1 m/s."""
-
-    zeta: _Array
-    area: _Array  # without correction
-    persson: _Array  # PF-CF = S A / A0
-    local: dict[float, _Array]  # LP-CF by p_T1
-    local_area: dict[float, _Array]
-    improved: _Array  # IGW-CF
-    improved_area: _Array
-    shift_factor: _Array  # p_T of IGW
+_ZETA = magnifications(300)
+_GAMMA = 0.5
+_S = SFactor(gamma=_GAMMA)  # PF-CF = S A / A0
+_WIDE, _NARROW = AffineShift(2.5), AffineShift(2.0)  # p_T1 of Figs 8 and 9, of LP-CF
+_MIDDLE = 1  # of PRESSURES, that of Figs 8 and 9
+_SHOWN = 8  # lambda0 of the map, a corner of it
+_MPA = [f"{pressure / 1e6:g} MPa" for pressure in PRESSURES]
+_FACTOR = {**LOG, "xlabel": "Magnification $q / q_0$ [-]", "ylabel": "Correction factor CF [-]"}
+_AREA = {**_FACTOR, "ylabel": "Relative contact area $A / A_0$ [-]"}
+_PF_CF = rf"PF-CF, $\gamma$ = {_GAMMA}"
 
 
-def compute(inputs: Inputs) -> dict[str, Factors]:
-    """All of them on the sandpaper, by the names of `Inputs.models`."""
-    return {name: _factors(inputs, model) for name, model in inputs.models.items()}
-
-
-def _factors(inputs: Inputs, model: Model) -> Factors:
-    zeta, rubber, igw = magnifications(300), model.rubber, model.correction
-    local = {p: AffineShift(p) for p in PRINTED_P_T1}
-    return Factors(
-        zeta=zeta,
-        area=areas(inputs, rubber, zeta),
-        persson=cf(inputs, rubber, zeta, SFactor(gamma=GAMMA)),
-        local={p: cf(inputs, rubber, zeta, shift) for p, shift in local.items()},
-        local_area={p: areas(inputs, rubber, zeta, shift) for p, shift in local.items()},
-        improved=cf(inputs, rubber, zeta, igw),
-        improved_area=areas(inputs, rubber, zeta, igw),
-        shift_factor=shifts(inputs, model, np.array(PRESSURES), np.array([VELOCITY])).shift_factor[
-            :, 0
-        ],
-    )
-
-
-def cf(inputs: Inputs, rubber: PronySeries, zeta: _Array, correction: Correction) -> _Array:
-    """CF at the three pressures (rows) and at magnifications."""
-    return np.asarray(
-        correction_factor(
-            inputs.sandpaper,
-            rubber,
-            pressure=PRESSURES,
-            velocity=VELOCITY,
-            correction=correction,
-            wavenumber=zeta * Q0,
+def findings(inputs: Inputs) -> Findings:
+    """What Section 6.1 and the conclusions say of S, of matches, penetration and areas."""
+    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    for name, model in inputs.compounds.items():
+        area, persson = model.area(_ZETA), model.cf(_ZETA, _S)
+        s, end = persson / area, _ZETA[-1:]
+        gamma = _ZETA[np.argmax(s < 1.01 * _GAMMA, axis=1)]  # from where on S is near gamma
+        low = model.cf(end, SFactor(gamma=0.4))[:, 0] / persson[:, -1] - 1
+        wide, narrow = (model.cf(_ZETA, shift) / persson - 1 for shift in (_WIDE, _NARROW))
+        beyond = [np.flatnonzero(np.abs(row) > 0.05)[-1] + 1 for row in narrow]
+        matches = np.abs(narrow[:, -1]).max() < 0.05, np.abs(narrow).max() < 0.05
+        found["C1"][name] = Finding(np.all(s[area < 1] > 1), s=s[area < 1])
+        found["C2"][name] = Finding(gamma.max() < MAGNIFICATION**0.1, gamma=gamma)
+        found["C5"][name] = Finding(np.abs(low).max() < 0.1, low=low)
+        found["C6"][name] = Finding(
+            np.abs(wide[:, -1]).min() > 0.05, end=wide[0, -1], q0=wide[0, 0]
         )
-    )
-
-
-def by_compound(factors: Mapping[str, Factors]) -> dict[str, Factors]:
-    """By the names of `Inputs.compounds`, for what does not depend on IGW."""
-    tuned = {name: f for name, f in factors.items() if not name.startswith(UNTUNED)}
-    return {**tuned, UNTUNED: factors[f"{UNTUNED}, implicit"]}
-
-
-def statements(inputs: Inputs, factors: Mapping[str, Factors]) -> list[Statement]:
-    """What is said of S(q), of gamma, and of factors where contact is complete."""
-    compounds = by_compound(factors)
-    s = {name: (f.persson / f.area)[f.area < 1] for name, f in compounds.items()}
-    within = {name: _within(f) for name, f in compounds.items()}
-    soon = MAGNIFICATION**0.1
-    at_end = {name: f.area[:, -1] for name, f in compounds.items()}
-    low = {
-        name: cf(inputs, rubber, compounds[name].zeta[-1:], SFactor(gamma=0.4))[:, 0]
-        / compounds[name].persson[:, -1]
-        - 1
-        for name, rubber in inputs.compounds.items()
-    }
-    return [
-        Statement(
-            "C1",
-            "Sec. 2, below Eq. 8",
-            "S(q) corrects Eq. 7 when multiplied with it",
-            "S A > A wherever contact is partial, since the area is said to be too small; tuned "
-            "and untuned",
-            "S A / A: "
-            + "; ".join(f"{name}: {x.min():.3g} to {x.max():.3g}" for name, x in s.items()),
-            despite_tuning({name: bool(np.all(x > 1)) for name, x in s.items()}),
-            "S <= 1 makes the area smaller still; it belongs to the integrand of Eq. 22",
-        ),
-        Statement(
-            "C2",
-            "Sec. 6.1",
-            "S(q) comes to gamma very rapidly",
-            f"within 1 % of gamma = {GAMMA} in the first tenth of ln(q / q0), up to {soon:.3g} q0, "
-            f"at {LOADS}; tuned and untuned",
-            f"within 1 % from q / q0 on: {by_name(within)}",
-            despite_tuning({name: max(found) < soon for name, found in within.items()}),
-            "S - gamma = (1 - gamma)(A/A0)^2: the stiffer the rubber the sooner, and how stiff A "
-            "is was tuned",
-        ),
-        Statement(
-            "C3",
-            "Sec. 6.1",
-            "PF-CF = S A/A0 is not S",
-            f"PF-CF / S < 0.01 at {END}, tuned and untuned",
-            f"PF-CF / S = A/A0 = {by_name(at_end)}",
-            by_construction(bool(np.all(a < 0.01)) for a in at_end.values()),
-            "by definition",
-        ),
-        _complete(inputs),
-        Statement(
-            "C5",
-            "Sec. 7",
-            "gamma of 0.4 to 0.5 gives slightly different results",
-            f"PF-CF differs by less than 10 % at {END}, tuned and untuned",
-            "; ".join(f"{n}: {', '.join(percent(v) for v in x)}" for n, x in low.items())
-            + " with 0.4 for 0.5",
-            despite_tuning({n: bool(np.abs(x).max() < 0.1) for n, x in low.items()}),
-            "in light contact the factor is gamma itself; see F3 for the friction",
-        ),
-    ]
-
-
-def _within(f: Factors) -> list[float]:
-    """q / q0 from which S is within 1 % of gamma, at the three pressures."""
-    return [float(f.zeta[np.argmax(row < 1.01 * GAMMA)]) for row in f.persson / f.area]
-
-
-def _complete(inputs: Inputs) -> Statement:
-    found, held = [], {}
+        found["C7"][name] = Finding(
+            matches, end=_largest(narrow[:, -1]), most=_largest(narrow), near=_ZETA[beyond]
+        )
     for name, model in inputs.models.items():
-        corrections: dict[str, Correction] = {
-            "PF-CF": SFactor(gamma=GAMMA),
-            "IGW-CF": model.correction,
-            "LP-CF (p_T = 2)": AffineShift(2.0),
-        }
-        values = {
-            which: float(
-                correction_factor(
-                    inputs.sandpaper,
-                    model.rubber,
-                    pressure=1e12,
-                    velocity=VELOCITY,
-                    correction=correction,
-                    wavenumber=inputs.sandpaper.q1,
-                )
-            )
-            for which, correction in corrections.items()
-        }
-        held[name] = [value > 0.99 for value in values.values()]
-        found.append(f"{name}: {', '.join(f'{w} {value:.3g}' for w, value in values.items())}")
-    return Statement(
-        "C4",
-        "Sec. 2, 3.2",
-        "in complete contact u_z = h is exact; then no correction must be left",
-        "CF > 0.99 at sigma0 = 1000 GPa, where A/A0 = 1, for PF, IGW and local peaks; tuned and "
-        "untuned",
-        "; ".join(found),
-        despite_tuning(held),
-        "a constant p_T leaves CF at 1 / p_T^2 however complete the contact; the added reading "
-        "turns back with the load (G4), at last to no contact and CF 0",
+        complete: dict[str, Correction] = {"pf": _S, "igw": model.correction, "lp": _NARROW}
+        left = {n: model.cf(_ZETA[-1:], c, [1e12])[0, 0] for n, c in complete.items()}
+        area, larger = model.area(_ZETA), model.area(_ZETA, model.correction)
+        igw, p = model.cf(_ZETA, model.correction), _shift(model)
+        ratio, off = igw[:, -1] / area[:, -1], (igw / model.cf(_ZETA, _S))[:, -1] - 1
+        near, gain = np.abs(off), larger / area
+        depth = (model.correction.z_max - model.correction.z_min) / p
+        up = np.all(gain[area < 1] > 1), np.all(np.diff(gain[:, -1]) < 0)
+        found["C4"][name] = Finding([factor > 0.99 for factor in left.values()], **left)
+        found["C8"][name] = Finding(np.abs(ratio / _GAMMA - 1) < 0.1, ratio=ratio, p=p)
+        found["C9"][name] = Finding(np.all(near[1:] < 0.1), near[0] > near[1:].max(), off=off)
+        found["C11"][name] = Finding(depth[0] < depth[1:].min(), depth=1e6 * depth)
+        found["C14"][name] = Finding(up, gain=gain[:, -1], more=(larger - area)[:, -1])
+    return found
+
+
+def fig08(inputs: Inputs) -> dict[str, bytes]:
+    """Peaks no closer than lambda0, and the factor that p_T1 gives."""
+    return _local("fig08", inputs, 1.0, _WIDE)
+
+
+def fig09(inputs: Inputs) -> dict[str, bytes]:
+    """Peaks no closer than lambda0 / 2."""
+    return _local("fig09", inputs, 0.5, _NARROW)
+
+
+def fig10(inputs: Inputs) -> dict[str, bytes]:
+    """Area with the local peaks' p_T1 beside the original one."""
+    given, label = {"p_t1": _NARROW.p, **_given(inputs)}, f"modified, $p_{{T1}}$ = {_NARROW.p:g}"
+    return _areas("fig10", given, inputs.tuned["implicit"], _NARROW, label)
+
+
+def fig11(inputs: Inputs) -> dict[str, bytes]:
+    """IGW-CF beside PF-CF at three pressures."""
+    figure, panels = new_figure(3)
+    model = inputs.tuned["implicit"]
+    curves = {"pf_cf": model.cf(_ZETA, _S), "igw_cf": model.cf(_ZETA, model.correction)}
+    limits = 0.7 * curves["pf_cf"].min(), 1.5
+    rows = zip(panels, _MPA, *curves.values(), model.implied.shift_factor, strict=True)
+    for axes, load, persson, improved, p in rows:
+        axes.plot(_ZETA, persson, color=COLOURS[0], label=_PF_CF)
+        axes.plot(_ZETA, improved, "--", color=COLOURS[1], label=f"IGW-CF, $p_T$ = {p:.2f}")
+        panel(axes, load, "best", **_FACTOR, ylim=limits)
+    return page("fig11", figure, _given(inputs), _columns(curves))
+
+
+def fig12(inputs: Inputs) -> dict[str, bytes]:
+    """Area with IGW beside the original one."""
+    model = inputs.tuned["implicit"]
+    return _areas("fig12", _given(inputs), model, model.correction, "modified, IGW")
+
+
+def _local(name: str, inputs: Inputs, distance: float, printed: AffineShift) -> dict[str, bytes]:
+    model, scan = inputs.tuned["implicit"], inputs.scans[0]
+    x, y, peaks = located(scan, distance)
+    shift = peaks.shift_factor
+    factors: dict[str, Correction] = {
+        "pf_cf": _S,
+        "lp_cf_printed": printed,
+        "lp_cf_scan": AffineShift(shift),
+    }
+    curves = {which: model.cf(_ZETA, factor)[_MIDDLE] for which, factor in factors.items()}
+    figure, (left, right) = new_figure(2)
+    _draw_corner(left, scan.heights - scan.heights.mean(), x, y)
+    apart = r"$\lambda_0$" if distance == 1 else rf"{distance:g} $\lambda_0$"
+    panel(left, f"(a) peaks no closer than {apart}, a corner", xlabel="$x$ [mm]", ylabel="$y$ [mm]")
+    labels = (
+        _PF_CF,
+        f"LP-CF, $p_{{T1}}$ = {printed.p:g} (printed)",
+        f"LP-CF, $p_{{T1}}$ = {shift:.2f} (this scan)",
     )
+    lines = zip(curves.values(), ("-", "--", ":"), labels, COLOURS, strict=False)
+    for row, dash, label, colour in lines:
+        right.plot(_ZETA, row, dash, color=colour, label=label)
+    panel(right, f"(b) {_MPA[_MIDDLE]}, {VELOCITY:g} m/s", "best", **_FACTOR)
+    given = {
+        **_given(inputs),
+        **scan_inputs(),
+        "min_distance_m": distance * LAMBDA0,
+        "p_t1_printed": printed.p,
+        "p_t1_scan": shift,
+        "pressure_pa": PRESSURES[_MIDDLE],
+    }
+    found: list[dict[str, Any]] = [
+        {"part": "peaks", "x_m": x, "y_m": y, "height_m": peaks.heights},
+        {"part": "factors", "magnification": _ZETA, **curves},
+    ]
+    return page(name, figure, given, stacked(found))
+
+
+def _draw_corner(axes: "Axes", heights: Array, x: Array, y: Array) -> None:
+    side, pixels = 1e3 * _SHOWN * LAMBDA0, _SHOWN * PIXELS // SIDE
+    low, high = np.percentile(1e6 * heights, [0.2, 99.8])
+    image = axes.imshow(
+        1e6 * heights[:pixels, :pixels],
+        extent=(0, side, side, 0),
+        cmap="cividis",
+        vmin=float(low),
+        vmax=float(high),
+        interpolation="nearest",
+    )
+    axes.plot(1e3 * x, 1e3 * y, "o", color=COLOURS[1], markersize=4, markeredgecolor="white")
+    axes.set(xlim=(0, side), ylim=(side, 0))
+    axes.figure.colorbar(image, ax=axes, label="Height $z$ [µm]", shrink=0.9)
+
+
+def _areas(
+    name: str, given: dict[str, Any], model: Model, correction: Correction, label: str
+) -> dict[str, bytes]:
+    figure, (axes,) = new_figure(1)
+    before, after = model.area(_ZETA), model.area(_ZETA, correction)
+    for load, original, modified, colour in zip(_MPA, before, after, COLOURS, strict=False):
+        axes.plot(_ZETA, original, color=colour, label=load)
+        axes.plot(_ZETA, modified, "--", color=colour)
+    for dash, text in (("-", "original"), ("--", label)):
+        axes.plot([], [], dash, color="0.3", label=text)
+    panel(axes, f"{VELOCITY:g} m/s", **_AREA)
+    figure.legend(loc="outside right upper")
+    return page(name, figure, given, _columns({"original_area": before, "modified_area": after}))
+
+
+def _columns(curves: dict[str, Array]) -> dict[str, list[Any]]:
+    """Pressures below one another."""
+    return stacked(
+        [
+            {"pressure_pa": pressure, "magnification": _ZETA}
+            | {name: rows[k] for name, rows in curves.items()}
+            for k, pressure in enumerate(PRESSURES)
+        ]
+    )
+
+
+def _given(inputs: Inputs) -> dict[str, Any]:
+    tuned = tuned_inputs(inputs.tuned["implicit"])
+    return {**sandpaper_inputs(inputs), **tuned, "velocity_m_s": VELOCITY, "gamma": _GAMMA}
+
+
+def _shift(model: Model) -> Array:
+    """p_T2 at 0.1 m/s, at the three pressures."""
+    return shifts(model, np.array(PRESSURES), np.array([VELOCITY]))[1][:, 0]
+
+
+def _largest(difference: Array) -> float:
+    """That which is farthest from 0."""
+    return float(difference.flat[np.abs(difference).argmax()])

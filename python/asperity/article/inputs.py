@@ -5,12 +5,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity.adhesion import Adhesion
 from asperity.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
-from asperity.article.readings import READINGS, Implied, Reading, implied
-from asperity.correction import GreenwoodWilliamson
+from asperity.article.readings import READINGS, Array, Implied, Reading, implied
+from asperity.article.statement import UNTUNED
+from asperity.contact import contact_area, correction_factor
+from asperity.correction import Correction, GreenwoodWilliamson
 from asperity.measured_spectrum import synthesize
 from asperity.rubber import PronySeries
 from asperity.spectrum import SelfAffineSpectrum
@@ -20,7 +21,6 @@ Q0 = 2000.0  # 1/m, of both surfaces (Fig. 7, Table 1)
 LAMBDA0 = 2 * math.pi / Q0
 MAGNIFICATION = 500.0  # q1 / q0 (Section 5.2)
 PRESSURES = (0.1e6, 0.3e6, 0.5e6)  # Pa, of Figs 10 to 12
-LOADS = f"{', '.join(f'{p / 1e6:g}' for p in PRESSURES)} MPa"
 VELOCITY = 0.1  # m/s, of Figs 10 to 12
 ASPHALT_PRESSURE = 81e3  # Pa (Table 1)
 ADHESION = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3, width=0.1)  # Table 1
@@ -35,15 +35,41 @@ SKEWNESS = -0.3
 SEEDS = (1, 2, 3, 4, 5, 6)
 
 
-UNTUNED = "untuned"
-
-
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Compound A, and the improved Greenwood-Williamson model on the sandpaper."""
+    """The sandpaper, compound A, and the improved Greenwood-Williamson model."""
 
+    surface: SelfAffineSpectrum
     rubber: PronySeries
     correction: GreenwoodWilliamson
+
+    def area(self, zeta: Array, correction: Correction | None = None) -> Array:
+        """A/A0 at 0.1 m/s, at the three pressures (rows) and at magnifications."""
+        return np.asarray(
+            contact_area(
+                self.surface,
+                self.rubber,
+                pressure=PRESSURES,
+                velocity=VELOCITY,
+                correction=correction,
+                wavenumber=zeta * Q0,
+            )
+        )
+
+    def cf(
+        self, zeta: Array, correction: Correction, pressure: Sequence[float] = PRESSURES
+    ) -> Array:
+        """CF at 0.1 m/s, at pressures (rows) and at magnifications."""
+        return np.asarray(
+            correction_factor(
+                self.surface,
+                self.rubber,
+                pressure=pressure,
+                velocity=VELOCITY,
+                correction=correction,
+                wavenumber=zeta * Q0,
+            )
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,15 +102,9 @@ class Inputs:
         return {**self.tuned, **bare}
 
     @property
-    def compounds(self) -> dict[str, PronySeries]:
-        """Compound A as tuned to either reading, and untuned."""
-        tuned = {reading: model.rubber for reading, model in self.tuned.items()}
-        return {**tuned, UNTUNED: self.compound_a}
-
-    @property
-    def rubber(self) -> PronySeries:
-        """Compound A of Figs 1 and 8 to 12: tuned to the implicit reading."""
-        return self.tuned["implicit"].rubber
+    def compounds(self) -> dict[str, Model]:
+        """Compound A as tuned to either reading, and untuned, where IGW plays no part."""
+        return {**self.tuned, UNTUNED: self.untuned["implicit"]}
 
 
 def prepare(seeds: Sequence[int] = SEEDS) -> Inputs:
@@ -101,12 +121,10 @@ def prepare(seeds: Sequence[int] = SEEDS) -> Inputs:
         asphalt_scans=[_scan(asphalt, seed, 0.0) for seed in seeds],
         compound_a=compound_a,
         compound_b=compound(T_G["B"]),
-        tuned={
-            reading: tune(compound_a, implied(reading, sandpaper.rms_height, Q0))
-            for reading in READINGS
-        },
+        tuned={reading: tune(sandpaper, compound_a, reading) for reading in READINGS},
         untuned={
-            reading: Model(compound_a, heights_of(gaussian_scans, reading)) for reading in READINGS
+            reading: Model(sandpaper, compound_a, heights_of(gaussian_scans, reading))
+            for reading in READINGS
         },
     )
 
@@ -123,24 +141,21 @@ def heights_of(
     )
 
 
-def tune(rubber: PronySeries, wanted: Implied) -> Tuned:
-    """One factor on all relaxation times, so that |E(q0 v)| / (1 - nu^2) at 0.1 m/s is E*."""
+def tune(surface: SelfAffineSpectrum, rubber: PronySeries, reading: Reading) -> Tuned:
+    """One factor on all relaxation times, so that E* at q0 and 0.1 m/s is what p_T asks for."""
+    wanted = implied(reading, surface.rms_height, surface.q0)
     low, high = -12.0, 12.0
     while high - low > 1e-13:
-        decades = (low + high) / 2
-        low, high = (
-            (decades, high)
-            if effective_modulus(rubber.shifted(10**decades)) < wanted.effective_modulus
-            else (low, decades)
-        )
+        middle = (low + high) / 2
+        soft = effective_modulus(rubber.shifted(10**middle)) < wanted.effective_modulus
+        low, high = (middle, high) if soft else (low, middle)
     return Tuned(
+        surface=surface,
+        rubber=rubber.shifted(10**low),
+        correction=GreenwoodWilliamson(z_max=wanted.z_max, z_min=wanted.z_min, reading=reading),
         implied=wanted,
         decades=low,
         temperature=temperature_of(low, T_G["A"]),
-        rubber=rubber.shifted(10**low),
-        correction=GreenwoodWilliamson(
-            z_max=wanted.z_max, z_min=wanted.z_min, reading=wanted.reading
-        ),
     )
 
 
@@ -149,7 +164,7 @@ def effective_modulus(rubber: PronySeries, velocity: float = VELOCITY) -> float:
     return float(abs(rubber.modulus(Q0 * velocity))) / (1 - POISSON_RATIO**2)
 
 
-def magnifications(count: int) -> NDArray[np.float64]:
+def magnifications(count: int) -> Array:
     """q / q0 from 1 to 500, dense at 1: the contact breaks up within a small part of a decade."""
     return np.concatenate([[1.0], 1 + np.geomspace(1e-4, MAGNIFICATION - 1, count - 1)])
 

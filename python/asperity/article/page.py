@@ -1,23 +1,21 @@
-"""A figure of the article with the numbers it shows, and how curves share one CSV."""
+"""A figure of the article as a picture and as a table of the numbers it shows."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
 from asperity.io.table import Table
+from asperity.plot.curves import picture
+from asperity.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
-@dataclass(frozen=True, eq=False)
-class Page:
-    """`name`.png and `name`.csv."""
-
-    name: str
-    figure: "Figure"
-    table: Table
+LOG: dict[str, Any] = {"xscale": "log", "yscale": "log"}
 
 
 def page(
@@ -26,9 +24,20 @@ def page(
     inputs: Mapping[str, Any],
     columns: Mapping[str, Sequence[Any]],
     *notes: str,
-) -> Page:
-    """A page whose CSV opens with the inputs and notes."""
-    return Page(name, figure, Table(f"article {name}", [inputs], notes, columns))
+) -> dict[str, bytes]:
+    """`name`.png and `name`.csv, which opens with the inputs and notes."""
+    return {
+        f"{name}.png": picture(figure, Path(f"{name}.png")),
+        f"{name}.csv": Table(f"article {name}", [inputs], notes, columns).csv().encode(),
+    }
+
+
+def panel(axes: "Axes", title: str = "", legend: Any = None, **settings: Any) -> None:
+    """Scales, limits and labels as `Axes.set` takes them, a title, and a legend at its place."""
+    axes.set(**settings)
+    axes.set_title(title, fontsize="medium")
+    if legend is not None:
+        axes.legend(loc=legend, fontsize="small")
 
 
 def stacked(curves: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
@@ -39,7 +48,8 @@ def stacked(curves: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
         rows = max(len(v) for v in curve.values() if not isinstance(v, str | float))
         for name in names:
             cells = curve.get(name, "")
-            columns[name] += [cells] * rows if isinstance(cells, str | float) else _plain(cells)
+            one = isinstance(cells, str | float)
+            columns[name] += [cells] * rows if one else np.asarray(cells).tolist()
     return columns
 
 
@@ -71,14 +81,10 @@ def tuned_inputs(tuned: Tuned) -> dict[str, Any]:
     }
 
 
-def _band(surface: Any) -> dict[str, float]:
+def _band(surface: SelfAffineSpectrum) -> dict[str, float]:
     return {
         "rms_height_m": surface.rms_height,
         "hurst": surface.hurst,
         "q0_per_m": surface.q0,
         "q1_per_m": surface.q1,
     }
-
-
-def _plain(cells: Any) -> list[Any]:
-    return list(cells.tolist()) if hasattr(cells, "tolist") else list(cells)

@@ -1,58 +1,219 @@
-"""Section 6.2: friction of compound B on asphalt, Fig. 15 and Table 1 (data alone)."""
+"""Sections 4, 6.2 and 7 checked: friction of compound B on asphalt; Fig. 15 and Table 1."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE, MAGNIFICATION, Inputs, heights_of
-from asperity.article.readings import READINGS, Reading
+from asperity.article.inputs import (
+    ADHESION,
+    ASPHALT_PRESSURE,
+    MAGNIFICATION,
+    Q0,
+    Inputs,
+    heights_of,
+)
+from asperity.article.page import asphalt_inputs, page, panel, stacked
+from asperity.article.readings import READINGS, Array, Reading
+from asperity.article.statement import Finding, Findings
+from asperity.article.surfaces import printed_eq12
 from asperity.correction import Correction, GreenwoodWilliamson, SFactor
 from asperity.friction import Friction, friction
+from asperity.plot.curves import COLOURS, new_figure
 
-_Array = NDArray[np.float64]
 # The article's q1, and that of the rule it cites.
-CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
+_CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
+_VELOCITY = np.geomspace(1e-6, 10, 57)  # m/s
+_SHARES = (1e-5, 1e-3, 1e-1, 1.0)  # m/s, at which shares of the adhesion are listed
+_LISTED = (1e-3, 1e-2, 1e-1, 1.0)  # m/s, of Table 1's friction
+_VALUES = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor")
+_Row = tuple[str, str, float, str, str]  # quantity, symbol, value, unit, source
 
 
-@dataclass(frozen=True, eq=False)
-class Sliding:
-    """Friction over velocity, by cut-off and by correction."""
-
-    velocity: _Array  # [m/s]
-    cutoff: Mapping[str, float]  # q1 [1/m]
-    curves: Mapping[str, Mapping[str, Friction]]
-
-
-def compute(inputs: Inputs) -> Sliding:
-    """Plain Persson ("original"), IGW in both readings, and the S factor with gamma 0.4 and 0.5."""
-    velocity = np.geomspace(1e-6, 10, 57)
-    corrections: dict[str, Correction | None] = {"original": None}
-    corrections |= {reading: of_asphalt(inputs, reading) for reading in READINGS}
-    corrections |= {f"gamma {gamma}": SFactor(gamma=gamma) for gamma in (0.4, 0.5)}
+def compute(inputs: Inputs) -> Mapping[str, Mapping[str, Friction]]:
+    """Friction over velocity, by cut-off and by correction: plain Persson ("original"), IGW in both
+    readings, and the S factor with gamma 0.4 and 0.5."""
     road = inputs.asphalt
-    surfaces = dict(zip(CUTOFFS, (road, road.truncated(q1=road.cutoff_for_slope())), strict=True))
-    return Sliding(
-        velocity=velocity,
-        cutoff={name: surface.q1 for name, surface in surfaces.items()},
-        curves={
-            name: {
-                which: friction(
-                    surface,
-                    inputs.compound_b,
-                    pressure=ASPHALT_PRESSURE,
-                    velocity=velocity,
-                    correction=correction,
-                    adhesion=ADHESION,
-                )
-                for which, correction in corrections.items()
-            }
-            for name, surface in surfaces.items()
-        },
-    )
+    corrections: dict[str, Correction | None] = {"original": None}
+    corrections |= {reading: _of_asphalt(inputs, reading) for reading in READINGS}
+    corrections |= {f"gamma {gamma}": SFactor(gamma=gamma) for gamma in (0.4, 0.5)}
+    surfaces = dict(zip(_CUTOFFS, (road, road.truncated(q1=road.cutoff_for_slope())), strict=True))
+    return {
+        name: {
+            which: friction(
+                surface,
+                inputs.compound_b,
+                pressure=ASPHALT_PRESSURE,
+                velocity=_VELOCITY,
+                correction=correction,
+                adhesion=ADHESION,
+            )
+            for which, correction in corrections.items()
+        }
+        for name, surface in surfaces.items()
+    }
 
 
-def of_asphalt(inputs: Inputs, reading: Reading) -> GreenwoodWilliamson:
+def _of_asphalt(inputs: Inputs, reading: Reading) -> GreenwoodWilliamson:
     """IGW with the mean extremes of the synthetic scans and all of the published rms height."""
     return heights_of(inputs.asphalt_scans, reading, inputs.asphalt.rms_height)
+
+
+def findings(inputs: Inputs) -> Findings:
+    """Cut-offs, hysteresis and adhesion, with the article's cut-off and that of its rule."""
+    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    for name, surface in (("sandpaper", inputs.sandpaper), ("asphalt", inputs.asphalt)):
+        q1 = surface.cutoff_for_slope(1.3) / Q0
+        found["F1"][name] = Finding(
+            abs(q1 / MAGNIFICATION - 1) < 0.1, q1=q1, slope=surface.rms_slope
+        )
+    curves = compute(inputs)
+    for cutoff, theories in curves.items():
+        plain, low, high = (theories[n] for n in ("original", "gamma 0.4", "gamma 0.5"))
+        less = low.hysteresis / high.hysteresis - 1
+        found["F3"][cutoff] = Finding(np.all(np.abs(less) < 0.1), less=less)
+        for reading in READINGS:
+            name, modified = f"{cutoff}, {reading}", theories[reading]
+            ratio, total = plain.hysteresis / modified.hysteresis, plain.mu / modified.mu
+            share = modified.adhesion / modified.mu
+            rising = _VELOCITY[1:][np.diff(share) >= 0]
+            found["F4"][name] = Finding(np.all(ratio > 1), ratio=ratio)
+            found["F5"][name] = Finding(np.all(total > 1), ratio=total, less=_VELOCITY[total < 1])
+            found["F6"][name] = Finding(
+                rising.size == 0, share=100 * _at(share, _SHARES), rising=rising
+            )
+    article, rule = (theories["original"].hysteresis for theories in curves.values())
+    found["F4"][""] = Finding(cutoff=rule / article)
+    return found
+
+
+def _at(values: Array, velocity: Sequence[float]) -> Array:
+    """Values at velocities that are points of the curve."""
+    return np.asarray([values[np.abs(_VELOCITY - v).argmin()] for v in velocity])
+
+
+def fig15(inputs: Inputs) -> dict[str, bytes]:
+    """The original theory and the modified one."""
+    figure, panels = new_figure(2)
+    found = compute(inputs)
+    curves = found[_CUTOFFS[0]]
+    theories = {"original": "(a) original theory", "implicit": "(b) modified, IGW"}
+    for axes, (name, title) in zip(panels, theories.items(), strict=True):
+        for label, values, dash, colour in (
+            ("total", curves[name].mu, "-", COLOURS[0]),
+            ("hysteresis", curves[name].hysteresis, "--", COLOURS[1]),
+            ("adhesion", curves[name].adhesion, "--", COLOURS[4]),
+        ):
+            axes.plot(_VELOCITY, values, dash, color=colour, label=label)
+        axes.text(
+            0.03,
+            0.96,
+            "measured points of the article's\nFig. 15 are not at hand: none shown",
+            transform=axes.transAxes,
+            va="top",
+            fontsize="small",
+        )
+        panel(
+            axes,
+            title,
+            "upper right",
+            xscale="log",
+            xlim=(_VELOCITY[0], _VELOCITY[-1]),
+            ylim=(0, 1.4 * np.max(curves["original"].mu)),
+            xlabel="Sliding velocity $v$ [m/s]",
+            ylabel=r"Friction coefficient $\mu$ [-]",
+        )
+    names = {"original": "original", "implicit": "modified, implicit", "added": "modified, added"}
+    columns = stacked(
+        [
+            {
+                "theory": names[which],
+                "cutoff": cutoff,
+                "velocity_m_s": _VELOCITY,
+                **{value: getattr(theories[which], value) for value in _VALUES},
+            }
+            for cutoff, theories in found.items()
+            for which in names
+        ]
+    )
+    note = "the measured points of the article's Fig. 15 are not at hand: none are given"
+    return page("fig15", figure, _given(inputs), columns, note)
+
+
+def table1(inputs: Inputs) -> dict[str, bytes]:
+    """Table 1 as printed, and what follows from it."""
+    from matplotlib.transforms import Bbox
+
+    rows = [*_parameters(inputs), *_frictions(compute(inputs))]
+    figure, (axes,) = new_figure(1)
+    figure.set_size_inches(8.4, 0.27 * len(rows) + 0.6)
+    axes.set_axis_off()
+    drawn = axes.table(
+        [[name, symbol, f"{value:.4g}", *rest] for name, symbol, value, *rest in rows],
+        colLabels=["Quantity", "Symbol", "Value", "Unit", "From"],
+        colWidths=[0.42, 0.14, 0.12, 0.08, 0.24],
+        cellLoc="left",
+        colLoc="left",
+        edges="horizontal",
+        bbox=Bbox.from_bounds(0, 0, 1, 1),
+    )
+    drawn.auto_set_font_size(False)
+    drawn.set_fontsize(9)
+    titles = ("quantity", "symbol", "value", "unit", "source")
+    columns: dict[str, list[Any]] = dict(
+        zip(titles, map(list, zip(*rows, strict=True)), strict=True)
+    )
+    for title in ("symbol", "unit"):
+        columns[title] = [re.sub(r"[$\\]", "", cell) for cell in columns[title]]
+    return page("table1", figure, _given(inputs), columns)
+
+
+def _given(inputs: Inputs) -> dict[str, Any]:
+    igw = _of_asphalt(inputs, "implicit")
+    return {
+        **asphalt_inputs(inputs),
+        "compound": "B",
+        "pressure_pa": ASPHALT_PRESSURE,
+        "shear_stress_pa": ADHESION.shear_stress,
+        "reference_velocity_m_s": ADHESION.reference_velocity,
+        "width": ADHESION.width,
+        "z_max_m": igw.z_max,
+        "z_min_m": igw.z_min,
+    }
+
+
+def _parameters(inputs: Inputs) -> list[_Row]:
+    road, igw, given = inputs.asphalt, _of_asphalt(inputs, "implicit"), "Table 1"
+    printed, scans = printed_eq12(road), "synthetic scans"
+    return [
+        ("Hurst exponent", "$H$", road.hurst, "-", given),
+        ("rms height", "$h_0$", 1e6 * road.rms_height, "µm", given),
+        ("lower cut-off", "$q_0$", road.q0, "1/m", given),
+        ("upper cut-off", "$q_{max}$", road.q1, "1/m", given),
+        ("width of the adhesion", "$c$", ADHESION.width, "-", given),
+        ("velocity of the adhesion", "$v_0$", 1e3 * ADHESION.reference_velocity, "mm/s", given),
+        ("shear stress", r"$\tau_{f0}$", ADHESION.shear_stress / 1e6, "MPa", given),
+        ("nominal pressure", r"$\sigma_0$", ASPHALT_PRESSURE / 1e3, "kPa", given),
+        (f"rms slope to {_CUTOFFS[0]}", "$h'$", road.rms_slope, "-", given),
+        ("q1 at rms slope 1.3", "$q_1/q_0$", road.cutoff_for_slope() / Q0, "-", "rule of Sec. 4"),
+        ("spectrum at q0, rms height h0", "$C(q_0)$", float(road.at(Q0)), "m$^4$", "Parseval"),
+        ("spectrum at q0, Eq. 12 as printed", "$C(q_0)$", float(printed.at(Q0)), "m$^4$", "Eq. 12"),
+        ("rms height of Eq. 12 as printed", "-", 1e6 * printed.rms_height, "µm", "Parseval"),
+        ("highest point", r"$z_{max}$", 1e6 * igw.z_max, "µm", scans),
+        ("lowest point", r"$z_{min}$", 1e6 * igw.z_min, "µm", scans),
+    ]
+
+
+def _frictions(curves: Mapping[str, Mapping[str, Friction]]) -> list[_Row]:
+    rows: list[_Row] = []
+    for cutoff, found in curves.items():
+        for name, which in (("original", "original"), ("modified", "implicit")):
+            for v, mu in zip(_LISTED, _at(found[which].mu, _LISTED).tolist(), strict=True):
+                source = f"cut off at {cutoff}"
+                rows.append((f"friction at {v:g} m/s, {name}", r"$\mu$", mu, "-", source))
+    factors = _at(curves[_CUTOFFS[0]]["implicit"].shift_factor, _LISTED).tolist()
+    for v, factor in zip(_LISTED, factors, strict=True):
+        rows.append((f"shift factor at {v:g} m/s", "$p_T$", factor, "-", "implicit"))
+    return rows

@@ -1,89 +1,100 @@
-"""A statement of the article, what was found, and the verdict that follows from it."""
+"""The article's statements, from `statements.csv`, and the verdicts that follow from what is found.
 
+A row has a statement and how it is judged: by a rule from tests, a `Finding` for each compound,
+surface or cut-off, or by a verdict that no computation can change. Its column "found" is a text for
+the numbers; what stands in brackets is written for each name.
+"""
+
+import csv
+import re
+import string
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
 
-from asperity.article.inputs import UNTUNED
+import numpy as np
 
 HOLDS = "holds"
 IN_PART = "holds in part"
 FAILS = "does not hold"
 TUNED = "tuned"
-UNCHECKED = "cannot be checked"
-BY_CONSTRUCTION = "by construction"
-VERDICTS = (HOLDS, IN_PART, FAILS, TUNED, UNCHECKED, BY_CONSTRUCTION)
-Held = bool | Iterable[bool]
+VERDICTS = (HOLDS, IN_PART, FAILS, TUNED, "cannot be checked", "by construction")
+UNTUNED = "untuned"  # begins the name of what no printed p_T has decided
 
 
-@dataclass(frozen=True)
-class Statement:
-    """One row of the summary."""
+class Finding:
+    """Tests that a claim stands for together, and numbers."""
 
-    name: str
-    place: str  # in the article
-    claim: str
-    criterion: str
-    found: str
-    verdict: str
-    reason: str
+    def __init__(self, *held: Any, **numbers: Any) -> None:
+        self.held = [bool(test) for tests in held for test in _several(tests)]
+        self.numbers = numbers
 
 
-def judged(held: Held) -> str:
-    """The verdict on one test, or on several that the claim stands for together."""
-    tests = _tests(held)
-    return HOLDS if all(tests) else IN_PART if any(tests) else FAILS
+Findings = Mapping[str, Mapping[str, Finding]]  # by id and by name; "" is of all names, or the only
 
 
-def by_construction(held: Held) -> str:
-    """The verdict where the equations in use, or how inputs were made, leave no other outcome: what
-    is met is a check of the code."""
-    verdict = judged(held)
-    return BY_CONSTRUCTION if verdict == HOLDS else verdict
+def judge(findings: Findings) -> list[dict[str, str]]:
+    """The rows of the table, each with its verdict and, where it is tested, what is found."""
+    text = (files("asperity.article") / "statements.csv").read_text(encoding="utf-8")
+    rows = list(csv.DictReader(text.splitlines()))
+    tested = {row["id"] for row in rows if row["criterion"]}
+    if tested != set(findings):
+        raise ValueError(f"statements.csv and findings differ in {tested ^ set(findings)}")
+    for row in rows:
+        found = findings.get(row["id"], {})
+        row |= {"verdict": verdict(row["judged"], found), "found": worded(row["found"], found)}
+    return rows
 
 
-def rests_on_tuning(held: Held) -> str:
-    """The verdict where tuned inputs decide: what is met is only "tuned", for it was put in."""
-    verdict = judged(held)
-    return TUNED if verdict == HOLDS else verdict
+def verdict(rule: str, findings: Mapping[str, Finding]) -> str:
+    """By a rule, which may be a verdict itself.
 
-
-def despite_tuning(held: Mapping[str, Held]) -> str:
-    """The verdict that tuned and untuned inputs agree on; where they do not, tuning decides.
-
-    Tests by the names of `Inputs.compounds` or `Inputs.models`; readings are parts of a claim.
+    "by tests": on all of them. "despite tuning": on which tuned and untuned inputs agree; where
+    they do not, tuning decides. "by tuning": on tuned inputs; what is met was put in.
     """
-    tuned, untuned = (
-        judged(
-            [t for name, tests in held.items() if _untuned(name) is which for t in _tests(tests)]
-        )
-        for which in (False, True)
-    )
-    return tuned if tuned == untuned else TUNED
+    parts: dict[bool, list[bool]] = {True: [], False: []}
+    for name, finding in findings.items():
+        parts[name.startswith(UNTUNED)] += finding.held
+    untuned, tuned = _judged(parts[True]), _judged(parts[False])
+    if rule == "by tests":
+        return _judged(parts[True] + parts[False])
+    if rule == "despite tuning":
+        return tuned if tuned == untuned else TUNED
+    if rule == "by tuning":
+        return TUNED if tuned == HOLDS else tuned
+    return VERDICTS[VERDICTS.index(rule)]
 
 
-def unchecked(name: str, place: str, claim: str, reason: str, found: str = "-") -> Statement:
-    """A statement that nothing at hand can decide."""
-    return Statement(name, place, claim, "-", found, UNCHECKED, reason)
+def worded(text: str, findings: Mapping[str, Finding]) -> str:
+    """The text with its numbers: "p_T: [{p:.2f}]" is "p_T: implicit: 2.46, 2.02; added: 2.46"."""
+    each = re.search(r"\[(.*)\]", text)
+    if each is not None:
+        parts = (f"{name}: {fill(each[1], **f.numbers)}" for name, f in findings.items() if name)
+        text = text.replace(each[0], "; ".join(parts))
+    return fill(text, **findings[""].numbers if "" in findings else {})
 
 
-def listed(values: Iterable[float], form: str = ".3g") -> str:
-    """Numbers beside one another, as in "2.46, 2.02, 1.83"."""
-    return ", ".join(f"{value:{form}}" for value in values)
+def fill(text: str, **numbers: Any) -> str:
+    """`str.format`, where a format beside its own is "%", a relative difference with its sign; of
+    several numbers all are listed, or with "~" the smallest and the largest."""
+    return _Numbers().vformat(text, (), numbers)
 
 
-def by_name(values: Mapping[str, Iterable[float]], form: str = ".3g") -> str:
-    """The same of several, as in "implicit: 2.46, 2.02; added: 2.46, 2.02"."""
-    return "; ".join(f"{name}: {listed(numbers, form)}" for name, numbers in values.items())
+class _Numbers(string.Formatter):
+    def format_field(self, value: Any, spec: str) -> Any:
+        if spec.startswith("~"):
+            ends = (min(value), max(value)) if len(value) else ()
+            return " to ".join(self.format_field(end, spec[1:]) for end in ends) or "none"
+        if not isinstance(value, str) and isinstance(value, Iterable):
+            return ", ".join(self.format_field(each, spec) for each in value)
+        if spec == "%":
+            return f"{100 * value:+.2g} %" if np.abs(value) >= 5e-4 else "0.0 %"
+        return format(value, spec)
 
 
-def percent(value: float) -> str:
-    """A relative difference with its sign."""
-    return f"{100 * value:+.2g} %" if abs(value) >= 5e-4 else "0.0 %"
+def _judged(held: list[bool]) -> str:
+    return HOLDS if all(held) else IN_PART if any(held) else FAILS
 
 
-def _untuned(name: str) -> bool:
-    return name.startswith(UNTUNED)
-
-
-def _tests(held: Held) -> list[bool]:
-    return [bool(test) for test in held] if isinstance(held, Iterable) else [bool(held)]
+def _several(tests: Any) -> Iterable[Any]:
+    return tests if isinstance(tests, Iterable) else [tests]

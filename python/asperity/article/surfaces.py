@@ -1,51 +1,32 @@
-"""Section 5.2 checked: scans, windows, spectra, Hurst exponents."""
+"""Eq. 12 and Section 5.2 checked: scans, windows, spectra; Figs 2, 3, 6 and 7."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from asperity.article.inputs import PIXEL_SIZE, PIXELS, Q0, SIDE, Inputs
-from asperity.article.statement import (
-    Statement,
-    by_construction,
-    judged,
-    listed,
-    percent,
-    unchecked,
+from asperity.article.inputs import LAMBDA0, MAGNIFICATION, PIXEL_SIZE, PIXELS, Q0, SIDE, Inputs
+from asperity.article.page import (
+    LOG,
+    asphalt_inputs,
+    page,
+    panel,
+    sandpaper_inputs,
+    scan_inputs,
+    stacked,
 )
+from asperity.article.peaks import local_peaks
+from asperity.article.readings import Array
+from asperity.article.statement import Finding, Findings
 from asperity.measured_spectrum import SelfAffineFit, fit_self_affine, power_spectrum
+from asperity.plot.curves import COLOURS, new_figure
 from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
-from asperity.surface import HeightMap
+from asperity.surface import HeightMap, LineScan
 
-_Array = NDArray[np.float64]
-_POINTS = 1000  # of the window
 _SHORT, _LONG = 4, 12  # sides of scans that are cut out of the periodic maps [lambda0]
+_SHIFT = 2.0  # p_T of Fig. 2
+_TILT, _OFFSET = 0.02, 1e-3  # of the line scan of Fig. 6: slope, height [m]
 # Rows of a fit: clear of lambda0, and of what half of pi / pixel folds back.
-BAND = (1.25 * Q0, np.pi / PIXEL_SIZE / 2)
-
-
-@dataclass(frozen=True, eq=False)
-class Spectra:
-    """Spectra of one scan of either surface, cut out of its map, and Eq. 28's line."""
-
-    name: str
-    truth: SelfAffineSpectrum
-    measured: TabulatedSpectrum
-    fit: SelfAffineFit
-
-
-def compute(inputs: Inputs) -> list[Spectra]:
-    """Sandpaper, then asphalt, each as a scan of 12 x 12 lambda0 would show it."""
-    result = []
-    for name, truth, scan in (
-        ("120-grit sandpaper", inputs.sandpaper, inputs.scans[0]),
-        ("asphalt", inputs.asphalt, inputs.asphalt_scans[0]),
-    ):
-        measured = power_spectrum(cut(scan, _LONG))
-        result.append(Spectra(name, truth, measured, slope_fit(measured)))
-    return result
+_BAND: dict[str, Any] = {"q_min": 1.25 * Q0, "q_max": np.pi / PIXEL_SIZE / 2}
 
 
 def cut(scan: HeightMap, side: int) -> HeightMap:
@@ -55,170 +36,87 @@ def cut(scan: HeightMap, side: int) -> HeightMap:
 
 
 def slope_fit(measured: TabulatedSpectrum) -> SelfAffineFit:
-    """Eq. 28: H of a straight line through the rows of BAND."""
-    return fit_self_affine(measured, q_min=BAND[0], q_max=BAND[1], method="slope")
+    """Eq. 28: H of a straight line through the rows of the band."""
+    return fit_self_affine(measured, **_BAND, method="slope")
 
 
-def statements(inputs: Inputs, spectra: Sequence[Spectra]) -> list[Statement]:
-    """What Section 5.2 says of scans and their spectra."""
-    return [*_scans(inputs), *_fits(inputs, spectra)]
+def printed_eq12(surface: SelfAffineSpectrum) -> SelfAffineSpectrum:
+    """Eq. 12 as printed, with the parameters of a surface."""
+    return SelfAffineSpectrum.from_article(
+        h0=surface.rms_height, hurst=surface.hurst, q0=surface.q0, q1=surface.q1
+    )
 
 
-def _scans(inputs: Inputs) -> list[Statement]:
-    scan = inputs.asphalt_scans[0]
+def findings(inputs: Inputs) -> Findings:
+    """Eq. 12, and Section 5.2 on scans of the asphalt."""
+    h0, own = inputs.asphalt.rms_height, (inputs.sandpaper, inputs.asphalt)
+    printed = printed_eq12(inputs.asphalt).rms_height
+    level = np.mean([printed_variance(scan) for scan in inputs.asphalt_scans])
+    steep, flat = (
+        SelfAffineSpectrum(rms_height=1e-4, hurst=s.hurst, q0=Q0, q1=s.q1).rms_slope for s in own
+    )
+    slopes = [surface.rms_slope for surface in own]
+    found = {
+        "A4": Finding(abs(printed / h0 - 1) < 0.01, rms=1e6 * printed, share=printed / h0),
+        "S1": _sloped(inputs.asphalt_scans[0]),
+        "S5": Finding(
+            abs(level - 1) < 0.05, level=level, window=np.mean(split_cosine_bell(PIXELS) ** 2) ** 2
+        ),
+        "S6": _filled(inputs.asphalt_scans[0]),
+        "S8": Finding(steep > flat, ratio=steep / flat, own=slopes),
+        **_windows(inputs),
+    }
+    return {name: {"": finding} for name, finding in found.items()}
+
+
+def _windows(inputs: Inputs) -> dict[str, Finding]:
+    """On short scans, by window: mean H, and the scatter of C between q0 and 2 q0."""
+    truth, scatter, hurst = inputs.asphalt, {}, {}
+    windows: dict[str, Any] = {"bell": "split-cosine-bell", "hann": "hann", "none": "none"}
+    for name, window in windows.items():
+        levels, exponents = [], []
+        for scan in inputs.asphalt_scans:
+            found = power_spectrum(cut(scan, _SHORT), window=window)
+            low = (found.wavenumber > Q0) & (found.wavenumber < 2 * Q0)
+            levels.append(np.mean(found.density[low] / truth.at(found.wavenumber[low])))
+            exponents.append(slope_fit(found).hurst)
+        scatter[name], hurst[name] = np.std(levels, ddof=1), np.mean(exponents)
+    off = {name: abs(h - truth.hurst) for name, h in hurst.items()}
+    held = off["none"] > 0.03, off["hann"] < 0.03, off["bell"] < 0.03
+    return {
+        "S2": Finding(held, **hurst),
+        "S4": Finding(scatter["hann"] > scatter["bell"], **scatter),
+    }
+
+
+def _sloped(scan: HeightMap) -> Finding:
+    """With a slope that is added, and with it removed."""
     tilted = HeightMap(scan.heights + 0.02 * np.arange(PIXELS) * PIXEL_SIZE, pixel_size=PIXEL_SIZE)
-    flat = tilted.detrend("plane")
-    wrong, right = (slope_fit(power_spectrum(s, detrend="offset")) for s in (tilted, flat))
-    low, hurst = _windows(inputs)
-    truth = inputs.asphalt.hurst
-    tilt = tilted.detrend("offset").rms_height
-    bell = packaged_bell(_POINTS)
-    kept = float(np.mean(bell > 1 - 1e-9))
-    level = np.mean([printed_variance(surface) for surface in inputs.asphalt_scans])
-    lost = np.mean(split_cosine_bell(PIXELS) ** 2) ** 2
-    filled, holes = _dropouts(scan)
-    patched, whole = (slope_fit(power_spectrum(s)).hurst for s in (filled, scan))
-    return [
-        Statement(
-            "S1",
-            "Sec. 5.2, Fig. 6",
-            "offset, slope and curvature must go before any statistic",
-            "rms height or H wrong by more than 5 % when a slope of 0.02 stays",
-            f"rms height {tilt * 1e6:.4g} um with the slope, {flat.rms_height * 1e6:.4g} um "
-            f"without; H {wrong.hurst:.3f} and {right.hurst:.3f}",
-            judged(
-                abs(tilt / flat.rms_height - 1) > 0.05 or abs(wrong.hurst / right.hurst - 1) > 0.05
-            ),
-            "asphalt, 16 x 16 lambda0",
-        ),
-        Statement(
-            "S2",
-            "Sec. 5.2",
-            "without a window the spectrum leaks",
-            "H off by more than 0.03 without, by less than 0.03 with either window",
-            f"H of asphalt ({truth:g}) {hurst['none']:.3f} without, "
-            f"{hurst['split-cosine-bell']:.3f} split cosine bell, {hurst['hann']:.3f} Hann",
-            judged(
-                [
-                    abs(hurst["none"] - truth) > 0.03,
-                    abs(hurst["hann"] - truth) < 0.03,
-                    abs(hurst["split-cosine-bell"] - truth) < 0.03,
-                ]
-            ),
-            f"mean of {len(inputs.asphalt_scans)} scans of {_SHORT} x {_SHORT} lambda0",
-        ),
-        Statement(
-            "S3",
-            "Sec. 5.2, Eq. 25",
-            "the split cosine bell leaves 80 % of the length as it is",
-            f"the window of power_spectrum, as spectra of {_POINTS} maps of one peak each show it: "
-            "80 % within 1 %; Eq. 25 at every point within 1e-9",
-            f"{100 * kept:.1f} % a direction, {100 * kept**2:.1f} % of a map; off Eq. 25 by at "
-            f"most {np.abs(bell - split_cosine_bell(_POINTS)).max():.0e}",
-            by_construction(
-                [
-                    abs(kept - 0.8) < 0.01,
-                    np.allclose(bell, split_cosine_bell(_POINTS), rtol=0, atol=1e-9),
-                ]
-            ),
-            "the default window is made by Eq. 25",
-        ),
-        Statement(
-            "S4",
-            "Sec. 5.2",
-            "the Hann window harms low frequencies; the split cosine bell suits short signals",
-            "between q0 and 2 q0, C scatters more under Hann from scan to scan",
-            f"standard deviation of C over the true C: {low['hann']:.2f} Hann, "
-            f"{low['split-cosine-bell']:.2f} split cosine bell",
-            judged(low["hann"] > low["split-cosine-bell"]),
-            f"{len(inputs.asphalt_scans)} asphalt scans of {_SHORT} x {_SHORT} lambda0",
-        ),
-        Statement(
-            "S5",
-            "Eqs 26-27",
-            "Eqs 25 to 27 give the spectrum of the surface",
-            "the variance of C within 5 % of that of the heights, mean of the asphalt scans",
-            f"{level:.3f} of it, with a window whose mean square is {lost:.3f}",
-            judged(bool(abs(level - 1) < 0.05)),
-            "nothing divides by the window's mean square; H does not notice, area and friction do",
-        ),
-        Statement(
-            "S6",
-            "Sec. 5.2",
-            "up to 10 % of the points may be filled by linear interpolation",
-            "rms height within 1 % and H within 0.01 after 10 % of random drop-outs are filled",
-            f"rms height {percent(filled.rms_height / scan.rms_height - 1)}, H {patched:.4f} "
-            f"against {whole:.4f}; {100 * holes:.1f} % missing",
-            judged(
-                [
-                    abs(filled.rms_height / scan.rms_height - 1) < 0.01,
-                    abs(patched - whole) < 0.01,
-                ]
-            ),
-            "filled points are smooth: the short waves lose, the rms height does not notice",
-        ),
-    ]
+    flat, tilt = tilted.detrend("plane"), tilted.detrend("offset").rms_height
+    wrong, right = (slope_fit(power_spectrum(s, detrend="offset")).hurst for s in (tilted, flat))
+    return Finding(
+        abs(tilt / flat.rms_height - 1) > 0.05 or abs(wrong / right - 1) > 0.05,
+        rms=[1e6 * tilt, 1e6 * flat.rms_height],
+        hurst=[wrong, right],
+    )
 
 
-def _fits(inputs: Inputs, spectra: Sequence[Spectra]) -> list[Statement]:
-    found = [spectrum.fit.hurst for spectrum in spectra]
-    truth = [spectrum.truth.hurst for spectrum in spectra]
-    equal = [
-        SelfAffineSpectrum(rms_height=1e-4, hurst=h, q0=Q0, q1=inputs.sandpaper.q1).rms_slope
-        for h in truth
-    ]
-    own = [inputs.sandpaper.rms_slope, inputs.asphalt.rms_slope]
-    return [
-        Statement(
-            "S7",
-            "Eq. 28, Fig. 7",
-            f"H = |slope| / 2 - 1: {truth[0]:g} of the sandpaper, {truth[1]:g} of the asphalt",
-            "within 0.02 on scans that are synthesized with these H",
-            f"H = {listed(found, '.3f')}",
-            by_construction(abs(h - put) < 0.02 for h, put in zip(found, truth, strict=True)),
-            "the scans were given these H: checks the way to H; measured surfaces are not at hand",
-        ),
-        Statement(
-            "S8",
-            "Sec. 5.2",
-            "a smaller H means a more irregular topography",
-            "at equal rms height, q0 and q1 the rms slope is larger with "
-            f"H {truth[0]:g} than with {truth[1]:g}",
-            f"rms slope x {equal[0] / equal[1]:.3g}; of the surfaces themselves "
-            f"{listed(own)}: the asphalt is steeper, being higher",
-            judged(equal[0] > equal[1]),
-            "more of the roughness is short",
-        ),
-        unchecked(
-            "S9",
-            "Sec. 1, 5.2, Fig. 7",
-            "sandpaper and asphalt are self-affine over several decades, from about 2000 1/m",
-            "the measured spectra are not at hand; the surfaces here are self-affine by synthesis",
-            f"scans of {SIDE} lambda0 and {PIXELS} pixels show {np.log10(PIXELS / 2 / SIDE):.1f} "
-            "decades of it",
-        ),
-    ]
+def _filled(scan: HeightMap) -> Finding:
+    """With drop-outs that are made, and filled."""
+    missing = np.random.default_rng(1).random(scan.heights.shape) < 0.0995
+    holed = HeightMap(np.where(missing, np.nan, scan.heights), pixel_size=PIXEL_SIZE)
+    filled = holed.fill_dropouts()
+    hurst = [slope_fit(power_spectrum(s)).hurst for s in (filled, scan)]
+    change, share = filled.rms_height / scan.rms_height - 1, 100 * holed.dropout_fraction
+    held = abs(change) < 0.01, abs(hurst[0] - hurst[1]) < 0.01
+    return Finding(held, change=change, hurst=hurst, share=share)
 
 
-def split_cosine_bell(points: int) -> _Array:
+def split_cosine_bell(points: int) -> Array:
     """Eq. 25, at n = 0 ... N - 1."""
     n = np.arange(points) / points
     edge = np.minimum(n, 1 - n)
     return np.asarray(np.where(edge < 0.1, np.sin(5 * np.pi * edge) ** 2, 1.0))
-
-
-def packaged_bell(points: int) -> _Array:
-    """The default window of `power_spectrum` over one side, at most 1.
-
-    The spectrum of a map with one peak has the window's square there as its variance.
-    """
-    variance = np.zeros(points)
-    for row in range(points):
-        heights = np.zeros((points, 2))
-        heights[row, 1] = PIXEL_SIZE
-        found = power_spectrum(HeightMap(heights, pixel_size=PIXEL_SIZE), detrend=None)
-        variance[row] = np.sum(found.density * np.asarray(found.count))
-    return np.asarray(np.sqrt(variance / variance.max()))
 
 
 def printed_variance(scan: HeightMap) -> float:
@@ -234,23 +132,142 @@ def printed_variance(scan: HeightMap) -> float:
     return float(np.sum(density) * (2 * np.pi / length) ** 2 / np.mean(z**2))
 
 
-def _windows(inputs: Inputs) -> tuple[dict[str, float], dict[str, float]]:
-    """On short scans, by window: scatter of C between q0 and 2 q0, and mean H."""
-    scatter, hurst = {}, {}
-    for window in ("split-cosine-bell", "hann", "none"):
-        levels, exponents = [], []
-        for scan in inputs.asphalt_scans:
-            found = power_spectrum(cut(scan, _SHORT), window=window)
-            q = found.wavenumber
-            low = (q > Q0) & (q < 2 * Q0)
-            levels.append(np.mean(found.density[low] / inputs.asphalt.at(q[low])))
-            exponents.append(slope_fit(found).hurst)
-        scatter[window] = float(np.std(levels, ddof=1))
-        hurst[window] = float(np.mean(exponents))
-    return scatter, hurst
+def fig02(inputs: Inputs) -> dict[str, bytes]:
+    """A sinusoid of the sandpaper's rms height, in full contact and shifted to partial contact."""
+    figure, panels = new_figure(2)
+    x = np.linspace(0, 2 * LAMBDA0, 401)
+    h = np.sqrt(2) * inputs.sandpaper.rms_height * np.cos(Q0 * x)
+    shifted = (h - h.max()) / _SHIFT + h.max()
+    mm, um, top = 1e3 * x, 1e6 * h, 1e6 * h.max()
+    for axes, rubber, p, title in (
+        (panels[0], 1e6 * h, 1.0, "(a) full contact, $p_T$ = 1"),
+        (panels[1], 1e6 * shifted, _SHIFT, f"(b) partial contact, $p_T$ = {_SHIFT:g}"),
+    ):
+        axes.fill_between(
+            mm, rubber, 200, color=COLOURS[5], alpha=0.35, linewidth=0, label="rubber"
+        )
+        axes.fill_between(mm, -150, um, color="0.75", linewidth=0, label="substrate")
+        axes.plot(mm, um, color="0.3", linewidth=1.2, label="$h(x)$")
+        axes.plot(mm, rubber, color=COLOURS[0], linewidth=1.8, label="$h_T(x)$")
+        axes.axhline(top, color=COLOURS[1], linestyle=":", label=r"$z_{\mathrm{max}}$")
+        mean, label = 1e6 * h.max() * (1 - 1 / p), r"$\langle h_T \rangle$"
+        axes.axhline(mean, color=COLOURS[2], linestyle="--", label=label)
+        limits = {"xlim": (0, mm[-1]), "ylim": (-150, 200)}
+        panel(axes, title, **limits, xlabel="$x$ [mm]", ylabel="Height $z$ [µm]")
+    named = panels[0].get_legend_handles_labels()
+    figure.legend(*named, loc="outside right center", fontsize="small")
+    columns = {"x_m": x.tolist(), "height_m": h.tolist(), "transformed_height_m": shifted.tolist()}
+    given = {"rms_height_m": inputs.sandpaper.rms_height, "q0_per_m": Q0, "shift_factor": _SHIFT}
+    note = "the gap between h and h_T in (b) is where the rubber does not reach"
+    return page("fig02", figure, given, columns, note)
 
 
-def _dropouts(scan: HeightMap) -> tuple[HeightMap, float]:
-    missing = np.random.default_rng(1).random(scan.heights.shape) < 0.0995
-    holed = HeightMap(np.where(missing, np.nan, scan.heights), pixel_size=PIXEL_SIZE)
-    return holed.fill_dropouts(), holed.dropout_fraction
+def fig03(inputs: Inputs) -> dict[str, bytes]:
+    """A profile through the highest point of the scan, with heights and peaks of the whole scan."""
+    scan = inputs.scans[0]
+    figure, (left, right) = new_figure(2)
+    above = scan.heights - scan.heights.mean()
+    row = above[np.unravel_index(above.argmax(), above.shape)[0]]
+    x = np.arange(PIXELS) * PIXEL_SIZE
+    edges, density = scan.height_histogram(bins=60)
+    middle = (edges[1:] + edges[:-1]) / 2
+    peaks = local_peaks(scan, 1.0).heights
+    counts, peak_edges = np.histogram(peaks, bins=12, density=True)
+    peak_middle = (peak_edges[1:] + peak_edges[:-1]) / 2
+    left.plot(1e3 * x, 1e6 * row, color="0.3", linewidth=0.6)
+    right.plot(1e-3 * density, 1e6 * middle, color=COLOURS[0], label="heights")
+    right.stairs(
+        1e-3 * counts,
+        1e6 * peak_edges,
+        orientation="horizontal",
+        color=COLOURS[1],
+        linewidth=1.5,
+        label=r"local peaks, $\lambda_0$ apart",
+    )
+    mean, label = 1e6 * peaks.mean(), r"$\langle h_{\mathrm{Peaks}} \rangle$"
+    for axes in (left, right):
+        axes.axhline(mean, color=COLOURS[1], linestyle="--", label=label)
+    height = {"ylabel": "Height $z$ [µm]", "ylim": (1.08e6 * scan.z_min, 1.15e6 * scan.z_max)}
+    panel(left, "(a) profile", xlim=(0, 1e3 * x[-1]), xlabel="$x$ [mm]", **height)
+    right.set_xlim(left=0)
+    label = "Probability density [1/mm]"
+    panel(right, "(b) distributions, whole scan", "lower right", xlabel=label, **height)
+    columns = stacked(
+        [
+            {"curve": "profile", "x_m": x, "height_m": row},
+            {"curve": "heights", "height_m": middle, "density_per_m": density},
+            {"curve": "peaks", "height_m": peak_middle, "density_per_m": counts},
+        ]
+    )
+    given = {
+        **sandpaper_inputs(inputs),
+        **scan_inputs(),
+        "min_distance_m": LAMBDA0,
+        "mean_peak_height_m": float(peaks.mean()),
+    }
+    return page("fig03", figure, given, columns)
+
+
+def fig06(inputs: Inputs) -> dict[str, bytes]:
+    """A line scan of the asphalt with a slope and an offset that we add, and without them."""
+    figure, panels = new_figure(2)
+    row = np.asarray(inputs.asphalt_scans[0].heights[0], dtype=float)
+    x = np.arange(PIXELS) * PIXEL_SIZE
+    raw = row + _OFFSET + _TILT * x
+    flat = np.asarray(LineScan(raw, spacing=PIXEL_SIZE).detrend("plane").heights)
+    titles = ("(a) with slope and offset", "(b) slope and offset suppressed")
+    for axes, heights, title in zip(panels, (raw, flat), titles, strict=True):
+        axes.plot(1e3 * x, 1e3 * heights, color=COLOURS[0], linewidth=0.7)
+        axes.axhline(0, color="0.5", linewidth=0.8)
+        length = 1e3 * x[-1]
+        panel(axes, title, xlim=(0, length), xlabel="$x$ [mm]", ylabel="Height $z$ [mm]")
+    columns = {"x_m": x.tolist(), "height_m": raw.tolist(), "detrended_height_m": flat.tolist()}
+    given = {
+        **asphalt_inputs(inputs),
+        **scan_inputs(0.0),
+        "slope": _TILT,
+        "offset_m": _OFFSET,
+    }
+    return page("fig06", figure, given, columns, "slope and offset are added to a synthetic scan")
+
+
+def fig07(inputs: Inputs) -> dict[str, bytes]:
+    """Spectra of synthetic scans of both surfaces, with Eq. 28's lines."""
+    figure, panels = new_figure(2)
+    curves, given = [], {**scan_inputs(), "skewness": "sandpaper as given, asphalt 0"}
+    surfaces = (
+        ("120-grit sandpaper", inputs.sandpaper, inputs.scans[0]),
+        ("asphalt", inputs.asphalt, inputs.asphalt_scans[0]),
+    )
+    for axes, (name, truth, scan), mark in zip(panels, surfaces, "ab", strict=True):
+        measured = power_spectrum(cut(scan, _LONG))
+        fit, q, density = slope_fit(measured), measured.wavenumber, measured.density
+        shown, good = q <= np.pi / PIXEL_SIZE, measured.reliable & (q >= Q0)
+        for rows, colour, label in (
+            (good, COLOURS[0], "synthetic scan"),
+            (shown & ~good, "0.7", "unreliable or below $q_0$"),
+        ):
+            axes.plot(q[rows], density[rows], ".", markersize=3, color=colour, label=label)
+        whole = np.geomspace(Q0, MAGNIFICATION * Q0, 50)
+        axes.plot(whole, truth.at(whole), color="0.2", linewidth=1, label="analytic, to $q_1$")
+        line = np.geomspace(fit.q0, fit.q1, 50)
+        label = f"Eq. 28: $H$ = {fit.hurst:.3f}"
+        axes.plot(line, fit.spectrum.at(line), "--", color=COLOURS[1], linewidth=2, label=label)
+        axes.axvline(Q0, color="0.5", linestyle=":", label="$q_0$ = 2000/m")
+        labels = {"xlabel": "Wavenumber $q$ [1/m]", "ylabel": "Roughness spectrum $C(q)$ [m$^4$]"}
+        panel(axes, f"({mark}) {name}", "upper right", **LOG, **labels)
+        curves.append(
+            {
+                "surface": name,
+                "wavenumber_per_m": q[shown],
+                "density_m4": density[shown],
+                "standard_error_m4": np.asarray(measured.standard_error)[shown],
+                "reliable": measured.reliable[shown].astype(int),
+                "synthesized_density_m4": [
+                    float(truth.at(k)) if k >= Q0 else 0.0 for k in q[shown]
+                ],
+            }
+        )
+        given[f"hurst_{name}"] = fit.hurst
+    given |= {f"rms_height_m_{name}": truth.rms_height for name, truth, _ in surfaces}
+    return page("fig07", figure, given, stacked(curves))

@@ -1,38 +1,47 @@
 """The verb `article`: the article's figures, its table and its statements, remade."""
 
 from argparse import Namespace
+from collections.abc import Callable
 from pathlib import Path
 
 from asperity.article import (
-    affine,
     asperities,
-    draw_factors,
-    draw_friction,
-    draw_igw,
-    draw_scales,
-    draw_surfaces,
     factors,
-    friction,
-    igw,
-    matches,
     peaks,
-    persson,
-    printed,
-    shifts,
+    separation,
     sliding,
     surfaces,
+    theory,
+    tuning,
 )
-from asperity.article.inputs import prepare
-from asperity.article.page import Page
-from asperity.article.statement import Statement
-from asperity.article.summary import counted, markdown
+from asperity.article.inputs import Inputs, prepare
+from asperity.article.statement import judge
+from asperity.article.summary import Rows, counted, markdown
 from asperity.cli.friction_commands import tell
 from asperity.io.files import check_directory, write_files
-from asperity.plot.curves import check_plot, picture
+from asperity.plot.curves import check_plot
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
 FILES = (*(f"{page}.{kind}" for page in PAGES for kind in ("csv", "png")), "summary.md")
+_TOPICS = (theory, peaks, asperities, surfaces, factors, tuning, separation, sliding)
+_FIGURES: tuple[Callable[[Inputs], dict[str, bytes]], ...] = (
+    theory.fig01,
+    surfaces.fig02,
+    surfaces.fig03,
+    tuning.fig05,
+    surfaces.fig06,
+    surfaces.fig07,
+    factors.fig08,
+    factors.fig09,
+    factors.fig10,
+    factors.fig11,
+    factors.fig12,
+    separation.fig13,
+    separation.fig14,
+    sliding.fig15,
+    sliding.table1,
+)
 
 
 def article(args: Namespace) -> None:
@@ -45,49 +54,12 @@ def article(args: Namespace) -> None:
     tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 
-def remake() -> tuple[dict[str, bytes], list[Statement]]:
+def remake() -> tuple[dict[str, bytes], Rows]:
     """All files by their names, and the statements."""
     inputs = prepare()
-    spectra, all_curves = surfaces.compute(inputs), factors.compute(inputs)
-    curves = all_curves["implicit"]
-    readings, slid = shifts.compute(inputs), sliding.compute(inputs)
-    statements = [
-        *persson.statements(inputs),
-        *affine.statements(inputs),
-        *peaks.statements(inputs, peaks.compute(inputs)),
-        *asperities.statements(inputs),
-        *surfaces.statements(inputs, spectra),
-        *factors.statements(inputs, all_curves),
-        *matches.statements(inputs, all_curves),
-        *printed.statements(inputs),
-        *igw.statements(inputs, readings),
-        *friction.statements(inputs, slid),
-    ]
-    pages = [
-        draw_scales.fig01(inputs),
-        draw_surfaces.fig02(inputs),
-        draw_surfaces.fig03(inputs),
-        draw_friction.fig05(inputs),
-        draw_surfaces.fig06(inputs),
-        draw_surfaces.fig07(inputs, spectra),
-        draw_factors.fig08(inputs, curves),
-        draw_factors.fig09(inputs, curves),
-        draw_factors.fig10(inputs, curves),
-        draw_factors.fig11(inputs, curves),
-        draw_factors.fig12(inputs, curves),
-        draw_igw.fig13(inputs, readings),
-        draw_igw.fig14(inputs, readings),
-        draw_friction.fig15(inputs, slid),
-        draw_friction.table1(inputs, slid),
-    ]
-    contents = {name: data for page in pages for name, data in _files(page).items()}
-    contents["summary.md"] = markdown(inputs, statements).encode()
+    found = {name: finding for topic in _TOPICS for name, finding in topic.findings(inputs).items()}
+    statements = judge(found)
+    contents = {"summary.md": markdown(inputs, found, statements).encode()}
+    for draw in _FIGURES:
+        contents |= draw(inputs)
     return contents, statements
-
-
-def _files(page: Page) -> dict[str, bytes]:
-    drawn = f"{page.name}.png"
-    return {
-        drawn: picture(page.figure, Path(drawn)),
-        f"{page.name}.csv": page.table.csv().encode(),
-    }

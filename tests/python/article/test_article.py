@@ -1,27 +1,50 @@
-"""`asperity article`: its files, its verdicts and the numbers behind them."""
+"""`asperity article` as a whole: its files, its verdicts, what its figures should show."""
 
 import contextlib
 import csv
 import io
-import os
+import json
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import asperity
-from asperity.article.inputs import PRESSURES, Inputs, prepare
-from asperity.article.readings import PRINTED
+from asperity.article.inputs import Inputs, prepare
 from asperity.article.statement import VERDICTS
-from asperity.article.summary import OPENING
-from asperity.cli import article_command as command
 from asperity.cli.main import main
-from helpers.summaries import COLUMNS, PUBLISHED, numbers, same, statements
+from helpers.summaries import PUBLISHED, same, statements
 
 pytest.importorskip("matplotlib")
+
+H = {"sandpaper": 0.7, "asphalt": 0.87}
+H0 = {"sandpaper": 76.572e-6, "asphalt": 265.7e-6}
+Q0, GAMMA = 2000.0, 0.5
+PRINTED = (2.46, 2.02, 1.83)
+LOADS = (0.1e6, 0.3e6, 0.5e6)
+
+
+class Figure:
+    """A table of the run: what it was made from, and its columns, numbers where they are."""
+
+    def __init__(self, path: Path) -> None:
+        lines = path.read_text().splitlines()
+        self.notes = [line[2:] for line in lines if line.startswith("#")]
+        given = (re.fullmatch(r"(\S+) = (.*)", note) for note in self.notes)
+        self.given = {match[1]: json.loads(match[2]) for match in given if match}
+        names, *cells = csv.reader(line for line in lines if not line.startswith("#"))
+        self.text = dict(zip(names, np.array(cells).T, strict=True))
+
+    def __getitem__(self, name: str) -> Any:
+        return self.text[name].astype(float)
+
+    def part(self, column: str, value: Any, *names: str) -> Any:
+        rows = self.text[column] == value if isinstance(value, str) else self[column] == value
+        parts = [self.text[name][rows].astype(float) for name in names]
+        return parts[0] if len(parts) == 1 else parts
 
 
 @pytest.fixture(scope="module")
@@ -34,8 +57,8 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 
 @pytest.fixture(scope="module")
-def remade(run: tuple[Path, str]) -> Path:
-    return run[0]
+def figure(run: tuple[Path, str]) -> Callable[[str], Figure]:
+    return lambda name: Figure(run[0] / f"{name}.csv")
 
 
 @pytest.fixture(scope="module")
@@ -43,229 +66,211 @@ def inputs() -> Inputs:
     return prepare((1, 2))
 
 
-@pytest.fixture(scope="module")
-def rows(remade: Path) -> dict[str, dict[str, str]]:
-    return statements((remade / "summary.md").read_text())
-
-
-def table(path: Path) -> dict[str, np.ndarray]:
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    names, *cells = csv.reader(lines)
-    return dict(zip(names, np.array(cells).T, strict=True))
-
-
-def test_every_file_is_there_and_no_other(remade: Path) -> None:
+def test_the_files(run: tuple[Path, str]) -> None:
     figures = [f"fig{n:02d}" for n in (1, 2, 3, *range(5, 16))]
     wanted = {f"{name}.{kind}" for name in (*figures, "table1") for kind in ("png", "csv")}
-    assert {path.name for path in remade.iterdir()} == wanted | {"summary.md"}
-    for path in remade.glob("*.png"):
+    assert {path.name for path in run[0].iterdir()} == wanted | {"summary.md"}
+    for path in run[0].glob("*.png"):
         assert path.read_bytes().startswith(b"\x89PNG")
+    for path in run[0].glob("*.csv"):
+        notes = Figure(path).notes
+        assert notes[0] == f"asperity {asperity.__version__} article {path.stem}"
+        assert re.findall(r"(\w+) \[[^]]+\]", notes[-1]) == list(Figure(path).text)
 
 
-@pytest.mark.parametrize("name", [name for name in command.PAGES if name != "table1"])
-def test_tables_are_numbers_with_units(remade: Path, name: str) -> None:
-    path = remade / f"{name}.csv"
-    head = [line for line in path.read_text().splitlines() if line.startswith("#")]
-    assert head[0] == f"# asperity {asperity.__version__} article {name}"
-    units = dict(re.findall(r"(\w+) \[([^]]+)\]", head[-1]))
-    columns = table(path)
-    assert list(units) == list(columns)
-    labels = {"curve", "part", "surface", "compound", "reading", "theory", "cutoff"}
-    for title, cells in columns.items():
-        if title in labels:
-            continue
-        values = [float(cell) for cell in cells if cell]
-        assert values, title
-        assert not np.isnan(values).any()
-        assert units[title] != "-" or not title.endswith(("_m", "_pa", "_s"))
-
-
-def test_summary_has_all_statements_with_a_criterion(rows: dict[str, dict[str, str]]) -> None:
-    assert len(rows) > 70
-    for row in rows.values():
-        assert row["verdict"] in VERDICTS
-        assert row["claim"] != ""
-        assert row["reason"] != ""
-        if row["verdict"] != "cannot be checked":
-            assert row["criterion"] != "-"
-            assert numbers(row["found"]) != []
-
-
-def test_terminal_and_summary_count_alike(
-    run: tuple[Path, str], rows: dict[str, dict[str, str]]
-) -> None:
+def test_the_published_summary_is_that_of_a_run(run: tuple[Path, str]) -> None:
+    """Word by word, numbers found to their last digit; the terminal has the same counts."""
     directory, printed = run
-    parts = [f"{sum(r['verdict'] == v for r in rows.values())} {v}" for v in VERDICTS]
-    line = f"{len(rows)} statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
     summary = directory / "summary.md"
-    assert f"\n{line}.\n" in summary.read_text()
+    text = summary.read_text()
+    for ours, published in zip(text.splitlines(), PUBLISHED.splitlines(), strict=True):
+        assert same(ours, published)
+    for ours, published in zip(
+        statements(text).values(), statements(PUBLISHED).values(), strict=True
+    ):
+        assert {**ours, "found": ""} == {**published, "found": ""}
+    found = [row["verdict"] for row in statements(PUBLISHED).values()]
+    parts = [f"{found.count(verdict)} {verdict}" for verdict in VERDICTS]
+    line = f"77 statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
+    assert f"\n{line}.\n" in PUBLISHED
     assert printed == f"{line}\nsummary: {summary}\n"
 
 
-def test_the_published_summary_is_that_of_a_run(rows: dict[str, dict[str, str]]) -> None:
-    """Ids, statements, criteria and verdicts to the letter; numbers found to their last digit."""
-    published = statements(PUBLISHED)
-    assert list(published) == list(rows)
-    for name, row in rows.items():
-        for column in COLUMNS:
-            agree = same if column in ("found", "reason") else str.__eq__
-            assert agree(row[column], published[name][column]), (name, column)
+def density(surface: str, q: Any) -> Any:
+    """C(q) = (H / pi) (h0 / q0)^2 (q / q0)^(-2 - 2 H) / (1 - (q1 / q0)^(-2 H)), 0 below q0."""
+    h = H[surface]
+    top = h / np.pi * (H0[surface] / Q0) ** 2 / (1 - 500 ** (-2 * h))
+    return np.where(q < Q0, 0.0, top * (q / Q0) ** (-2 - 2 * h))
 
 
-# What the issue names, by id: the verdict and numbers that must be among those found.
-EXPECTED = {
-    "A4": ("does not hold", [0.7071]),
-    "C1": ("does not hold", []),
-    "C2": ("tuned", [1.01, 1.09, 1.25, 1.36, 3.97, 8.16, 1.14, 2.11, 3.82]),
-    "C7": ("holds in part", [-75.0]),
-    "C8": ("holds in part", [0.407, 0.495, 0.546]),
-    "C11": ("tuned", []),
-    "C12": ("cannot be checked", []),
-    "C13": ("by construction", []),
-    "C14": ("tuned", [2.46, 2.02, 1.83]),
-    "E1": ("does not hold", []),
-    "E5": ("does not hold", []),
-    "F1": ("does not hold", [320.0, 11.7, 1.49, 2.76]),
-    "F3": ("does not hold", [-20.0]),
-    "F4": ("holds", []),
-    "F6": ("holds in part", [46.0, 92.0]),
-    "F10": ("cannot be checked", []),
-    "F11": ("cannot be checked", []),
-    "G1": ("tuned", [2.46, 2.02, 1.83]),
-    "G2": ("tuned", []),
-    "G3": ("cannot be checked", []),
-    "G4": ("holds in part", []),
-    "G5": ("holds", []),
-    "G7": ("holds in part", []),
-    "G10": ("tuned", []),
-    "G11": ("tuned", []),
-    "P2": ("holds", [2.72, 2.51]),
-    "P3": ("holds", [1.97, 1.85]),
-    "T4": ("by construction", []),
-    "T5": ("by construction", []),
-}
+def test_figure_1_distributes_the_load(figure: Callable[[str], Figure]) -> None:
+    """Its integral is A/A0 and its first moment the nominal pressure, as far as it is drawn: at 25
+    q0 a part of the tail is not."""
+    for zeta, slack in ((1.5, 1e-6), (5.0, 1e-6), (25.0, 0.01)):
+        columns = ("stress_pa", "density_per_pa", "contact_area")
+        stress, p, area = figure("fig01").part("magnification", zeta, *columns)
+        corner = p[1] * stress[1] / 12  # the trapezoids' error where P rises from 0
+        assert np.trapezoid(p, stress) + corner == pytest.approx(area[0], rel=slack)
+        assert np.trapezoid(p * stress, stress) == pytest.approx(0.5e6, rel=slack)
 
 
-@pytest.mark.parametrize("name", EXPECTED)
-def test_verdicts(rows: dict[str, dict[str, str]], name: str) -> None:
-    verdict, values = EXPECTED[name]
-    assert rows[name]["verdict"] == verdict
-    assert set(values) <= set(numbers(rows[name]["found"]))
+def test_figure_2_is_eq_9(figure: Callable[[str], Figure]) -> None:
+    h, shifted = figure("fig02")["height_m"], figure("fig02")["transformed_height_m"]
+    assert np.sqrt(np.mean(h[:-1] ** 2)) == pytest.approx(H0["sandpaper"], rel=1e-9)
+    np.testing.assert_allclose(2 * shifted, h + h.max(), rtol=1e-12)
 
 
-@pytest.mark.parametrize("reading", ["implicit", "added"])
-def test_tuned_compound_gives_the_printed_p_t(inputs: Inputs, reading: str) -> None:
-    tuned = inputs.tuned[reading]
-    result = asperity.friction(
-        inputs.sandpaper,
-        tuned.rubber,
-        pressure=PRESSURES,
-        velocity=0.1,
-        correction=tuned.correction,
-    )
-    assert result.shift_factor.round(2).tolist() == list(PRINTED.values())
+def test_figure_3_is_the_scan(figure: Callable[[str], Figure], inputs: Inputs) -> None:
+    scan, found = inputs.scans[0], figure("fig03")
+    assert found.part("curve", "profile", "height_m").max() == pytest.approx(scan.z_max)
+    peaks = scan.local_peaks(min_distance=2 * np.pi / Q0)
+    assert found.given["mean_peak_height_m"] == pytest.approx(peaks.mean())
+    for name, mean in (("heights", 0.0), ("peaks", peaks.mean())):
+        height, p = found.part("curve", name, "height_m", "density_per_m")
+        step = height[1] - height[0]
+        assert np.sum(p) * step == pytest.approx(1)
+        assert np.sum(p * height) * step == pytest.approx(mean, abs=step / 2)
 
 
-def test_figures_13_and_14_rise_and_fall_as_is_said(remade: Path) -> None:
-    for name in ("fig13", "fig14"):
-        columns = table(remade / f"{name}.csv")
-        for reading in ("implicit", "added"):
-            mine = columns["reading"] == reading
-            pressure, velocity, d, p = (
-                columns[title][mine].astype(float)
-                for title in ("pressure_pa", "velocity_m_s", "separation_m", "shift_factor")
-            )
-            assert np.all(p >= 1)
-            for v in set(velocity):
-                assert np.all(np.diff(d[velocity == v]) < 0)
-                assert np.all(np.diff(p[velocity == v]) <= 0)
-            for load in set(pressure):
-                assert np.all(np.diff(d[pressure == load]) > 0)
-                assert np.all(np.diff(p[pressure == load]) >= 0)
+def test_figure_5_has_one_rubber_moved(figure: Callable[[str], Figure], inputs: Inputs) -> None:
+    """B is A by WLF of their T_g, and each tuned A by its decades."""
+    found, columns = figure("fig05"), ("storage_modulus_pa", "loss_modulus_pa")
+    w = found.part("compound", "A", "angular_frequency_rad_s")
+
+    def log_a_t(t_g: float) -> float:
+        return -17.44 * (20 - t_g) / (51.6 + 20 - t_g)
+
+    decades = {"B": log_a_t(-21.7) - log_a_t(-32.0)}
+    decades |= {f"A, tuned ({k})": found.given[f"tuned_by_decades_{k}"] for k in inputs.tuned}
+    for name, moved in decades.items():
+        modulus = inputs.compound_a.modulus(w * 10**moved)
+        for column, wanted in zip(columns, (modulus.real, modulus.imag), strict=True):
+            np.testing.assert_allclose(found.part("compound", name, column), wanted, rtol=1e-9)
 
 
-@pytest.mark.parametrize(("name", "factors"), [("fig10", [2, 2, 2]), ("fig12", PRINTED.values())])
-def test_modified_area_is_larger_by_p_t(remade: Path, name: str, factors: list[float]) -> None:
-    columns = {title: cells.astype(float) for title, cells in table(remade / f"{name}.csv").items()}
-    assert np.all(columns["modified_area"] >= columns["original_area"])
-    last = columns["magnification"] == 500
-    # erf(x) is 2 x / sqrt(pi) to x^2 / 3: below 1e-6 at the areas of 1e-3 here
-    ratio = (columns["modified_area"] / columns["original_area"])[last]
-    np.testing.assert_allclose(ratio, list(factors), rtol=1e-5)
+def test_figure_6_has_lost_its_slope(figure: Callable[[str], Figure]) -> None:
+    raw, flat, x = (figure("fig06")[k] for k in ("height_m", "detrended_height_m", "x_m"))
+    line = np.polyfit(x, raw, 1)
+    np.testing.assert_allclose(raw - flat, np.polyval(line, x), atol=1e-12)
+    assert line == pytest.approx([0.02, 1e-3], rel=0.3)
 
 
-def test_table_1_follows_from_its_parameters(remade: Path) -> None:
-    rows = table(remade / "table1.csv")
-    found = dict(zip(rows["quantity"], rows["value"].astype(float), strict=True))
-    # THEORY: C(q0) = (H / pi) (h0 / q0)^2 / (1 - (q1 / q0)^(-2 H)), Eq. 12 with half of H / pi
-    density = 0.87 / np.pi * (265.7e-6 / 2000) ** 2
-    whole = density / (1 - 500.0 ** (-2 * 0.87))
-    assert found["spectrum at q0, rms height h0"] == pytest.approx(whole, rel=1e-12)
-    assert found["spectrum at q0, Eq. 12 as printed"] == pytest.approx(density / 2, rel=1e-12)
-    assert found["q1 at rms slope 1.3"] == pytest.approx(11.67, abs=0.005)
-    assert found["rms slope to 500 q0"] == pytest.approx(2.76, abs=0.005)
-    assert not set("".join(rows["symbol"]) + "".join(rows["unit"])) & set("$\\")
-
-
-def test_figure_15_adds_up_and_shows_no_measured_points(remade: Path) -> None:
-    text = (remade / "fig15.csv").read_text()
-    assert "note: the measured points of the article's Fig. 15 are not at hand" in text
-    columns = table(remade / "fig15.csv")
-    mu, hysteresis, adhesion = (
-        columns[title].astype(float) for title in ("mu", "hysteresis", "adhesion")
-    )
-    np.testing.assert_allclose(mu, hysteresis + adhesion, rtol=1e-12)
-    assert set(columns["theory"]) == {"original", "modified, implicit", "modified, added"}
-
-
-BY = f"{asperity.__version__} article"
-
-
-def stub(mark: str) -> Callable[[], tuple[dict[str, bytes], list[object]]]:
-    tables = {n: f"# asperity {BY} {n[:-4]}\n{mark}" for n in command.FILES if n[-4:] == ".csv"}
-    files = {name: tables.get(name, mark).encode() for name in command.FILES}
-    return lambda: (
-        files | {"summary.md": f"{OPENING}{BY}`. {mark}".encode()},
-        [],
-    )
-
-
-def test_it_replaces_its_files_when_told_to(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("surface", H)
+def test_figure_7_is_about_the_spectrum_put_in(
+    figure: Callable[[str], Figure], surface: str
 ) -> None:
-    out = str(tmp_path / "out")
-    monkeypatch.setattr(command, "remake", stub("old"))
-    assert main(["article", "--output", out]) == 0
-    monkeypatch.setattr(command, "remake", stub("new"))
-    assert main(["article", "--output", out]) == 2
-    assert "fig01.csv" in (problem := capsys.readouterr().err)
-    assert "already; choose another --output, or replace them with --force" in problem
-    assert main(["article", "--output", out, "--force"]) == 0
-    for name in command.FILES:
-        assert (tmp_path / "out" / name).read_text().endswith("new")
+    name = "120-grit sandpaper" if surface == "sandpaper" else surface
+    columns = ("wavenumber_per_m", "density_m4", "synthesized_density_m4", "reliable")
+    q, measured, truth, reliable = figure("fig07").part("surface", name, *columns)
+    np.testing.assert_allclose(truth, density(surface, q), rtol=1e-12)
+    rows = (reliable == 1) & (q > 1.25 * Q0)
+    assert np.mean(np.log(measured[rows] / truth[rows])) == pytest.approx(0, abs=0.05)
 
 
-def test_without_matplotlib_it_says_what_to_install(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("name", "distance", "p_t"), [("fig08", 1.0, 2.5), ("fig09", 0.5, 2.0)])
+def test_figures_8_and_9_are_of_peaks_apart(
+    figure: Callable[[str], Figure], name: str, distance: float, p_t: float
 ) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert main(["article", "--output", str(tmp_path / "out")]) == 2
-    line = "pictures are drawn by matplotlib: pip install asperity[plot]"
-    assert capsys.readouterr().err == f"asperity: {tmp_path / 'out' / 'fig01.png'}: {line}\n"
-    assert list(tmp_path.iterdir()) == []
+    found = figure(name)
+    x, y, height = found.part("part", "peaks", "x_m", "y_m", "height_m")
+    apart = np.hypot(x[:, None] - x, y[:, None] - y)[np.triu_indices(x.size, 1)]
+    assert distance * 2 * np.pi / Q0 * (1 - 1e-9) <= apart.min()
+    scan = height.max() / (height.max() - height.mean())  # Eq. 13: the highest peak is z_max
+    assert found.given["p_t1_scan"] == pytest.approx(scan)
+    for column, p in (("lp_cf_printed", p_t), ("lp_cf_scan", scan)):
+        plain, factor = found.part("part", "factors", "pf_cf", column)
+        # light contact: LP-CF / PF-CF is 1 / (p_T gamma) to 1e-6; full contact: 1 / p_T^2
+        assert factor[-1] / plain[-1] == pytest.approx(1 / (p * GAMMA), rel=1e-5)
+        assert factor[0] / plain[0] == pytest.approx(1 / p**2, rel=1e-12)
 
 
-def test_a_full_disk_is_said(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("name", "columns", "ratio"),
+    [
+        ("fig10", ("original_area", "modified_area"), (2.0, 2.0, 2.0)),
+        ("fig11", ("pf_cf", "igw_cf"), [1 / (p * GAMMA) for p in PRINTED]),
+        ("fig12", ("original_area", "modified_area"), PRINTED),
+    ],
+)
+def test_figures_10_to_12_end_by_p_t(
+    figure: Callable[[str], Figure], name: str, columns: tuple[str, str], ratio: Any
 ) -> None:
-    replace = os.replace
+    found = figure(name)
+    for load, wanted in zip(LOADS, ratio, strict=True):
+        zeta, before, after = found.part("pressure_pa", load, "magnification", *columns)
+        assert zeta[0] == 1
+        assert before[0] == 1
+        assert zeta[-1] == 500
+        # erf(x) is 2 x / sqrt(pi) to x^2 / 3: below 1e-6 at the areas of 1e-3 here
+        assert after[-1] / before[-1] == pytest.approx(wanted, rel=1e-5)
 
-    def full(part: Path, target: Path) -> None:
-        if target.name == "fig09.csv":
-            raise OSError(28, "No space left on device")
-        replace(part, target)
 
-    monkeypatch.setattr("os.replace", full)
-    monkeypatch.setattr(command, "remake", stub(""))
-    assert main(["article", "--output", str(tmp_path / "out")]) == 1
-    assert "fig09.csv: cannot be written: No space left on device" in capsys.readouterr().err
+@pytest.mark.parametrize("name", ["fig01", "fig08", "fig09", "fig10", "fig11"])
+def test_areas_and_factors_are_of_the_tuned_compound(
+    figure: Callable[[str], Figure], inputs: Inputs, name: str
+) -> None:
+    """Again at the load, from the parameters as the article prints them."""
+    first, found = name == "fig01", figure(name)
+    zeta = np.array([1.5, 5.0, 25.0] if first else [1.001, 1.01, 2.0, 30.0])
+    area = asperity.contact_area(
+        asperity.SelfAffineSpectrum(rms_height=H0["sandpaper"], hurst=0.7, q0=Q0, q1=500 * Q0),
+        inputs.tuned["implicit"].rubber,
+        pressure=0.5e6 if first else 0.3e6,
+        velocity=1e-3 if first else 0.1,
+        wavenumber=zeta * Q0,
+    )
+    if first:
+        assert np.unique(found["contact_area"]).tolist() == pytest.approx(area[::-1])
+        return
+    rows = ("part", "factors") if name < "fig10" else ("pressure_pa", 0.3e6)
+    curve = "original_area" if name == "fig10" else "pf_cf"
+    x, y = found.part(*rows, "magnification", curve)
+    if curve == "pf_cf":
+        area *= GAMMA + (1 - GAMMA) * area**2  # S = gamma + (1 - gamma) P^2
+    np.testing.assert_allclose(np.exp(np.interp(zeta, x, np.log(y))), area, rtol=2e-3)
+
+
+@pytest.mark.parametrize("name", ["fig13", "fig14"])
+def test_figures_13_and_14_rise_and_fall_as_is_said(
+    figure: Callable[[str], Figure], name: str
+) -> None:
+    columns = ("pressure_pa", "velocity_m_s", "separation_m", "shift_factor")
+    for reading in ("implicit", "added"):
+        found = figure(name)
+        pressure, velocity, d, p = found.part("reading", reading, *columns)
+        z_max, z_min = (found.given[f"{reading}.z_{end}_m"] for end in ("max", "min"))
+        partial = (d > z_min) & (d < z_max)
+        wanted = (z_max - z_min) / (z_max - d[partial])
+        np.testing.assert_allclose(p[partial], wanted, rtol=1e-9)
+        for v in set(velocity):
+            assert np.all(np.diff(d[velocity == v]) < 0)
+            assert np.all(np.diff(p[velocity == v]) <= 0)
+        for load in set(pressure):
+            assert np.all(np.diff(d[pressure == load]) > 0)
+            assert np.all(np.diff(p[pressure == load]) >= 0)
+        if name == "fig13":
+            at = [p[np.isclose(pressure, load) & (velocity == 0.1)][0] for load in LOADS]
+            assert np.round(at, 2).tolist() == list(PRINTED)
+
+
+def test_figure_15_and_table_1_follow_from_the_parameters(figure: Callable[[str], Figure]) -> None:
+    found, table = figure("fig15"), figure("table1")
+    values = dict(zip(table.text["quantity"], table["value"], strict=True))
+    assert table["value"][:8] == pytest.approx([0.87, 265.7, 2000, 1e6, 0.1, 6, 8.3, 81])
+    whole = float(density("asphalt", Q0))
+    assert values["spectrum at q0, rms height h0"] == pytest.approx(whole, rel=1e-12)
+    printed = 0.87 / (2 * np.pi) * (H0["asphalt"] / Q0) ** 2  # Eq. 12: half of H / pi, no end
+    assert values["spectrum at q0, Eq. 12 as printed"] == pytest.approx(printed, rel=1e-12)
+    assert values["rms slope to 500 q0"] == pytest.approx(2.76, abs=0.005)
+    assert values["q1 at rms slope 1.3"] == pytest.approx(11.67, abs=0.005)
+    np.testing.assert_allclose(found["mu"], found["hysteresis"] + found["adhesion"], rtol=1e-12)
+    # Eq. 23, c = 0.1, v0 = 6 mm/s
+    law = np.exp(-0.1 * np.log10(found["velocity_m_s"] / 6e-3) ** 2)
+    adhesion = 8.3e6 / 81e3 * found["contact_area"] * law
+    np.testing.assert_allclose(found["adhesion"], adhesion, rtol=1e-9)
+    for k, which in enumerate(("original", "modified, implicit")):
+        v, mu, p = found.part("theory", which, "velocity_m_s", "mu", "shift_factor")
+        assert p.min() >= 1 if k else np.all(p == 1)
+        listed = table["value"][table.text["symbol"] == "mu"][[4 * k + 2, 8 + 4 * k + 2]]
+        assert mu[abs(v - 0.1) < 1e-9].tolist() == listed.tolist()
+    assert any("measured points of the article's Fig. 15 are not at hand" in n for n in found.notes)

@@ -1,12 +1,17 @@
-"""Parts of `asperity article`: readings of the printed p_T, surrogates, peaks, windows, rows."""
+"""Parts of `asperity article`: readings of the printed p_T, Eqs 25 to 27, verdicts, files."""
 
 import itertools
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import asperity
-from asperity.article import compounds, inputs, page, peaks, readings, statement, surfaces
+from asperity.article import inputs, readings, statement, surfaces
+from asperity.article.statement import Finding
+from asperity.cli import article_command as command
+from asperity.cli.main import main
 
 H_RMS = 76.572e-6
 
@@ -41,141 +46,20 @@ def keeps_digits(reading: str, modulus: float) -> bool:
     return False
 
 
-def test_the_known_solutions_are_among_those_implied() -> None:
-    """E* 115.95 and 16.7 MPa, once found by hand."""
-    implicit, added = (readings.implied(r, H_RMS, inputs.Q0) for r in readings.READINGS)
-    assert implicit.lowest < 115.95e6 < implicit.highest
-    assert added.effective_modulus == pytest.approx(16.7e6, rel=2e-3)
-    assert added.z_max == pytest.approx(0.266e-3, rel=1e-2)
-    assert added.z_min == pytest.approx(-0.499e-3, rel=1e-2)
-
-
-@pytest.mark.parametrize("t_g", compounds.T_G.values())
-def test_compounds_follow_wlf(t_g: float) -> None:
-    assert compounds.log10_a_t(t_g, t_g) == 0
-    assert compounds.log10_a_t(t_g + 51.6, t_g) == pytest.approx(-17.44 / 2)
-    decades = compounds.log10_a_t(0.0, t_g) - compounds.log10_a_t(compounds.ROOM, t_g)
-    assert compounds.temperature_of(decades, t_g) == pytest.approx(0, abs=1e-9)
-    frequency = np.geomspace(1e-3, 1e9, 25)
-    cold = compounds.compound(t_g, 0.0).modulus(frequency)
-    moved = compounds.compound(t_g).shifted(10**decades).modulus(frequency)
-    np.testing.assert_allclose(cold, moved, rtol=1e-12)
-
-
-def test_compounds_are_filled_rubber() -> None:
-    a, b = (compounds.compound(t_g) for t_g in compounds.T_G.values())
-    frequency = np.geomspace(1e-3, 1e12, 400)
-    for rubber in (a, b):
-        modulus = rubber.modulus(frequency)
-        slope = np.diff(np.log(modulus.real)) / np.diff(np.log(frequency))
-        assert 5e6 < modulus.real[0] < 10e6
-        assert 2e9 < modulus.real[-1] < 3e9
-        # Rouse's 1/2 at most: the terms, two a decade, are not seen one by one
-        assert slope.min() >= 0
-        assert slope.max() < 0.55
-    assert np.all(np.abs(b.modulus(frequency)) >= np.abs(a.modulus(frequency)))  # the higher T_g
-
-
-def test_tuning_gives_the_modulus_that_is_asked_for() -> None:
-    wanted = readings.implied("implicit", H_RMS, inputs.Q0)
-    tuned = inputs.tune(compounds.compound(-32.0), wanted)
-    modulus = inputs.effective_modulus(tuned.rubber)
-    assert modulus == pytest.approx(wanted.effective_modulus, rel=1e-9)
-    colder = compounds.compound(-32.0, tuned.temperature)
-    assert inputs.effective_modulus(colder) == pytest.approx(modulus, rel=1e-9)
-
-
-def test_peaks_are_where_they_are_drawn() -> None:
-    scan = inputs.prepare((1,)).scans[0]
-    x, y, found = peaks.located(scan, 1.0)
-    above = scan.heights - scan.heights.mean()
-    row, column = (np.rint(z / inputs.PIXEL_SIZE).astype(int) for z in (y, x))
-    np.testing.assert_allclose(above[row, column], found.heights, rtol=0, atol=1e-12)
-    apart = np.hypot(x[:, None] - x, y[:, None] - y)[np.triu_indices(x.size, 1)]
-    assert apart.min() >= inputs.LAMBDA0 * (1 - 1e-9)
-
-
-def test_window_is_eq_25() -> None:
-    n, points = np.arange(40), 40
-    first = np.cos(5 * np.pi * n / points - np.pi / 2) ** 2
-    last = np.cos(5 * np.pi * n / points - 9 * np.pi / 2) ** 2
-    wanted = np.where(n < 4, first, np.where(n <= 36, 1.0, last))
-    np.testing.assert_allclose(surfaces.split_cosine_bell(points), wanted, atol=1e-15)
-
-
-def test_window_of_the_package_is_taken_from_spectra() -> None:
-    bell = surfaces.packaged_bell(40)
-    np.testing.assert_allclose(bell, surfaces.split_cosine_bell(40), rtol=0, atol=1e-12)
-
-
 def test_printed_variance_is_eqs_25_to_27_term_by_term() -> None:
-    heights = np.random.default_rng(1).normal(size=(12, 12))
+    heights, n = np.random.default_rng(1).normal(size=(12, 12)), np.arange(12)
     scan = asperity.HeightMap(heights, pixel_size=inputs.PIXEL_SIZE)
-    z, n = heights - heights.mean(), np.arange(12)
-    bell, length = surfaces.split_cosine_bell(12), 12 * inputs.PIXEL_SIZE
+    first = np.cos(5 * np.pi * n / 12 - np.pi / 2) ** 2
+    last = np.cos(5 * np.pi * n / 12 - 9 * np.pi / 2) ** 2
+    bell = np.where(n < 1.2, first, np.where(n <= 10.8, 1.0, last))
+    z, length = np.outer(bell, bell) * (heights - heights.mean()), 12 * inputs.PIXEL_SIZE
     variance = 0.0
     for my, mx in itertools.product(n, n):
         phase = np.exp(-2j * np.pi / 12 * (my * n[:, None] + mx * n))
-        mode = length**2 / ((2 * np.pi) ** 2 * 12**2) * np.sum(np.outer(bell, bell) * z * phase)
+        mode = length**2 / ((2 * np.pi) ** 2 * 12**2) * np.sum(z * phase)
         variance += (2 * np.pi) ** 2 / length**2 * abs(mode) ** 2 * (2 * np.pi / length) ** 2
-    assert surfaces.printed_variance(scan) == pytest.approx(variance / np.mean(z**2), rel=1e-12)
-
-
-def test_curves_share_a_table() -> None:
-    curves = [
-        {"curve": "a", "x_m": np.array([1.0, 2.0])},
-        {"curve": "b", "height_m": [3.0], "reading": "added"},
-    ]
-    assert page.stacked(curves) == {
-        "curve": ["a", "a", "b"],
-        "x_m": [1.0, 2.0, ""],
-        "height_m": ["", "", 3.0],
-        "reading": ["", "", "added"],
-    }
-
-
-@pytest.mark.parametrize(
-    ("held", "verdict"),
-    [
-        (True, "holds"),
-        (False, "does not hold"),
-        ([True, True], "holds"),
-        ([True, False], "holds in part"),
-        (np.array([False, False]), "does not hold"),
-        ((x > 1 for x in (1, 2)), "holds in part"),
-    ],
-)
-def test_verdicts_follow_from_tests(held: object, verdict: str) -> None:
-    assert statement.judged(held) == verdict
-
-
-@pytest.mark.parametrize(
-    ("tuned", "untuned", "verdict"),
-    [
-        ([True, True], True, "holds"),
-        ([False, False], False, "does not hold"),
-        ([True, False], [True, False], "holds in part"),
-        ([True, True], False, "tuned"),
-        ([False, False], True, "tuned"),
-        ([True, False], False, "tuned"),
-        ([True, True], [True, False], "tuned"),
-    ],
-)
-def test_where_tuned_and_untuned_differ_it_is_tuned(
-    tuned: list[bool], untuned: object, verdict: str
-) -> None:
-    held = dict(zip(("implicit", "added"), tuned, strict=True)) | {"untuned": untuned}
-    assert statement.despite_tuning(held) == verdict
-
-
-def test_what_is_met_by_tuning_or_by_construction_never_holds() -> None:
-    for rule, met in (
-        (statement.rests_on_tuning, "tuned"),
-        (statement.by_construction, "by construction"),
-    ):
-        assert rule(True) == met
-        assert rule([True, False]) == "holds in part"
-        assert rule(False) == "does not hold"
+    wanted = variance / np.var(heights)
+    assert surfaces.printed_variance(scan) == pytest.approx(wanted, rel=1e-12)
 
 
 def test_nothing_that_is_untuned_knows_the_printed_p_t() -> None:
@@ -188,6 +72,73 @@ def test_nothing_that_is_untuned_knows_the_printed_p_t() -> None:
     assert list(found.compounds) == ["implicit", "added", "untuned"]
 
 
-def test_percentages_keep_their_sign_and_drop_noise() -> None:
-    found = [statement.percent(x) for x in (0.123, -0.2, 4e-4, -3e-8)]
-    assert found == ["+12 %", "-20 %", "0.0 %", "0.0 %"]
+@pytest.mark.parametrize(
+    ("rule", "tuned", "untuned", "verdict"),
+    [
+        ("by tests", [True], True, "holds"),
+        ("by tests", [True], np.array([True, False]), "holds in part"),
+        ("by tests", [False, False], False, "does not hold"),
+        ("despite tuning", [True, True], True, "holds"),
+        ("despite tuning", [False, False], False, "does not hold"),
+        ("despite tuning", [True, False], [True, False], "holds in part"),
+        ("despite tuning", [True, True], False, "tuned"),
+        ("despite tuning", [False, False], True, "tuned"),
+        ("despite tuning", [True, True], [True, False], "tuned"),
+        ("by tuning", [True, True], False, "tuned"),
+        ("by tuning", [True, False], True, "holds in part"),
+        ("by tuning", [False, False], True, "does not hold"),
+        ("by construction", [], [], "by construction"),
+    ],
+)
+def test_verdicts_follow_from_tests(
+    rule: str, tuned: list[bool], untuned: object, verdict: str
+) -> None:
+    found = {f"reading {k}": Finding(held) for k, held in enumerate(tuned)}
+    assert statement.verdict(rule, {**found, "untuned": Finding(untuned)}) == verdict
+
+
+def test_numbers_are_put_into_words() -> None:
+    found = {
+        "": Finding(d=0.123),
+        "a": Finding(p=[2.464, 2.0], q=np.array([])),
+        "b": Finding(p=(4e-4, -0.2), q=[3, 1, 2]),
+    }
+    text = "{d:%} of [{p:%}, {p:.2f}, {q:~}]"
+    wanted = (
+        "+12 % of a: +2.5e+02 %, +2e+02 %, 2.46, 2.00, none; b: 0.0 %, -20 %, 0.00, -0.20, 1 to 3"
+    )
+    assert statement.worded(text, found) == wanted
+
+
+def test_a_statement_without_its_finding_is_an_error() -> None:
+    with pytest.raises(ValueError, match=r"statements\.csv and findings differ"):
+        statement.judge({"T3": {}})
+
+
+def test_it_writes_over_files_when_it_is_told_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+
+    def stub(mark: bytes) -> None:
+        made = dict.fromkeys(command.FILES, mark)
+        monkeypatch.setattr(command, "remake", lambda: (made, []))
+
+    stub(b"old")
+    assert main(["article", "--output", str(tmp_path)]) == 0
+    stub(b"new")
+    assert main(["article", "--output", str(tmp_path)]) == 2
+    assert "table1.png, summary.md already; choose another --output" in capsys.readouterr().err
+    assert {(tmp_path / name).read_bytes() for name in command.FILES} == {b"old"}
+    assert main(["article", "--output", str(tmp_path), "--force"]) == 0
+    assert {(tmp_path / name).read_bytes() for name in command.FILES} == {b"new"}
+
+
+def test_without_matplotlib_it_says_what_to_install(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["article", "--output", str(tmp_path / "out")]) == 2
+    line = "pictures are drawn by matplotlib: pip install asperity[plot]"
+    assert capsys.readouterr().err == f"asperity: {tmp_path / 'out' / 'fig01.png'}: {line}\n"
+    assert list(tmp_path.iterdir()) == []

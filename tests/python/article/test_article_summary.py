@@ -22,12 +22,13 @@ def test_readme_counts_as_the_summary_does() -> None:
     verdicts = [row["verdict"] for row in STATEMENTS.values()]
     counts = [len(verdicts), *(verdicts.count(verdict) for verdict in VERDICTS)]
     form = (
-        r"checks (\d+) statements.*?: (\d+) hold, (\d+) hold in part, (\d+) do not, "
-        r"(\d+) are tuned, (\d+) cannot be checked.*? (\d+) are true by construction"
+        r"judges (\d+) statements.*?: (\d+) hold, (\d+) hold in part, (\d+) do not, "
+        r"(\d+) are tuned, (\d+) cannot be checked.*?\s(\d+) are true by construction"
     )
     stated = re.search(form, SECTION, re.DOTALL)
     assert stated is not None
     assert [int(n) for n in stated.groups()] == counts
+    assert len(ROWS) > 15
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row[0])
@@ -35,15 +36,11 @@ def test_readme_row_agrees_with_the_summary(row: list[str]) -> None:
     ids, _, found, verdict = row
     meant = [STATEMENTS[name] for name in ids.split(", ")]
     assert verdict == "; ".join(dict.fromkeys(statement["verdict"] for statement in meant))
-    there = PLAIN.findall(" ".join(s["found"] + s["criterion"] + s["reason"] for s in meant))
+    there = PLAIN.findall(" ".join(" ".join(statement.values()) for statement in meant))
     for number in PLAIN.findall(found):
         # 0.501: rounded to the digits that README gives
         slack = 0.501 * unit(number)
         assert any(abs(float(number) - float(other)) <= slack for other in there), number
-
-
-def test_the_table_is_there() -> None:
-    assert len(ROWS) > 15
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = (ROOT / "docs/article/summary.md").read_text(encoding="utf-8")
-COLUMNS = ("id", "place", "claim", "criterion", "found", "verdict", "reason")
+TESTED = ("id", "place", "statement", "criterion", "found", "verdict", "reason")
+UNTESTED = ("id", "place", "statement", "verdict", "reason")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 # What lies far below the tolerance of the solver is rounding, which is another on another machine.
 NOISE = 1e-10
@@ -16,13 +17,10 @@ def statements(summary: str) -> dict[str, dict[str, str]]:
     found = {}
     for line in summary.splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if len(cells) == len(COLUMNS) and re.fullmatch(r"[A-Z]\d+", cells[0]):
-            found[cells[0]] = dict(zip(COLUMNS, cells, strict=True))
+        if cells and re.fullmatch(r"[A-Z]\d+", cells[0]):
+            names = TESTED if len(cells) == len(TESTED) else UNTESTED
+            found[cells[0]] = dict(zip(names, cells, strict=True))
     return found
-
-
-def numbers(text: str) -> list[float]:
-    return [float(x) for x in NUMBER.findall(text)]
 
 
 def same(one: str, other: str) -> bool:
