@@ -31,7 +31,6 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         (["friction", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
         ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
         (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
-        (["friction", "scene.toml", "--output", "/dev/null"], "/dev/null: cannot be written"),
         (["friction", "scene.toml", "--plot", "mu.jpg"], "mu.jpg: must end in .png, .svg, .pdf"),
         (
             ["friction", "scene.toml", "--plot", "a.png", "--output", "a.png"],

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asperity import InvalidInput, MasterCurveBuild, ShiftFactors, fit_prony
-from asperity._core import draw_master_curve
+from asperity.dma import draw_master_curve
 from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_modulus, true_shift, worst
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
@@ -87,7 +87,7 @@ def test_a_build_takes_a_covariance_of_its_own_size():
     }
     again = MasterCurveBuild(**parts, covariance=build.covariance, notes=build.notes)
     assert again == build
-    with pytest.raises(InvalidInput, match=r"^covariance has 4 entries: must be 484"):
+    with pytest.raises(InvalidInput, match=r"^covariance = .*: must be finite, of shape"):
         MasterCurveBuild(**parts, covariance=np.eye(2))
 
 
