@@ -30,7 +30,7 @@ from asperity.base.value import value
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, around, pixel_sizes
 
-Window = Literal["split-cosine-bell", "hann", "none"]
+Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
 Part = Literal["all", "top", "bottom"]
 FitMethod = Literal["least-squares", "slope"]
 Rolloff = Literal["find", "require", "none"]
@@ -71,7 +71,7 @@ def power_spectrum(
     ----------
     surface : HeightMap
         A map without drop-outs.
-    window : {"split-cosine-bell", "hann", "none"}
+    window : {"split-cosine-bell", "hann", "none", "blackman"}
         "none" is right for periodic maps only, and then with detrend=None: a plane subtracted from
         a periodic map leaves a saw-tooth.
     detrend : {"plane", "quadratic", "offset", None}

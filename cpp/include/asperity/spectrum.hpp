@@ -29,7 +29,7 @@ struct ASPERITY_EXPORT SelfAffineSpectrum {
 
 /// Why a row of a measured spectrum is not to be trusted: bits of RowQuality::flag.
 enum RowFlag : std::uint8_t {
-  few_periods = 1,   // fewer than 16 (split cosine bell) or 10 (Hann) periods on the scan: the window smears them
+  few_periods = 1,   // fewer than 16 (split cosine bell), 12 (Blackman) or 10 (Hann) periods on the scan
   near_nyquist = 2,  // beyond half of pi / pixel: what lies beyond pi / pixel is folded back, 5 % at H = 0.8
   few_modes = 4      // so few that their mean is uncertain by more than a quarter
 };
@@ -91,7 +91,7 @@ ASPERITY_EXPORT std::vector<double> autocorrelation(const Spectrum& spectrum, st
 /// integral over positive and negative q is h_rms^2.
 ASPERITY_EXPORT std::vector<double> line_density(const Spectrum& spectrum, std::span<const double> wavenumber);
 
-enum class Window { split_cosine_bell, hann, none };
+enum class Window { split_cosine_bell, hann, none, blackman };
 /// Which heights count: those above the mean plane alone make the top spectrum, those below it the bottom one.
 enum class Part { all, top, bottom };
 

@@ -12,7 +12,8 @@
 namespace asperity {
 
 /// Periodic weights, w(N) = w(0). Split cosine bell (Eq. 25): cos^2(5 pi n / N - pi / 2) = sin^2(5 pi n / N) over
-/// the first and the last tenth.
+/// the first and the last tenth. Blackman: 0.42 - 0.5 cos(2 pi n / N) + 0.08 cos(4 pi n / N) (F. J. Harris, Proc. IEEE
+/// 66, 51 (1978)).
 inline std::vector<double> window_weights(Window window, std::size_t n) {
   using std::numbers::pi;
   std::vector<double> w(n, 1.0);
@@ -20,8 +21,24 @@ inline std::vector<double> window_weights(Window window, std::size_t n) {
     const double x = static_cast<double>(i) / static_cast<double>(n);
     if (window == Window::hann) w[i] = std::pow(std::sin(pi * x), 2);
     if (window == Window::split_cosine_bell && (x < 0.1 || x > 0.9)) w[i] = std::pow(std::sin(5 * pi * x), 2);
+    if (window == Window::blackman) w[i] = 0.42 - 0.5 * std::cos(2 * pi * x) + 0.08 * std::cos(4 * pi * x);
   }
   return w;
+}
+
+/// Periods on the scan below which a window lets longer waves into a row. On crops of self-affine maps (H 0.5, 0.8, 1,
+/// 512^2 of 2048^2) rows from here on are within 4 % of the truth.
+inline double smeared_periods(Window window) {
+  switch (window) {
+    case Window::none:
+      return 0;
+    case Window::hann:
+      return 10;
+    case Window::blackman:
+      return 12;
+    default:
+      return 16;
+  }
 }
 
 /// The effect of a window on the statistics.
@@ -50,10 +67,7 @@ struct Reliability {
   /// `length` and `pixel` [m] of the shorter side and the coarser pixel. A mean of |h|^2 over n modes, every other one
   /// a mirror image, has the relative standard error sqrt(2 f / n), f the window's variance factor.
   Reliability(Window window, double length, double pixel, double variance_factor)
-      : lowest(2 * std::numbers::pi / length *
-               (window == Window::none   ? 0
-                : window == Window::hann ? 10
-                                         : 16)),
+      : lowest(2 * std::numbers::pi / length * smeared_periods(window)),
         highest(std::numbers::pi / pixel / 2),
         fewest(32 * variance_factor) {}
 

@@ -105,12 +105,12 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
         return
     points = build.points
     fitted = prony.modulus(points.angular_frequency)
-    for measured, fit, mark, colour, name, rms in (
-        (points.storage_modulus, fitted.real, "o", _STORAGE, "$E'$", prony.storage_residual),
-        (points.loss_modulus, fitted.imag, "^", _LOSS, "$E''$", prony.loss_residual),
+    for measured, fit, mark, colour, name in (
+        (points.storage_modulus, fitted.real, "o", _STORAGE, "$E'$"),
+        (points.loss_modulus, fitted.imag, "^", _LOSS, "$E''$"),
     ):
         miss = 100 * (measured / fit - 1)
-        label = f"{name}, rms {100 * rms:.2g} %"
+        label = f"{name}, rms {np.sqrt(np.mean(miss**2)):.2g} %"  # of the points drawn
         w = points.angular_frequency
         axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
     axes.legend(loc="best", fontsize="small")

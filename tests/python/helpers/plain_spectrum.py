@@ -7,6 +7,8 @@ def profile(window, n):
     x = np.arange(n) / n
     if window == "hann":
         return np.sin(np.pi * x) ** 2
+    if window == "blackman":
+        return 0.42 - 0.5 * np.cos(2 * np.pi * x) + 0.08 * np.cos(4 * np.pi * x)
     if window == "split-cosine-bell":  # Eq. 25
         return np.where((x < 0.1) | (x > 0.9), np.cos(5 * np.pi * x - np.pi / 2) ** 2, 1.0)
     return np.ones(n)

@@ -28,7 +28,7 @@ GRIDS = [
 
 
 @each("detrend", ["plane", "quadratic", "offset", None])
-@each("window", ["split-cosine-bell", "hann", "none"])
+@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
 @each(("shape", "pixel"), GRIDS)
 def test_every_ring_is_that_of_a_plain_transform(shape, pixel, window, detrend):
     z = RNG.normal(size=shape) * 1e-6 + 2e-6
@@ -193,7 +193,7 @@ def test_standard_errors_are_the_scatter_of_repeated_measurements(counted):
     )  # ln of a mean is not a mean of ln
 
 
-@pytest.mark.parametrize("window", ["split-cosine-bell", "hann"])
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "blackman"])
 @pytest.mark.parametrize("hurst", [0.5, 0.87])
 def test_hurst_exponent_of_a_crop_that_is_not_periodic(hurst, window):
     pixel = 1e-6

@@ -35,7 +35,7 @@ def apart(angle, other):
     return abs((angle - other + np.pi / 2) % np.pi - np.pi / 2)
 
 
-@each("window", ["split-cosine-bell", "hann", "none"])
+@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
 @each(("shape", "pixel"), [((64, 64), (1, 1)), ((63, 80), (1, 1)), ((80, 51), (0.5, 2))])
 def test_slopes_and_direction_are_those_of_the_definition(shape, pixel, window):
     z = np.cumsum(np.random.default_rng(5).normal(size=shape), axis=1)

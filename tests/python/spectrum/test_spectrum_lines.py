@@ -134,7 +134,7 @@ def test_rows_of_a_map_tell_the_spectrum_of_the_surface(hurst):
 
 @each("rows", [0, 1, 6])  # 0: a LineScan
 @each("n", [4, 5, 64, 97, 210])
-@each("window", ["split-cosine-bell", "hann", "none"])
+@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
 @each("detrend", ["plane", "quadratic", "offset", None])
 def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
     z = np.random.default_rng(n + rows).normal(size=(max(rows, 1), n)) * 1e-6 + 2e-6

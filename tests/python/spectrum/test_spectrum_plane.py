@@ -20,7 +20,7 @@ from helpers.cases import each
 from helpers.plain_spectrum import detrended, modes, plain, profile
 
 RNG = np.random.default_rng(21)
-WINDOWS = ["split-cosine-bell", "hann", "none"]
+WINDOWS = ["split-cosine-bell", "hann", "none", "blackman"]
 ORDERS = ["plane", "quadratic", "offset", None]
 
 
