@@ -1,7 +1,6 @@
 """Fields of a scene file: their types, and messages that name file, table and key."""
 
 import datetime
-import difflib
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -142,6 +141,8 @@ def require(
 
 def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
     """What to try instead of an unknown name."""
+    import difflib  # here: `import asperity` is to be quick
+
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
     if close:
         return "did you mean " + form.format(close[0]) + "?"

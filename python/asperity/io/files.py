@@ -3,7 +3,6 @@
 import errno
 import os
 import stat
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -41,6 +40,8 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
 
 def check_output(path: Path) -> None:
     """Refuse, before any work, a path that cannot be written."""
+    import tempfile  # here: `import asperity` is to be quick
+
     with _refused(path):
         target = Path(os.path.realpath(path))
         if target.is_dir():
@@ -57,6 +58,8 @@ def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> No
 
     `force` lets the command replace them.
     """
+    import tempfile
+
     with _refused(directory):
         existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
         if not existing.is_dir():
@@ -95,6 +98,8 @@ def _write(target: Path, content: bytes) -> None:
     if mode is not None and not stat.S_ISREG(mode):
         target.write_bytes(content)  # a device or a FIFO; a directory refuses
         return
+    import tempfile
+
     handle, part = tempfile.mkstemp(prefix=".asperity-", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as file:

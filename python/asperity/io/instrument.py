@@ -1,6 +1,5 @@
 """Files of instruments through SurfaceTopography, and what all scans from files share."""
 
-import logging
 import warnings
 from importlib import import_module
 from pathlib import Path
@@ -17,9 +16,6 @@ from asperity.surface import HeightMap, LineScan
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12}
 
 PixelSize = float | tuple[float, float]
-
-for _parser in ("SurfaceTopography", "igor2"):  # errors are raised, not printed besides
-    logging.getLogger(_parser).addHandler(logging.NullHandler())
 
 _UNEVEN = 1e-3  # of the spacing: how far positions may be from equal distances in any case
 _ROUNDED = 0.7  # of the last printed digit: rounding shifts them by 0.5, and the line through them
@@ -65,6 +61,11 @@ def read_instrument(
     must_state_unit: bool = False,
 ) -> HeightMap | LineScan:
     """One channel of a file; UnrecognisedError where SurfaceTopography makes nothing of it."""
+    import logging  # here: `import asperity` is to be quick
+
+    for parser in ("SurfaceTopography", "igor2"):  # errors are raised, not printed besides
+        if not (log := logging.getLogger(parser)).handlers:
+            log.addHandler(logging.NullHandler())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:

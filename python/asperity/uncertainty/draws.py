@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -13,7 +13,10 @@ from asperity.measured_spectrum import SelfAffineFit
 from asperity.rubber import MasterCurve, Rubber
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 
-Generator = np.random.Generator
+if TYPE_CHECKING:
+    Generator = np.random.Generator  # which NumPy loads when it is asked for
+else:
+    Generator = "numpy.random.Generator"
 Input = TypeVar("Input", Spectrum, Rubber)
 
 _ROWS_PER_DECADE = 10.0  # of a measured spectrum whose errors are carried through
