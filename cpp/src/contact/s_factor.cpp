@@ -75,10 +75,12 @@ SFunction nayak_s(double nayak_parameter) {
 
 }  // namespace
 
-std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber) {
+std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
+                                  std::span<const Segment> surface, double wavenumber) {
   if (const auto* s = std::get_if<SFactor>(&correction); s && s->applies_to != SFactor::AppliesTo::friction)
     return SFunction{.gamma = s->gamma};
-  if (std::holds_alternative<NayakSFactor>(correction)) return nayak_s(nayak_parameter(surface, wavenumber));
+  if (std::holds_alternative<NayakSFactor>(correction))
+    return nayak_s(wavenumber == band(spectrum)[1] ? nayak_parameter(spectrum) : nayak_parameter(surface, wavenumber));
   return {};
 }
 
@@ -104,8 +106,8 @@ MeasuredWorth Worth::operator()(double g, double p) {
   return result;
 }
 
-AreaG::AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber) {
-  if (const auto s = s_inside(model.correction, surface, wavenumber)) inside_.emplace(*s, model.form);
+AreaG::AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber) {
+  if (const auto s = s_inside(model.correction, spectrum, surface, wavenumber)) inside_.emplace(*s, model.form);
 }
 
 double AreaG::operator()(double g) { return inside_ && g > 0 ? (*inside_)(g) : g; }

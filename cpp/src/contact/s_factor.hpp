@@ -39,7 +39,8 @@ class SInside {
 };
 
 /// S inside G up to `wavenumber`, where the correction puts one there.
-std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber);
+std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
+                                  std::span<const Segment> surface, double wavenumber);
 
 /// S of the uncorrected P in the integrand of Eq. 22, where the correction puts one there.
 std::optional<SFunction> s_in_integrand(const Correction& correction);
@@ -47,7 +48,7 @@ std::optional<SFunction> s_in_integrand(const Correction& correction);
 /// The G that the contact area at `wavenumber` is to be taken at.
 class AreaG {
  public:
-  AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber);
+  AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber);
   [[nodiscard]] double operator()(double g);
 
  private:

@@ -12,6 +12,7 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -89,11 +90,12 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
                   std::span<const double> velocity, bool contributions) {
   check_contact(model, pressure, velocity);
   if (adhesion) validate(*adhesion);
-  const std::vector<Segment> surface = segments(spectrum);
+  const SurfaceSegments kept(spectrum);
+  const std::span<const Segment> surface = kept.get();
   const auto [q0, q1] = band(spectrum);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
 
-  AreaG area_g(model, surface, q1);
+  AreaG area_g(model, spectrum, surface, q1);
   Worth worth_of(surface, model.form, q1);
   const std::optional<SFunction> factor = s_in_integrand(model.correction);
 
@@ -121,6 +123,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   std::span<const double> stops;
   if (f.contributions) stops = f.contributions->decade_edges;
   Solver solver(surface, rubber, model, true, factor, stops);
+  if (!f.contributions) solver.use_rings_of(spectrum);
   const auto compute = [&](double p, double v, const Shift& shift) {
     Point at;
     solver.solve(p, v, shift.p);

@@ -6,6 +6,7 @@
 
 #include "contact/conditions.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -48,16 +49,29 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
   if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
 }
 
+// Below the tolerances for which blocks of rings hold, and on few rows, panels are the better way.
+void Solver::use_rings_of(const Spectrum& spectrum) {
+  const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
+  const auto* prony = std::get_if<PronySeries>(&rubber_);
+  if (table && prony && table->wavenumber().size() >= RingSolver::least_rows && model_.method == Method::gauss &&
+      model_.form == Form::exact && model_.rtol >= RingSolver::least_rtol)
+    rings_.emplace(table->surface().rings(*table), *prony, model_.poisson_ratio, model_.rtol);
+}
+
 void Solver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
-  if (model_.method == Method::gauss) gauss_.start(velocity, stop_wavenumbers_);
+  if (rings_) rings_->start(velocity);
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
   if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
+    by_rings_ = rings_ && rings_->solve(pressure, shift, front_ ? &*front_ : nullptr);
+    if (by_rings_) return;
+    if (gauss_velocity_ != velocity) gauss_.start(velocity, stop_wavenumbers_);
+    gauss_velocity_ = velocity;
     gauss_.solve(pressure, shift, front_ ? &*front_ : nullptr);
     return;
   }
@@ -70,9 +84,13 @@ void Solver::solve(double pressure, double velocity, double shift) {
   by_panel_ = found.by_panel;
 }
 
-double Solver::g(double wavenumber) const { return path_ ? path_->g(wavenumber) : gauss_.g(wavenumber); }
+double Solver::g(double wavenumber) const {
+  return path_ ? path_->g(wavenumber) : by_rings_ ? rings_->g() : gauss_.g(wavenumber);
+}
 
-double Solver::relative_error() const { return path_ ? path_->relative_error() : gauss_.relative_error(); }
+double Solver::relative_error() const {
+  return path_ ? path_->relative_error() : by_rings_ ? rings_->relative_error() : gauss_.relative_error();
+}
 
 double Solver::hysteresis_density(double wavenumber) const {
   if (path_) return path_->hysteresis_density(wavenumber, model_.form, factor_);

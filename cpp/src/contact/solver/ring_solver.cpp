@@ -1,0 +1,181 @@
+// Area and hysteresis on blocks of rings: G at the nodes and the weights of dR are matrices of the surface times I2 and
+// R of the rubber. A block's error is told by what its halves change, and by what fewer nodes do on them.
+#include "contact/solver/ring_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/conditions.hpp"
+#include "contact/solver/panel_error.hpp"
+#include "numerics/gauss_legendre.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t nodes = RingBlock::nodes, rows = RingBlock::rows, fine = RingBlock::fine, end = RingBlock::end;
+/// On 4,000 random tables the error was below the sum of both changes in all but 1 %, and at most 3.9 times as large.
+constexpr double of_changes = 12;
+/// Where G passes 1, F changes from G to a root of it by about 1/2: of this, on the foot of a block, no rule sees all.
+constexpr double unresolved = 0.005;
+constexpr double of_points = 3e-9;  // relative error of G by the fine rules of blocks: on sparse rows 2e-9 at most
+
+/// What the polynomial through values at Gauss-Legendre nodes misses at most: the coefficients beyond the last ones, to
+/// which they fall as fast as from the two before, and as much again for what those do to the known ones.
+double missed(const LegendreRule& rule, const double* values) {
+  double total, tail[LegendreRule::kept];
+  kernels().add_up(rule, values, &total, tail);
+  const double last = larger(tail, 0), before = larger(tail, 2);
+  const double decay = std::clamp(before > 0 ? std::sqrt(last / before) : 0, 0.3, 0.9);
+  return 2 * last * decay / (1 - decay);
+}
+
+}  // namespace
+
+RingSolver::RingSolver(const RingSurface& surface, const PronySeries& rubber, double poisson_ratio, double rtol)
+    : surface_(surface), rubber_(rubber), stiffening_(1 / (1 - poisson_ratio * poisson_ratio)), rtol_(rtol) {
+  g_factor_ = stiffening_ * stiffening_ / 8;
+  moduli_.resize(surface.groups().size());
+  for (std::size_t i = 0; i < moduli_.size(); ++i) parts_.push_back({.tree = &surface.groups()[i].root, .group = i});
+}
+
+void RingSolver::fill(Part& part) {
+  Modulus& modulus = moduli_[part.group];
+  const Kernels& loops = kernels();
+  part.started = starts_;
+  modulus.i2[nodes] = part.g_lower;
+  loops.combine(part.block().to_g, nodes + 1, modulus.i2, part.g);
+  loops.combine(part.block().to_slope, nodes, modulus.ratio, part.slope);
+}
+
+void RingSolver::start(double velocity) {
+  velocity_ = velocity;
+  ++starts_;
+  const LegendreRule& rule = legendre_rule(nodes);
+  unit_g_ = 0;
+  double unit_error = 0;
+  for (std::size_t i = 0; i < moduli_.size(); ++i) {
+    const RingSurface::Group& group = surface_.groups()[i];
+    Modulus& at = moduli_[i];
+    double w[nodes], i1[nodes];
+    for (std::size_t k = 0; k < nodes; ++k) w[k] = velocity * group.wavenumber[k];
+    rubber_.angular_integrals(w, i1, {at.i2, nodes});
+    for (std::size_t k = 0; k < nodes; ++k) {
+      at.ratio[k] = i1[k] / at.i2[k];
+      at.i2[k] *= g_factor_;
+    }
+    at.ratio_error = missed(rule, at.ratio);
+    parts_[i].g_lower = unit_g_;
+    fill(parts_[i]);
+    unit_g_ = parts_[i].g[end];
+    unit_error += missed(rule, at.i2) * group.root.block.m_part;
+  }
+  g_relative_error_ = unit_error / unit_g_ + of_points;
+}
+
+void RingSolver::evaluate(Part& part, double f_lower, const FrontIntegral& front) {
+  double g[rows], f[rows];
+  const Kernels& loops = kernels();
+  const RingBlock& block = part.block();
+  loops.place(0, part.g, scale_, rows, g);
+  loops.front(front.table, front.gamma, g, rows, f, nullptr);
+  part.f_lower = f_lower;
+  part.f_upper = f[end];
+  double value = 0, area = 0, fewer_value = 0, fewer_area = 0, slopes = 0;
+  for (std::size_t i = 0; i < fine; ++i) {
+    value += part.slope[i] * (f[i] - f_lower);
+    area += block.measure[i] * (f[i] - f_lower);
+    slopes += std::fabs(part.slope[i]);
+  }
+  for (std::size_t i = fine; i < end; ++i) {
+    fewer_value += part.slope[i] * (f[i] - f_lower);
+    fewer_area += block.measure[i] * (f[i] - f_lower);
+  }
+  const double slope = slopes / (block.upper - block.lower);
+  part.value = part.slope[end] * (part.f_upper - f_lower) - value;
+  part.area = area;
+  part.by_nodes = std::fmax(std::fabs(value - fewer_value), slope * std::fabs(area - fewer_area));
+  if (part.g_lower * scale_ < 1 && g[end] > 100) part.by_nodes += unresolved * slope * block.foot;
+}
+
+/// Evaluates the halves of a part that has been evaluated itself.
+void RingSolver::evaluate_halves(std::size_t index, const FrontIntegral& front) {
+  if (parts_[index].halves == 0) {
+    const std::size_t group = parts_[index].group;
+    const auto& halves = surface_.halves(surface_.groups()[group], *parts_[index].tree);
+    parts_[index].halves = parts_.size();
+    for (const RingTree& half : halves) parts_.push_back({.tree = &half, .group = group});
+  }
+  Part& whole = parts_[index];
+  Part &first = parts_[whole.halves], &second = parts_[whole.halves + 1];
+  double g = whole.g_lower, f = whole.f_lower;
+  for (Part* const half : {&first, &second}) {
+    if (half->started != starts_) {
+      half->g_lower = g;
+      fill(*half);
+    }
+    g = half->g[end];
+    evaluate(*half, f, front);
+    f = half->f_upper;
+  }
+  const RingBlock& behind = second.block();
+  const double area = first.area + second.area + (first.f_upper - first.f_lower) * (behind.upper - behind.lower);
+  double slopes = 0;
+  for (std::size_t i = 0; i < fine; ++i) slopes += std::fabs(whole.slope[i]);
+  const double slope = slopes / (whole.block().upper - whole.block().lower);
+  whole.by_halves =
+      std::fmax(std::fabs(whole.value - (first.value + second.value)), slope * std::fabs(whole.area - area));
+}
+
+/// That of the sum of both halves.
+double RingSolver::error(const Part& part) const {
+  return of_changes * (part.by_halves + parts_[part.halves].by_nodes + parts_[part.halves + 1].by_nodes);
+}
+
+bool RingSolver::solve(double pressure, double shift, const FrontIntegral* front) {
+  scale_ = 1 / (pressure * shift) / (pressure * shift);
+  if (unit_g_ == 0) return false;
+  check_g(g(), pressure);
+  if (!(g_relative_error_ <= rtol_ / 16)) return false;
+  if (!front) return true;
+
+  double f_lower = 0, interpolation = 0;
+  whole_.clear();
+  for (std::size_t i = 0; i < moduli_.size(); ++i) {
+    evaluate(parts_[i], f_lower, *front);
+    interpolation += moduli_[i].ratio_error * (parts_[i].f_upper - f_lower);
+    f_lower = parts_[i].f_upper;
+    evaluate_halves(i, *front);
+    whole_.push_back(i);
+  }
+  constexpr int most_rounds = 30;
+  constexpr std::size_t most_parts = 500;  // where today's panels are no slower
+  for (int round = 0; round < most_rounds; ++round) {
+    double value = 0, sum = 0, worst = 0;
+    for (const std::size_t i : whole_) {
+      const double part = error(parts_[i]);
+      value += parts_[parts_[i].halves].value + parts_[parts_[i].halves + 1].value;
+      sum += part;
+      worst = std::fmax(worst, part);
+    }
+    const double factor = 4 * pressure / stiffening_, allowed = 0.85 * rtol_ * value - interpolation;
+    hysteresis_ = {factor * value, factor * (sum + interpolation), 0};
+    if (sum <= allowed) return true;
+    if (!(allowed > 0) || whole_.size() > most_parts) return false;
+    next_.clear();
+    for (const std::size_t i : whole_) {
+      if (error(parts_[i]) < 0.1 * worst) {
+        next_.push_back(i);
+        continue;
+      }
+      for (const std::size_t half : {parts_[i].halves, parts_[i].halves + 1}) {
+        evaluate_halves(half, *front);
+        next_.push_back(half);
+      }
+    }
+    whole_.swap(next_);
+  }
+  return false;
+}
+
+}  // namespace asperity
