@@ -15,6 +15,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.demo import FILES, input_files
+from asperity.io import plausible
 from asperity.io.fields import MOST_ROWS, named
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
@@ -138,7 +139,10 @@ def spectrum(args: Namespace) -> None:
     path = Path(args.file)
     spare(check_outputs(args), [path])
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with named(None, {**flags, "max_fraction": "--max-dropouts"}):
+    with plausible.collected() as unusual, named(None, {**flags, "max_fraction": "--max-dropouts"}):
+        for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
+            if q is not None:
+                plausible.check(flag, q, plausible.WAVENUMBER)
         raw, filled = read_filled(
             path,
             max_fraction=args.max_dropouts,
@@ -151,7 +155,8 @@ def spectrum(args: Namespace) -> None:
         measured = surface_spectrum(filled, **how)
     flat = scan.flat(filled, how["detrend"])
     ratio = scan.lay(filled, **how)
-    fit, notes = _fit(measured, args)
+    fit, fit_notes = _fit(measured, args)
+    notes = [*unusual, *fit_notes]
     whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
     cutoff = whole.cutoff_for_slope(1.3)
     inputs: dict[str, Any] = {

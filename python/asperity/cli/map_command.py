@@ -13,10 +13,12 @@ from asperity._core import InvalidInput
 from asperity.cli.friction_commands import check_outputs, spare, tell, tell_notes
 from asperity.friction import friction
 from asperity.friction_map import FrictionMap, friction_map
+from asperity.io import plausible
 from asperity.io.fields import named
 from asperity.io.files import write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
+from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Scene, load_scene
 
 _RTOL = 1e-4
@@ -37,7 +39,9 @@ def friction_map_of(args: Namespace) -> None:
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
     spare(outputs, scene.sources)
-    notes = [*scene.surface.notes, *scene.built_rubber.notes]
+    with plausible.collected() as unusual:
+        _check_sides(args, scene)
+    notes = [*scene.notes, *unusual]
     pressure = _box("pressure", args.pressure, scene.pressure, notes)
     velocity = _box("velocity", args.velocity, scene.velocity, notes)
     rtol = args.rtol or scene.stated_rtol or _RTOL
@@ -70,6 +74,14 @@ def friction_map_of(args: Namespace) -> None:
         files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
+
+
+def _check_sides(args: Namespace, scene: Scene) -> None:
+    if args.pressure is not None:
+        plausible.check("--pressure", args.pressure, plausible.PRESSURE)
+        plausible.check_load("--pressure", args.pressure, stiffest(scene.rubber))
+    if args.velocity is not None:
+        plausible.check("--velocity", args.velocity, plausible.VELOCITY)
 
 
 def _box(

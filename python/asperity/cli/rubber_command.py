@@ -9,6 +9,7 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.cli.friction_commands import check_outputs, deliver, spare
 from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
+from asperity.io import plausible
 from asperity.io.fields import named
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.table import Table
@@ -34,7 +35,10 @@ def rubber(args: Namespace) -> None:
     files = [Path(name) for name in args.file]
     shift_file = [] if args.shift is None else [Path(args.shift)]
     spare(check_outputs(args), [*files, *shift_file])
-    with named(None, _FLAGS):
+    with plausible.collected() as unusual, named(None, _FLAGS):
+        if args.reference_temperature is not None:
+            flag, given = "--reference-temperature", args.reference_temperature
+            plausible.check(flag, given, plausible.TEMPERATURE)
         isotherms = read_isotherms(
             files,
             columns=args.columns,
@@ -81,7 +85,7 @@ def rubber(args: Namespace) -> None:
         "storage_modulus_pa": curve.storage_modulus.tolist(),
         "loss_modulus_pa": curve.loss_modulus.tolist(),
     }
-    table = Table("rubber", [inputs], [*build.notes, *notes], columns)
+    table = Table("rubber", [inputs], [*unusual, *build.notes, *notes], columns)
 
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path)

@@ -7,6 +7,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.cli.friction_commands import progress, spare, tell, tell_notes
+from asperity.io import plausible
 from asperity.io.fields import named
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
@@ -65,7 +66,9 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
         raise InvalidInput("--rows: must be left out where --surface is given")
     path = Path(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with named(None, flags):
+    with plausible.collected() as unusual, named(None, flags):
+        if args.q0 is not None:
+            plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
         read = {name: given[name] for name in flags if name in given}
         _, filled = read_filled(path, max_fraction=0.10, **read)
     if not isinstance(filled, HeightMap):
@@ -81,7 +84,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             periodic=args.periodic,
             progress=progress(str(path)),
         )
-    return contacts, {"surface": args.surface, **given, "detrend": detrend}, notes
+    return contacts, {"surface": args.surface, **given, "detrend": detrend}, [*unusual, *notes]
 
 
 def _pictures(

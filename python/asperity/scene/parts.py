@@ -14,6 +14,7 @@ from asperity.correction import (
     PeaksThenGreenwoodWilliamson,
     SFactor,
 )
+from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
@@ -35,16 +36,16 @@ Values = dict[str, Any]
 _KIND = {"kind": Field(text)}
 _PEAKS = {
     **_KIND,
-    "heights_m": Field(numbers, "heights_or_map"),
-    "min_distance_m": Field(number, "min_distance"),
-    "z_max_m": Field(number, "z_max"),
+    "heights_m": Field(numbers, "heights_or_map", plausible.HEIGHT),
+    "min_distance_m": Field(number, "min_distance", plausible.SPACING),
+    "z_max_m": Field(number, "z_max", plausible.HEIGHT),
 }
 _ASPERITIES = {
     **_PEAKS,
-    "z_min_m": Field(number, "z_min"),
+    "z_min_m": Field(number, "z_min", plausible.HEIGHT),
     "reading": Field(text, "reading"),
-    "rms_height_m": Field(number, "rms_height"),
-    "q0_per_m": Field(number, "q0"),
+    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
+    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
 }
 _CORRECTIONS = {
     "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
@@ -55,8 +56,8 @@ _CORRECTIONS = {
     "peaks-then-greenwood-williamson": _ASPERITIES,
 }
 _ADHESION = {
-    "shear_stress_pa": Field(number, "shear_stress"),
-    "reference_velocity_m_s": Field(number, "reference_velocity"),
+    "shear_stress_pa": Field(number, "shear_stress", plausible.SHEAR_STRESS),
+    "reference_velocity_m_s": Field(number, "reference_velocity", plausible.VELOCITY),
     "width": Field(number, "width"),
 }
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import OutOfRange
+from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
@@ -30,18 +31,21 @@ from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectru
 Values = dict[str, Any]
 
 _SELF_AFFINE = {
-    "rms_height_m": Field(number, "rms_height"),
+    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
     "hurst": Field(number, "hurst"),
-    "rolloff_per_m": Field(number, "rolloff"),
+    "rolloff_per_m": Field(number, "rolloff", plausible.FIRST_WAVENUMBER),
 }
-_BAND = {"q0_per_m": Field(number, "q0"), "q1_per_m": Field(number, "q1")}
+_BAND = {
+    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
+    "q1_per_m": Field(number, "q1", plausible.LAST_WAVENUMBER),
+}
 _CUTOFFS = {
-    "contamination_size_m": Field(number, "size"),
+    "contamination_size_m": Field(number, "size", plausible.PARTICLE),
     "slope_cutoff": Field(number, "slope"),
 }
 _READ = {
     "channel": Field(count, "channel"),
-    "pixel_size_m": Field(pixel_size, "pixel_size"),
+    "pixel_size_m": Field(pixel_size, "pixel_size", plausible.SPACING),
     "unit": Field(text, "unit"),
     "max_dropouts": Field(number, "max_fraction"),
 }
@@ -100,6 +104,7 @@ def build_surface(path: Path, table: object) -> Surface:
         with named(path, names_of("surface", fields)):
             spectrum = SelfAffineSpectrum(**arguments(values, fields))
     spectrum = _cut(path, spectrum, values)
+    plausible.check(f"{path}: [surface]: rms slope", spectrum.rms_slope, plausible.SLOPE)
     derived |= {
         "q0_per_m": spectrum.q0,
         "q1_per_m": spectrum.q1,
