@@ -1,14 +1,15 @@
 """Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
+from asperity._core import InvalidInput, OutOfRange
 from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve, fit_prony
 from asperity.io import plausible
 from asperity.io.fields import (
@@ -97,7 +98,11 @@ def build_rubber(path: Path, table: object) -> BuiltRubber:
         if key != source and key not in _WITH[source]:
             given = f"{source} is given" if source else "neither isotherms nor master_curve is"
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
-    values = _in_kelvin(path, values)
+    with _blaming_celsius(values):
+        return _build(path, source, _in_kelvin(path, values))
+
+
+def _build(path: Path, source: str, values: Values) -> BuiltRubber:
     if source == "isotherms":
         return _from_isotherms(path, values)
     rubber: Rubber
@@ -135,6 +140,19 @@ def _in_kelvin(path: Path, values: Values) -> Values:
             refuse(path, f"[rubber] {name}_c", f"must be left out where {name}_k is given")
         kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + _CELSIUS
     return kelvin
+
+
+@contextmanager
+def _blaming_celsius(values: Values) -> Iterator[None]:
+    """Let errors on a temperature in K name the key that the scene has."""
+    try:
+        yield
+    except (InvalidInput, OutOfRange) as error:
+        message = str(error)
+        for name in ("temperature", "reference_temperature"):
+            if f"{name}_c" in values:
+                message = message.replace(f"[rubber] {name}_k", f"[rubber] {name}_c (in K)")
+        raise type(error)(message) from error
 
 
 def stiffest(rubber: Rubber) -> float:

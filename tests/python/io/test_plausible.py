@@ -437,6 +437,10 @@ class TestTemperature:
                 "reference_temperature_c: must be left out where reference_temperature_k is given",
             ),
             ("temperature_c = 25\nmoduli_pa = []", "moduli_pa: must be left out where isotherms"),
+            (
+                "temperature_c = 25\nprony = 1",
+                "prony = 1: must be true or false",
+            ),
             ("temperature_c = 725", "temperature_c = 725: must be at most 426.85 C (427 C; rubber"),
             ("temperature_c = -200", "temperature_c = -200: must be at least -153.15 C"),
         ],
@@ -448,12 +452,20 @@ class TestTemperature:
             load_scene(path)
         assert str(error.value).startswith(f"{path}: [rubber] {message}")
 
+    def test_a_temperature_without_a_shift_is_refused_by_its_own_key(self, tmp_path):
+        path = scene(tmp_path, rubber=f"{RUBBER}\ntemperature_c = 25")
+        with pytest.raises(asperity.InvalidInput, match=r"temperature_c \(in K\): needs shift"):
+            load_scene(path)
+
     def test_kelvin_given_as_celsius_is_noted(self, tmp_path):
         write_dma(tmp_path)
         more = "\ntemperature_c = 298.15\nreference_temperature_c = 25"
         with pytest.raises(asperity.Error) as error:  # no isotherm is so hot
             load_scene(scene(tmp_path, rubber=ISOTHERMS + more))
-        assert "temperature_k = 571.3" in str(error.value)
+        said = str(error.value)
+        assert "[rubber] temperature_c (in K) = 571.3: " in said
+        assert "temperature_c = 298.15: unusual, above 256.85 C" in said
+        assert said.endswith("in K? 298.15 K is 25 C")
 
 
 def test_every_limit_has_its_reason():
