@@ -9,7 +9,12 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import band_progress, check_outputs, deliver, spare
+from asperity.cli.friction_commands import (
+    band_progress,
+    check_outputs,
+    refuse_overwrite,
+    write_outputs,
+)
 from asperity.io import plausible
 from asperity.io.fields import nearest
 from asperity.io.read_friction import read_friction
@@ -41,7 +46,7 @@ def fit(args: Namespace) -> None:
         held = _held(args.hold or {})
         measured = read_friction(path)
     scene = load_scene(args.scene)
-    spare(outputs, [*scene.sources, path])
+    refuse_overwrite(outputs, [*scene.sources, path])
     experiment = Experiment(path, measured, pressures(scene, measured, path), held)
     models = [scene] if scene.correction is None else [scene, replace(scene, correction=None)]
     found_in = [experiment.fit_scene(model) for model in models]
@@ -52,7 +57,7 @@ def fit(args: Namespace) -> None:
         for model, (adhesion, problem) in zip(models, found_in, strict=True)
     ]
     table = _table(args, experiment, fits, unusual)
-    deliver(
+    write_outputs(
         args,
         table,
         lambda picture: plot_fit.fit_figure(fits, experiment, picture),

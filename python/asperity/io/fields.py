@@ -196,7 +196,7 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
 
 
 @contextmanager
-def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
+def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
     """Let errors of the core name the file and its fields: `names` is argument -> [table] key."""
     try:
         yield
@@ -210,5 +210,5 @@ def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:
-    """The `names` of one table, for `named`."""
+    """The `names` of one table, for `rename_in_errors`."""
     return {f.argument: f"[{section}] {key}" for key, f in fields.items() if f.argument}

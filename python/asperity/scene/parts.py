@@ -18,13 +18,13 @@ from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
-    named,
     names_of,
     nearest,
     number,
     numbers,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     text,
 )
@@ -65,7 +65,7 @@ _ADHESION = {
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
     values = read_table(path, "adhesion", table, _ADHESION)
     require(path, "adhesion", values, ("shear_stress_pa",))
-    with named(path, names_of("adhesion", _ADHESION)):
+    with rename_in_errors(path, names_of("adhesion", _ADHESION)):
         adhesion = Adhesion(**arguments(values, _ADHESION))
     return adhesion, _with_defaults(values, _ADHESION, adhesion)
 
@@ -92,7 +92,9 @@ def build_correction(
     settings = arguments(values, fields)
     settings.pop("min_distance", None)
     correction: Correction
-    with named(path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}):
+    with rename_in_errors(
+        path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}
+    ):
         if kind == "s-factor":
             correction = SFactor(**settings)
         elif kind == "nayak-s-factor":
@@ -152,7 +154,7 @@ def _with_map(
     if surface_values["detrend"] != "none":
         surface = surface.detrend(surface_values["detrend"])
     if "min_distance_m" in values:
-        with named(path, names_of("correction", _PEAKS)):
+        with rename_in_errors(path, names_of("correction", _PEAKS)):
             peaks = surface.local_peaks(min_distance=values["min_distance_m"])
         values["heights_m"] = peaks.tolist()
     for key in extremes:

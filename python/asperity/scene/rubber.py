@@ -17,12 +17,12 @@ from asperity.io.fields import (
     arguments,
     file_name,
     file_names,
-    named,
     names_of,
     number,
     numbers,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     text,
     texts,
@@ -107,7 +107,7 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
         return _from_isotherms(path, values)
     rubber: Rubber
     if source == "master_curve":
-        with named(path, {"extrapolation": "[rubber] extrapolation"}):
+        with rename_in_errors(path, {"extrapolation": "[rubber] extrapolation"}):
             file = path.parent / values["master_curve"]
             rubber = read_master_curve(file, values.get("extrapolation"))
     else:
@@ -116,7 +116,7 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
             "relaxation_times_s"
         )
         require(path, "rubber", values, tuple(_PRONY), alternatives)
-        with named(path, names_of("rubber", _PRONY)):
+        with rename_in_errors(path, names_of("rubber", _PRONY)):
             rubber = PronySeries(**arguments(values, _PRONY))
         where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
         plausible.check(where, stiffest(rubber), plausible.MODULUS)
@@ -171,9 +171,11 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
     values = {"reference_temperature_k": values["temperature_k"], **values}
     files = [path.parent / name for name in values["isotherms"]]
-    with named(path, names_of("rubber", _DMA)):
+    with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
-    with named(path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}):
+    with rename_in_errors(
+        path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}
+    ):
         build = build_master_curve(
             isotherms,
             **arguments(values, _BUILD),
@@ -198,7 +200,7 @@ def _at_temperature(
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
         return curve, ()
-    with named(path, {"residual": "[rubber] prony"}):
+    with rename_in_errors(path, {"residual": "[rubber] prony"}):
         series = quiet_prony(curve)
     return series, series.notes
 
@@ -224,7 +226,7 @@ def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
         "or reference_temperature_c, at which a_T is 1",
     )
     reference = values["reference_temperature_k"]
-    with named(path, names_of("rubber", _BUILD)):
+    with rename_in_errors(path, names_of("rubber", _BUILD)):
         file = path.parent / values["shift"]
         return read_shift_factors(file, reference_temperature=reference)
 
@@ -233,7 +235,7 @@ def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: V
     """a_T at the scene's temperature."""
     if values["temperature_k"] == values.get("reference_temperature_k"):
         return 1.0
-    with named(path, names_of("rubber", _TEMPERATURE)):
+    with rename_in_errors(path, names_of("rubber", _TEMPERATURE)):
         a_t = float(shifts.shift_factor(values["temperature_k"]))
         if not 0 < a_t < float("inf"):
             raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")

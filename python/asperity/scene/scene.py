@@ -22,12 +22,12 @@ from asperity.io.fields import (
     Field,
     arguments,
     count,
-    named,
     names_of,
     nearest,
     number,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     sweep,
     text,
@@ -165,7 +165,7 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        with named(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
+        with rename_in_errors(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             band = swept_band(
                 self.surface.drawn,
                 self.built_rubber.drawn,
@@ -202,7 +202,7 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        with progress(chunks) as shown, named(self.path, _NAMES):
+        with progress(chunks) as shown, rename_in_errors(self.path, _NAMES):
             return [
                 compute(
                     self.spectrum,
@@ -219,7 +219,7 @@ class Scene:
     ) -> NDArray[np.float64]:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
         options = {key: value for key, value in self.options.items() if key != "form"}
-        with named(self.path, _NAMES):
+        with rename_in_errors(self.path, _NAMES):
             density: NDArray[np.float64] = pressure_distribution(
                 stress,
                 self.spectrum,
