@@ -215,8 +215,9 @@ def _tables(
         raise InvalidInput("paths: is empty, must have 1 file or more")
     by_file = None if temperatures is None else vector(temperatures, "temperatures")
     if by_file is not None and by_file.size != len(files):
-        found = f"temperatures has {by_file.size} entries, paths has {len(files)}"
-        raise InvalidInput(f"{found}: must be as many")
+        raise InvalidInput(
+            f"temperatures ({by_file.size}) and paths ({len(files)}) must have equal length"
+        )
     result = []
     for at, file in enumerate(files):
         table = _table(file, columns)

@@ -222,7 +222,7 @@ def _load_text(path: Path) -> NDArray[Any]:
         width = width or len(row)
         if len(row) != width:
             raise InvalidInput(
-                f"line {number} has {len(row)} cells, those before it {width}: must be as many"
+                f"line {number} has {len(row)} cells; it must have {width}, as those before it"
             )
         trailing = trailing and width > 1 and not cells[-1].strip()
         gap = blank
