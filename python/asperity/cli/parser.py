@@ -15,7 +15,9 @@ from asperity.measured_spectrum import WINDOWS
 def parser() -> argparse.ArgumentParser:
     """The parser of the whole command line."""
     result = Parser(
-        prog="asperity", description="Rubber contact area and friction on rough surfaces."
+        prog="asperity",
+        description="Rubber contact area and friction on rough surfaces. Numbers that are absurd "
+        "in the unit of their key, column or option are refused, unusual ones are noted on stderr.",
     )
     result.add_argument("--version", action="version", version=__version__)
     verbs = result.add_subparsers(required=True, metavar="VERB")
