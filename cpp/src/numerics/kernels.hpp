@@ -43,11 +43,13 @@ struct Kernels {
   /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
   void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
                         double* tail);
-  /// G at n nodes: that at the lower end and `cumulative`, at unit load, times `scale`. An interpolated one may be
-  /// below 0 at the first nodes: 1e-300 then. (All that passes from one loop to another is written by loops of one
-  /// width.)
+  /// G at n nodes: that at the lower end and `cumulative`, at unit load, times `scale`; 1e-300 where it would be 0. An
+  /// interpolated one may be below 0 at the first nodes and stays so: what it misses cancels in the sums over a panel,
+  /// to which polynomials of high degree add nothing. (All that passes from one loop to another is written by loops of
+  /// one width.)
   void (*place)(double lower, const double* cumulative, double scale, std::size_t n, double* g);
-  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`.
+  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`. Below 0 they go on as they begin,
+  /// with F = G and F2 = G^2 / 2.
   void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
   /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);

@@ -97,3 +97,12 @@ def test_a_power_law_that_overflows_is_refused():
     MasterCurve(**curve, extrapolation="clamp")
     with pytest.raises(InvalidInput, match=r"^extrapolation: beyond angular_frequency = 1 rad/s"):
         MasterCurve(**curve, extrapolation="power-law")
+
+
+@pytest.mark.parametrize("storage", [[1e-130, 1], [1e130, 1]])
+def test_a_power_law_whose_square_leaves_the_range_of_doubles_is_refused(storage):
+    curve = {"angular_frequency": [1, 10], "storage_modulus": storage, "loss_modulus": storage}
+    inside = MasterCurve(**curve, extrapolation="clamp").angular_integrals([0.2, 2, 9, 99])
+    assert np.isfinite(inside).all()
+    with pytest.raises(InvalidInput, match=r"^extrapolation: beyond .*1e-140, 1e140"):
+        MasterCurve(**curve, extrapolation="power-law")

@@ -15,27 +15,51 @@ namespace {
 constexpr std::size_t most = LegendreRule::most;
 constexpr double longest = 4;  // in s: on longer ones the last coefficients tell errors too small
 constexpr double beside_front = 2.5;
+constexpr double most_change = 12;               // powers of e by which q^4 C changes along a panel
+constexpr double most_rise = 10, most_fall = 5;  // powers of e by which it does beside the front, on one panel
 constexpr double rounding = 4e-16;
 constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: most is to be resolved at its foot
+
+double length_of(const Panel& panel) { return panel.s(panel.upper) - panel.s(panel.lower); }
+
+/// Powers of e by which q^4 C changes along a unit of s, at most.
+double steepness(const Segment& segment) { return segment.straight ? 5 : std::fabs(4 + segment.slope); }
+
+double change_of(const Panel& panel) { return steepness(*panel.segment) * length_of(panel); }
 
 /// By how much coefficients fall from degree to degree: by what the ellipse about the panel allows that reaches the
 /// nearest singularity. That of a Prony series is pi / 2 off the real axis of ln w, that of a table at the knot before.
 double decay_of(const Panel& panel) {
-  const double length = panel.s(panel.upper) - panel.s(panel.lower);
-  const double decay = std::exp(-std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1));
+  const double decay = std::exp(-std::asinh(std::numbers::pi / length_of(panel)) * (panel.square > 0 ? 0.75 : 1));
   constexpr double with_knots = 0.35;
   return panel.tabulated ? std::fmax(decay, with_knots) : decay;
+}
+
+/// The same of a power law at degree n: it is bounded on every ellipse rho, and best on that where exp(change rho / 4)
+/// rho^-n, or exp(change (1 + rho / 2)^2 / 4) rho^-n in the root, is least. dR / dG, up to half way to a zero, has its
+/// pole on rho = 3.4.
+double decay_of_power(const Panel& panel, double n) {
+  const double change = change_of(panel), zero = panel.at_front && panel.segment->at_b == 0 ? 0.3 : 0;
+  if (change == 0) return zero;
+  return std::fmax(zero, panel.square > 0 ? 1 / (std::sqrt(1 + 8 * n / change) - 1) : change / (4 * n));
+}
+
+/// How far in s the first panel reaches. R is differentiated by G on it: dR / dG grows as q^4 C falls, and has a pole
+/// where that comes to zero, so that the panel ends half way to a row of zero.
+double front_reach(const Segment& segment) {
+  const double power = 4 + segment.slope;
+  const double reach = std::fmin(beside_front, power < 0 ? most_fall / -power : most_rise / power);
+  return segment.at_b == 0 ? std::fmin(reach, segment.offset(segment.a + (segment.b - segment.a) / 2)) : reach;
 }
 
 /// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
 /// everywhere is done with fewer, but the last coefficients tell the error only from some on.
 std::size_t nodes_for(const Panel& panel, double rtol) {
-  const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double digits = -std::log10(rtol);
   // at the front F is rougher, elsewhere the square root lies off the panel
   const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : panel.tabulated ? 1 : 1.2);
   const double nodes = 4 + digits * std::numbers::ln10 / (2 * falling);
-  const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
-  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
+  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + change_of(panel), panel.grows ? 12 : 8))));
 }
 
 }  // namespace
@@ -65,6 +89,7 @@ std::size_t GaussPanels::add(Panel panel) {
   panel.tabulated = std::holds_alternative<MasterCurve>(rubber_);
   panel.decay = decay_of(panel);
   panel.rule = &legendre_rule(nodes_for(panel, rtol_));
+  panel.decay = std::fmin(0.95, std::fmax(panel.decay, decay_of_power(panel, static_cast<double>(panel.rule->n))));
   panel.fading = std::pow(panel.decay, static_cast<double>(panel.rule->n));
   panel.data = data_.size();
   panel.child = panel.filled = 0;
@@ -116,7 +141,7 @@ void GaussPanels::fill(Panel& p) {
     }
     loops.differentiate(rule, ratio, rows + Panel::outside_slope * n, &p.outside_lower, &p.outside_upper, tail);
   }
-  p.g_error = 2 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
+  p.g_error = 4 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
 }
 
 std::size_t GaussPanels::children(std::size_t index) {
@@ -142,7 +167,8 @@ void GaussPanels::find_edges(const Segment& segment, bool front, std::span<const
   const auto cut = [&](double s) {
     if (s > 0 && s < end) edges_.push_back(s);
   };
-  const double start = front ? beside_front : 0, pieces = std::ceil((end - start) / longest);
+  const double start = front ? front_reach(segment) : 0, steep = steepness(segment);
+  const double pieces = std::ceil((end - start) * std::fmax(1 / longest, steep / most_change));
   cut(start);
   for (double i = 1; i < pieces; ++i) cut(start + (end - start) * i / pieces);
   for (const double q : stops)
@@ -199,6 +225,8 @@ void GaussPanels::lay_out(std::span<const double> stops) {
           p.linear = 1;
           p.upper = part;
         }
+        const double there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
+        p.grows = there > 4 * here;
         p.rooted = p.square > 0 && p.linear == 0 && rate > 0;
         roots_.push_back(add(p));
       }

@@ -24,6 +24,7 @@ struct Panel {
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
   bool rooted;          // s - start = t^2 and dG/ds is not 0 there: sqrt(G - G at start) is smooth in t
+  bool grows;           // G does by several times, as far as the roughness tells
   bool tabulated;       // R has knots
   bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
   const LegendreRule* rule;
