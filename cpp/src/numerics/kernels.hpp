@@ -38,8 +38,10 @@ struct Kernels {
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
   /// Integral of the polynomial through f, and its last coefficients.
   void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
-  /// Integral of the polynomial through f, to each node and over all, and its last coefficients.
-  void (*integrate)(const LegendreRule& rule, const double* f, double* cumulative, double* total, double* tail);
+  /// Integral of the polynomial through f, to each node by `columns` of the rule and over all, and its last
+  /// coefficients.
+  void (*integrate)(const LegendreRule& rule, const double (*columns)[LegendreRule::most], const double* f,
+                    double* cumulative, double* total, double* tail);
   /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
   void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
                         double* tail);

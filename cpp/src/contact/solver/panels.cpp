@@ -123,7 +123,9 @@ void GaussPanels::fill(Panel& p) {
     dg[i] = rows[Panel::roughness * n + i] * i2[i];
     ratio[i] = i1[i] / i2[i];
   }
-  loops.integrate(rule, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
+  // dG begins as t beside a front, and as t^3 on a ramp from zero
+  const auto& columns = !p.at_front ? rule.cumulative : p.rooted ? rule.cumulative_linear : rule.cumulative_cubic;
+  loops.integrate(rule, columns, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
   double* const slope = rows + Panel::slope * n;
   differentiate(p, ratio, slope, p.r);
   for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
