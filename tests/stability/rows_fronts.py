@@ -55,6 +55,19 @@ def rising() -> Iterator[Case]:
 
 
 @row(
+    "a flat front, three and six in ln q long, alone and before a roll-off, interpolated form",
+    "G rises as q^4 along one panel, and its rate is lost at the first nodes",
+    naive="log-trapezoid of 1000 points",
+    truth=BRUTE,
+    allowed=1e-9,
+)
+def flat() -> Iterator[Case]:
+    options: dict[str, Any] = {"form": "interpolated", "rtol": 1e-9}
+    yield case([1e3, 2e4], [1e-18, 1e-18], ONE_TERM, 1e11, 0.1, **options)
+    yield case([1e3, 4e5, 1e6], [1e-20, 1e-20, 1e-23], ONE_TERM, 1e11, 1e-3, **options)
+
+
+@row(
     "a front that falls to a row of zero",
     "dR/dG runs away where the rate of G comes to zero",
     naive="numpy.interp of ln C in ln q, log-trapezoid of 1000 points",
@@ -67,7 +80,7 @@ def falls_to_zero() -> Iterator[Case]:
 
 
 @row(
-    "a front 8 and 25 decades steep, down and up, over less than a hundredth of its wavenumber",
+    "a front 8 to 25 decades steep, down and up, over 1/200 of its wavenumber or all of it",
     "the rate of G is gone, or has only begun, before a long panel's second node",
     naive="log-trapezoid of 1000 points over the band",
     truth=BRUTE,
@@ -78,3 +91,4 @@ def steep() -> Iterator[Case]:
         q = np.array([1e3, 1.005e3, 1e5])
         c = np.array([1.0, fall, fall * 1e-6]) * 1e-10 / max(1, fall)
         yield case(q, c, ONE_TERM, 1e3, 1e-2, rtol=1e-10)
+    yield case([1e3, 2e3], [1e-34, 1e-14], ONE_TERM, 1e4, 1e-4, rtol=1e-10)

@@ -42,8 +42,10 @@ ONE_TERM = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxatio
     [
         ([1e3, 4e5], [1e-20, 1e-19], 1e11, 1e-3),  # G is as good as 0 at the first nodes
         ([1e3, 4e5], [1e-20, 1e-19], 1e6, 1e-3),
+        ([1e3, 2e4], [1e-18, 1e-18], 1e11, 1e-1),  # flat
+        ([1e3, 4e5, 1e6], [1e-20, 1e-20, 1e-23], 1e11, 1e-3),  # a roll-off
         ([1e3, 1.6e3], [1e-16, 0], 1e4, 1e-2),  # dR/dG has a pole at the second row
-        ([1e3, 1e4, 1e6], [1e-14, 1e-14, 1e-21], 1e9, 1e-3),
+        ([1e3, 2e3], [1e-34, 1e-14], 1e4, 1e-4),  # steep
         ([1e3, 1.1e3], [1e-16, 1e-21], 1e3, 1e-2),
     ],
 )
