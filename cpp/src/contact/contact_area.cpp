@@ -98,10 +98,10 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   }
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
-  Worth worth_of(surface, model.form, q1);
+  ValidityRange validity(surface, model.form, q1);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
           });
   return notes.texts();
 }
