@@ -91,7 +91,7 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
 std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
-  Notes notes(spectrum, model.correction);
+  Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction)) {
     for (const double v : velocity) notes.add({}, v, 0, {});
     return notes.texts();

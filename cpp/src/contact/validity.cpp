@@ -48,6 +48,14 @@ std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correctio
   return alpha;
 }
 
+/// Velocities at which a spectrum asks a fitted Prony series for nothing but the frequencies it was fitted on.
+std::optional<FrequencyRange> fitted_velocities(const Spectrum& spectrum, const Rubber& rubber) {
+  const auto* series = std::get_if<PronySeries>(&rubber);
+  if (!series || !series->fitted_range()) return {};
+  const auto [q0, q1] = band(spectrum);
+  return FrequencyRange{series->fitted_range()->lowest / q0, series->fitted_range()->highest / q1};
+}
+
 }  // namespace
 
 ValidityRange::ValidityRange(std::span<const Segment> surface, Form form, double wavenumber)
@@ -65,11 +73,12 @@ ValidityFlags ValidityRange::operator()(double g, double p) {
   return result;
 }
 
-Notes::Notes(const Spectrum& spectrum, const Correction& correction)
+Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
       corrected_(!std::holds_alternative<NoCorrection>(correction)),
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
+      fitted_(fitted_velocities(spectrum, rubber)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
@@ -79,6 +88,9 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
   extrapolated_ |= extrapolated_share > share_limit;
+  constexpr double rounding = 1e-12;
+  beyond_fit_ |=
+      fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
   worse_ |= flags.worse;
   light_ |= corrected_ && flags.light;
 }
@@ -104,6 +116,10 @@ std::vector<std::string> Notes::texts() const {
     result.push_back("more than " + show(100 * share_limit) +
                      " % of the hysteresis comes from frequencies outside of the measured ones at some points: see "
                      "extrapolated_share");
+  if (beyond_fit_)
+    result.emplace_back(
+        "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "
+        "there");
   if (lowest_bin_)
     result.emplace_back(
         "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of the "

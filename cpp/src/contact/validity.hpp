@@ -19,8 +19,8 @@ inline constexpr double lowest_measured_nayak = 1.75, highest_measured_nayak = 2
 /// Whether a correction leaves the range of those contacts at one pressure and velocity.
 struct ValidityFlags {
   bool light = false;  // the load is below theirs
-  bool worse =
-      false;  // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
+  // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
+  bool worse = false;
 };
 
 /// The flags at one wavenumber.
@@ -39,7 +39,7 @@ class ValidityRange {
 
 class Notes {
  public:
-  Notes(const Spectrum& spectrum, const Correction& correction);
+  Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction);
   void add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags);
   [[nodiscard]] std::vector<std::string> texts() const;
 
@@ -48,6 +48,8 @@ class Notes {
   bool corrected_;
   std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
   std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
+  std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
+  bool beyond_fit_ = false;
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,
        worse_ = false, light_ = false;
 };

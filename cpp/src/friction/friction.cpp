@@ -115,7 +115,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
   }
 
-  Notes notes(spectrum, model.correction);
+  Notes notes(spectrum, rubber, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
   std::span<const double> stops;
