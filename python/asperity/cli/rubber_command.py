@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, deliver, spare
 from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
 from asperity.io.fields import named
@@ -31,8 +32,8 @@ _FLAGS = {
 
 def rubber(args: Namespace) -> None:
     """Master curve of the isotherms in files; its table can be a scene's master_curve."""
-    files = [Path(name) for name in args.file]
-    shift_file = [] if args.shift is None else [Path(args.shift)]
+    files = [FilePath(name) for name in args.file]
+    shift_file = [] if args.shift is None else [FilePath(args.shift)]
     spare(check_outputs(args), [*files, *shift_file])
     with named(None, _FLAGS):
         isotherms = read_isotherms(
