@@ -37,13 +37,13 @@ struct Points {
 
   Points(const Array& p, const Array& v, const Array& a_T)
       : columns{span_of(p), span_of(v), span_of(a_T)},
-        size(std::max({columns.pressure.size(), columns.velocity.size(), columns.shift.size()})) {}
+        size(std::max({columns.pressure.size(), columns.velocity.size(), columns.a_T.size()})) {}
   [[nodiscard]] static double of(std::span<const double> column, std::size_t i) {
     return column[column.size() > 1 ? i : 0];
   }
   [[nodiscard]] double pressure(std::size_t i) const { return of(columns.pressure, i); }
   [[nodiscard]] double velocity(std::size_t i) const { return of(columns.velocity, i); }
-  [[nodiscard]] double shift(std::size_t i) const { return of(columns.shift, i); }
+  [[nodiscard]] double a_T(std::size_t i) const { return of(columns.a_T, i); }
 };
 
 /// (mu, the first point without a value or how many points there are).
@@ -68,7 +68,7 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
       heed_at(i);
       MapPoint at;
       map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
-             {points.shift(i), shifts_adhesion});
+             {points.a_T(i), shifts_adhesion});
       if (std::isnan(at.mu) && first == n) first = i;
       const double values[] = {at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
       for (std::size_t k = 0; k < 6; ++k) rows[k * n + i] = values[k];
@@ -87,7 +87,7 @@ py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, co
     for (std::size_t i = 0; i < points.size; ++i) {
       heed_at(i);
       traction[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
-                                 {points.shift(i), shifts_adhesion});
+                                 {points.a_T(i), shifts_adhesion});
       if (std::isnan(traction[i]) && first == points.size) first = i;
     }
   });

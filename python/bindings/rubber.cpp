@@ -30,7 +30,7 @@ py::tuple two_columns(const Array& angular_frequency, F f) {
 }
 
 template <class R>
-void bind_common(py::classh<R>& rubber) {
+void bind_rubber(py::classh<R>& rubber) {
   rubber
       .def("modulus",
            [](const R& r, const Array& w) {
@@ -89,7 +89,7 @@ void bind_rubber(py::module_& m) {
       .def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
       .def("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
       .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); });
-  bind_common(prony);
+  bind_rubber(prony);
 
   py::classh<MasterCurve> curve(m, "MasterCurve");
   curve
@@ -102,7 +102,7 @@ void bind_rubber(py::module_& m) {
       .def("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
       .def("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
       .def("extrapolated_shares", &extrapolated_shares);
-  bind_common(curve);
+  bind_rubber(curve);
 
   m.def("effective_modulus", &effective_moduli);
 }

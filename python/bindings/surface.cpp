@@ -45,7 +45,7 @@ py::array view_of(const HeightMap& map, bool line, const py::object& self) {
 
 /// What maps and line scans can do alike.
 template <class S>
-void bind_common(py::classh<S>& cls) {
+void bind_scan(py::classh<S>& cls) {
   const auto statistic = [&](const char* name, double HeightStatistics::*which) {
     cls.def_property_readonly(name, [which](const S& s) { return released([&] { return s.statistics().*which; }); });
   };
@@ -85,7 +85,7 @@ void bind_surface(py::module_& m) {
                              [](const py::object& self) { return view_of(self.cast<const HeightMap&>(), false, self); })
       .def_property_readonly("pixel_size",
                              [](const HeightMap& s) { return py::make_tuple(s.pixel_size()[0], s.pixel_size()[1]); });
-  bind_common(map);
+  bind_scan(map);
 
   py::classh<LineScan> line(m, "LineScan");
   line.def(py::init([](const py::array& heights, double spacing) {
@@ -95,7 +95,7 @@ void bind_surface(py::module_& m) {
       .def_property_readonly(
           "heights", [](const py::object& self) { return view_of(self.cast<const LineScan&>().row(), true, self); })
       .def_property_readonly("spacing", &LineScan::spacing);
-  bind_common(line);
+  bind_scan(line);
 }
 
 }  // namespace asperity::python

@@ -33,9 +33,9 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
                                                               const std::optional<Adhesion>& adhesion,
                                                               const MapRequest& request);
 
-/// Points for `look_up`, each column as long as the result, or of one entry for all; `shift` is a_T.
+/// Points for `look_up`, each column as long as the result, or of one entry for all.
 struct MapColumns {
-  std::span<const double> pressure, velocity, shift;
+  std::span<const double> pressure, velocity, a_T;
 };
 
 /// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14. Gives the number of the

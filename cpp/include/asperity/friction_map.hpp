@@ -180,7 +180,7 @@ struct FrictionMapInfo {
 
 /// Another temperature than the one that the map was made for.
 struct MapTemperature {
-  double shift = 1;              // a_T: mu_H and A/A0 are those at the velocity a_T v
+  double a_T = 1;                // mu_H and A/A0 are those at the velocity a_T v
   bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
 };
 
@@ -286,12 +286,12 @@ class FrictionMap {
   Where where(double pressure, double velocity, Outside outside, const MapTemperature& temperature) const noexcept {
     Where at;
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
-    double shifted = speed * temperature.shift;
+    double shifted = speed * temperature.a_T;
     const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
-    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.shift, at)) return at;
+    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return at;
     const double x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
-    at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
+    at.ln_v = temperature.a_T == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
     const double z = at.ln_p - log_modulus_offset(x, at.slope);
     at.cell = cell_at(x, z);
     at.dx = x - at.cell[0];
@@ -300,10 +300,10 @@ class FrictionMap {
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
-  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double shift, Where& at) const noexcept {
+  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double a_T, Where& at) const noexcept {
     at.status = Status::not_a_number;
     if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
-        map_detail::bits(shift) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
+        map_detail::bits(a_T) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
       return false;
     at.free_p = map_detail::within(pressure, info_.pressure);
     at.free_v = map_detail::within(shifted, info_.velocity);
@@ -312,7 +312,7 @@ class FrictionMap {
     if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
     if (!at.free_v) {
       shifted = info_.velocity[shifted > info_.velocity[0]];
-      speed = shifted / shift;
+      speed = shifted / a_T;
     }
     return true;
   }
@@ -551,11 +551,11 @@ void asperity_map_free(asperity_map* map);
 
 /// mu [-] at pressure [Pa], velocity [m/s] and a_T (1: the map's own temperature). Outside of the box NaN, or with
 /// `clamp` other than 0 the value at the nearest point of the box.
-double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp);
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp);
 
 /// `out` receives mu, hysteresis, adhesion, contact area, dmu/dlnp, dmu/dlnv. Returns 0, 1 or 2 where the pressure or
 /// the velocity is outside of the box, 3 where a number is NaN.
-int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]);
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]);
 
 /// Relative error that the map was certified for.
 double asperity_map_max_error(const asperity_map* map);
@@ -587,16 +587,15 @@ asperity_map* asperity_map_load(const char* path, char* why, size_t size) {
 
 void asperity_map_free(asperity_map* map) { delete map; }
 
-double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp) {
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp) {
   using Outside = asperity::FrictionMap::Outside;
-  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
 }
 
-int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]) {
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]) {
   using Outside = asperity::FrictionMap::Outside;
   asperity::MapPoint point;
-  const auto status =
-      map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+  const auto status = map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
   const double values[] = {point.mu,           point.hysteresis, point.adhesion,
                            point.contact_area, point.dmu_dlnp,   point.dmu_dlnv};
   for (int i = 0; i < 6; ++i) out[i] = values[i];

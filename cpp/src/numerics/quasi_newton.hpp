@@ -1,7 +1,7 @@
 // The least value of a smooth function of a few variables.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 

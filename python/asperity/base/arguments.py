@@ -93,7 +93,9 @@ def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> in
 
 def flag(found: Any, name: str) -> bool:
     """Return True or False."""
-    if isinstance(found, bool | np.bool_):
+    if found is True or found is False:
+        return found
+    if isinstance(found, np.bool_):
         return bool(found)
     raise InvalidInput(f"{name} = {brief(found)}: must be True or False")
 
@@ -196,10 +198,14 @@ def path_of(found: Any, name: str) -> Path:
     raise InvalidInput(f"{name} = {brief(found)}: must be the path of a file")
 
 
-def broadcast(**given: Any) -> tuple[Shape, list[Array]]:
-    """Return the shape that arguments have together, and each of them flat in that shape."""
-    if {*map(type, given.values())} == {float}:  # the common scalar, without NumPy's rules
-        return (), [np.array((one,)) for one in given.values()]
+def broadcast(**given: Any) -> tuple[Shape, list[Any]]:
+    """Return the shape that arguments have together, and each of them flat in that shape.
+
+    Numbers stay numbers, which the core takes as arrays of one entry.
+    """
+    flat = [*given.values()]
+    if all([type(one) is float for one in flat]):  # the common scalar, without NumPy's rules
+        return (), flat
     arrays = {name: real_array(one, name) for name, one in given.items()}
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))

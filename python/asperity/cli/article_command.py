@@ -17,7 +17,7 @@ from asperity.article.inputs import Inputs, prepare
 from asperity.article.statement import judge
 from asperity.article.summary import Rows, counted, markdown
 from asperity.base.arguments import FilePath
-from asperity.cli.streams import tell
+from asperity.cli.streams import print_stdout
 from asperity.io.files import check_directory, write_files
 from asperity.plot.curves import check_plot
 
@@ -51,7 +51,7 @@ def article(args: Namespace) -> None:
     check_directory(directory, FILES, force=args.force)
     contents, statements = remake()
     write_files({directory / name: data for name, data in contents.items()})
-    tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
+    print_stdout(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 
 def remake() -> tuple[dict[str, bytes], Rows]:

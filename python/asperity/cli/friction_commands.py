@@ -16,9 +16,10 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import FilePath
-from asperity.cli.streams import say, tell, tell_notes
+from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
-from asperity.io.fields import MOST_ROWS, named
+from asperity.io import plausible
+from asperity.io.fields import MOST_ROWS, rename_in_errors
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
@@ -48,11 +49,11 @@ def demo(args: Namespace) -> None:
         files[picture.name] = plot.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
-    tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
+    print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
     drawn = "none, pip install asperity[plot]" if missing else f"{picture}"
-    tell(
+    print_stdout(
         f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"
         f"table:   {directory / 'friction.csv'}\n"
@@ -64,9 +65,9 @@ def friction(args: Namespace) -> None:
     """Friction of one scene, or of several under one another."""
     outputs = check_outputs(args)
     scenes = [load_scene(name) for name in args.scene]
-    spare(outputs, [source for scene in scenes for source in scene.sources])
+    refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes, bands=args.plot is not None)
-    deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+    write_outputs(args, table, lambda path: plot.friction_figure(scenes, curves, path))
 
 
 def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
@@ -119,7 +120,7 @@ def area(args: Namespace) -> None:
     """A/A0 of a scene at every pressure, velocity and wavenumber."""
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
-    spare(outputs, scene.sources)
+    refuse_overwrite(outputs, scene.sources)
     rows = scene.pressure.size * scene.velocity.size * args.points
     if rows > MOST_ROWS:
         problem = (
@@ -134,15 +135,21 @@ def area(args: Namespace) -> None:
     table = Table(
         "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
-    deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
+    write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
 
 def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
     path = FilePath(args.file)
-    spare(check_outputs(args), [path])
+    refuse_overwrite(check_outputs(args), [path])
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with named(None, {**flags, "max_fraction": "--max-dropouts"}):
+    with (
+        plausible.collected() as unusual,
+        rename_in_errors(None, {**flags, "max_fraction": "--max-dropouts"}),
+    ):
+        for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
+            if q is not None:
+                plausible.check(flag, q, plausible.WAVENUMBER)
         raw, filled = read_filled(
             path,
             max_fraction=args.max_dropouts,
@@ -151,11 +158,12 @@ def spectrum(args: Namespace) -> None:
             unit=args.unit,
         )
     how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
-    with named(path, {}):
+    with rename_in_errors(path, {}):
         measured = surface_spectrum(filled, **how)
     flat = scan.flat(filled, how["detrend"])
     ratio = scan.lay(filled, **how)
-    fit, notes = _fit(measured, args)
+    fit, fit_notes = _fit(measured, args)
+    notes = [*unusual, *fit_notes]
     whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
     cutoff = whole.cutoff_for_slope(1.3)
     inputs: dict[str, Any] = {
@@ -193,7 +201,7 @@ def spectrum(args: Namespace) -> None:
     table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
     drawn = cutoff if cutoff < whole.q1 else None
     draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
-    deliver(args, table, draw, found)
+    write_outputs(args, table, draw, found)
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
@@ -231,7 +239,7 @@ def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | 
     if q_min is not None and q_max is not None and q_min >= q_max:
         raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
     try:
-        with named(None, {"q_min": "--q-min", "q_max": "--q-max"}):
+        with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
     except (InvalidInput, NotConverged) as error:
         return None, [f"no self-affine fit: {error}"]
@@ -253,7 +261,7 @@ def check_outputs(args: Namespace) -> list[Path]:
     return outputs
 
 
-def spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     """Refuse to write over what is read."""
     taken = {os.path.realpath(path) for path in inputs}
     for path in outputs:
@@ -261,7 +269,7 @@ def spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
             raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
-def deliver(
+def write_outputs(
     args: Namespace,
     table: Table,
     draw: Callable[[Path], bytes],
@@ -276,10 +284,10 @@ def deliver(
         files[FilePath(args.output)] = _bytes(text)
     write_files(files)
     for name, value in (found or {}).items():
-        say(f"{name} = {value:.6g}\n")
+        print_stderr(f"{name} = {value:.6g}\n")
     tell_notes(table.notes)
     if args.output is None:
-        tell(text)
+        print_stdout(text)
 
 
 def _bytes(text: str) -> bytes:

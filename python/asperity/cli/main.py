@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.cli.parser import parser
-from asperity.cli.streams import discard, printable, say, standard_streams
+from asperity.cli.streams import discard, print_stderr, printable, standard_streams
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -33,5 +33,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _fail(problem: object, status: int) -> int:
-    say(f"asperity: {printable(' '.join(str(problem).split()))}\n")
+    print_stderr(f"asperity: {printable(' '.join(str(problem).split()))}\n")
     return status

@@ -7,7 +7,7 @@ from argparse import ArgumentTypeError
 from typing import NoReturn
 
 from asperity._core import __version__
-from asperity.cli.streams import printable, say, tell
+from asperity.cli.streams import print_stdout, printable
 from asperity.io.fields import MOST_POINTS
 
 
@@ -18,18 +18,18 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {printable(message)} (see {self.prog} --help)\n")
 
     def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
-        say(message or "")
+        print_stderr(message or "")
         sys.exit(status)
 
     def print_help(self, file: object = None) -> None:
-        tell(self.format_help())
+        print_stdout(self.format_help())
 
 
 class Version(argparse.Action):
     """Tells the version."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        tell(f"{__version__}\n")
+        print_stdout(f"{__version__}\n")
         parser.exit()
 
 

@@ -24,7 +24,9 @@ from asperity.measured_spectrum import WINDOWS
 def parser() -> argparse.ArgumentParser:
     """The parser of the whole command line."""
     result = Parser(
-        prog="asperity", description="Rubber contact area and friction on rough surfaces."
+        prog="asperity",
+        description="Rubber contact area and friction on rough surfaces. Numbers that are absurd "
+        "in the unit of their key, column or option are refused, unusual ones are noted on stderr.",
     )
     result.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     verbs = result.add_subparsers(required=True, metavar="VERB")

@@ -24,10 +24,10 @@ def standard_streams() -> Iterator[None]:
     try:
         yield
     finally:
-        say("")
+        print_stderr("")
 
 
-def tell(text: str) -> None:
+def print_stdout(text: str) -> None:
     """Write to standard output; a failure names it."""
     name = "standard output"
     if sys.stdout is None:
@@ -40,7 +40,7 @@ def tell(text: str) -> None:
         raise OSError(error.errno, error.strerror, name) from error
 
 
-def say(text: str) -> None:
+def print_stderr(text: str) -> None:
     """Write to standard error, as far as it takes it."""
     if sys.stderr is None:
         return
@@ -53,7 +53,7 @@ def say(text: str) -> None:
 def tell_notes(notes: Sequence[str]) -> None:
     """Write notes to standard error, a line each."""
     for note in notes:
-        say(f"note: {printable(note)}\n")
+        print_stderr(f"note: {printable(note)}\n")
 
 
 def discard(stream: TextIO | None) -> None:

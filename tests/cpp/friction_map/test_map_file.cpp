@@ -51,9 +51,9 @@ bool stands(Bytes bytes) {
   probe::points(map);
   const auto [p, v] = std::pair{map.info().pressure, map.info().velocity};
   const double pressure[] = {p[0], p[1], std::sqrt(p[0]) * std::sqrt(p[1])};
-  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, shift[] = {1};
+  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, a_T[] = {1};
   double mu[3];
-  look_up(map, {pressure, velocity, shift}, FrictionMap::Outside::nan, false, mu);
+  look_up(map, {pressure, velocity, a_T}, FrictionMap::Outside::nan, false, mu);
   for (const double one : mu) probe::require(probe::finite(one) && one >= 0, "mu of an array");
   return true;
 }
