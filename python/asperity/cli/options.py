@@ -7,7 +7,7 @@ from argparse import ArgumentTypeError
 from typing import NoReturn
 
 from asperity._core import __version__
-from asperity.cli.streams import print_stdout, printable
+from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import MOST_POINTS
 
 
