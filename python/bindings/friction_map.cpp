@@ -25,11 +25,7 @@ FrictionMap read(const py::bytes& content, const std::string& name) {
 py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::array<double, 2> pressure, std::array<double, 2> velocity,
                 double rtol, std::size_t checked, const std::string& text) {
-  const auto heed_interrupts = [] {
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  };
-  const MapRequest request{pressure, velocity, rtol, checked, text, heed_interrupts};
+  const MapRequest request{pressure, velocity, rtol, checked, text};
   const auto file = released([&] { return build_friction_map(spectrum, rubber, model, adhesion, request); });
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
@@ -69,6 +65,7 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
   std::size_t first = n;
   released([&] {
     for (std::size_t i = 0; i < n; ++i) {
+      heed_at(i);
       MapPoint at;
       map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
              {points.a_T(i), shifts_adhesion});
@@ -88,6 +85,7 @@ py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, co
   std::size_t first = points.size;
   released([&] {
     for (std::size_t i = 0; i < points.size; ++i) {
+      heed_at(i);
       traction[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
                                  {points.a_T(i), shifts_adhesion});
       if (std::isnan(traction[i]) && first == points.size) first = i;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
@@ -107,8 +108,10 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   if (contributions && n > 0) {
     const auto [slowest, fastest] = std::ranges::minmax(velocity);
     double front = 1;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
+      heed();
       front = std::fmin(front, front_width(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], 1}));
+    }
     f.contributions =
         Contributions{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
     f.contributions->dmu_dlnq.assign(n * f.contributions->wavenumber.size(), 0.0);
@@ -151,6 +154,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     return at;
   };
   for (const std::size_t i : by_velocity(velocity)) {
+    heed();
     const double p = pressure[i], v = velocity[i];
     const Shift shift = affine_shift(model.correction, spectrum, rubber, p, v, model.poisson_ratio);
     Point at;

@@ -5,6 +5,7 @@
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/simd.hpp"
 
@@ -122,6 +123,7 @@ std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMa
   FrictionMapBatch batch(map, outside, shifts_adhesion);
   std::size_t first_bad = mu.size();
   for (std::size_t i = 0; i < mu.size(); i += block) {
+    heed();
     const std::size_t n = std::min(block, mu.size() - i), good = batch.mu(points, i, n, &mu[i]);
     if (good < n) first_bad = std::min(first_bad, i + good);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "asperity/errors.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/nnls.hpp"
 
@@ -139,6 +140,7 @@ VectorXd nnls(const MatrixXd& original, const VectorXd& right) {
   std::vector<bool> out(static_cast<std::size_t>(n), true);  // neither passive nor refused since x last changed
   const Index limit = 30 * n + 100;
   for (Index step = 0; step < limit; ++step) {
+    heed();
     const VectorXd gradient = a.transpose() * (b - a * x);
     Index enters = -1;
     for (Index k = 0; k < n; ++k)

@@ -3,12 +3,12 @@
 from argparse import Namespace
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import (
     band_progress,
     check_outputs,
@@ -40,7 +40,7 @@ _HELD = {
 
 def fit(args: Namespace) -> None:
     """Fit the adhesion; beside a scene's correction also with the original theory, without it."""
-    path = Path(args.measured)
+    path = FilePath(args.measured)
     outputs = check_outputs(args)
     with plausible.collected() as unusual:
         held = _held(args.hold or {})

@@ -1,6 +1,7 @@
 """What the verbs of the shell command do."""
 
 import importlib.util
+import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
@@ -14,6 +15,8 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base.arguments import FilePath
+from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
 from asperity.io import plausible
 from asperity.io.fields import MOST_ROWS, rename_in_errors
@@ -31,12 +34,12 @@ from asperity.surface import HeightMap
 
 def demo(args: Namespace) -> None:
     """Write the shipped scan and scene, compute and draw them, show the curve."""
-    directory = Path(args.output)
+    directory = FilePath(args.output)
     check_directory(directory, FILES, force=args.force)
     files = input_files()
     with TemporaryDirectory() as aside:
-        write_files({Path(aside) / name: data for name, data in files.items()})
-        scene = load_scene(Path(aside) / "scene.toml")
+        write_files({FilePath(aside) / name: data for name, data in files.items()})
+        scene = load_scene(FilePath(aside) / "scene.toml")
     scene = replace(scene, path=directory / "scene.toml")
     table, curves = _friction_table([scene], bands=True)
     files["friction.csv"] = _bytes(table.csv())
@@ -49,7 +52,7 @@ def demo(args: Namespace) -> None:
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
-    drawn = "none, pip install asperity[plot]" if missing else str(picture)
+    drawn = "none, pip install asperity[plot]" if missing else f"{picture}"
     print_stdout(
         f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"
@@ -75,7 +78,7 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
     asked = all(scene.asks_for_band for scene in scenes)
     for scene, result in zip(scenes, curves, strict=True):
         pressure, velocity = scene.points
-        names = {"scene": [str(scene.path)] * pressure.size} if len(scenes) > 1 else {}
+        names = {"scene": [f"{scene.path}"] * pressure.size} if len(scenes) > 1 else {}
         points = {"pressure_pa": pressure, "velocity_m_s": velocity}
         values = {name: getattr(result, name).ravel() for name in COLUMNS}
         if asked and result.band is not None:
@@ -100,7 +103,8 @@ def _curves(scene: Scene, *, band: bool) -> Curves:
 
 def progress(title: str) -> Progress:
     """A bar on a terminal, after two seconds of work, where tqdm is installed."""
-    if not sys.stderr.isatty() or importlib.util.find_spec("tqdm") is None:
+    on_terminal = sys.stderr is not None and sys.stderr.isatty()
+    if not on_terminal or importlib.util.find_spec("tqdm") is None:
         return nullcontext
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
     shown = "{l_bar}{bar}| {elapsed}<{remaining}"
@@ -136,7 +140,7 @@ def area(args: Namespace) -> None:
 
 def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
-    path = Path(args.file)
+    path = FilePath(args.file)
     refuse_overwrite(check_outputs(args), [path])
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with (
@@ -248,20 +252,20 @@ def _inputs(scene: Scene) -> dict[str, Any]:
 def check_outputs(args: Namespace) -> list[Path]:
     """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
-        plot.check_plot(Path(args.plot))
-    outputs = [Path(name) for name in (args.output, args.plot) if name is not None]
+        plot.check_plot(FilePath(args.plot))
+    outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
     for path in outputs:
         check_output(path)
-    if len({path.resolve() for path in outputs}) < len(outputs):
+    if len({os.path.realpath(path) for path in outputs}) < len(outputs):
         raise InvalidInput(f"{outputs[0]}: --output and --plot must be two files")
     return outputs
 
 
 def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     """Refuse to write over what is read."""
-    taken = {path.resolve() for path in inputs}
+    taken = {os.path.realpath(path) for path in inputs}
     for path in outputs:
-        if path.resolve() in taken:
+        if os.path.realpath(path) in taken:
             raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
@@ -273,32 +277,18 @@ def write_outputs(
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
-    files = {} if args.plot is None else {Path(args.plot): draw(Path(args.plot))}
+    files: dict[Path, bytes] = (
+        {} if args.plot is None else {FilePath(args.plot): draw(FilePath(args.plot))}
+    )
     if args.output is not None:
-        files[Path(args.output)] = _bytes(text)
+        files[FilePath(args.output)] = _bytes(text)
     write_files(files)
     for name, value in (found or {}).items():
-        print(f"{name} = {value:.6g}", file=sys.stderr)
+        print_stderr(f"{name} = {value:.6g}\n")
     tell_notes(table.notes)
     if args.output is None:
         print_stdout(text)
 
 
-def print_stdout(text: str) -> None:
-    """Write to standard output; a failure names it."""
-    try:
-        print(text, end="", flush=True)
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, "standard output") from error
-
-
 def _bytes(text: str) -> bytes:
     return text.encode(errors="backslashreplace")  # file names need not be UTF-8
-
-
-def tell_notes(notes: Sequence[str]) -> None:
-    """Write notes to standard error."""
-    for note in notes:
-        print("note:", note, file=sys.stderr)

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import check_outputs, print_stdout, refuse_overwrite, tell_notes
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import check_outputs, refuse_overwrite
+from asperity.cli.streams import print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map import FrictionMap, friction_map
 from asperity.io import plausible
@@ -34,7 +36,7 @@ def friction_map_of(args: Namespace) -> None:
     if args.info is not None:
         if given:
             raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
-        _tell(args, _read(Path(args.info)))
+        _tell(args, _read(FilePath(args.info)))
         return
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
@@ -66,11 +68,11 @@ def friction_map_of(args: Namespace) -> None:
             **({} if args.checked is None else {"checked": args.checked}),
             **options,
         )
-    files = {}
+    files: dict[Path, bytes] = {}
     if args.output is not None:
-        files[Path(args.output)] = made.to_bytes()
+        files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
-        path = Path(args.plot)
+        path = FilePath(args.plot)
         files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
@@ -146,10 +148,10 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
         print_stdout(json.dumps({**found, "notes": made.notes, "text": made.text}, indent=1) + "\n")
         return
     lines = [f"{name} = {_short(value)}" for name, value in found.items()]
-    told = [line for line in made.text.splitlines() if not line.startswith("note: ")]
-    print_stdout(
-        "".join(f"{line}\n" for line in [*lines, *(told if args.info is not None else [])])
-    )
+    if args.info is not None:
+        text = made.text.removesuffix("\n").split("\n") if made.text else []
+        lines += [printable(line) for line in text if not line.startswith("note: ")]
+    print_stdout("".join(f"{line}\n" for line in lines))
     tell_notes(made.notes)
     if made.exceeded > 0:
         tell_notes([f"{made.exceeded} of {made.checked} random points are beyond max_error"])

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
 from asperity.io import plausible
@@ -32,8 +33,8 @@ _FLAGS = {
 
 def rubber(args: Namespace) -> None:
     """Master curve of the isotherms in files; its table can be a scene's master_curve."""
-    files = [Path(name) for name in args.file]
-    shift_file = [] if args.shift is None else [Path(args.shift)]
+    files = [FilePath(name) for name in args.file]
+    shift_file = [] if args.shift is None else [FilePath(args.shift)]
     refuse_overwrite(check_outputs(args), [*files, *shift_file])
     with plausible.collected() as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:

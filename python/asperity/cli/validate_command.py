@@ -6,7 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import print_stdout, progress, refuse_overwrite, tell_notes
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.streams import print_stdout, tell_notes
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_directory, write_files
@@ -27,10 +29,10 @@ _FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
 
 def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
-    directory = Path(args.output)
+    directory = FilePath(args.output)
     plot.check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
-    inputs = [Path(name) for name in (args.rows, args.surface) if name is not None]
+    inputs = [FilePath(name) for name in (args.rows, args.surface) if name is not None]
     refuse_overwrite([directory / name for name in _FILES], inputs)
     contacts, told, notes = _contacts(args)
     predictions = [[predict(c, model) for c in contacts] for model in models_for(contacts)]
@@ -61,10 +63,10 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             raise InvalidInput(f"--{option}: only goes with --surface")
         if args.rows is None:
             return shipped(), {"rows": "bem_area.csv, shipped"}, []
-        return read_contacts(Path(args.rows)), {"rows": args.rows}, []
+        return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
     if args.rows is not None:
         raise InvalidInput("--rows: must be left out where --surface is given")
-    path = Path(args.surface)
+    path = FilePath(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with plausible.collected() as unusual, rename_in_errors(None, flags):
         if args.q0 is not None:

@@ -13,8 +13,8 @@ from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
 from asperity.io import plausible
+from asperity.io.files import check_file
 from asperity.io.instrument import brief
-from asperity.io.read_surface import check_file
 from asperity.shift_factors import ShiftFactors
 from asperity.sweeps import Isotherm, StrainSweep
 
@@ -207,10 +207,15 @@ def _tables(
         if unit not in _UNITS[key]:
             allowed = ", ".join(_UNITS[key])
             raise InvalidInput(f"units: {key} = {shown(unit)}: must be one of {allowed}")
-    if isinstance(paths, str | os.PathLike) or not isinstance(paths, Iterable):
-        files = [path_of(paths, "paths")]
+    one: Any = paths
+    try:
+        several = None if isinstance(one, str | os.PathLike) else list(one)
+    except TypeError:
+        several = None
+    if several is None:
+        files = [path_of(one, "paths")]
     else:
-        files = [path_of(path, f"paths[{i}]") for i, path in enumerate(paths)]
+        files = [path_of(path, f"paths[{i}]") for i, path in enumerate(several)]
     if not files:
         raise InvalidInput("paths: is empty, must have 1 file or more")
     by_file = None if temperatures is None else vector(temperatures, "temperatures")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import path_of
 from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
@@ -50,7 +51,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
     InvalidInput
         Naming file and line: no column of a known unit, a cell that is no positive number.
     """
-    path = Path(path)
+    path = path_of(path, "path")
     table = filled_lines(path)
     if len(table) < 2:
         raise InvalidInput(

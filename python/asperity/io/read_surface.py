@@ -1,9 +1,7 @@
 """Maps and line scans from files: matrices here, any other format in `instrument`."""
 
-import errno
 import os
 import re
-import stat
 import warnings
 from array import array
 from collections.abc import Iterator
@@ -18,6 +16,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import path_of
 from asperity.io import plausible
+from asperity.io.files import check_file
 from asperity.io.instrument import (
     METRES,
     PixelSize,
@@ -132,19 +131,6 @@ def _required(
         problem = f"a {path.suffix} file does not state the unit of its heights"
         raise InvalidInput(f"unit is missing: {problem}")
     return METRES[unit], pixel_size
-
-
-def check_file(path: Path) -> None:
-    """Refuse what cannot be opened, and what one might wait for or read without end."""
-    try:
-        mode = path.stat().st_mode
-    except ValueError as error:
-        raise InvalidInput(f"cannot be read: {error}") from error
-    if stat.S_ISDIR(mode):
-        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if not stat.S_ISREG(mode):
-        raise InvalidInput("cannot be read: not a regular file")
-    path.open("rb").close()
 
 
 @contextmanager

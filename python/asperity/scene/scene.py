@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.arguments import path_of
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
@@ -32,6 +33,7 @@ from asperity.io.fields import (
     sweep,
     text,
 )
+from asperity.io.files import check_file
 from asperity.rubber import Rubber
 from asperity.scene.parts import build_adhesion, build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
@@ -242,7 +244,7 @@ def load_scene(path: str | Path) -> Scene:
         In one line: file, table and key, the value found and what is allowed.
     """
     with plausible.collected() as notes:
-        scene = _load(Path(path))
+        scene = _load(path_of(path, "path"))
     return replace(scene, unusual=tuple(notes))
 
 
@@ -306,15 +308,14 @@ def _load(path: Path) -> Scene:
 def _read_toml(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
     try:
-        if path.is_char_device():  # may have no end
-            refuse(path, "cannot be read", "not a regular file")
+        check_file(path)
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         refuse(path, "not a TOML file", str(error))
-    except InvalidInput:
-        raise
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
     except (ValueError, RecursionError):  # Python's limits
         refuse(path, "not a TOML file", "nested too deeply, or a number of thousands of digits")
     for name, table in tables.items():
