@@ -21,20 +21,26 @@ py::tuple two_columns(const Array& angular_frequency, F f) {
   std::vector<double> first(w.size()), second(w.size());
   released([&] {
     constexpr std::size_t part = 512;  // stays in the cache from term to term
-    for (std::size_t i = 0; i < w.size(); i += part)
+    for (std::size_t i = 0; i < w.size(); i += part) {
+      heed();
       f(w.subspan(i, std::min(part, w.size() - i)), &first[i], &second[i]);
+    }
   });
   return py::make_tuple(array_of(std::move(first)), array_of(std::move(second)));
 }
 
 template <class R>
-void bind_common(py::classh<R>& rubber) {
+void bind_rubber(py::classh<R>& rubber) {
   rubber
       .def("modulus",
            [](const R& r, const Array& w) {
              return computed([&] {
                std::vector<std::complex<double>> modulus;
-               for (const double one : span_of(w)) modulus.push_back(r.modulus(one));
+               modulus.reserve(span_of(w).size());
+               for (const double one : span_of(w)) {
+                 heed_at(modulus.size());
+                 modulus.push_back(r.modulus(one));
+               }
                return modulus;
              });
            })
@@ -44,14 +50,15 @@ void bind_common(py::classh<R>& rubber) {
                r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
              });
            })
-      .def("shifted", &R::shifted, py::call_guard<py::gil_scoped_release>());
+      .def("shifted", &R::shifted, py::call_guard<Released>());
 }
 
 /// Shares of I1 and I2 that come from outside of the measured frequencies.
-py::tuple extrapolated_shares(const MasterCurve& curve, const Array& angular_frequency) {
+template <class R>
+py::tuple extrapolated_shares(const R& rubber, const Array& angular_frequency) {
   return two_columns(angular_frequency, [&](auto part, double* first, double* second) {
     for (const double w : part) {
-      const AngularIntegrals integrals = curve.angular_integrals(w);
+      const AngularIntegrals integrals = rubber.angular_integrals(w);
       *first++ = integrals.i1_outside / integrals.i1;
       *second++ = integrals.i2_outside / integrals.i2;
     }
@@ -64,7 +71,10 @@ py::array effective_moduli(const Array& modulus, const Array& poisson_ratio, con
              nu_2 = span_of(poisson_ratio_2);
   return computed([&] {
     std::vector<double> effective(e.size());
-    for (std::size_t i = 0; i < e.size(); ++i) effective[i] = effective_modulus(e[i], nu[i], e_2[i], nu_2[i]);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      heed_at(i);
+      effective[i] = effective_modulus(e[i], nu[i], e_2[i], nu_2[i]);
+    }
     return effective;
   });
 }
@@ -79,8 +89,18 @@ void bind_rubber(py::module_& m) {
       }))
       .def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
       .def("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
-      .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); });
-  bind_common(prony);
+      .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); })
+      .def("fitted_on",
+           [](const PronySeries& series, double lowest, double highest, bool extrapolated) {
+             return series.fitted_on({lowest, highest}, extrapolated);
+           })
+      .def("fitted_range",
+           [](const PronySeries& series) {
+             const FrequencyRange range = series.fitted_range().value();
+             return py::make_tuple(range.lowest, range.highest);
+           })
+      .def("extrapolated_shares", &extrapolated_shares<PronySeries>);
+  bind_rubber(prony);
 
   py::classh<MasterCurve> curve(m, "MasterCurve");
   curve
@@ -92,8 +112,8 @@ void bind_rubber(py::module_& m) {
       .def("angular_frequency", [](const MasterCurve& c) { return array_of(c.angular_frequency()); })
       .def("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
       .def("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
-      .def("extrapolated_shares", &extrapolated_shares);
-  bind_common(curve);
+      .def("extrapolated_shares", &extrapolated_shares<MasterCurve>);
+  bind_rubber(curve);
 
   m.def("effective_modulus", &effective_moduli);
 }

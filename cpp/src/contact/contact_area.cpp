@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "asperity/contact.hpp"
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
@@ -46,7 +47,10 @@ std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const dou
 std::vector<AreaG> area_gs(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
                            std::span<const double> wavenumber) {
   std::vector<AreaG> result;
-  for (const double q : wavenumber) result.emplace_back(model, spectrum, surface, q);
+  for (const double q : wavenumber) {
+    heed();
+    result.emplace_back(model, spectrum, surface, q);
+  }
   return result;
 }
 
@@ -62,6 +66,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   const double q1 = band(spectrum)[1];
   if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_rings_of(spectrum);
   for (const std::size_t i : by_velocity(velocity)) {
+    heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     if (shift.state == ContactState::no_contact) {
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
@@ -69,7 +74,10 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
     }
     at_point(pressure[i], velocity[i], [&] {
       solver.solve(pressure[i], velocity[i], shift.p);
-      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, solver.g(wavenumber[j]), shift);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+        heed_at(j);
+        visit(i, j, solver.g(wavenumber[j]), shift);
+      }
     });
   }
 }
@@ -93,17 +101,17 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
 std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
-  Notes notes(spectrum, model.correction);
+  Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction)) {
     for (const double v : velocity) notes.add({}, v, 0, {});
     return notes.texts();
   }
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
-  Worth worth_of(surface, model.form, q1);
+  ValidityRange validity(surface, model.form, q1);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
           });
   return notes.texts();
 }

@@ -38,7 +38,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         ),
         (["friction", "scan.npy"], "scan.npy: not a TOML file"),
         (["area", "none.toml"], "none.toml: cannot be read"),
-        (["area", "none\nat all.toml"], "none at all.toml: cannot be read"),
+        (["area", "none\nat all.toml"], r"'none\nat all.toml': cannot be read"),
         (["spectrum", "none.npy"], "none.npy: cannot be read"),
         (
             ["friction", "scene.toml", "--output", "/proc/mu.csv"],

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t nodes = RingBlock::nodes, rows = RingBlock::rows, fine = RingBlock::fine, end = RingBlock::end;
 /// On 4,000 random tables the error was below the sum of both changes in all but 1 %, and at most 3.9 times as large.
-constexpr double of_changes = 12;
+constexpr double of_changes = 16;
 /// Where G passes 1, F changes from G to a root of it by about 1/2: of this, on the foot of a block, no rule sees all.
 constexpr double unresolved = 0.005;
 constexpr double of_points = 3e-9;  // relative error of G by the fine rules of blocks: on sparse rows 2e-9 at most
@@ -73,12 +73,12 @@ void RingSolver::start(double velocity) {
   g_relative_error_ = unit_error / unit_g_ + of_points;
 }
 
-void RingSolver::evaluate(Part& part, double f_lower, const FrontIntegral& front) {
+void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) {
   double g[rows], f[rows];
   const Kernels& loops = kernels();
   const RingBlock& block = part.block();
-  loops.place(0, part.g, scale_, rows, g);
-  loops.front(front.table, front.gamma, g, rows, f, nullptr);
+  loops.g_at_nodes(0, part.g, scale_, rows, g);
+  loops.contact_integral(contact.table, contact.gamma, g, rows, f, nullptr);
   part.f_lower = f_lower;
   part.f_upper = f[end];
   double value = 0, area = 0, fewer_value = 0, fewer_area = 0, slopes = 0;
@@ -99,7 +99,7 @@ void RingSolver::evaluate(Part& part, double f_lower, const FrontIntegral& front
 }
 
 /// Evaluates the halves of a part that has been evaluated itself.
-void RingSolver::evaluate_halves(std::size_t index, const FrontIntegral& front) {
+void RingSolver::evaluate_halves(std::size_t index, const ContactIntegral& contact) {
   if (parts_[index].halves == 0) {
     const std::size_t group = parts_[index].group;
     const auto& halves = surface_.halves(surface_.groups()[group], *parts_[index].tree);
@@ -115,7 +115,7 @@ void RingSolver::evaluate_halves(std::size_t index, const FrontIntegral& front) 
       fill(*half);
     }
     g = half->g[end];
-    evaluate(*half, f, front);
+    evaluate(*half, f, contact);
     f = half->f_upper;
   }
   const RingBlock& behind = second.block();
@@ -132,20 +132,20 @@ double RingSolver::error(const Part& part) const {
   return of_changes * (part.by_halves + parts_[part.halves].by_nodes + parts_[part.halves + 1].by_nodes);
 }
 
-bool RingSolver::solve(double pressure, double shift, const FrontIntegral* front) {
+bool RingSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
   scale_ = 1 / (pressure * shift) / (pressure * shift);
   if (unit_g_ == 0) return false;
   check_g(g(), pressure);
   if (!(g_relative_error_ <= rtol_ / 16)) return false;
-  if (!front) return true;
+  if (!contact) return true;
 
   double f_lower = 0, interpolation = 0;
   whole_.clear();
   for (std::size_t i = 0; i < moduli_.size(); ++i) {
-    evaluate(parts_[i], f_lower, *front);
+    evaluate(parts_[i], f_lower, *contact);
     interpolation += moduli_[i].ratio_error * (parts_[i].f_upper - f_lower);
     f_lower = parts_[i].f_upper;
-    evaluate_halves(i, *front);
+    evaluate_halves(i, *contact);
     whole_.push_back(i);
   }
   constexpr int most_rounds = 30;
@@ -169,7 +169,7 @@ bool RingSolver::solve(double pressure, double shift, const FrontIntegral* front
         continue;
       }
       for (const std::size_t half : {parts_[i].halves, parts_[i].halves + 1}) {
-        evaluate_halves(half, *front);
+        evaluate_halves(half, *contact);
         next_.push_back(half);
       }
     }

@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-/// Eq. 22 by parts on blocks of rings (spectrum/ring_blocks.hpp), with R = I1 / I2 and F of `FrontIntegral`:
+/// Eq. 22 by parts on blocks of rings (spectrum/ring_blocks.hpp), with R = I1 / I2 and F of `ContactIntegral`:
 ///   mu_H = 4 (1 - nu^2) sigma0 sum over blocks of [R at the upper end times the rise of F
 ///                                                  - int (F - F at the lower end) dR].
 /// For rubbers whose I1 and I2 are analytic in ln w, which those of a table are not.
@@ -25,10 +25,10 @@ class RingSolver {
 
   /// A velocity, at which any number of points follow.
   void start(double velocity);
-  /// Solves for G, and for mu_H where `front` is given. False where the tolerance is not reached for certain.
-  [[nodiscard]] bool solve(double pressure, double shift, const FrontIntegral* front);
+  /// Solves for G, and for mu_H where `contact` is given. False where the tolerance is not reached for certain.
+  [[nodiscard]] bool solve(double pressure, double shift, const ContactIntegral* contact);
 
-  [[nodiscard]] const GaussPath::Hysteresis& hysteresis() const { return hysteresis_; }
+  [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
   /// G at the upper end of the spectrum, and its relative error.
   [[nodiscard]] double g() const { return unit_g_ * scale_; }
   [[nodiscard]] double relative_error() const { return g_relative_error_; }
@@ -55,8 +55,8 @@ class RingSolver {
     [[nodiscard]] const RingBlock& block() const { return tree->block; }
   };
   void fill(Part& part);
-  void evaluate(Part& part, double f_lower, const FrontIntegral& front);
-  void evaluate_halves(std::size_t index, const FrontIntegral& front);
+  void evaluate(Part& part, double f_lower, const ContactIntegral& contact);
+  void evaluate_halves(std::size_t index, const ContactIntegral& contact);
   [[nodiscard]] double error(const Part& part) const;
 
   const RingSurface& surface_;
@@ -64,7 +64,7 @@ class RingSolver {
   double stiffening_, g_factor_, rtol_;
   double velocity_ = 0, scale_ = 0, unit_g_ = 0, g_relative_error_ = 0;
   std::size_t starts_ = 0;
-  GaussPath::Hysteresis hysteresis_;
+  PanelSolver::Hysteresis hysteresis_;
   std::vector<Modulus> moduli_;            // of each group
   std::vector<Part> parts_;                // the groups' roots first
   std::vector<std::size_t> whole_, next_;  // parts whose halves make up the sum

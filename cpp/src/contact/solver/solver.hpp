@@ -14,10 +14,10 @@ namespace asperity {
 
 class Solver {
  public:
-  using Hysteresis = GaussPath::Hysteresis;
+  using Hysteresis = PanelSolver::Hysteresis;
 
-  /// Integrals of P S, S by `factor`, where `with_hysteresis`; otherwise G alone. Panels end at the frequencies `stops`
-  /// [rad/s] too, which are to outlive this.
+  /// Solves for G, and where `with_hysteresis` for mu_H with S by `factor`. Panels end at the frequencies `stops`
+  /// [rad/s] too, which must outlive this.
   Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
          const std::optional<SFunction>& factor, std::span<const double> stops = {});
 
@@ -29,12 +29,12 @@ class Solver {
   void solve(double pressure, double velocity, double shift);
 
   [[nodiscard]] const Hysteresis& hysteresis() const {
-    return path_ ? hysteresis_ : by_rings_ ? rings_->hysteresis() : gauss_.hysteresis();
+    return gsl_solver_ ? hysteresis_ : by_rings_ ? rings_->hysteresis() : panel_solver_.hysteresis();
   }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   [[nodiscard]] double relative_error() const;  // of every G
-  [[nodiscard]] std::vector<GaussPath::Part> parts() const;
+  [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
 
  private:
   void start(double velocity);
@@ -43,15 +43,15 @@ class Solver {
   const Rubber& rubber_;
   const ContactModel& model_;
   std::optional<SFunction> factor_;
-  std::optional<FrontIntegral> front_;
+  std::optional<ContactIntegral> contact_;
   bool with_hysteresis_;
-  GaussPath gauss_;
+  PanelSolver panel_solver_;
   std::span<const double> stops_;
-  double velocity_ = 0, gauss_velocity_ = 0;  // of the point before, and of the last that panels were made for
+  double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
   std::optional<RingSolver> rings_;
   bool by_rings_ = false;  // the point
   std::vector<double> stop_wavenumbers_;
-  std::optional<Path> path_;  // by GSL
+  std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;
   std::vector<double> by_panel_;
 };
