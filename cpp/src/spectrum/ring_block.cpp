@@ -1,12 +1,11 @@
 // The matrices of a block of rings (ring_blocks.hpp): a fine rule over its intervals, the polynomials that are
 // orthonormal under it by the Lanczos recurrence, and their Gauss rules from the eigenvectors of the Jacobi matrix
 // (G. H. Golub and J. H. Welsch, Math. Comp. 23, 221 (1969)).
-#include <gsl/gsl_eigen.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/symmetric_matrix.hpp"
 #include "spectrum/ring_blocks.hpp"
 
 namespace asperity {
@@ -140,25 +139,20 @@ NodeRule gauss(const Jacobi& jacobi, std::size_t wanted) {
   NodeRule result{};
   const std::size_t n = result.count = std::min(wanted, jacobi.degrees);
   if (n == 0) return result;
-  double matrix[RingBlock::fine * RingBlock::fine] = {}, value[RingBlock::fine],
-                                  vectors[RingBlock::fine * RingBlock::fine];
+  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(index(n), index(n));
   for (std::size_t i = 0; i < n; ++i) {
-    matrix[i * n + i] = jacobi.diagonal[i];
-    if (i + 1 < n) matrix[i * n + i + 1] = matrix[(i + 1) * n + i] = jacobi.beside[i];
+    matrix(index(i), index(i)) = jacobi.diagonal[i];
+    if (i + 1 < n) matrix(index(i), index(i + 1)) = matrix(index(i + 1), index(i)) = jacobi.beside[i];
   }
-  gsl_matrix_view a = gsl_matrix_view_array(matrix, n, n), v = gsl_matrix_view_array(vectors, n, n);
-  gsl_vector_view d = gsl_vector_view_array(value, n);
-  const std::unique_ptr<gsl_eigen_symmv_workspace, void (*)(gsl_eigen_symmv_workspace*)> room(gsl_eigen_symmv_alloc(n),
-                                                                                              gsl_eigen_symmv_free);
-  gsl_eigen_symmv(&a.matrix, &d.vector, &v.matrix, room.get());
-  gsl_eigen_symmv_sort(&d.vector, &v.matrix, GSL_EIGEN_SORT_VAL_ASC);
+  const PrincipalAxes axes = principal_axes(matrix);
   const double root = std::sqrt(jacobi.measure);
   for (std::size_t i = 0; i < n; ++i) {
-    const double first = vectors[i];  // of p_0
-    if (first == 0) continue;         // a node without weight
-    result.x[i] = value[i];
+    const double first = axes.vectors(0, index(i));  // that of p_0
+    result.x[i] = axes.values(index(i));
+    if (first == 0) continue;  // a node without weight
     result.measure[i] = jacobi.measure * first * first;
-    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = vectors[j * n + i] / first / root;
+    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = axes.vectors(index(j), index(i)) / first / root;
   }
   return result;
 }
@@ -209,17 +203,20 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
       const double part = std::fmax(m[i], 0);
       x[i] = part > 0 ? 2 * (part / (std::sqrt(m_lower + part) + root)) / whole - 1 : -1;
     }
-    constexpr double small = 0.02;
-    for (std::size_t i = 0; i < n; ++i)
-      if (m[i] > 0 && root + whole * (x[i] + 1) / 2 < small * (root + whole)) block.foot += weight[i];
+    const double root_of_tenth = std::sqrt(0.1);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double share = (root + whole * (x[i] + 1) / 2) / (root + whole);
+      double small = root_of_tenth;
+      for (double& length : block.foot) {
+        if (share < small) length += weight[i];
+        small *= root_of_tenth;
+      }
+    }
     jacobi = orthonormal(weight, x, rows);
     for (std::size_t i = 0; i < n; ++i) weight[i] = std::sqrt(weight[i]);
   }
-  std::size_t smooth = 0;  // points before the first roughness
-  if (m_lower == 0)
-    while (smooth < n && !(m[smooth] > 0)) ++smooth;
   std::vector<double> over_m(n);
-  for (std::size_t i = smooth; i < n; ++i) over_m[i] = weight[i] / (m_lower + m[i]);
+  for (std::size_t i = 0; i < n && m_part > 0; ++i) over_m[i] = weight[i] / (m_lower + m[i]);
 
   // int p_j / m int c P_k and int p_j dP_k / dy, P_k Legendre's, on as many points at a time as stay in the cache
   std::array<std::array<double, degrees>, nodes> of_m{}, of_slope{};
@@ -258,16 +255,7 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
   }
   legendre(((upper - group.lower) + (upper - group.upper)) / (group.upper - group.lower), end);
   std::array<double, degrees> of_lower{};  // int p_j / m
-  if (m_lower > 0) {
-    for (std::size_t j = 0; j < jacobi.degrees; ++j) of_lower[j] = dot(n, &rows[j * n], over_m.data());
-  } else if (smooth < n) {  // int c P_k / m goes on as it begins
-    Row first;
-    legendre(z[smooth], first);
-    for (std::size_t j = 0; j < jacobi.degrees; ++j) {
-      const double before = dot(smooth, &rows[j * n], weight.data());
-      for (std::size_t k = 0; k < nodes; ++k) of_m[k][j] += before * first[k];
-    }
-  }
+  for (std::size_t j = 0; m_lower > 0 && j < jacobi.degrees; ++j) of_lower[j] = dot(n, &rows[j * n], over_m.data());
 
   const auto& matrix = to_legendre();
   const auto to_values = [&](const Row& by_legendre, double factor, std::size_t row, RowsOf24* into) {

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t nodes = RingBlock::nodes, rows = RingBlock::rows, fine = RingBlock::fine, end = RingBlock::end;
 /// On 4,000 random tables the error was below the sum of both changes in all but 1 %, and at most 3.9 times as large.
 constexpr double of_changes = 16;
-/// Where G passes 1, F changes from G to a root of it by about 1/2: of this, on the foot of a block, no rule sees all.
-constexpr double unresolved = 0.005;
+/// F falls to the root of G that it is beyond G = 1 less 1/2, and below to G: rules with nodes beyond alone miss this.
+constexpr double unresolved = 0.5;
 constexpr double of_points = 3e-9;  // relative error of G by the fine rules of blocks: on sparse rows 2e-9 at most
 
 /// What the polynomial through values at Gauss-Legendre nodes misses at most: the coefficients beyond the last ones, to
@@ -95,7 +95,12 @@ void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& con
   part.value = part.slope[end] * (part.f_upper - f_lower) - value;
   part.area = area;
   part.by_nodes = std::fmax(std::fabs(value - fewer_value), slope * std::fabs(area - fewer_area));
-  if (part.g_lower * scale_ < 1 && g[end] > 100) part.by_nodes += unresolved * slope * block.foot;
+  if (part.g_lower * scale_ < 1 && g[end] > 100) {
+    const double decades = std::log10(g[end] / 4);  // down to where G is 4
+    const auto last = static_cast<double>(block.foot.size()) - 1;
+    const auto below = static_cast<std::size_t>(std::clamp(decades - 1, 0.0, last));
+    part.by_nodes += unresolved / of_changes * slope * block.foot[below];
+  }
 }
 
 /// Evaluates the halves of a part that has been evaluated itself.
