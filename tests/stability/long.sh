@@ -4,7 +4,8 @@
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
-#   isotherms    shift factors of 400 random sets of isotherms, and 200 bands on mu from isotherms
+#   isotherms    shift factors of 400 random sets of isotherms
+#   coverage     how often bands on mu hold the truth, 200 of each kind of measured input; errors of fits
 #   catalogue    every regime in which methods fail
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
@@ -43,8 +44,10 @@ tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }
 
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
-isotherms() {
-  "$python" tests/stability/random_isotherms.py && "$python" tests/stability/coverage_isotherms.py
+isotherms() { "$python" tests/stability/random_isotherms.py; }
+
+coverage() {
+  "$python" tests/stability/band_coverage.py && "$python" tests/stability/standard_errors.py
 }
 
 catalogue() { "$python" tests/stability/catalogue.py; }
@@ -66,11 +69,11 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue isotherms scenes maps tests properties sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes maps tests properties sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | isotherms | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
-    *) sed -n '2,11s/^# //p' "$0" >&2; exit 2 ;;
+    catalogue | isotherms | coverage | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
+    *) sed -n '2,12s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do
