@@ -125,7 +125,7 @@ import tomllib
 with open("pyproject.toml", "rb") as file:
     print(*tomllib.load(file)["build-system"]["requires"], sep="\n")' >"$scratch/requires.txt"
   .venv/bin/python -m pip install -q -r "$scratch/requires.txt"
-  say "compiling $(find cpp/src python/bindings -name '*.cpp' | wc -l) files: two minutes on two cores the first time"
+  say "compiling $(find cpp/src python/bindings -name '*.cpp' | wc -l) files: a minute and a half on two cores the first time"
   SKBUILD_BUILD_DIR='build/{wheel_tag}' CMAKE_BUILD_PARALLEL_LEVEL=$jobs \
     .venv/bin/python -m pip install -q --no-build-isolation ".[$1]"
 }

@@ -225,9 +225,9 @@ PeaksThenGreenwoodWilliamson or None
         *parts, model, adhesion_core(adhesion), p, v, flag(contributions, "contributions")
     )
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
-    given: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True))
+    given: dict[str, Any] = {"notes": notes}
     if shares is not None:
         q, density, edges, share = map(frozen, shares)
         given |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}
         given |= {"decade_edges": edges, "decade_share": share.reshape(*shape, len(edges) - 1)}
-    return Friction._made(**given, notes=notes)
+    return Friction._made(zip(COLUMNS, columns, strict=True), **given)

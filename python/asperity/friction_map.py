@@ -26,7 +26,7 @@ from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
-from asperity.io.files import write_whole
+from asperity.io.files import check_file, write_whole
 from asperity.rubber import Rubber
 from asperity.spectrum import Spectrum
 
@@ -37,6 +37,7 @@ POLICIES = ("error", "nan", "clamp")
 # of the core's look-ups, and of their status
 _NAN, _CLAMP = 0, 1
 _PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE = 1, 2
+_MAGIC, _HEAD = b"ASPERMAP", 512
 
 
 @value
@@ -132,13 +133,21 @@ class FrictionMap(Table):
         Raises
         ------
         InvalidInput
-            The file is damaged, truncated or of another version.
+            The file is damaged, truncated or of another version, or it is no regular file.
         OSError
             There is none, or it cannot be read.
         """
         file = path_of(path, "path")
-        loaded = cls._made(content=file.read_bytes())
-        loaded._read(str(file))
+        try:
+            check_file(file)
+        except InvalidInput as error:
+            raise InvalidInput(f"{file}: {error}") from error
+        with file.open("rb") as opened:
+            content = opened.read(_HEAD)
+            if content.startswith(_MAGIC):  # else it is no map, however long
+                content += opened.read()
+        loaded = cls._made(content=content)
+        loaded._read(f"{file}")
         return loaded
 
     @classmethod

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/watch.hpp"
+
 namespace asperity::python {
 
 namespace py = pybind11;
@@ -30,10 +32,22 @@ py::array array_of(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
   return py::array_t<T>(std::move(shape), owned->data(), keeper);
 }
 
+/// Throws what a signal's handler raises, KeyboardInterrupt for Ctrl-C.
+inline void heed_signals() {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// The GIL released while the core computes, and signals heeded. A guard of bound functions.
+class Released {
+  py::gil_scoped_release release_;
+  Watch watch_{&heed_signals};
+};
+
 /// f() with the GIL released.
 template <class F>
 auto released(F f) {
-  const py::gil_scoped_release release;
+  const Released guard;
   return f();
 }
 

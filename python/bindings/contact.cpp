@@ -29,6 +29,7 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   std::vector<int> state(p.size());
   released([&] {
     for (std::size_t i = 0; i < p.size(); ++i) {
+      heed();
       const Separation d = separation(asperities, p[i], e[i], static_cast<Reading>(reading));
       effective[i] = d.effective;
       rigid[i] = d.rigid;

@@ -25,11 +25,7 @@ FrictionMap read(const py::bytes& content, const std::string& name) {
 py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::array<double, 2> pressure, std::array<double, 2> velocity,
                 double rtol, std::size_t checked, const std::string& text) {
-  const auto heed_interrupts = [] {
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  };
-  const MapRequest request{pressure, velocity, rtol, checked, text, heed_interrupts};
+  const MapRequest request{pressure, velocity, rtol, checked, text};
   const auto file = released([&] { return build_friction_map(spectrum, rubber, model, adhesion, request); });
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
@@ -41,13 +37,13 @@ struct Points {
 
   Points(const Array& p, const Array& v, const Array& a_T)
       : columns{span_of(p), span_of(v), span_of(a_T)},
-        size(std::max({columns.pressure.size(), columns.velocity.size(), columns.shift.size()})) {}
+        size(std::max({columns.pressure.size(), columns.velocity.size(), columns.a_T.size()})) {}
   [[nodiscard]] static double of(std::span<const double> column, std::size_t i) {
     return column[column.size() > 1 ? i : 0];
   }
   [[nodiscard]] double pressure(std::size_t i) const { return of(columns.pressure, i); }
   [[nodiscard]] double velocity(std::size_t i) const { return of(columns.velocity, i); }
-  [[nodiscard]] double shift(std::size_t i) const { return of(columns.shift, i); }
+  [[nodiscard]] double a_T(std::size_t i) const { return of(columns.a_T, i); }
 };
 
 /// (mu, the first point without a value or how many points there are).
@@ -69,9 +65,10 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
   std::size_t first = n;
   released([&] {
     for (std::size_t i = 0; i < n; ++i) {
+      heed_at(i);
       MapPoint at;
       map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
-             {points.shift(i), shifts_adhesion});
+             {points.a_T(i), shifts_adhesion});
       if (std::isnan(at.mu) && first == n) first = i;
       const double values[] = {at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
       for (std::size_t k = 0; k < 6; ++k) rows[k * n + i] = values[k];
@@ -88,8 +85,9 @@ py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, co
   std::size_t first = points.size;
   released([&] {
     for (std::size_t i = 0; i < points.size; ++i) {
+      heed_at(i);
       traction[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
-                                 {points.shift(i), shifts_adhesion});
+                                 {points.a_T(i), shifts_adhesion});
       if (std::isnan(traction[i]) && first == points.size) first = i;
     }
   });

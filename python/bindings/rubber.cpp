@@ -21,20 +21,26 @@ py::tuple two_columns(const Array& angular_frequency, F f) {
   std::vector<double> first(w.size()), second(w.size());
   released([&] {
     constexpr std::size_t part = 512;  // stays in the cache from term to term
-    for (std::size_t i = 0; i < w.size(); i += part)
+    for (std::size_t i = 0; i < w.size(); i += part) {
+      heed();
       f(w.subspan(i, std::min(part, w.size() - i)), &first[i], &second[i]);
+    }
   });
   return py::make_tuple(array_of(std::move(first)), array_of(std::move(second)));
 }
 
 template <class R>
-void bind_common(py::classh<R>& rubber) {
+void bind_rubber(py::classh<R>& rubber) {
   rubber
       .def("modulus",
            [](const R& r, const Array& w) {
              return computed([&] {
                std::vector<std::complex<double>> modulus;
-               for (const double one : span_of(w)) modulus.push_back(r.modulus(one));
+               modulus.reserve(span_of(w).size());
+               for (const double one : span_of(w)) {
+                 heed_at(modulus.size());
+                 modulus.push_back(r.modulus(one));
+               }
                return modulus;
              });
            })
@@ -44,7 +50,7 @@ void bind_common(py::classh<R>& rubber) {
                r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
              });
            })
-      .def("shifted", &R::shifted, py::call_guard<py::gil_scoped_release>());
+      .def("shifted", &R::shifted, py::call_guard<Released>());
 }
 
 /// Shares of I1 and I2 that come from outside of the measured frequencies.
@@ -65,7 +71,10 @@ py::array effective_moduli(const Array& modulus, const Array& poisson_ratio, con
              nu_2 = span_of(poisson_ratio_2);
   return computed([&] {
     std::vector<double> effective(e.size());
-    for (std::size_t i = 0; i < e.size(); ++i) effective[i] = effective_modulus(e[i], nu[i], e_2[i], nu_2[i]);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      heed_at(i);
+      effective[i] = effective_modulus(e[i], nu[i], e_2[i], nu_2[i]);
+    }
     return effective;
   });
 }
@@ -91,7 +100,7 @@ void bind_rubber(py::module_& m) {
              return py::make_tuple(range.lowest, range.highest);
            })
       .def("extrapolated_shares", &extrapolated_shares<PronySeries>);
-  bind_common(prony);
+  bind_rubber(prony);
 
   py::classh<MasterCurve> curve(m, "MasterCurve");
   curve
@@ -104,7 +113,7 @@ void bind_rubber(py::module_& m) {
       .def("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
       .def("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
       .def("extrapolated_shares", &extrapolated_shares<MasterCurve>);
-  bind_common(curve);
+  bind_rubber(curve);
 
   m.def("effective_modulus", &effective_moduli);
 }

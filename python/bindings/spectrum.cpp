@@ -10,7 +10,7 @@ namespace asperity::python {
 namespace {
 
 using Optional = std::optional<double>;
-using Released = py::call_guard<py::gil_scoped_release>;
+using Guarded = py::call_guard<Released>;
 
 /// The order of detrending; the number after the last one stands for none.
 std::optional<Detrend> detrend_of(int order) {
@@ -51,16 +51,16 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
                                return array_of(std::vector(s.quality().correlation), {rows, lags});
                              })
       .def(
-          "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Released());
+          "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
 }
 
 /// What every spectrum of a surface can do.
 void bind_moments(py::module_& m) {
-  m.def("rms_height", &rms_height, Released());
-  m.def("rms_slope", &rms_slope, Released());
-  m.def("nayak_parameter", &nayak_parameter, Released());
-  m.def("cutoff_for_slope", &cutoff_for_slope, Released());
-  m.def("cutoff_for_contamination", &cutoff_for_contamination);
+  m.def("rms_height", &rms_height, Guarded());
+  m.def("rms_slope", &rms_slope, Guarded());
+  m.def("nayak_parameter", &nayak_parameter, Guarded());
+  m.def("cutoff_for_slope", &cutoff_for_slope, Guarded());
+  m.def("cutoff_for_contamination", &cutoff_for_contamination, Guarded());
   m.def("truncated", [](const Spectrum& s, Optional q0, Optional q1) {
     return object_of(released([&] { return truncated(s, q0, q1); }));
   });
@@ -79,7 +79,7 @@ void bind_measured(py::module_& m) {
       [](const HeightMap& map, int window, int detrend, unsigned threads, int part) {
         return power_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads, static_cast<Part>(part));
       },
-      Released());
+      Guarded());
   m.def("spectral_density", [](const HeightMap& map, int window, int detrend) {
     SpectralDensity found =
         released([&] { return spectral_density(map, static_cast<Window>(window), detrend_of(detrend)); });
@@ -98,7 +98,7 @@ void bind_measured(py::module_& m) {
         [](const S& surface, int window, int detrend) {
           return line_spectrum(surface, static_cast<Window>(window), detrend_of(detrend));
         },
-        Released());
+        Guarded());
   };
   line(std::type_identity<LineScan>());
   line(std::type_identity<HeightMap>());
@@ -107,7 +107,7 @@ void bind_measured(py::module_& m) {
       [](const std::vector<TabulatedSpectrum>& spectra, Optional per_decade) {
         return merge_spectra(spectra, per_decade);
       },
-      Released());
+      Guarded());
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void bind_spectrum(py::module_& m) {
       .def_readonly("rolloff", &SelfAffineSpectrum::rolloff)
       .def("extended", &extended);
   bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum");
-  bind_rows<LineSpectrum>(m, "LineSpectrum").def("isotropic", &isotropic, Released());
+  bind_rows<LineSpectrum>(m, "LineSpectrum").def("isotropic", &isotropic, Guarded());
   bind_moments(m);
   bind_measured(m);
   m.def("fit_self_affine",
@@ -142,7 +142,7 @@ void bind_spectrum(py::module_& m) {
       "synthesize",
       [](const Spectrum& spectrum, HeightMap::Shape shape, HeightMap::PixelSize pixel_size, std::uint64_t seed,
          double skewness) { return synthesize(spectrum, shape, pixel_size, seed, skewness); },
-      Released());
+      Guarded());
 }
 
 }  // namespace asperity::python

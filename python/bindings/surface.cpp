@@ -45,7 +45,7 @@ py::array view_of(const HeightMap& map, bool line, const py::object& self) {
 
 /// What maps and line scans can do alike.
 template <class S>
-void bind_common(py::classh<S>& cls) {
+void bind_scan(py::classh<S>& cls) {
   const auto statistic = [&](const char* name, double HeightStatistics::*which) {
     cls.def_property_readonly(name, [which](const S& s) { return released([&] { return s.statistics().*which; }); });
   };
@@ -54,7 +54,7 @@ void bind_common(py::classh<S>& cls) {
   statistic("kurtosis", &HeightStatistics::kurtosis);
   statistic("z_max", &HeightStatistics::z_max);
   statistic("z_min", &HeightStatistics::z_min);
-  using Released = py::call_guard<py::gil_scoped_release>;
+  using Guarded = py::call_guard<Released>;
   cls.def_property_readonly("dropout_fraction", &S::dropout_fraction)
       .def_property_readonly("rms_slope", [](const S& s) { return released([&] { return s.rms_slope(); }); })
       .def("height_histogram",
@@ -62,10 +62,10 @@ void bind_common(py::classh<S>& cls) {
              HeightHistogram found = released([&] { return s.height_histogram(bins); });
              return py::make_tuple(array_of(std::move(found.edges)), array_of(std::move(found.density)));
            })
-      .def("fill_dropouts", &S::fill_dropouts, Released())
+      .def("fill_dropouts", &S::fill_dropouts, Guarded())
       .def(
-          "detrend", [](const S& s, int order) { return s.detrend(static_cast<Detrend>(order)); }, Released())
-      .def("affine_shift", &S::affine_shift, Released())
+          "detrend", [](const S& s, int order) { return s.detrend(static_cast<Detrend>(order)); }, Guarded())
+      .def("affine_shift", &S::affine_shift, Guarded())
       .def("local_peaks", [](const S& s, double min_distance, bool periodic) {
         return computed([&] { return s.local_peaks(min_distance, periodic); });
       });
@@ -85,7 +85,7 @@ void bind_surface(py::module_& m) {
                              [](const py::object& self) { return view_of(self.cast<const HeightMap&>(), false, self); })
       .def_property_readonly("pixel_size",
                              [](const HeightMap& s) { return py::make_tuple(s.pixel_size()[0], s.pixel_size()[1]); });
-  bind_common(map);
+  bind_scan(map);
 
   py::classh<LineScan> line(m, "LineScan");
   line.def(py::init([](const py::array& heights, double spacing) {
@@ -95,7 +95,7 @@ void bind_surface(py::module_& m) {
       .def_property_readonly(
           "heights", [](const py::object& self) { return view_of(self.cast<const LineScan&>().row(), true, self); })
       .def_property_readonly("spacing", &LineScan::spacing);
-  bind_common(line);
+  bind_scan(line);
 }
 
 }  // namespace asperity::python

@@ -1,12 +1,15 @@
 #!/bin/sh
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
-#   scenes       ten thousand random scenes against GSL's adaptive integration, a thousand of them with tables
+#   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
 #   isotherms    shift factors of 400 random sets of isotherms
 #   coverage     how often bands on mu hold the truth, 200 of each kind of measured input; errors of fits
 #   catalogue    every regime in which methods fail
+#   files        mutated files of every kind, commands killed while they write, two writers with equal numbers
+#   interrupts   Ctrl-C in single calls of 1e8 points and of 8192 x 8192 heights; wants 8 GB
+#   fuzz         the reader of friction maps under libFuzzer, ten minutes
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
@@ -32,7 +35,8 @@ ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consume
 
 scenes() {
   "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
-    "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5
+    "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5 &&
+    "$python" tests/stability/random_scenes.py --scenes 40000 --seed 3 --tables 0.1 --edges 1
 }
 
 maps() {
@@ -52,6 +56,15 @@ coverage() {
 
 catalogue() { "$python" tests/stability/catalogue.py; }
 
+files() {
+  "$python" tests/stability/mutated_files.py && "$python" tests/stability/killed.py &&
+    "$python" tests/stability/same_numbers.py
+}
+
+interrupts() { "$python" tests/stability/interrupts.py; }
+
+fuzz() { sh tests/fuzz/run.sh build/fuzz; }
+
 sanitize() { ctests sanitize; }
 
 threads() { ctests threads; }
@@ -69,11 +82,13 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes maps tests properties sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes maps tests properties files interrupts fuzz \
+  sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | isotherms | coverage | scenes | maps | tests | properties | sanitize | threads | memcheck) ;;
-    *) sed -n '2,12s/^# //p' "$0" >&2; exit 2 ;;
+    catalogue | isotherms | coverage | scenes | maps | tests | properties | files | interrupts | fuzz) ;;
+    sanitize | threads | memcheck) ;;
+    *) sed -n '2,15s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,7 +21,6 @@ struct MapRequest {
   double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion
   std::size_t checked = 1'000'000;           // random points on which the finished map is checked
   std::string_view text = "";                // lines for whoever reads the file, UTF-8
-  std::function<void()> watch = {};          // called now and then; what it throws ends the building
 };
 
 /// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in
@@ -35,9 +33,9 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
                                                               const std::optional<Adhesion>& adhesion,
                                                               const MapRequest& request);
 
-/// Points for `look_up`, each column as long as the result, or of one entry for all; `shift` is a_T.
+/// Points for `look_up`, each column as long as the result, or of one entry for all.
 struct MapColumns {
-  std::span<const double> pressure, velocity, shift;
+  std::span<const double> pressure, velocity, a_T;
 };
 
 /// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14. Gives the number of the

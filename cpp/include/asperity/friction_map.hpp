@@ -38,14 +38,14 @@
 //            check that followed
 //    80  u64 number of points of that check; how many were off by more than max_error
 //    96  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
-//   120  u32 1 with hysteresis, 0 without (a rubber that loses nothing); n bands; s nodes of s(x), 0 or from 2 on;
-//            g grids, from n on; e entries; c cells, from 1 on; t bytes of text; 0
+//   120  u32 1 with hysteresis, 0 without (a rubber that loses nothing); n bands, from 1 to 64; s nodes of s(x), 0 or
+//            from 2 on; g grids, from n on; e entries; c cells, from 1 on; t bytes of text; 0
 //   152  f64 n + 1 values of z, rising: where bands begin, and the end
 //        f64 2 s: s(x) and s'(x) at s nodes, equal steps of x from ln v lo to ln v hi; cubic Hermite between them
 //        g x (f64 x, z of a corner; f64 columns per x, rows per z; u32 columns, rows, first entry, 0): grid k < n is
 //            that of band k; each entry is of one grid, in their order
 //        e x i32 row by row, the row the faster index: a cell, or -1 - k for grid k, which comes after the grid it
-//            is in
+//            is in; no more than 64 grids lie one in another
 //        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
 //            8 j + 2 i + 1 for ln A/A0
 //        t   text, lines of UTF-8: what the map was made of
@@ -62,9 +62,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -161,6 +163,7 @@ struct Grid {
 };
 
 constexpr std::size_t cell_size = 34, head_size = 152;
+constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
 
 }  // namespace map_detail
 
@@ -177,7 +180,7 @@ struct FrictionMapInfo {
 
 /// Another temperature than the one that the map was made for.
 struct MapTemperature {
-  double shift = 1;              // a_T: mu_H and A/A0 are those at the velocity a_T v
+  double a_T = 1;                // mu_H and A/A0 are those at the velocity a_T v
   bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
 };
 
@@ -245,6 +248,7 @@ class FrictionMap {
 
   /// From the bytes of a file. False with the reason, and the map as it was, where they are not those of a map.
   bool read(const void* data, std::size_t size, std::string& why);
+  /// From a regular file: devices and pipes, for which one might wait or which do not end, are refused.
   bool load(const char* path, std::string& why);
 
  private:
@@ -282,12 +286,12 @@ class FrictionMap {
   Where where(double pressure, double velocity, Outside outside, const MapTemperature& temperature) const noexcept {
     Where at;
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
-    double shifted = speed * temperature.shift;
+    double shifted = speed * temperature.a_T;
     const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
-    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.shift, at)) return at;
+    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return at;
     const double x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
-    at.ln_v = temperature.shift == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
+    at.ln_v = temperature.a_T == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
     const double z = at.ln_p - log_modulus_offset(x, at.slope);
     at.cell = cell_at(x, z);
     at.dx = x - at.cell[0];
@@ -296,10 +300,10 @@ class FrictionMap {
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
-  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double shift, Where& at) const noexcept {
+  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double a_T, Where& at) const noexcept {
     at.status = Status::not_a_number;
     if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
-        map_detail::bits(shift) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
+        map_detail::bits(a_T) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
       return false;
     at.free_p = map_detail::within(pressure, info_.pressure);
     at.free_v = map_detail::within(shifted, info_.velocity);
@@ -308,7 +312,7 @@ class FrictionMap {
     if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
     if (!at.free_v) {
       shifted = info_.velocity[shifted > info_.velocity[0]];
-      speed = shifted / shift;
+      speed = shifted / a_T;
     }
     return true;
   }
@@ -444,7 +448,8 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   const auto padded = [](std::uint64_t n) { return (n + 7) / 8 * 8; };
   const std::uint64_t needed = map_detail::head_size + 8 * (bands + 1ull) + 16ull * nodes + 48ull * grids +
                                padded(4ull * entries) + 8ull * map_detail::cell_size * cells + padded(text) + 8;
-  good = good && flags < 2 && bands > 0 && nodes != 1 && grids >= bands && entries > 0 && cells > 0 && needed == size;
+  good = good && flags < 2 && bands > 0 && bands <= map_detail::most_bands && nodes != 1 && grids >= bands &&
+         entries > 0 && cells > 0 && needed == size;
   if (!good || in.u32() != 0) return refuse("is damaged: its head contradicts itself");
 
   good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
@@ -472,10 +477,15 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
     good = good && entry < static_cast<std::int64_t>(cells) && -1 - static_cast<std::int64_t>(entry) < grids;
   }
   in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
-  for (std::size_t k = 0; good && k < grids; ++k)  // no grid leads back to itself
-    for (std::size_t i = 0; i < std::size_t{map.grids_[k].columns} * map.grids_[k].rows; ++i)
-      good = good && (map.entries_[map.grids_[k].first + i] >= 0 ||
-                      static_cast<std::size_t>(-1 - map.entries_[map.grids_[k].first + i]) > k);
+  std::vector<std::uint32_t> around(grids);  // how many grids each is in
+  for (std::size_t k = 0; good && k < grids; ++k)
+    for (std::size_t i = 0; good && i < std::size_t{map.grids_[k].columns} * map.grids_[k].rows; ++i) {
+      const std::int32_t entry = map.entries_[map.grids_[k].first + i];
+      if (entry >= 0) continue;
+      const auto inner = static_cast<std::size_t>(-1 - entry);
+      good = inner > k && around[k] + 1 < map_detail::most_nested;  // no grid leads back to itself
+      if (good && around[inner] <= around[k]) around[inner] = around[k] + 1;
+    }
   good = good && in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100);
   for (std::size_t i = 0; good && i < map.cells_.size(); i += map_detail::cell_size)  // powers of offsets stay finite
     good = std::fabs(map.cells_[i]) < 1e4 && std::fabs(map.cells_[i + 1]) < 1e4;
@@ -493,19 +503,25 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
 }
 
 inline bool FrictionMap::load(const char* path, std::string& why) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path, "rb"), &std::fclose);
-  std::vector<unsigned char> bytes;
-  bool whole = false;
-  if (file) {
-    unsigned char block[65536];
-    std::size_t n;
-    while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) bytes.insert(bytes.end(), block, block + n);
-    whole = std::ferror(file.get()) == 0;
-  }
-  if (!whole) {
-    why = std::string(path) + ": cannot be read: " + std::strerror(errno);
+  const auto unreadable = [&](const std::string& reason) {
+    why = std::string(path) + ": cannot be read: " + reason;
     return false;
+  };
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (status.type() == std::filesystem::file_type::not_found || status.type() == std::filesystem::file_type::none)
+    return unreadable(problem ? problem.message() : "no such file");
+  if (!std::filesystem::is_regular_file(status)) return unreadable("is no regular file");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path, "rb"), &std::fclose);
+  if (!file) return unreadable(std::strerror(errno));
+  std::vector<unsigned char> bytes;
+  unsigned char block[65536];
+  std::size_t n;
+  while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) {
+    bytes.insert(bytes.end(), block, block + n);
+    if (bytes.size() >= 8 && std::memcmp(bytes.data(), "ASPERMAP", 8) != 0) break;  // it is no map, however long
   }
+  if (std::ferror(file.get()) != 0) return unreadable(std::strerror(errno));
   if (read(bytes.data(), bytes.size(), why)) return true;
   why = std::string(path) + ": " + why;
   return false;
@@ -535,11 +551,11 @@ void asperity_map_free(asperity_map* map);
 
 /// mu [-] at pressure [Pa], velocity [m/s] and a_T (1: the map's own temperature). Outside of the box NaN, or with
 /// `clamp` other than 0 the value at the nearest point of the box.
-double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp);
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp);
 
 /// `out` receives mu, hysteresis, adhesion, contact area, dmu/dlnp, dmu/dlnv. Returns 0, 1 or 2 where the pressure or
 /// the velocity is outside of the box, 3 where a number is NaN.
-int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]);
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]);
 
 /// Relative error that the map was certified for.
 double asperity_map_max_error(const asperity_map* map);
@@ -571,16 +587,15 @@ asperity_map* asperity_map_load(const char* path, char* why, size_t size) {
 
 void asperity_map_free(asperity_map* map) { delete map; }
 
-double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double shift, int clamp) {
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp) {
   using Outside = asperity::FrictionMap::Outside;
-  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
 }
 
-int asperity_map_at(const asperity_map* map, double pressure, double velocity, double shift, int clamp, double out[6]) {
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]) {
   using Outside = asperity::FrictionMap::Outside;
   asperity::MapPoint point;
-  const auto status =
-      map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {shift, false});
+  const auto status = map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
   const double values[] = {point.mu,           point.hysteresis, point.adhesion,
                            point.contact_area, point.dmu_dlnp,   point.dmu_dlnv};
   for (int i = 0; i < 6; ++i) out[i] = values[i];

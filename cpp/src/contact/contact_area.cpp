@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "asperity/contact.hpp"
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
@@ -46,7 +47,10 @@ std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const dou
 std::vector<AreaG> area_gs(const ContactModel& model, std::span<const Segment> surface,
                            std::span<const double> wavenumber) {
   std::vector<AreaG> result;
-  for (const double q : wavenumber) result.emplace_back(model, surface, q);
+  for (const double q : wavenumber) {
+    heed();
+    result.emplace_back(model, surface, q);
+  }
   return result;
 }
 
@@ -60,6 +64,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
   Solver solver(surface, rubber, model, false, {});
   for (const std::size_t i : by_velocity(velocity)) {
+    heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
     if (shift.state == ContactState::no_contact) {
       for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
@@ -67,7 +72,10 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
     }
     at_point(pressure[i], velocity[i], [&] {
       solver.solve(pressure[i], velocity[i], shift.p);
-      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, solver.g(wavenumber[j]), shift);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+        heed_at(j);
+        visit(i, j, solver.g(wavenumber[j]), shift);
+      }
     });
   }
 }
@@ -98,10 +106,10 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   }
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
-  Worth worth_of(surface, model.form, q1);
+  ValidityRange validity(surface, model.form, q1);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
           });
   return notes.texts();
 }

@@ -58,6 +58,21 @@ std::optional<FrequencyRange> fitted_velocities(const Spectrum& spectrum, const 
 
 }  // namespace
 
+ValidityRange::ValidityRange(std::span<const Segment> surface, Form form, double wavenumber)
+    : surface_(surface), form_(form), wavenumber_(wavenumber) {}
+
+// With one modulus G = 1 / (8 p*^2); where the modulus varies this defines the load.
+ValidityFlags ValidityRange::operator()(double g, double p) {
+  const double uncorrected = g * p * p;
+  ValidityFlags result;
+  result.light = 8 * uncorrected * lowest_measured_load * lowest_measured_load > 1 + 1e-9;
+  if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return result;
+  if (!best_) best_.emplace(nayak_s(nayak_parameter(surface_, wavenumber_)), form_);
+  const double best = contact_share((*best_)(uncorrected), form_);
+  result.worse = std::fabs(contact_share(g, form_) - best) > std::fabs(contact_share(uncorrected, form_) - best);
+  return result;
+}
+
 Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
       corrected_(!std::holds_alternative<NoCorrection>(correction)),
@@ -67,7 +82,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
-void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const MeasuredWorth& worth) {
+void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags) {
   fast_ |= velocity > flash_velocity;
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
@@ -76,8 +91,8 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
   constexpr double rounding = 1e-12;
   beyond_fit_ |=
       fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
-  worse_ |= worth.worse;
-  light_ |= corrected_ && worth.light;
+  worse_ |= flags.worse;
+  light_ |= corrected_ && flags.light;
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.

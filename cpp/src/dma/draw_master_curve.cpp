@@ -1,7 +1,7 @@
-// A build drawn from its errors: log10 a_T from its normal distribution, the smoothness from what isotherms leave open
-// of it, then the coefficients of the spline about the
-// points moved there from theirs, N(c, s^2 (B^T B + P)^-1) (G. Wahba, J. R. Stat. Soc. B 45, 133 (1983)), the noise s
-// larger where the residuals are correlated. Nothing is searched for.
+// A build drawn from its errors: log10 a_T from its normal distribution, the smoothness from the range that the
+// isotherms leave open, then the coefficients of the spline about the points moved there from theirs,
+// N(c, s^2 (B^T B + P)^-1) (G. Wahba, J. R. Stat. Soc. B 45, 133 (1983)), the noise s larger where the residuals are
+// correlated. Nothing is searched for.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +9,7 @@
 #include "dma/master_spline.hpp"
 #include "numerics/interpolation.hpp"
 #include "numerics/random.hpp"
+#include "numerics/symmetric_matrix.hpp"
 
 namespace asperity {
 
@@ -41,11 +42,10 @@ std::vector<double> white(Random& random, std::size_t count) {
 /// Normal of mean 0 and of the covariance, which may be singular.
 Eigen::VectorXd drawn_shifts(const std::vector<double>& covariance, std::size_t n, Random& random) {
   const auto size = static_cast<Eigen::Index>(n);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(
-      Eigen::Map<const Eigen::MatrixXd>(covariance.data(), size, size));
+  const PrincipalAxes axes = principal_axes(Eigen::Map<const Eigen::MatrixXd>(covariance.data(), size, size));
   const std::vector<double> along = white(random, n);
-  const Eigen::VectorXd deviation = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
-  return axes.eigenvectors() * deviation.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(along.data(), size));
+  const Eigen::VectorXd deviation = axes.values.cwiseMax(0).cwiseSqrt();
+  return axes.vectors * deviation.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(along.data(), size));
 }
 
 }  // namespace

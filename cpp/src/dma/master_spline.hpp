@@ -1,7 +1,7 @@
 // A master curve as two penalised splines that isotherms share, and how far its coefficients are known.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <vector>

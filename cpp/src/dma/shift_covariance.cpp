@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dma/time_temperature_shift.hpp"
+#include "numerics/symmetric_matrix.hpp"
 
 namespace asperity {
 
@@ -56,12 +57,11 @@ Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fi
   const auto steps = static_cast<Eigen::Index>(shift.size()) - 1;
   likelihood.weight = fit.weight;
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> curvature(hessian(likelihood, fit));
+  const PrincipalAxes curvature = principal_axes(hessian(likelihood, fit));
   // the prior alone has the curvature 1 / spread^2 or more; less is rounding
   const Eigen::VectorXd variance =
-      curvature.eigenvalues().cwiseMax(1 / (RatePrior::spread * RatePrior::spread)).cwiseInverse();
-  const Eigen::MatrixXd inverse =
-      curvature.eigenvectors() * variance.asDiagonal() * curvature.eigenvectors().transpose();
+      curvature.values.cwiseMax(1 / (RatePrior::spread * RatePrior::spread)).cwiseInverse();
+  const Eigen::MatrixXd inverse = congruence(curvature.vectors, variance.asDiagonal());
 
   // of the steps: d step = step d ln rate; where the data reach farther, as much wider
   Eigen::VectorXd scale(steps);
@@ -82,7 +82,7 @@ Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fi
   const auto reference = static_cast<Eigen::Index>(fixed);
   for (Eigen::Index i = 0; i <= steps; ++i)
     for (Eigen::Index k = std::min(i, reference); k < std::max(i, reference); ++k) sum(i, k) = i > reference ? -1 : 1;
-  return sum * of_steps * sum.transpose();
+  return congruence(sum, of_steps);
 }
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // Shift factors over temperature, and the laws through them: WLF (M. L. Williams, R. F. Landel, J. D. Ferry, J. Am.
 // Chem. Soc. 77, 3701 (1955)) and Arrhenius.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +9,9 @@
 #include "asperity/dma.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/least_squares.hpp"
 #include "numerics/roots.hpp"
+#include "numerics/symmetric_matrix.hpp"
 
 namespace asperity {
 
@@ -33,7 +34,7 @@ Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftT
   Eigen::MatrixXd less = Eigen::MatrixXd::Identity(n, n);
   less.col(k).array() -= 1 - share;
   less.col(k + 1).array() -= share;
-  return less * Eigen::Map<const Eigen::MatrixXd>(covariance.data(), n, n) * less.transpose();
+  return congruence(less, Eigen::Map<const Eigen::MatrixXd>(covariance.data(), n, n));
 }
 
 /// The covariance of least-squares parameters, G C G^T, G = (J^T J)^-1 J^T, J the slopes of the law in them. C is
@@ -41,7 +42,10 @@ Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftT
 /// G) C (I - J G)^T), as much larger.
 Eigen::MatrixXd parameter_covariance(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left,
                                      std::span<const double> covariance, const ShiftTable& shifts) {
-  const Eigen::MatrixXd inverse = (slopes.transpose() * slopes).inverse();
+  const std::vector<double> equal(static_cast<std::size_t>(slopes.rows()), 1.0);
+  const std::vector<double> inverse_entries =
+      inverse_normal({slopes.data(), static_cast<std::size_t>(slopes.size())}, equal);
+  const Eigen::Map<const Eigen::MatrixXd> inverse(inverse_entries.data(), slopes.cols(), slopes.cols());
   const double sum = left.squaredNorm();
   if (std::ranges::all_of(covariance, [](double c) { return c == 0; })) {  // none, or a_T was given
     const bool given = std::ranges::find(shifts.temperature(), shifts.reference()) != shifts.temperature().end();
@@ -53,9 +57,9 @@ Eigen::MatrixXd parameter_covariance(const Eigen::MatrixXd& slopes, const Eigen:
   const Eigen::MatrixXd of_rows = about_reference(covariance, shifts);
   const Eigen::MatrixXd onto = inverse * slopes.transpose();
   const Eigen::MatrixXd off = Eigen::MatrixXd::Identity(left.size(), left.size()) - slopes * onto;
-  const double expected = (off * of_rows * off.transpose()).trace();
+  const double expected = congruence(off, of_rows).trace();
   const double excess = expected > 0 ? std::max(1.0, sum / expected) : 1;
-  return excess * onto * of_rows * onto.transpose();
+  return excess * congruence(onto, of_rows);
 }
 
 }  // namespace

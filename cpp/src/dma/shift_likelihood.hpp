@@ -1,7 +1,7 @@
 // How likely the shifts of isotherms are: each modulus one penalised spline, whatever its shape.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <span>

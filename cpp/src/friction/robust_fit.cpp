@@ -193,7 +193,7 @@ bool Fit::descend(Vector3d& at, double cut, double& damping) const {
     Matrix3d damped = normal;
     for (Index k = 0; k < 3; ++k)
       damped(k, k) = held_[static_cast<std::size_t>(k)] ? 1 : normal(k, k) * (1 + damping) + 1e-300;
-    const Vector3d step(solve_symmetric(entries(damped), std::span<const double, 3>(gradient.data(), 3)).data());
+    const Vector3d step = Matrix3d(inverse(entries(damped)).data()) * gradient;
     if (!(total(at + step, cut) < value)) continue;
     at += step;
     damping = std::max(1e-12, damping / 10);

@@ -6,6 +6,7 @@
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
 #include "asperity/version.hpp"
+#include "asperity/watch.hpp"
 #include "friction_map/format.hpp"
 #include "friction_map/refine.hpp"
 #include "numerics/arguments.hpp"
@@ -64,7 +65,7 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
   std::vector<MapPlace> places;
   std::vector<double> errors;
   for (std::size_t done = 0; done < request.checked; done += places.size()) {
-    if (request.watch) request.watch();
+    heed();
     places.resize(std::min(block * parts, request.checked - done));
     errors.resize(places.size());
     double x = 0;
@@ -105,7 +106,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   whole.text = text;
 
   const MapFrame frame(spectrum, rubber, model, request);
-  const RefinedMap refined = refine(frame, request.rtol, request.watch);
+  const RefinedMap refined = refine(frame, request.rtol);
   MapCertificate certificate{.max_error = refined.max_error};
   std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
   if (request.checked == 0) return file;

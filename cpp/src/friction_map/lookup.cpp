@@ -5,6 +5,7 @@
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/simd.hpp"
 
@@ -13,7 +14,7 @@ namespace asperity {
 namespace {
 
 struct MapLoops {
-  bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* shift,
+  bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* a_T,
                   std::size_t n, double* speed, double* shifted);
   void (*logarithms)(const double* x, double* ln, std::size_t n);
   void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
@@ -56,12 +57,12 @@ class FrictionMapBatch {
   std::size_t mu(const MapColumns& points, std::size_t begin, std::size_t n, double* mu) {
     const double* const pressure = column(points.pressure, begin, n, pressure_);
     const double* const velocity = column(points.velocity, begin, n, velocity_);
-    const double* const shift = column(points.shift, begin, n, shift_);
-    const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, shift, n, speed_, x_);
+    const double* const a_T = column(points.a_T, begin, n, a_T_);
+    const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, a_T, n, speed_, x_);
     if (!within) {  // rare: one by one
       std::size_t good = n;
       for (std::size_t i = n; i-- > 0;) {
-        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {shift[i], shifts_adhesion_});
+        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {a_T[i], shifts_adhesion_});
         if (std::isnan(mu[i])) good = i;
       }
       return good;
@@ -75,7 +76,7 @@ class FrictionMapBatch {
       std::fill_n(mu, n, 0.0);
     }
     if (map_.info_.shear_stress == 0) return n;
-    const bool unshifted = shifts_adhesion_ || (points.shift.size() == 1 && points.shift[0] == 1);
+    const bool unshifted = shifts_adhesion_ || (points.a_T.size() == 1 && points.a_T[0] == 1);
     if (!unshifted) loops_.logarithms(speed_, speed_, n);
     loops_.add_adhesion(a_, ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n,
                         mu);
@@ -109,19 +110,20 @@ class FrictionMapBatch {
   FrictionMap::Outside outside_;
   bool shifts_adhesion_;
   const MapLoops& loops_;
-  double pressure_[block], velocity_[block], shift_[block];
+  double pressure_[block], velocity_[block], a_T_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
   std::int32_t cell_[block];
 };
 
 std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
                     bool shifts_adhesion, std::span<double> mu) {
-  for (const auto& [name, column] : {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity},
-                                     std::pair{"shift", points.shift}})
+  for (const auto& [name, column] :
+       {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity}, std::pair{"a_T", points.a_T}})
     if (column.size() != 1) require_same_size(name, column.size(), "mu", mu.size());
   FrictionMapBatch batch(map, outside, shifts_adhesion);
   std::size_t first_bad = mu.size();
   for (std::size_t i = 0; i < mu.size(); i += block) {
+    heed();
     const std::size_t n = std::min(block, mu.size() - i), good = batch.mu(points, i, n, &mu[i]);
     if (good < n) first_bad = std::min(first_bad, i + good);
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -19,8 +20,7 @@ constexpr double lattice_share = 0.45;  // of rtol, allowed on lattices: between
 
 class Builder {
  public:
-  Builder(const MapFrame& frame, double rtol, const std::function<void()>& watch)
-      : frame_(frame), rtol_(rtol), watch_(watch), tree_(frame.x(), frame.cuts()) {}
+  Builder(const MapFrame& frame, double rtol) : frame_(frame), rtol_(rtol), tree_(frame.x(), frame.cuts()) {}
 
   /// Halves cells until lattices and unseen points agree; returns twice the largest error of both.
   double refine() {
@@ -75,7 +75,7 @@ class Builder {
     constexpr std::size_t block = 5000;
     std::vector<MapSample> found;
     for (std::size_t i = 0; i < places.size(); i += block) {
-      if (watch_) watch_();
+      heed();
       const std::vector<MapSample> part = frame_.sample(places.subspan(i, std::min(block, places.size() - i)));
       found.insert(found.end(), part.begin(), part.end());
     }
@@ -261,7 +261,6 @@ class Builder {
 
   const MapFrame& frame_;
   double rtol_;
-  const std::function<void()>& watch_;
   MapTree tree_;
   std::unordered_map<std::uint64_t, MapSample> lattice_;
   std::unordered_map<std::uint64_t, MapCorner> corners_;
@@ -270,8 +269,8 @@ class Builder {
 
 }  // namespace
 
-RefinedMap refine(const MapFrame& frame, double rtol, const std::function<void()>& watch) {
-  Builder builder(frame, rtol, watch);
+RefinedMap refine(const MapFrame& frame, double rtol) {
+  Builder builder(frame, rtol);
   const double max_error = builder.refine();
   return {std::move(builder).tree(), max_error};
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <random>
 
 #include "friction_map/cells.hpp"
@@ -25,6 +24,6 @@ struct RefinedMap {
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed.
-RefinedMap refine(const MapFrame& frame, double rtol, const std::function<void()>& watch);
+RefinedMap refine(const MapFrame& frame, double rtol);
 
 }  // namespace asperity

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -100,6 +101,7 @@ Integral kronrod(const Callback& f, double lower, double upper) {
 }
 
 Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule) {
+  heed();
   silence_private_gsl();
   const Untrapped here;
   Integral result{};

@@ -4,6 +4,7 @@
 
 #include <fftw3.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include <sys/mman.h>
 #endif
 
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/simd.hpp"
 
@@ -39,8 +41,8 @@ struct Fftw<double> {
   using Complex = fftw_complex;
   using Plan = fftw_plan;
   static Plan real(int n, double* in, Complex* out, unsigned flags) { return fftw_plan_dft_r2c_1d(n, in, out, flags); }
-  static Plan many(int n, int count, int distance, Complex* in, Complex* out, unsigned flags) {
-    return fftw_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, FFTW_FORWARD, flags);
+  static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
+    return fftw_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
   }
   static void run(Plan p, double* in, Complex* out) { fftw_execute_dft_r2c(p, in, out); }
   static void run(Plan p, Complex* in, Complex* out) { fftw_execute_dft(p, in, out); }
@@ -52,8 +54,8 @@ struct Fftw<float> {
   using Complex = fftwf_complex;
   using Plan = fftwf_plan;
   static Plan real(int n, float* in, Complex* out, unsigned flags) { return fftwf_plan_dft_r2c_1d(n, in, out, flags); }
-  static Plan many(int n, int count, int distance, Complex* in, Complex* out, unsigned flags) {
-    return fftwf_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, FFTW_FORWARD, flags);
+  static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
+    return fftwf_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
   }
   static void run(Plan p, float* in, Complex* out) { fftwf_execute_dft_r2c(p, in, out); }
   static void run(Plan p, Complex* in, Complex* out) { fftwf_execute_dft(p, in, out); }
@@ -163,7 +165,7 @@ RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
     auto* const pairs = reinterpret_cast<std::complex<T>*>(in.data());
     plan_ = planned<Fftw<T>>([&] {
       const int half = side(n / 2);
-      return Fftw<T>::many(half, 1, half, raw(pairs), raw(out.data()), flags);
+      return Fftw<T>::many(half, 1, half, raw(pairs), raw(out.data()), FFTW_FORWARD, flags);
     });
   } else {
     plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real(side(n), in.data(), raw(out.data()), flags); });
@@ -217,10 +219,11 @@ void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
 }
 
 template <class T>
-ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::size_t distance) {
+ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction) {
   const Scratch<std::complex<T>> in(distance * count), out(distance * count);
   plan_ = planned<Fftw<T>>([&] {
     return Fftw<T>::many(side(n), side(count), side(distance), raw(in.data()), raw(out.data()),
+                         direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD,
                          FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   });
 }
@@ -239,21 +242,63 @@ template class RealTransform<double>;
 template class ComplexTransform<float>;
 template class ComplexTransform<double>;
 
+namespace {
+
+/// Transforms of the columns of a grid of modes, in place, a few at a time: in one call for a large grid, which takes
+/// seconds, no watch could be heeded.
+void transform_columns(std::vector<std::complex<double>>& modes, Grid shape, Direction direction) {
+  const std::size_t ny = shape[0], half = shape[1] / 2 + 1;
+  constexpr std::size_t together = 8;  // two cache lines of each row
+  // columns behind each other in memory, a cache line apart from a power of two
+  const std::size_t length = Scratch<std::complex<double>>::aligned(ny) + 8;
+  const ComplexTransform<double> along_columns(ny, together, length, direction);
+  const Scratch<std::complex<double>> in(length * together), out(length * together);
+  std::fill_n(in.data(), length * together, std::complex<double>());
+  for (std::size_t first = 0; first < half; first += together) {
+    heed();
+    const std::size_t columns = std::min(together, half - first);
+    for (std::size_t y = 0; y < ny; ++y)
+      for (std::size_t k = 0; k < columns; ++k) in.data()[k * length + y] = modes[y * half + first + k];
+    along_columns(in.data(), out.data());
+    for (std::size_t y = 0; y < ny; ++y)
+      for (std::size_t k = 0; k < columns; ++k) modes[y * half + first + k] = out.data()[k * length + y];
+  }
+}
+
+}  // namespace
+
 std::vector<double> backward_transform(std::vector<std::complex<double>>& modes, Grid shape) {
-  std::vector<double> heights(shape[0] * shape[1]);
-  const auto plan = planned<Fftw<double>>([&] {
-    return fftw_plan_dft_c2r_2d(side(shape[0]), side(shape[1]), raw(modes.data()), heights.data(), FFTW_ESTIMATE);
-  });
-  fftw_execute(static_cast<fftw_plan>(plan.get()));
+  const auto [ny, nx] = shape;
+  const std::size_t half = nx / 2 + 1;
+  transform_columns(modes, shape, Direction::backward);
+  std::vector<double> heights(ny * nx);
+  const Scratch<std::complex<double>> in(half);
+  const Scratch<double> out(nx);
+  const auto along_row = planned<Fftw<double>>(
+      [&] { return fftw_plan_dft_c2r_1d(side(nx), raw(in.data()), out.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT); });
+  for (std::size_t y = 0; y < ny; ++y) {
+    heed();
+    std::copy_n(modes.data() + y * half, half, in.data());
+    fftw_execute(static_cast<fftw_plan>(along_row.get()));
+    std::copy_n(out.data(), nx, heights.data() + y * nx);
+  }
   return heights;
 }
 
-std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape) {
-  std::vector<std::complex<double>> modes(shape[0] * (shape[1] / 2 + 1));
-  const auto plan = planned<Fftw<double>>([&] {
-    return fftw_plan_dft_r2c_2d(side(shape[0]), side(shape[1]), heights.data(), raw(modes.data()), FFTW_ESTIMATE);
-  });
-  fftw_execute(static_cast<fftw_plan>(plan.get()));
+std::vector<std::complex<double>> forward_transform(const std::vector<double>& heights, Grid shape) {
+  const auto [ny, nx] = shape;
+  const std::size_t half = nx / 2 + 1;
+  std::vector<std::complex<double>> modes(ny * half);
+  const RealTransform<double> along_row(nx);
+  const Scratch<double> in(nx);
+  const Scratch<std::complex<double>> out(half);
+  for (std::size_t y = 0; y < ny; ++y) {
+    heed();
+    std::copy_n(heights.data() + y * nx, nx, in.data());
+    along_row(in.data(), out.data());
+    std::copy_n(out.data(), half, modes.data() + y * half);
+  }
+  transform_columns(modes, shape, Direction::forward);
   return modes;
 }
 

@@ -45,10 +45,12 @@ class RealTransform {  // n real numbers to n / 2 + 1 modes; the input is overwr
   std::vector<std::complex<T>> twiddles_;  // where it goes by a complex transform of half the length
 };
 
+enum class Direction { forward, backward };
+
 template <class T>
 class ComplexTransform {  // `count` transforms at once, `distance` from one to the next; the input is overwritten
  public:
-  ComplexTransform(std::size_t n, std::size_t count, std::size_t distance);
+  ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction = Direction::forward);
   void operator()(std::complex<T>* in, std::complex<T>* out) const;
 
  private:
@@ -59,7 +61,7 @@ class ComplexTransform {  // `count` transforms at once, `distance` from one to 
 /// overwritten.
 std::vector<double> backward_transform(std::vector<std::complex<double>>& modes, Grid shape);
 
-/// The ny x (nx / 2 + 1) modes sum h exp(-i (..)) of a real grid, which is overwritten.
-std::vector<std::complex<double>> forward_transform(std::vector<double>& heights, Grid shape);
+/// The ny x (nx / 2 + 1) modes sum h exp(-i (..)) of a real grid.
+std::vector<std::complex<double>> forward_transform(const std::vector<double>& heights, Grid shape);
 
 }  // namespace asperity

@@ -1,15 +1,15 @@
-// Every decomposition that the project takes from Eigen: A P = Q R with pivoted columns, its complete orthogonal form,
-// L D L^T; and the active set method for unknowns that are not negative (C. L. Lawson and R. J. Hanson, Solving Least
+// Every decomposition that the project takes from Eigen: A P = Q R with pivoted columns and its complete orthogonal
+// form; and the active set method for unknowns that are not negative (C. L. Lawson and R. J. Hanson, Solving Least
 // Squares Problems (1974), chapter 23), whose every step is such a decomposition.
 #include "numerics/least_squares.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <limits>
 #include <vector>
 
 #include "asperity/errors.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/nnls.hpp"
 
@@ -21,7 +21,6 @@ using Eigen::Index;
 using Eigen::Map;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
-using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The first `count` reflections of Q^T on c. This and what follows is Eigen's own solve(), spelt out: that takes twice
@@ -108,12 +107,6 @@ std::vector<double> inverse_normal(std::span<const double> jacobian, std::span<c
   return columns(normal);
 }
 
-std::array<double, 3> solve_symmetric(std::span<const double, 9> a, std::span<const double, 3> b) {
-  const Matrix3d matrix = Map<const Matrix3d>(a.data());
-  const Vector3d right = Map<const Vector3d>(b.data()), x = matrix.ldlt().solve(right);
-  return {x[0], x[1], x[2]};
-}
-
 std::array<double, 9> inverse(std::span<const double, 9> a) {
   std::array<double, 9> result;
   Map<Matrix3d>(result.data()) = Matrix3d(Matrix3d(Map<const Matrix3d>(a.data())).inverse());
@@ -131,10 +124,12 @@ VectorXd nnls(const MatrixXd& original, const VectorXd& right) {
   MatrixXd a(original.rows(), n + 1);
   a.leftCols(n) = original * norm.cwiseInverse().asDiagonal();
   a.col(n) = right;
-  // |A x - b| = |R (x; -1)| with [A b] = Q R: Q is not needed, and all that follows is as small as R.
+  // |A x - b| = |R P^T (x; -1)| with [A b] P = Q R: Q is not needed, and all that follows is as small as R.
   if (a.rows() > n + 1) {
-    const Eigen::HouseholderQR<MatrixXd> qr(a);
-    a = MatrixXd(qr.matrixQR().topRows(n + 1).triangularView<Eigen::Upper>());
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
+    const MatrixXd r = qr.matrixQR().topRows(n + 1).triangularView<Eigen::Upper>();
+    a.resize(n + 1, n + 1);
+    for (Index k = 0; k <= n; ++k) a.col(qr.colsPermutation().indices()[k]) = r.col(k);
   }
   const VectorXd b = a.col(n);
   a.conservativeResize(Eigen::NoChange, n);
@@ -145,6 +140,7 @@ VectorXd nnls(const MatrixXd& original, const VectorXd& right) {
   std::vector<bool> out(static_cast<std::size_t>(n), true);  // neither passive nor refused since x last changed
   const Index limit = 30 * n + 100;
   for (Index step = 0; step < limit; ++step) {
+    heed();
     const VectorXd gradient = a.transpose() * (b - a * x);
     Index enters = -1;
     for (Index k = 0; k < n; ++k)

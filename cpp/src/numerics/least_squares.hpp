@@ -16,9 +16,6 @@ std::vector<double> shortest_solution(std::span<const double> a, std::span<const
 /// The pseudo-inverse of J^T W J, `weight` being the diagonal of W and as long as each column of J.
 std::vector<double> inverse_normal(std::span<const double> jacobian, std::span<const double> weight);
 
-/// A x = b for a symmetric 3 x 3 matrix, by L D L^T.
-std::array<double, 3> solve_symmetric(std::span<const double, 9> a, std::span<const double, 3> b);
-
 /// The inverse of a 3 x 3 matrix, by its cofactors.
 std::array<double, 9> inverse(std::span<const double, 9> a);
 

@@ -1,9 +1,11 @@
 // The least value of a smooth function of a few variables.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "asperity/watch.hpp"
 
 namespace asperity {
 
@@ -18,6 +20,7 @@ double minimize(F&& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse, double gain
   bool fresh = inverse.size() == 0;
   if (fresh) inverse = Eigen::MatrixXd::Identity(n, n);
   for (int step = 0; step < most_steps; ++step) {
+    heed();
     Eigen::VectorXd way = -(inverse * gradient);
     double slope = way.dot(gradient);
     if (!(slope < 0)) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
@@ -28,6 +29,7 @@ std::vector<double> line_density(const Spectrum& spectrum, std::span<const doubl
   const std::vector<Segment> pieces = segments(spectrum);
   std::vector<double> result;
   for (const double q : wavenumber) {
+    heed();
     require_positive("wavenumber", q);
     double sum = 0;
     for (const Segment& s : pieces) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
@@ -22,6 +23,7 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
   constexpr double negligible = 1e-10;
   std::vector<double> result;
   for (const double r : distance) {
+    heed();
     require_not_negative("distance", r);
     double sum = 0;
     std::size_t steps = 0;
@@ -31,6 +33,7 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
         if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero) break;
         double next = q * std::numbers::e;
         if (r > 0) next = std::min(next, q + 2 * pi / r);
+        heed_at(steps);
         if (++steps > 1'000'000)
           throw NotConverged("distance = " + show(r) + ": the spectrum up to " + show(s.b) +
                              " 1/m makes more than 10^6 oscillations, of which the sum is below rounding");

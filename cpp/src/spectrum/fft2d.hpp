@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/watch.hpp"
 #include "numerics/fft.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/simd.hpp"
@@ -38,6 +39,7 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
     const Scratch<std::complex<T>> modes(pitch);
     RowReader<T> read(map);
     for (std::size_t y = begin; y < end; ++y) {
+      heed();
       const T* const heights = read(y);
       const T wy = static_cast<T>(prepared.wy[y]);
       if (prepared.trend)
@@ -63,6 +65,7 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
     const Scratch<std::complex<T>> in(length * together), out(length * together);
     std::fill_n(in.data(), length * together, std::complex<T>());
     for (std::size_t block = begin; block < end; ++block) {
+      heed();
       const std::size_t first = block * together, columns = std::min(together, half - first);
       const std::complex<T>* from = plane.data() + first;
       for (std::size_t y = 0; y < ny; ++y, from += pitch) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/fft.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/window.hpp"
@@ -40,6 +41,7 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   const Scratch<std::complex<double>> modes(n / 2 + 1);
   std::vector<double> power(n / 2 + 1), square(n / 2 + 1);
   for (std::size_t y = 0; y < rows; ++y) {
+    heed();
     const HeightMap row = row_of(map, y);
     row.read_row(0, heights.data());
     if (detrend) Trend(row, *detrend).subtract(0, heights.data(), heights.data());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asperity/spectrum.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
 #include "numerics/visit.hpp"
@@ -118,6 +119,7 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
   std::vector<double> result;
   result.reserve(wavenumber.size());
   for (const double q : wavenumber) {
+    heed_at(result.size());
     require_positive("wavenumber", q);
     if (q < q0 || q > q1) {
       if (measured)

@@ -66,6 +66,12 @@ class Rings {
     longest_ = std::max(side_y_, side_x_);
     for (std::size_t k = 0; k <= shape[0] / 2; ++k) squared_radius_.push_back(std::pow(radius(k, side_y_), 2));
     const double corner = std::sqrt(std::pow(radius(shape[1] / 2, side_x_), 2) + squared_radius_.back());
+    const double modes = static_cast<double>(shape[0]) * static_cast<double>(shape[1] / 2 + 1);
+    if (!(corner <= most_rings || corner <= modes))  // of more rings than modes most are empty
+      throw InvalidInput("pixel_size = (" + show(pixel[0]) + ", " + show(pixel[1]) + "): its aspect of " +
+                         show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " + show(corner, 3) +
+                         " rings of wavenumbers for the " + show(modes) + " modes of this map: must be at most " +
+                         show(most_rings));
     count_ = static_cast<std::size_t>(corner + 0.5) + 1;
   }
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -123,6 +129,8 @@ class Rings {
   static double norm(std::complex<T> z) {
     return static_cast<double>(z.real()) * z.real() + static_cast<double>(z.imag()) * z.imag();
   }
+
+  static constexpr double most_rings = 1e6;
 
   /// |q| / dq of the k-th mode along a side.
   [[nodiscard]] double radius(std::size_t k, double side) const { return static_cast<double>(k) * longest_ / side; }

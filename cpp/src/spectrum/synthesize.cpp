@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "asperity/spectrum.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
 #include "numerics/random.hpp"
@@ -27,7 +28,8 @@ struct Modes {
   template <class Set>
   void fill(Set set) {
     const auto [ny, nx] = shape;
-    for (std::size_t ky = 0; ky < ny; ++ky)
+    for (std::size_t ky = 0; ky < ny; ++ky) {
+      heed();
       for (std::size_t kx = 0; kx < half(); ++kx) {
         const bool own_column = kx == 0 || 2 * kx == nx;
         const std::size_t mirror = (ny - ky) % ny;
@@ -35,6 +37,7 @@ struct Modes {
         if (own_column && mirror < ky) value = std::conj(values[mirror * half() + kx]);
         values[ky * half() + kx] = value;
       }
+    }
   }
   [[nodiscard]] std::vector<double> heights() const {
     auto modes = values;
@@ -53,6 +56,7 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
   std::vector<double> result(ny * half);
   bool any = false;
   for (std::size_t ky = 0; ky < ny; ++ky) {
+    heed();
     const double qy = 2 * pi / ly * static_cast<double>(std::min(ky, ny - ky));
     for (std::size_t kx = 0; kx < half; ++kx) {
       const double q = std::hypot(qy, 2 * pi / lx * static_cast<double>(kx));
@@ -94,6 +98,7 @@ std::vector<double> bent(const std::vector<double>& z, const Moments& of_z, doub
                          const std::vector<double>& amplitude, HeightMap::Shape shape) {
   std::vector<double> heights(z.size());
   for (std::size_t i = 0; i < z.size(); ++i) {
+    heed_at(i);
     const double t = 1 + s / 6 * ((z[i] - of_z.mean) / of_z.rms - s / 6);
     heights[i] = (s < 0 ? -1 : 1) * std::pow(std::fmax(t, 0), 3);
   }

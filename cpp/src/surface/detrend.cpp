@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asperity/watch.hpp"
 #include "numerics/least_squares.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/simd.hpp"
@@ -117,6 +118,7 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
           RowReader<T> read(map);
           RowSums sums = full;
           for (std::size_t y = begin; y < end; ++y) {
+            heed();
             if (complete)
               curved ? add_heights<true>(sums, read(y), u_.data(), u_.size(), anchor_)
                      : add_heights<false>(sums, read(y), u_.data(), u_.size(), anchor_);

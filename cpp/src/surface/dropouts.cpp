@@ -8,6 +8,7 @@
 #include <string>
 
 #include "asperity/surface.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "surface/rows.hpp"
 
@@ -142,13 +143,16 @@ class Filler {
   /// neither the row nor the column has both neighbours. True where anything was filled.
   bool pass_along_lines() {
     steps_.assign(static_cast<std::size_t>(nx_ + 2 * ny_), {});
-    for (Hole& hole : holes_)
+    for (Hole& hole : holes_) {
+      heed_at(static_cast<std::size_t>(hole.x + hole.y));
       for (std::size_t d = 0; d < directions.size(); ++d) hole.back[d] = count_steps(hole, d, -1);
+    }
     steps_.assign(static_cast<std::size_t>(nx_ + 2 * ny_), {});
     const double diagonal = std::hypot(aspect_, 1);
     const std::array<double, 4> spacing{1, aspect_, diagonal, diagonal};  // in units of dx: no unit of length matters
     for (auto p = holes_.rbegin(); p != holes_.rend(); ++p) {
       Hole& hole = *p;
+      heed_at(static_cast<std::size_t>(hole.x + hole.y));
       double sum = 0, weights = 0;
       bool isolated = false;
       for (std::size_t d = 0; d < directions.size(); ++d) {
@@ -181,6 +185,7 @@ class Filler {
       if (dy != 0 && dx != 0) steps.push_back({dy / divisor, dx / divisor});
     }
     for (Hole& hole : holes_) {
+      heed();
       double shortest = std::numeric_limits<double>::infinity();
       hole.height = std::numeric_limits<double>::quiet_NaN();
       for (const Point& step : steps) {
@@ -204,7 +209,8 @@ class Filler {
 
   /// All holes that are left in the hull of few and scattered points: linear on the triangles from its first corner.
   void fill_on_triangles() {
-    for (Hole& hole : holes_)
+    for (Hole& hole : holes_) {
+      heed();
       for (std::size_t i = 1; i + 1 < hull_.size(); ++i) {
         const Point &a = hull_[0], &b = hull_[i], &c = hull_[i + 1], p{hole.y, hole.x};
         const Index in_a = side(b, c, p), in_b = side(c, a, p), in_c = side(a, b, p);
@@ -213,6 +219,7 @@ class Filler {
         hole.height = share(in_a) * z(a) + share(in_b) * z(b) + share(in_c) * z(c);
         break;
       }
+    }
     put_heights();
   }
 
@@ -232,6 +239,7 @@ class Filler {
       }
     }
     for (auto p = outside_.begin(); p != outside_.end();) {
+      heed();
       const Index y = (*p)[0];
       const std::vector<Nearest> lowest = envelope(y, columns);
       for (auto i = lowest.begin(); p != outside_.end() && (*p)[0] == y; ++p) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/surface.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "surface/detrend.hpp"
 #include "surface/rows.hpp"
@@ -142,6 +143,7 @@ double HeightMap::rms_slope() const {
   };
   across(here);
   for (std::size_t y = 1; y + 1 < ny; ++y) {
+    heed();
     std::swap(before, here);
     std::swap(here, after);
     read_row(y + 1, after.data());

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "asperity/surface.hpp"
+#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -31,9 +32,12 @@ class MaximumFinder {
 
   std::vector<Peak> find() {
     std::vector<Peak> peaks;
-    for (Index y = 0; y < ny_; ++y)
-      for (Index x = 0; x < nx_; ++x)
+    for (Index y = 0; y < ny_; ++y) {
+      for (Index x = 0; x < nx_; ++x) {
+        heed_at(static_cast<std::size_t>(x));
         if (!seen_[at(y, x)] && is_maximum(y, x)) peaks.push_back({z_[at(y, x)], y, x});
+      }
+    }
     return peaks;
   }
 
@@ -73,6 +77,7 @@ class MaximumFinder {
     while (!plateau.empty()) {
       const auto [yy, xx] = plateau.back();
       plateau.pop_back();
+      heed_at(size);
       if (seen_[at(yy, xx)]) continue;
       seen_[at(yy, xx)] = true;
       ++size;
@@ -155,8 +160,10 @@ std::vector<double> HeightMap::local_peaks(double min_distance, bool periodic) c
   std::ranges::stable_sort(peaks, std::greater{}, &Peak::height);
   Neighbourhood taken(shape_, pixel_size_, min_distance, periodic);
   std::vector<double> heights;
-  for (const Peak& peak : peaks)
+  for (const Peak& peak : peaks) {
+    heed();
     if (taken.accept(peak)) heights.push_back(peak.height - mean);
+  }
   return heights;
 }
 

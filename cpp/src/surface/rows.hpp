@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/surface.hpp"
+#include "asperity/watch.hpp"
 
 namespace asperity {
 
@@ -14,6 +15,7 @@ template <class Visit>
 void for_each_row(const HeightMap& map, Visit visit) {
   std::vector<double> row(map.shape()[1]);
   for (std::size_t y = 0; y < map.shape()[0]; ++y) {
+    heed();
     map.read_row(y, row.data());
     visit(y, std::span<const double>(row));
   }
@@ -29,6 +31,7 @@ HeightMap map_rows(const HeightMap& map, Change change) {
         std::vector<T> heights(ny * nx);
         std::vector<double> row(nx);
         for (std::size_t y = 0; y < ny; ++y) {
+          heed();
           map.read_row(y, row.data());
           change(y, std::span<double>(row));
           for (std::size_t x = 0; x < nx; ++x) heights[y * nx + x] = static_cast<T>(row[x]);

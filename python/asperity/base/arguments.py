@@ -5,10 +5,11 @@ The core checks ranges. What is checked here is the kind: a number, an array, a 
 
 import os
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from decimal import Decimal
 from numbers import Real
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,11 +34,25 @@ OptionalVector = Given[ArrayLike | None, Array | None]
 ABSENT: Any = None  # the default of a field whose type is Given
 
 
+if TYPE_CHECKING:
+    _Path = Path
+else:
+    _Path = type(Path())
+
+
+class FilePath(_Path):
+    """A path whose name stays in one line of a message, whatever characters it has."""
+
+    def __format__(self, form: str) -> str:
+        name = str(self)
+        return format(name if name.isprintable() else repr(name), form)
+
+
 def brief(found: object) -> str:
     """Return what was found, in one short line."""
     try:
         return " ".join(repr(found)[:60].split())
-    except ValueError:  # a whole number of more digits than Python writes
+    except Exception:  # a whole number of more digits than Python writes, or a class's own trouble
         return f"a {type(found).__name__}"
 
 
@@ -56,6 +71,8 @@ def number(found: Any, name: str) -> float:
         except OverflowError:
             allowed = "must be at most 1.8e308 in size"
             raise InvalidInput(f"{name} = {brief(found)}: {allowed}") from None
+        except ValueError:  # a signalling NaN
+            raise InvalidInput(f"{name} = {brief(found)}: must be a number") from None
     if getattr(found, "ndim", None) == 0:
         return float(real_array(found, name))
     raise InvalidInput(f"{name} = {brief(found)}: must be a number")
@@ -76,7 +93,9 @@ def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> in
 
 def flag(found: Any, name: str) -> bool:
     """Return True or False."""
-    if isinstance(found, bool | np.bool_):
+    if found is True or found is False:
+        return found
+    if isinstance(found, np.bool_):
         return bool(found)
     raise InvalidInput(f"{name} = {brief(found)}: must be True or False")
 
@@ -174,14 +193,19 @@ def sentences(found: Any, name: str) -> tuple[str, ...]:
 def path_of(found: Any, name: str) -> Path:
     """Return where a file is."""
     if isinstance(found, str | os.PathLike):
-        return Path(found)
+        with suppress(TypeError):  # of a __fspath__ that gives bytes
+            return FilePath(found)
     raise InvalidInput(f"{name} = {brief(found)}: must be the path of a file")
 
 
-def broadcast(**given: Any) -> tuple[Shape, list[Array]]:
-    """Return the shape that arguments have together, and each of them flat in that shape."""
-    if {*map(type, given.values())} == {float}:  # the common scalar, without NumPy's rules
-        return (), [np.array((one,)) for one in given.values()]
+def broadcast(**given: Any) -> tuple[Shape, list[Any]]:
+    """Return the shape that arguments have together, and each of them flat in that shape.
+
+    Numbers stay numbers, which the core takes as arrays of one entry.
+    """
+    flat = [*given.values()]
+    if all([type(one) is float for one in flat]):  # the common scalar, without NumPy's rules
+        return (), flat
     arrays = {name: real_array(one, name) for name, one in given.items()}
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))

@@ -2,7 +2,6 @@
 
 from argparse import Namespace
 from collections.abc import Callable
-from pathlib import Path
 
 from asperity.article import (
     asperities,
@@ -17,7 +16,8 @@ from asperity.article import (
 from asperity.article.inputs import Inputs, prepare
 from asperity.article.statement import judge
 from asperity.article.summary import Rows, counted, markdown
-from asperity.cli.friction_commands import tell
+from asperity.base.arguments import FilePath
+from asperity.cli.streams import print_stdout
 from asperity.io.files import check_directory, write_files
 from asperity.plot.curves import check_plot
 
@@ -46,12 +46,12 @@ _FIGURES: tuple[Callable[[Inputs], dict[str, bytes]], ...] = (
 
 def article(args: Namespace) -> None:
     """Write all pictures, tables and the summary, and show how many statements hold."""
-    directory = Path(args.output)
+    directory = FilePath(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
     check_directory(directory, FILES, force=args.force)
     contents, statements = remake()
     write_files({directory / name: data for name, data in contents.items()})
-    tell(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
+    print_stdout(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 
 
 def remake() -> tuple[dict[str, bytes], Rows]:

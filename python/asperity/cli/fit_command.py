@@ -3,13 +3,19 @@
 from argparse import Namespace
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import band_progress, check_outputs, deliver, spare
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import (
+    band_progress,
+    check_outputs,
+    refuse_overwrite,
+    write_outputs,
+)
+from asperity.io import plausible
 from asperity.io.fields import nearest
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
@@ -26,16 +32,21 @@ from asperity.scene.scene import load_scene
 
 _APART = 0.2  # of ln pressure
 _COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
+_HELD = {
+    "shear_stress_pa": plausible.SHEAR_STRESS,
+    "reference_velocity_m_s": plausible.VELOCITY,
+}
 
 
 def fit(args: Namespace) -> None:
     """Fit the adhesion; beside a scene's correction also with the original theory, without it."""
-    path = Path(args.measured)
+    path = FilePath(args.measured)
     outputs = check_outputs(args)
-    held = _held(args.hold or {})
+    with plausible.collected() as unusual:
+        held = _held(args.hold or {})
+        measured = read_friction(path)
     scene = load_scene(args.scene)
-    spare(outputs, [*scene.sources, path])
-    measured = read_friction(path)
+    refuse_overwrite(outputs, [*scene.sources, path])
     experiment = Experiment(path, measured, pressures(scene, measured, path), held)
     models = [scene] if scene.correction is None else [scene, replace(scene, correction=None)]
     found_in = [experiment.fit_scene(model) for model in models]
@@ -45,8 +56,8 @@ def fit(args: Namespace) -> None:
         Fitted(model, adhesion, problem, experiment.curves(model, adhesion, band_progress(model)))
         for model, (adhesion, problem) in zip(models, found_in, strict=True)
     ]
-    table = _table(args, experiment, fits)
-    deliver(
+    table = _table(args, experiment, fits, unusual)
+    write_outputs(
         args,
         table,
         lambda picture: plot_fit.fit_figure(fits, experiment, picture),
@@ -63,10 +74,14 @@ def _held(given: Mapping[str, str]) -> dict[str, float]:
             held[key] = float(text)
         except ValueError:
             raise InvalidInput(f"--hold {key} = {text!r}: must be a number") from None
+        if key in _HELD:
+            plausible.check(f"--hold {key}", held[key], _HELD[key])
     return held
 
 
-def _table(args: Namespace, experiment: Experiment, fits: list[Fitted]) -> Table:
+def _table(
+    args: Namespace, experiment: Experiment, fits: list[Fitted], unusual: list[str]
+) -> Table:
     scene = fits[0].scene
     pressure, velocity = scene.points
     columns: dict[str, Any] = {"pressure_pa": pressure, "velocity_m_s": velocity}
@@ -77,7 +92,7 @@ def _table(args: Namespace, experiment: Experiment, fits: list[Fitted]) -> Table
         **{key: value for key, value in scene.inputs.items() if key != "adhesion"},
         "derived": scene.derived,
     }
-    notes = list(fits[0].curves.notes)
+    notes = [*unusual, *fits[0].curves.notes]
     if "adhesion" in scene.inputs:
         notes.append("the scene's [adhesion] gave way to the fitted one")
     drawn_with = scene.pressure[nearest_pressure(scene, experiment.pressure)]

@@ -1,6 +1,7 @@
 """What the verbs of the shell command do."""
 
 import importlib.util
+import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
@@ -14,8 +15,11 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base.arguments import FilePath
+from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
-from asperity.io.fields import MOST_ROWS, named
+from asperity.io import plausible
+from asperity.io.fields import MOST_ROWS, rename_in_errors
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
@@ -30,12 +34,12 @@ from asperity.surface import HeightMap
 
 def demo(args: Namespace) -> None:
     """Write the shipped scan and scene, compute and draw them, show the curve."""
-    directory = Path(args.output)
+    directory = FilePath(args.output)
     check_directory(directory, FILES, force=args.force)
     files = input_files()
     with TemporaryDirectory() as aside:
-        write_files({Path(aside) / name: data for name, data in files.items()})
-        scene = load_scene(Path(aside) / "scene.toml")
+        write_files({FilePath(aside) / name: data for name, data in files.items()})
+        scene = load_scene(FilePath(aside) / "scene.toml")
     scene = replace(scene, path=directory / "scene.toml")
     table, curves = _friction_table([scene], bands=True)
     files["friction.csv"] = _bytes(table.csv())
@@ -45,11 +49,11 @@ def demo(args: Namespace) -> None:
         files[picture.name] = plot.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
-    tell(terminal_table({name: table.columns[name] for name in shown}) + "\n")
+    print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
-    drawn = "none, pip install asperity[plot]" if missing else str(picture)
-    tell(
+    drawn = "none, pip install asperity[plot]" if missing else f"{picture}"
+    print_stdout(
         f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"
         f"table:   {directory / 'friction.csv'}\n"
@@ -61,9 +65,9 @@ def friction(args: Namespace) -> None:
     """Friction of one scene, or of several under one another."""
     outputs = check_outputs(args)
     scenes = [load_scene(name) for name in args.scene]
-    spare(outputs, [source for scene in scenes for source in scene.sources])
+    refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes, bands=args.plot is not None)
-    deliver(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+    write_outputs(args, table, lambda path: plot.friction_figure(scenes, curves, path))
 
 
 def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
@@ -74,7 +78,7 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
     asked = all(scene.asks_for_band for scene in scenes)
     for scene, result in zip(scenes, curves, strict=True):
         pressure, velocity = scene.points
-        names = {"scene": [str(scene.path)] * pressure.size} if len(scenes) > 1 else {}
+        names = {"scene": [f"{scene.path}"] * pressure.size} if len(scenes) > 1 else {}
         points = {"pressure_pa": pressure, "velocity_m_s": velocity}
         values = {name: getattr(result, name).ravel() for name in COLUMNS}
         if asked and result.band is not None:
@@ -99,7 +103,8 @@ def _curves(scene: Scene, *, band: bool) -> Curves:
 
 def progress(title: str) -> Progress:
     """A bar on a terminal, after two seconds of work, where tqdm is installed."""
-    if not sys.stderr.isatty() or importlib.util.find_spec("tqdm") is None:
+    on_terminal = sys.stderr is not None and sys.stderr.isatty()
+    if not on_terminal or importlib.util.find_spec("tqdm") is None:
         return nullcontext
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
     shown = "{l_bar}{bar}| {elapsed}<{remaining}"
@@ -115,7 +120,7 @@ def area(args: Namespace) -> None:
     """A/A0 of a scene at every pressure, velocity and wavenumber."""
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
-    spare(outputs, scene.sources)
+    refuse_overwrite(outputs, scene.sources)
     rows = scene.pressure.size * scene.velocity.size * args.points
     if rows > MOST_ROWS:
         problem = (
@@ -130,15 +135,21 @@ def area(args: Namespace) -> None:
     table = Table(
         "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
-    deliver(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
+    write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
 
 def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
-    path = Path(args.file)
-    spare(check_outputs(args), [path])
+    path = FilePath(args.file)
+    refuse_overwrite(check_outputs(args), [path])
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with named(None, {**flags, "max_fraction": "--max-dropouts"}):
+    with (
+        plausible.collected() as unusual,
+        rename_in_errors(None, {**flags, "max_fraction": "--max-dropouts"}),
+    ):
+        for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
+            if q is not None:
+                plausible.check(flag, q, plausible.WAVENUMBER)
         raw, filled = read_filled(
             path,
             max_fraction=args.max_dropouts,
@@ -147,11 +158,12 @@ def spectrum(args: Namespace) -> None:
             unit=args.unit,
         )
     how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
-    with named(path, {}):
+    with rename_in_errors(path, {}):
         measured = surface_spectrum(filled, **how)
     flat = scan.flat(filled, how["detrend"])
     ratio = scan.lay(filled, **how)
-    fit, notes = _fit(measured, args)
+    fit, fit_notes = _fit(measured, args)
+    notes = [*unusual, *fit_notes]
     whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
     cutoff = whole.cutoff_for_slope(1.3)
     inputs: dict[str, Any] = {
@@ -189,7 +201,7 @@ def spectrum(args: Namespace) -> None:
     table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
     drawn = cutoff if cutoff < whole.q1 else None
     draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
-    deliver(args, table, draw, found)
+    write_outputs(args, table, draw, found)
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
@@ -227,7 +239,7 @@ def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | 
     if q_min is not None and q_max is not None and q_min >= q_max:
         raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
     try:
-        with named(None, {"q_min": "--q-min", "q_max": "--q-max"}):
+        with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
     except (InvalidInput, NotConverged) as error:
         return None, [f"no self-affine fit: {error}"]
@@ -240,24 +252,24 @@ def _inputs(scene: Scene) -> dict[str, Any]:
 def check_outputs(args: Namespace) -> list[Path]:
     """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
-        plot.check_plot(Path(args.plot))
-    outputs = [Path(name) for name in (args.output, args.plot) if name is not None]
+        plot.check_plot(FilePath(args.plot))
+    outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
     for path in outputs:
         check_output(path)
-    if len({path.resolve() for path in outputs}) < len(outputs):
+    if len({os.path.realpath(path) for path in outputs}) < len(outputs):
         raise InvalidInput(f"{outputs[0]}: --output and --plot must be two files")
     return outputs
 
 
-def spare(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     """Refuse to write over what is read."""
-    taken = {path.resolve() for path in inputs}
+    taken = {os.path.realpath(path) for path in inputs}
     for path in outputs:
-        if path.resolve() in taken:
+        if os.path.realpath(path) in taken:
             raise InvalidInput(f"{path}: is an input: choose another name for the output")
 
 
-def deliver(
+def write_outputs(
     args: Namespace,
     table: Table,
     draw: Callable[[Path], bytes],
@@ -265,32 +277,18 @@ def deliver(
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
-    files = {} if args.plot is None else {Path(args.plot): draw(Path(args.plot))}
+    files: dict[Path, bytes] = (
+        {} if args.plot is None else {FilePath(args.plot): draw(FilePath(args.plot))}
+    )
     if args.output is not None:
-        files[Path(args.output)] = _bytes(text)
+        files[FilePath(args.output)] = _bytes(text)
     write_files(files)
     for name, value in (found or {}).items():
-        print(f"{name} = {value:.6g}", file=sys.stderr)
+        print_stderr(f"{name} = {value:.6g}\n")
     tell_notes(table.notes)
     if args.output is None:
-        tell(text)
-
-
-def tell(text: str) -> None:
-    """Write to standard output; a failure names it."""
-    try:
-        print(text, end="", flush=True)
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, "standard output") from error
+        print_stdout(text)
 
 
 def _bytes(text: str) -> bytes:
     return text.encode(errors="backslashreplace")  # file names need not be UTF-8
-
-
-def tell_notes(notes: Sequence[str]) -> None:
-    """Write notes to standard error."""
-    for note in notes:
-        print("note:", note, file=sys.stderr)

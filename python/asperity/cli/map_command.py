@@ -10,13 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import check_outputs, spare, tell, tell_notes
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import check_outputs, refuse_overwrite
+from asperity.cli.streams import print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map import FrictionMap, friction_map
-from asperity.io.fields import named
+from asperity.io import plausible
+from asperity.io.fields import rename_in_errors
 from asperity.io.files import write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
+from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Scene, load_scene
 
 _RTOL = 1e-4
@@ -32,12 +36,14 @@ def friction_map_of(args: Namespace) -> None:
     if args.info is not None:
         if given:
             raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
-        _tell(args, _read(Path(args.info)))
+        _tell(args, _read(FilePath(args.info)))
         return
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
-    spare(outputs, scene.sources)
-    notes = [*scene.surface.notes, *scene.built_rubber.notes]
+    refuse_overwrite(outputs, scene.sources)
+    with plausible.collected() as unusual:
+        _check_sides(args, scene)
+    notes = [*scene.notes, *unusual]
     pressure = _box("pressure", args.pressure, scene.pressure, notes)
     velocity = _box("velocity", args.velocity, scene.velocity, notes)
     rtol = args.rtol or scene.stated_rtol or _RTOL
@@ -51,7 +57,7 @@ def friction_map_of(args: Namespace) -> None:
     }
     lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
     names = {name: f"--{name}" for name in given}
-    with named(scene.path, names):
+    with rename_in_errors(scene.path, names):
         made = friction_map(
             scene.spectrum,
             scene.rubber,
@@ -62,14 +68,22 @@ def friction_map_of(args: Namespace) -> None:
             **({} if args.checked is None else {"checked": args.checked}),
             **options,
         )
-    files = {}
+    files: dict[Path, bytes] = {}
     if args.output is not None:
-        files[Path(args.output)] = made.to_bytes()
+        files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
-        path = Path(args.plot)
+        path = FilePath(args.plot)
         files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
+
+
+def _check_sides(args: Namespace, scene: Scene) -> None:
+    if args.pressure is not None:
+        plausible.check("--pressure", args.pressure, plausible.PRESSURE)
+        plausible.check_load("--pressure", args.pressure, stiffest(scene.rubber))
+    if args.velocity is not None:
+        plausible.check("--velocity", args.velocity, plausible.VELOCITY)
 
 
 def _box(
@@ -131,11 +145,13 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
             "width": law.width,
         }
     if args.json:
-        tell(json.dumps({**found, "notes": made.notes, "text": made.text}, indent=1) + "\n")
+        print_stdout(json.dumps({**found, "notes": made.notes, "text": made.text}, indent=1) + "\n")
         return
     lines = [f"{name} = {_short(value)}" for name, value in found.items()]
-    told = [line for line in made.text.splitlines() if not line.startswith("note: ")]
-    tell("".join(f"{line}\n" for line in [*lines, *(told if args.info is not None else [])]))
+    if args.info is not None:
+        text = made.text.removesuffix("\n").split("\n") if made.text else []
+        lines += [printable(line) for line in text if not line.startswith("note: ")]
+    print_stdout("".join(f"{line}\n" for line in lines))
     tell_notes(made.notes)
     if made.exceeded > 0:
         tell_notes([f"{made.exceeded} of {made.checked} random points are beyond max_error"])

@@ -2,15 +2,35 @@
 
 import argparse
 import math
+import sys
 from argparse import ArgumentTypeError
 from typing import NoReturn
 
+from asperity._core import __version__
+from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import MOST_POINTS
 
 
 class Parser(argparse.ArgumentParser):
+    """A parser that knows which stream is the result's and which may fail."""
+
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"{self.prog}: {printable(message)} (see {self.prog} --help)\n")
+
+    def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
+        print_stderr(message or "")
+        sys.exit(status)
+
+    def print_help(self, file: object = None) -> None:
+        print_stdout(self.format_help())
+
+
+class Version(argparse.Action):
+    """Tells the version."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        print_stdout(f"{__version__}\n")
+        parser.exit()
 
 
 def numbers(text: str) -> list[float]:

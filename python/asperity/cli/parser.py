@@ -3,21 +3,32 @@
 import argparse
 from collections.abc import Callable
 
-from asperity._core import __version__
 from asperity.cli import fit_command, map_command, rubber_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.article_command import article
-from asperity.cli.options import Parser, number, numbers, pairs, pixel_size, points, sides, whole
+from asperity.cli.options import (
+    Parser,
+    Version,
+    number,
+    numbers,
+    pairs,
+    pixel_size,
+    points,
+    sides,
+    whole,
+)
 from asperity.measured_spectrum import WINDOWS
 
 
 def parser() -> argparse.ArgumentParser:
     """The parser of the whole command line."""
     result = Parser(
-        prog="asperity", description="Rubber contact area and friction on rough surfaces."
+        prog="asperity",
+        description="Rubber contact area and friction on rough surfaces. Numbers that are absurd "
+        "in the unit of their key, column or option are refused, unusual ones are noted on stderr.",
     )
-    result.add_argument("--version", action="version", version=__version__)
+    result.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     verbs = result.add_subparsers(required=True, metavar="VERB")
 
     def verb(

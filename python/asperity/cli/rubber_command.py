@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
-from asperity.cli.friction_commands import check_outputs, deliver, spare
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
-from asperity.io.fields import named
+from asperity.io import plausible
+from asperity.io.fields import rename_in_errors
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.table import Table
 from asperity.plot import rubber as plot_rubber
@@ -31,10 +33,13 @@ _FLAGS = {
 
 def rubber(args: Namespace) -> None:
     """Master curve of the isotherms in files; its table can be a scene's master_curve."""
-    files = [Path(name) for name in args.file]
-    shift_file = [] if args.shift is None else [Path(args.shift)]
-    spare(check_outputs(args), [*files, *shift_file])
-    with named(None, _FLAGS):
+    files = [FilePath(name) for name in args.file]
+    shift_file = [] if args.shift is None else [FilePath(args.shift)]
+    refuse_overwrite(check_outputs(args), [*files, *shift_file])
+    with plausible.collected() as unusual, rename_in_errors(None, _FLAGS):
+        if args.reference_temperature is not None:
+            flag, given = "--reference-temperature", args.reference_temperature
+            plausible.check(flag, given, plausible.TEMPERATURE)
         isotherms = read_isotherms(
             files,
             columns=args.columns,
@@ -81,12 +86,12 @@ def rubber(args: Namespace) -> None:
         "storage_modulus_pa": curve.storage_modulus.tolist(),
         "loss_modulus_pa": curve.loss_modulus.tolist(),
     }
-    table = Table("rubber", [inputs], [*build.notes, *notes], columns)
+    table = Table("rubber", [inputs], [*unusual, *build.notes, *notes], columns)
 
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path)
 
-    deliver(args, table, draw, found)
+    write_outputs(args, table, draw, found)
 
 
 def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[str]]:

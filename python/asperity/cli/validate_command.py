@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.cli.friction_commands import progress, spare, tell, tell_notes
-from asperity.io.fields import named
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.streams import print_stdout, tell_notes
+from asperity.io import plausible
+from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.plot import curves as plot
@@ -26,11 +29,11 @@ _FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
 
 def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
-    directory = Path(args.output)
+    directory = FilePath(args.output)
     plot.check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
-    inputs = [Path(name) for name in (args.rows, args.surface) if name is not None]
-    spare([directory / name for name in _FILES], inputs)
+    inputs = [FilePath(name) for name in (args.rows, args.surface) if name is not None]
+    refuse_overwrite([directory / name for name in _FILES], inputs)
     contacts, told, notes = _contacts(args)
     predictions = [[predict(c, model) for c in contacts] for model in models_for(contacts)]
     text = summary(predictions)
@@ -39,7 +42,7 @@ def validate(args: Namespace) -> None:
     files = {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
     write_files({directory / name: data for name, data in files.items()})
     tell_notes(notes)
-    tell(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
+    print_stdout(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
 
 
 def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]]:
@@ -60,19 +63,21 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             raise InvalidInput(f"--{option}: only goes with --surface")
         if args.rows is None:
             return shipped(), {"rows": "bem_area.csv, shipped"}, []
-        return read_contacts(Path(args.rows)), {"rows": args.rows}, []
+        return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
     if args.rows is not None:
         raise InvalidInput("--rows: must be left out where --surface is given")
-    path = Path(args.surface)
+    path = FilePath(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with named(None, flags):
+    with plausible.collected() as unusual, rename_in_errors(None, flags):
+        if args.q0 is not None:
+            plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
         read = {name: given[name] for name in flags if name in given}
         _, filled = read_filled(path, max_fraction=0.10, **read)
     if not isinstance(filled, HeightMap):
         raise InvalidInput(f"{path}: is a line scan: boundary elements need a map")
     detrend: Any = args.detrend or "plane"
     flat = filled if detrend == "none" else filled.detrend(detrend)
-    with named(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
+    with rename_in_errors(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
         contacts, notes = own_contacts(
             flat,
             path.name,
@@ -81,7 +86,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             periodic=args.periodic,
             progress=progress(str(path)),
         )
-    return contacts, {"surface": args.surface, **given, "detrend": detrend}, notes
+    return contacts, {"surface": args.surface, **given, "detrend": detrend}, [*unusual, *notes]
 
 
 def _pictures(

@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.io import plausible
 
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
@@ -19,10 +20,12 @@ _SWEEP = dict.fromkeys(("from", "to", "points"))
 
 @dataclass(frozen=True)
 class Field:
-    """What a key may hold, and the argument of the core that it sets."""
+    """What a key may hold, the argument of the core that it sets, and what its unit lets it be."""
 
     read: Callable[[object], Any]
     argument: str = ""
+    quantity: plausible.Quantity | None = None
+    unit: str = ""  # of `quantity`, the SI unit if empty
 
 
 class _WrongValueError(Exception):
@@ -152,7 +155,7 @@ def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
 def read_table(
     path: Path, section: str, table: object, fields: Mapping[str, Field]
 ) -> dict[str, Any]:
-    """Values of a TOML table whose keys are all known and whose types are right."""
+    """Values of a TOML table whose keys are all known, types right and numbers plausible."""
     if not isinstance(table, dict):
         refuse(path, f"[{section}]", "must be a table")
     for key in table:
@@ -164,6 +167,9 @@ def read_table(
             values[key] = fields[key].read(value)
         except _WrongValueError as wrong:
             raise InvalidInput(f"{path}: [{section}] {key} = {_shown(value)}: {wrong}") from None
+        if (quantity := fields[key].quantity) is not None:
+            where = f"{path}: [{section}] {key}"
+            plausible.check(where, values[key], quantity, fields[key].unit)
     return values
 
 
@@ -190,7 +196,7 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
 
 
 @contextmanager
-def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
+def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
     """Let errors of the core name the file and its fields: `names` is argument -> [table] key."""
     try:
         yield
@@ -204,5 +210,5 @@ def named(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:
-    """The `names` of one table, for `named`."""
+    """The `names` of one table, for `rename_in_errors`."""
     return {f.argument: f"[{section}] {key}" for key, f in fields.items() if f.argument}

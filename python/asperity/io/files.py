@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Files written whole or not at all, and read only where they have an end."""
 
 import errno
 import os
@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from asperity._core import Error, InvalidInput
+from asperity.base.arguments import FilePath
 
 _DEVICE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}  # no fault of the path's
 
@@ -38,17 +39,31 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
         write_whole(path, content)
 
 
+def check_file(path: Path) -> None:
+    """Refuse what cannot be opened, and what one might wait for or read without end."""
+    try:
+        mode = path.stat().st_mode
+    except ValueError as error:
+        raise InvalidInput(f"cannot be read: {error}") from error
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise InvalidInput("cannot be read: not a regular file")
+    path.open("rb").close()
+
+
 def check_output(path: Path) -> None:
     """Refuse, before any work, a path that cannot be written."""
     import tempfile  # here: `import asperity` is to be quick
 
     with _refused(path):
-        target = Path(os.path.realpath(path))
-        if target.is_dir():
-            raise IsADirectoryError(0, "it is a directory")
+        target = FilePath(os.path.realpath(path))
         if not target.parent.is_dir():
-            raise NotADirectoryError(0, f"there is no directory {target.parent.name}")
-        if not target.exists() or target.is_file():
+            raise NotADirectoryError(0, f"there is no directory {FilePath(target.parent.name)}")
+        mode = _mode(target)
+        if mode is not None and stat.S_ISDIR(mode):
+            raise IsADirectoryError(0, "it is a directory")
+        if mode is None or stat.S_ISREG(mode):
             with tempfile.TemporaryFile(dir=target.parent):
                 pass  # a trial: permissions alone say little about /proc, or to root
 
@@ -61,7 +76,8 @@ def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> No
     import tempfile
 
     with _refused(directory):
-        existing = next(d for d in (directory, *directory.absolute().parents) if d.exists())
+        places = (FilePath(directory), *FilePath(directory).absolute().parents)
+        existing = next(place for place in places if os.path.lexists(place))
         if not existing.is_dir():
             raise NotADirectoryError(0, f"{existing} is no directory")
         with tempfile.TemporaryFile(dir=existing):
@@ -69,8 +85,8 @@ def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> No
     taken = [name for name in names if os.path.lexists(directory / name)]
     if taken and not force:
         raise InvalidInput(
-            f"{directory}: holds {', '.join(taken)} already; choose another --output, or replace "
-            "them with --force"
+            f"{FilePath(directory)}: holds {', '.join(taken)} already; choose another --output, or "
+            "replace them with --force"
         )
     for name in taken:
         check_output(directory / name)
@@ -85,16 +101,12 @@ def _refused(path: str | os.PathLike[str]) -> Iterator[None]:
         raise
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        name = os.fsdecode(path)
-        shown = name if name.isprintable() else repr(name)
         kind = Error if getattr(error, "errno", None) in _DEVICE else InvalidInput
-        raise kind(f"{shown}: cannot be written: {reason}") from error
+        raise kind(f"{FilePath(os.fsdecode(path))}: cannot be written: {reason}") from error
 
 
 def _write(target: Path, content: bytes) -> None:
-    mode = None
-    with suppress(FileNotFoundError):
-        mode = target.stat().st_mode
+    mode = _mode(target)
     if mode is not None and not stat.S_ISREG(mode):
         target.write_bytes(content)  # a device or a FIFO; a directory refuses
         return
@@ -112,6 +124,13 @@ def _write(target: Path, content: bytes) -> None:
         with suppress(OSError):
             os.unlink(part)
         raise
+
+
+def _mode(path: Path) -> int | None:
+    """Return the kind and the permissions of what is there, or None where there is nothing."""
+    with suppress(FileNotFoundError):
+        return path.stat().st_mode
+    return None
 
 
 def _umask() -> int:

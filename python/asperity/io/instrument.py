@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
-from asperity.io.fields import named
+from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
 
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12}
@@ -42,7 +42,7 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
         raise InvalidInput(
             f"pixel_size = {shown(pixel_size)}: must be one number, the file holds a line scan"
         )
-    with named(None, {"spacing": "pixel_size"}):
+    with rename_in_errors(None, {"spacing": "pixel_size"}):
         return LineScan(heights, spacing=pixel_size)
 
 

@@ -12,8 +12,9 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
+from asperity.io import plausible
+from asperity.io.files import check_file
 from asperity.io.instrument import brief
-from asperity.io.read_surface import check_file
 from asperity.shift_factors import ShiftFactors
 from asperity.sweeps import Isotherm, StrainSweep
 
@@ -83,7 +84,7 @@ def read_isotherms(
     factor = _young(modulus, poisson_ratio)
     wanted = ("frequency", "storage", "loss", "temperature")
     result = []
-    for path, table in _tables(paths, columns, units, wanted, temperatures):
+    for path, table in _tables(paths, columns, units, wanted, factor, temperatures):
         order = np.argsort(table["temperature"], kind="stable")
         steps = np.flatnonzero(np.diff(table["temperature"][order]) > _STEP) + 1
         for rows in np.split(order, steps):
@@ -119,7 +120,7 @@ def read_strain_sweep(
     path = path_of(path, "path")
     factor = _young(modulus, poisson_ratio)
     wanted = ("strain", "frequency", "storage", "loss", "temperature")
-    ((file, table),) = _tables(path, columns, units, wanted)
+    ((file, table),) = _tables(path, columns, units, wanted, factor)
     order = np.argsort(table["strain"], kind="stable")
     try:
         return StrainSweep(
@@ -156,6 +157,7 @@ def read_shift_factors(
     columns = {"temperature": "temperature_k", "log10_a_T": "log10_a_t"}
     file = path_of(path, "path")
     table = _table(file, columns)
+    plausible.check(f"{file}: temperature_k", table["temperature"], plausible.TEMPERATURE)
     order = np.argsort(table["temperature"], kind="stable")
     try:
         return ShiftFactors(
@@ -180,9 +182,13 @@ def _tables(
     columns: Mapping[str, str],
     units: Mapping[str, str],
     wanted: Iterable[str],
+    factor: float,
     temperatures: Sequence[float] | None = None,
 ) -> list[tuple[Path, dict[str, Column]]]:
-    """The wanted columns of each file in SI units, and the numbers of their lines."""
+    """The wanted columns of each file in SI units, and the numbers of their lines.
+
+    `factor` makes Young's moduli of the file's.
+    """
     wanted = tuple(wanted)
     for name, given in (("columns", columns), ("units", units)):
         if not isinstance(given, Mapping) or not all(isinstance(x, str) for x in given.values()):
@@ -201,16 +207,22 @@ def _tables(
         if unit not in _UNITS[key]:
             allowed = ", ".join(_UNITS[key])
             raise InvalidInput(f"units: {key} = {shown(unit)}: must be one of {allowed}")
-    if isinstance(paths, str | os.PathLike) or not isinstance(paths, Iterable):
-        files = [path_of(paths, "paths")]
+    one: Any = paths
+    try:
+        several = None if isinstance(one, str | os.PathLike) else list(one)
+    except TypeError:
+        several = None
+    if several is None:
+        files = [path_of(one, "paths")]
     else:
-        files = [path_of(path, f"paths[{i}]") for i, path in enumerate(paths)]
+        files = [path_of(path, f"paths[{i}]") for i, path in enumerate(several)]
     if not files:
         raise InvalidInput("paths: is empty, must have 1 file or more")
     by_file = None if temperatures is None else vector(temperatures, "temperatures")
     if by_file is not None and by_file.size != len(files):
-        found = f"temperatures has {by_file.size} entries, paths has {len(files)}"
-        raise InvalidInput(f"{found}: must be as many")
+        raise InvalidInput(
+            f"temperatures ({by_file.size}) and paths ({len(files)}) must have equal length"
+        )
     result = []
     for at, file in enumerate(files):
         table = _table(file, columns)
@@ -223,10 +235,33 @@ def _tables(
                 raise InvalidInput(f"{file}: line {table['line'][row]:.0f}: {problem}")
             kind = _KINDS.get(name, name)
             table[name] = table[name] * _UNITS[kind][units[kind]]
+        _check_units(file, table, units, factor)
         if units["temperature"] == "C":
             table["temperature"] = table["temperature"] + _CELSIUS
         result.append((file, table))
     return result
+
+
+def _check_units(
+    file: Path, table: Mapping[str, Column], units: Mapping[str, str], factor: float
+) -> None:
+    """Refuse what the declared units make absurd; temperatures are still in theirs."""
+    plausible.check(
+        f"{file}: temperature", table["temperature"], plausible.TEMPERATURE, units["temperature"]
+    )
+    _check(file, "frequency", table["frequency"], plausible.FREQUENCY, units)
+    if "strain" in table:
+        _check(file, "strain", table["strain"], plausible.STRAIN, units)
+    largest = factor * np.max(np.hypot(table["storage"], table["loss"]))
+    _check(file, "modulus", largest, plausible.MODULUS, units)
+
+
+def _check(
+    file: Path, kind: str, si: Any, quantity: plausible.Quantity, units: Mapping[str, str]
+) -> None:
+    named = "largest |E|" if kind == "modulus" else kind
+    declared = si / _UNITS[kind][units[kind]]
+    plausible.check(f"{file}: {named}", declared, quantity, units[kind])
 
 
 def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:

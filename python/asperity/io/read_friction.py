@@ -10,15 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import path_of
+from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
 
 # by the name of the column, which carries the unit
 _COLUMNS = {
-    "velocity": {"velocity_m_s": 1.0, "velocity_mm_s": 1e-3, "velocity_km_h": 1 / 3.6},
-    "mu": {"mu": 1.0},
-    "pressure": {"pressure_pa": 1.0, "pressure_kpa": 1e3, "pressure_mpa": 1e6},
+    "velocity": {"velocity_m_s": "m/s", "velocity_mm_s": "mm/s", "velocity_km_h": "km/h"},
+    "mu": {"mu": ""},
+    "pressure": {"pressure_pa": "Pa", "pressure_kpa": "kPa", "pressure_mpa": "MPa"},
 }
+_QUANTITIES = {"velocity": plausible.VELOCITY, "pressure": plausible.PRESSURE}
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +51,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
     InvalidInput
         Naming file and line: no column of a known unit, a cell that is no positive number.
     """
-    path = Path(path)
+    path = path_of(path, "path")
     table = filled_lines(path)
     if len(table) < 2:
         raise InvalidInput(
@@ -56,18 +59,20 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         )
     header = [name.strip() for name in table[0][1]]
     columns = {kind: _column(path, header, kind) for kind in _COLUMNS}
-    found = {
-        kind: np.array(
-            [_value(path, number, cells, header, place) * factor for number, cells in table[1:]]
-        )
-        for kind, (place, factor) in ((k, c) for k, c in columns.items() if c is not None)
-    }
+    found = {}
+    for kind, (place, unit) in ((k, c) for k, c in columns.items() if c is not None):
+        values = [_value(path, number, cells, header, place) for number, cells in table[1:]]
+        factor = 1.0
+        if kind in _QUANTITIES:
+            plausible.check(f"{path}: {header[place]}", values, _QUANTITIES[kind], unit)
+            factor = _QUANTITIES[kind].units[unit][0]
+        found[kind] = np.array([value * factor for value in values])
     return MeasuredFriction(found["velocity"], found["mu"], found.get("pressure"))
 
 
-def _column(path: Path, header: list[str], kind: str) -> tuple[int, float] | None:
-    """Place and factor of a column; None of pressure where there is none."""
-    known: Mapping[str, float] = _COLUMNS[kind]
+def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
+    """Place and unit of a column; None of pressure where there is none."""
+    known: Mapping[str, str] = _COLUMNS[kind]
     places = [(i, known[name]) for i, name in enumerate(header) if name in known]
     if len(places) > 1:
         raise InvalidInput(f"{path}: has two columns of {kind}: must be one of {', '.join(known)}")

@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
 from asperity.rubber import MasterCurve
@@ -34,7 +35,7 @@ def read_master_curve(
             raise InvalidInput(f"{path}: line {number}: {error}") from error
     columns = np.array(rows).reshape(-1, 3).T
     try:
-        return MasterCurve(
+        curve = MasterCurve(
             angular_frequency=columns[0],
             storage_modulus=columns[1],
             loss_modulus=columns[2],
@@ -42,3 +43,6 @@ def read_master_curve(
         )
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
+    largest = np.max(np.hypot(curve.storage_modulus, curve.loss_modulus))
+    plausible.check(f"{path}: largest |E|", largest, plausible.MODULUS)
+    return curve

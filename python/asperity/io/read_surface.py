@@ -1,9 +1,7 @@
 """Maps and line scans from files: matrices here, any other format in `instrument`."""
 
-import errno
 import os
 import re
-import stat
 import warnings
 from array import array
 from collections.abc import Iterator
@@ -17,6 +15,8 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import path_of
+from asperity.io import plausible
+from asperity.io.files import check_file
 from asperity.io.instrument import (
     METRES,
     PixelSize,
@@ -85,22 +85,31 @@ def read_surface(
         if unit is not None:
             unit = _checked_unit(unit)
         check_file(path)
-        suffix = path.suffix.lower()
-        if suffix == ".toml":
-            raise InvalidInput(
-                "is a scene, not a surface: must be a scan (.npy, .npz, .csv, .txt or the file of "
-                "an instrument)"
-            )
-        if suffix in (".csv", ".txt"):
-            return _read_text(path, channel, pixel_size, unit)
-        if suffix not in _LOADERS:
-            return read_instrument(path, channel, pixel_size, unit)
-        given = _required(path, pixel_size, unit)
-        return surface_of(_LOADERS[suffix](path, channel), *given)
+        surface = _read(path, channel, pixel_size, unit)
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
+    spacing = surface.pixel_size if isinstance(surface, HeightMap) else surface.spacing
+    plausible.check_scan(str(path), surface.heights, spacing, unit or "m")
+    return surface
+
+
+def _read(
+    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
+) -> HeightMap | LineScan:
+    suffix = path.suffix.lower()
+    if suffix == ".toml":
+        raise InvalidInput(
+            "is a scene, not a surface: must be a scan (.npy, .npz, .csv, .txt or the file of an "
+            "instrument)"
+        )
+    if suffix in (".csv", ".txt"):
+        return _read_text(path, channel, pixel_size, unit)
+    if suffix not in _LOADERS:
+        return read_instrument(path, channel, pixel_size, unit)
+    given = _required(path, pixel_size, unit)
+    return surface_of(_LOADERS[suffix](path, channel), *given)
 
 
 def _checked_unit(unit: str) -> str:
@@ -122,19 +131,6 @@ def _required(
         problem = f"a {path.suffix} file does not state the unit of its heights"
         raise InvalidInput(f"unit is missing: {problem}")
     return METRES[unit], pixel_size
-
-
-def check_file(path: Path) -> None:
-    """Refuse what cannot be opened, and what one might wait for or read without end."""
-    try:
-        mode = path.stat().st_mode
-    except ValueError as error:
-        raise InvalidInput(f"cannot be read: {error}") from error
-    if stat.S_ISDIR(mode):
-        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if not stat.S_ISREG(mode):
-        raise InvalidInput("cannot be read: not a regular file")
-    path.open("rb").close()
 
 
 @contextmanager
@@ -212,7 +208,7 @@ def _load_text(path: Path) -> NDArray[Any]:
         width = width or len(row)
         if len(row) != width:
             raise InvalidInput(
-                f"line {number} has {len(row)} cells, those before it {width}: must be as many"
+                f"line {number} has {len(row)} cells; it must have {width}, as those before it"
             )
         trailing = trailing and width > 1 and not cells[-1].strip()
         gap = blank

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -64,12 +65,18 @@ class Table:
                 name: [_plain(cell) for cell in column] for name, column in self.columns.items()
             },
         }
-        return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        return json_text(content, indent=1, allow_nan=False) + "\n"
 
 
 def input_lines(inputs: Mapping[str, Any]) -> list[str]:
     """What was computed from, a line a key."""
-    return [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in _flat(inputs)]
+    return [f"{key} = {json_text(value)}" for key, value in _flat(inputs)]
+
+
+def json_text(value: Any, **options: Any) -> str:
+    """A value as JSON that no terminal obeys: what json leaves of control characters is escaped."""
+    text = json.dumps(value, ensure_ascii=False, **options)
+    return re.sub("[\x7f-\x9f\u2028-\u202e]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def unit(column: str) -> str:

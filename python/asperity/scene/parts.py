@@ -14,16 +14,17 @@ from asperity.correction import (
     PeaksThenGreenwoodWilliamson,
     SFactor,
 )
+from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
-    named,
     names_of,
     nearest,
     number,
     numbers,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     text,
 )
@@ -35,16 +36,16 @@ Values = dict[str, Any]
 _KIND = {"kind": Field(text)}
 _PEAKS = {
     **_KIND,
-    "heights_m": Field(numbers, "heights_or_map"),
-    "min_distance_m": Field(number, "min_distance"),
-    "z_max_m": Field(number, "z_max"),
+    "heights_m": Field(numbers, "heights_or_map", plausible.HEIGHT),
+    "min_distance_m": Field(number, "min_distance", plausible.SPACING),
+    "z_max_m": Field(number, "z_max", plausible.HEIGHT),
 }
 _ASPERITIES = {
     **_PEAKS,
-    "z_min_m": Field(number, "z_min"),
+    "z_min_m": Field(number, "z_min", plausible.HEIGHT),
     "reading": Field(text, "reading"),
-    "rms_height_m": Field(number, "rms_height"),
-    "q0_per_m": Field(number, "q0"),
+    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
+    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
 }
 _CORRECTIONS = {
     "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
@@ -55,8 +56,8 @@ _CORRECTIONS = {
     "peaks-then-greenwood-williamson": _ASPERITIES,
 }
 _ADHESION = {
-    "shear_stress_pa": Field(number, "shear_stress"),
-    "reference_velocity_m_s": Field(number, "reference_velocity"),
+    "shear_stress_pa": Field(number, "shear_stress", plausible.SHEAR_STRESS),
+    "reference_velocity_m_s": Field(number, "reference_velocity", plausible.VELOCITY),
     "width": Field(number, "width"),
 }
 
@@ -64,7 +65,7 @@ _ADHESION = {
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
     values = read_table(path, "adhesion", table, _ADHESION)
     require(path, "adhesion", values, ("shear_stress_pa",))
-    with named(path, names_of("adhesion", _ADHESION)):
+    with rename_in_errors(path, names_of("adhesion", _ADHESION)):
         adhesion = Adhesion(**arguments(values, _ADHESION))
     return adhesion, _with_defaults(values, _ADHESION, adhesion)
 
@@ -91,7 +92,9 @@ def build_correction(
     settings = arguments(values, fields)
     settings.pop("min_distance", None)
     correction: Correction
-    with named(path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}):
+    with rename_in_errors(
+        path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}
+    ):
         if kind == "s-factor":
             correction = SFactor(**settings)
         elif kind == "nayak-s-factor":
@@ -151,7 +154,7 @@ def _with_map(
     if surface_values["detrend"] != "none":
         surface = surface.detrend(surface_values["detrend"])
     if "min_distance_m" in values:
-        with named(path, names_of("correction", _PEAKS)):
+        with rename_in_errors(path, names_of("correction", _PEAKS)):
             peaks = surface.local_peaks(min_distance=values["min_distance_m"])
         values["heights_m"] = peaks.tolist()
     for key in extremes:

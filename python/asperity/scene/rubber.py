@@ -1,12 +1,15 @@
 """Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from asperity._core import InvalidInput
+import numpy as np
+
+from asperity._core import InvalidInput, OutOfRange
 from asperity.dma import (
     MasterCurveBuild,
     PronyExtrapolation,
@@ -14,17 +17,18 @@ from asperity.dma import (
     build_master_curve,
     fit_prony,
 )
+from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
     file_name,
     file_names,
-    named,
     names_of,
     number,
     numbers,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     text,
     texts,
@@ -37,9 +41,10 @@ from asperity.shift_factors import ShiftFactors
 from asperity.uncertainty.draws import Drawn, Generator, draw_build
 
 Values = dict[str, Any]
+_ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
 _PRONY = {
-    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus"),
+    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus", plausible.RELAXED_MODULUS),
     "moduli_pa": Field(numbers, "moduli"),
     "relaxation_times_s": Field(numbers, "relaxation_times"),
 }
@@ -51,11 +56,18 @@ _DMA = {
     "temperatures": Field(numbers, "temperatures"),
 }
 _BUILD = {
-    "reference_temperature_k": Field(number, "reference_temperature"),
+    "reference_temperature_k": Field(number, "reference_temperature", plausible.TEMPERATURE),
+    "reference_temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
     "vertical_shift": Field(text, "vertical_shift"),
 }
 _PRONY_FIT = {"prony": Field(truth)}
-_TEMPERATURE = {"temperature_k": Field(number, "temperature"), "shift": Field(file_name)}
+_TEMPERATURE = {
+    "temperature_k": Field(number, "temperature", plausible.TEMPERATURE),
+    "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
+    "shift": Field(file_name),
+}
+_REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
+_CELSIUS = 273.15
 _RUBBER = {
     **_PRONY,
     "master_curve": Field(file_name),
@@ -69,8 +81,8 @@ _RUBBER = {
 # which keys go with which source of the modulus
 _WITH = {
     "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, *_PRONY_FIT, "extrapolation"},
-    "master_curve": {*_TEMPERATURE, "reference_temperature_k", "extrapolation"},
-    "": {*_PRONY, *_TEMPERATURE, "reference_temperature_k"},
+    "master_curve": {*_TEMPERATURE, *_REFERENCE, "extrapolation"},
+    "": {*_PRONY, *_TEMPERATURE, *_REFERENCE},
 }
 
 
@@ -92,11 +104,16 @@ def build_rubber(path: Path, table: object) -> BuiltRubber:
         if key != source and key not in _WITH[source]:
             given = f"{source} is given" if source else "neither isotherms nor master_curve is"
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
+    with _blaming_celsius(values):
+        return _build(path, source, _in_kelvin(path, values))
+
+
+def _build(path: Path, source: str, values: Values) -> BuiltRubber:
     if source == "isotherms":
         return _from_isotherms(path, values)
     rubber: Rubber
     if source == "master_curve":
-        with named(path, {"extrapolation": "[rubber] extrapolation"}):
+        with rename_in_errors(path, {"extrapolation": "[rubber] extrapolation"}):
             file = path.parent / values["master_curve"]
             rubber = read_master_curve(file, values.get("extrapolation"))
     else:
@@ -105,16 +122,50 @@ def build_rubber(path: Path, table: object) -> BuiltRubber:
             "relaxation_times_s"
         )
         require(path, "rubber", values, tuple(_PRONY), alternatives)
-        with named(path, names_of("rubber", _PRONY)):
+        with rename_in_errors(path, names_of("rubber", _PRONY)):
             rubber = PronySeries(**arguments(values, _PRONY))
+        where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
+        plausible.check(where, stiffest(rubber), plausible.MODULUS)
     shifts = _shift_table(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:
                 refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
         return _without_errors(rubber, values)
-    require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
+    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: shift holds a_T of several")
     return _without_errors(rubber.shifted(_shift_factor(path, shifts, values)), values)
+
+
+def _in_kelvin(path: Path, values: Values) -> Values:
+    """`values` with temperatures in K, whichever of the two units they were given in."""
+    kelvin = dict(values)
+    for name in ("temperature", "reference_temperature"):
+        if f"{name}_c" not in values:
+            continue
+        if f"{name}_k" in values:
+            refuse(path, f"[rubber] {name}_c", f"must be left out where {name}_k is given")
+        kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + _CELSIUS
+    return kelvin
+
+
+@contextmanager
+def _blaming_celsius(values: Values) -> Iterator[None]:
+    """Let errors on a temperature in K name the key that the scene has."""
+    try:
+        yield
+    except (InvalidInput, OutOfRange) as error:
+        message = str(error)
+        for name in ("temperature", "reference_temperature"):
+            if f"{name}_c" in values:
+                message = message.replace(f"[rubber] {name}_k", f"[rubber] {name}_c (in K)")
+        raise type(error)(message) from error
+
+
+def stiffest(rubber: Rubber) -> float:
+    """The largest |E| [Pa] that a rubber's data reach."""
+    if isinstance(rubber, PronySeries):
+        return rubber.equilibrium_modulus + float(np.sum(rubber.moduli))
+    return float(np.max(np.hypot(rubber.storage_modulus, rubber.loss_modulus)))
 
 
 def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
@@ -123,16 +174,18 @@ def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
 
 def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
-    require(path, "rubber", values, ("temperature_k",), "at which the rubber is wanted")
+    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
     values = {"reference_temperature_k": values["temperature_k"], **values}
     extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
     if extrapolation is not None and fitted != (extrapolation == "prony"):
         allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
         refuse(path, f"[rubber] extrapolation = {extrapolation}", allowed)
     files = [path.parent / name for name in values["isotherms"]]
-    with named(path, names_of("rubber", _DMA)):
+    with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
-    with named(path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}):
+    with rename_in_errors(
+        path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}
+    ):
         build = build_master_curve(
             isotherms,
             **arguments(values, _BUILD),
@@ -157,7 +210,7 @@ def _at_temperature(
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
         return curve, ()
-    with named(path, {"residual": "[rubber] prony"}):
+    with rename_in_errors(path, {"residual": "[rubber] prony"}):
         series = quiet_prony(curve, "prony" if beyond == "prony" else None)
     return series, series.notes
 
@@ -175,9 +228,15 @@ def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
 def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
     if "shift" not in values:
         return None
-    require(path, "rubber", values, ("reference_temperature_k",), "at which a_T is 1")
+    require(
+        path,
+        "rubber",
+        values,
+        ("reference_temperature_k",),
+        "or reference_temperature_c, at which a_T is 1",
+    )
     reference = values["reference_temperature_k"]
-    with named(path, names_of("rubber", _BUILD)):
+    with rename_in_errors(path, names_of("rubber", _BUILD)):
         file = path.parent / values["shift"]
         return read_shift_factors(file, reference_temperature=reference)
 
@@ -186,7 +245,7 @@ def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: V
     """a_T at the scene's temperature."""
     if values["temperature_k"] == values.get("reference_temperature_k"):
         return 1.0
-    with named(path, names_of("rubber", _TEMPERATURE)):
+    with rename_in_errors(path, names_of("rubber", _TEMPERATURE)):
         a_t = float(shifts.shift_factor(values["temperature_k"]))
         if not 0 < a_t < float("inf"):
             raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")

@@ -1,7 +1,7 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
@@ -13,32 +13,38 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.arguments import path_of
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
+from asperity.io import plausible
 from asperity.io.fields import (
     MOST_ROWS,
     Field,
     arguments,
     count,
-    named,
     names_of,
     nearest,
     number,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     sweep,
     text,
 )
+from asperity.io.files import check_file
 from asperity.rubber import Rubber
 from asperity.scene.parts import build_adhesion, build_correction
-from asperity.scene.rubber import BuiltRubber, build_rubber
+from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
 from asperity.scene.surface import Surface, build_surface
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
 
-_POINTS = {"pressure_pa": Field(sweep, "pressure"), "velocity_m_s": Field(sweep, "velocity")}
+_POINTS = {
+    "pressure_pa": Field(sweep, "pressure", plausible.PRESSURE),
+    "velocity_m_s": Field(sweep, "velocity", plausible.VELOCITY),
+}
 _CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
 _SOLVER = {"rtol": Field(number, "rtol")} | {name: Field(text, name) for name in ("form", "method")}
 _NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
@@ -94,6 +100,7 @@ class Scene:
     inputs: Mapping[str, Mapping[str, Any]]
     sampling: Mapping[str, Any]  # samples, seed and level of a band
     stated_rtol: float | None  # of [solver], None where the default holds
+    unusual: Sequence[str]  # numbers that their units make unlikely
 
     @property
     def spectrum(self) -> Spectrum:
@@ -102,6 +109,11 @@ class Scene:
     @property
     def rubber(self) -> Rubber:
         return self.built_rubber.rubber
+
+    @property
+    def notes(self) -> list[str]:
+        """What the inputs give to note, before anything is computed."""
+        return [*self.unusual, *self.surface.notes, *self.built_rubber.notes]
 
     @property
     def derived(self) -> Mapping[str, Any]:
@@ -126,7 +138,7 @@ class Scene:
         compute = partial(friction, adhesion=self.adhesion, **self.options)
         parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
-        notes = dict.fromkeys([*self.surface.notes, *self.built_rubber.notes])
+        notes = dict.fromkeys(self.notes)
         notes |= dict.fromkeys(note for part in parts for note in part.notes)
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
@@ -155,7 +167,7 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        with named(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
+        with rename_in_errors(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             band = swept_band(
                 self.surface.drawn,
                 self.built_rubber.drawn,
@@ -185,14 +197,14 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        notes = dict.fromkeys([*self.surface.notes, *self.built_rubber.notes])
+        notes = dict.fromkeys(self.notes)
         return list(notes | dict.fromkeys(note for part in parts for note in part))
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        with progress(chunks) as shown, named(self.path, _NAMES):
+        with progress(chunks) as shown, rename_in_errors(self.path, _NAMES):
             return [
                 compute(
                     self.spectrum,
@@ -209,7 +221,7 @@ class Scene:
     ) -> NDArray[np.float64]:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
         options = {key: value for key, value in self.options.items() if key != "form"}
-        with named(self.path, _NAMES):
+        with rename_in_errors(self.path, _NAMES):
             density: NDArray[np.float64] = pressure_distribution(
                 stress,
                 self.spectrum,
@@ -231,7 +243,12 @@ def load_scene(path: str | Path) -> Scene:
     InvalidInput, OutOfRange
         In one line: file, table and key, the value found and what is allowed.
     """
-    path = Path(path)
+    with plausible.collected() as notes:
+        scene = _load(path_of(path, "path"))
+    return replace(scene, unusual=tuple(notes))
+
+
+def _load(path: Path) -> Scene:
     tables = _read_toml(path)
     conditions = read_table(path, "conditions", tables["conditions"], _CONDITIONS)
     require(path, "conditions", conditions, tuple(_POINTS))
@@ -248,6 +265,8 @@ def load_scene(path: str | Path) -> Scene:
 
     surface = build_surface(path, tables["surface"])
     rubber = build_rubber(path, tables["rubber"])
+    where = f"{path}: [conditions] pressure_pa"
+    plausible.check_load(where, points["pressure_pa"], stiffest(rubber.rubber))
     inputs = {
         "surface": surface.values,
         "rubber": rubber.values,
@@ -282,21 +301,21 @@ def load_scene(path: str | Path) -> Scene:
         inputs=inputs,
         sampling=sampling,
         stated_rtol=stated_rtol,
+        unusual=(),
     )
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
     try:
-        if path.is_char_device():  # may have no end
-            refuse(path, "cannot be read", "not a regular file")
+        check_file(path)
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         refuse(path, "not a TOML file", str(error))
-    except InvalidInput:
-        raise
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
     except (ValueError, RecursionError):  # Python's limits
         refuse(path, "not a TOML file", "nested too deeply, or a number of thousands of digits")
     for name, table in tables.items():

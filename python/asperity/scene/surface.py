@@ -7,17 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import OutOfRange
+from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
     count,
     file_name,
-    named,
     names_of,
     number,
     pixel_size,
     read_table,
     refuse,
+    rename_in_errors,
     require,
     text,
 )
@@ -30,18 +31,21 @@ from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectru
 Values = dict[str, Any]
 
 _SELF_AFFINE = {
-    "rms_height_m": Field(number, "rms_height"),
+    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
     "hurst": Field(number, "hurst"),
-    "rolloff_per_m": Field(number, "rolloff"),
+    "rolloff_per_m": Field(number, "rolloff", plausible.FIRST_WAVENUMBER),
 }
-_BAND = {"q0_per_m": Field(number, "q0"), "q1_per_m": Field(number, "q1")}
+_BAND = {
+    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
+    "q1_per_m": Field(number, "q1", plausible.LAST_WAVENUMBER),
+}
 _CUTOFFS = {
-    "contamination_size_m": Field(number, "size"),
+    "contamination_size_m": Field(number, "size", plausible.PARTICLE),
     "slope_cutoff": Field(number, "slope"),
 }
 _READ = {
     "channel": Field(count, "channel"),
-    "pixel_size_m": Field(pixel_size, "pixel_size"),
+    "pixel_size_m": Field(pixel_size, "pixel_size", plausible.SPACING),
     "unit": Field(text, "unit"),
     "max_dropouts": Field(number, "max_fraction"),
 }
@@ -97,9 +101,10 @@ def build_surface(path: Path, table: object) -> Surface:
         needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
         require(path, "surface", values, needed, "give file, or " + ", ".join(needed))
         fields = {**_SELF_AFFINE, **_BAND}
-        with named(path, names_of("surface", fields)):
+        with rename_in_errors(path, names_of("surface", fields)):
             spectrum = SelfAffineSpectrum(**arguments(values, fields))
     spectrum = _cut(path, spectrum, values)
+    plausible.check(f"{path}: [surface]: rms slope", spectrum.rms_slope, plausible.SLOPE)
     derived |= {
         "q0_per_m": spectrum.q0,
         "q1_per_m": spectrum.q1,
@@ -117,7 +122,7 @@ def build_surface(path: Path, table: object) -> Surface:
 
 def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
     """The scan without drop-outs; trends are still in it."""
-    with named(path, names_of("surface", _READ)):
+    with rename_in_errors(path, names_of("surface", _READ)):
         raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
     derived["shape"] = list(raw.heights.shape)
     derived["pixel_size_m"] = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
@@ -136,7 +141,7 @@ def _measure(
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
         refuse(path, f"[surface] fit = {wanted!r}", 'must be "self-affine", or left out')
-    with named(path, names_of("surface", {**_TRANSFORM, **_BAND})):
+    with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
         spectrum = surface_spectrum(scan, **settings)
         if wanted is not None:
             return spectrum, fit_self_affine(spectrum)
@@ -149,7 +154,7 @@ def _measure(
 
 def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:
     """The fitted law on the scene's band, which may go on beyond what the scan resolves."""
-    with named(path, names_of("surface", _BAND)):
+    with rename_in_errors(path, names_of("surface", _BAND)):
         return fit.spectrum.extended(**arguments(values, _BAND))
 
 
@@ -185,7 +190,7 @@ def _slope_notes(spectrum: Spectrum, values: Values) -> list[str]:
 def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
     """The spectrum up to the smaller of the cut-offs that are named."""
     cutoffs = {}
-    with named(path, names_of("surface", _CUTOFFS)):
+    with rename_in_errors(path, names_of("surface", _CUTOFFS)):
         if "contamination_size_m" in values:
             size = values["contamination_size_m"]
             cutoffs["contamination_size_m"] = spectrum.cutoff_for_contamination(size)
@@ -198,5 +203,5 @@ def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
         found = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
         problem = f"must leave a band, cuts at {found}: are the heights in another unit?"
         refuse(path, f"[surface] {key} = {values[key]}", problem)
-    with named(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
+    with rename_in_errors(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])

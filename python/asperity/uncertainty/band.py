@@ -145,7 +145,8 @@ def friction_band(
             "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
             "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
         )
-    shape, points = broadcast(pressure=pressure, velocity=velocity)
+    shape, columns = broadcast(pressure=pressure, velocity=velocity)
+    points = [np.atleast_1d(column) for column in columns]
     p, v = (shaped(column, shape) for column in points)
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {

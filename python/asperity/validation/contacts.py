@@ -8,7 +8,8 @@ from importlib.resources import as_file, files
 from pathlib import Path
 
 from asperity._core import InvalidInput
-from asperity.io.read_surface import cell, check_file
+from asperity.io.files import check_file
+from asperity.io.read_surface import cell
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
 
 _NUMBERS = (

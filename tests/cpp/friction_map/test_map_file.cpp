@@ -1,9 +1,12 @@
 // The friction map's reader: what is a map is read, what is not is refused, and nothing crashes.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
 #include <random>
 #include <string>
@@ -48,11 +51,45 @@ bool stands(Bytes bytes) {
   probe::points(map);
   const auto [p, v] = std::pair{map.info().pressure, map.info().velocity};
   const double pressure[] = {p[0], p[1], std::sqrt(p[0]) * std::sqrt(p[1])};
-  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, shift[] = {1};
+  const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, a_T[] = {1};
   double mu[3];
-  look_up(map, {pressure, velocity, shift}, FrictionMap::Outside::nan, false, mu);
+  look_up(map, {pressure, velocity, a_T}, FrictionMap::Outside::nan, false, mu);
   for (const double one : mu) probe::require(probe::finite(one) && one >= 0, "mu of an array");
   return true;
+}
+
+/// A map of one band whose grids lie one in another, each with a cell in its first entry, the next grid in its second.
+Bytes chain(std::uint32_t grids) {
+  const Bytes plain = small_map::make({});
+  constexpr std::size_t head = 152, grid = head + 16, entries = grid + 48, cells = entries + 16;
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    return Bytes(plain.begin() + static_cast<std::ptrdiff_t>(begin), plain.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  const auto append = [](Bytes& to, const Bytes& from) { to.insert(to.end(), from.begin(), from.end()); };
+  Bytes result = part(0, grid), table;
+  small_map::overwrite(result, 132, grids, 4);
+  small_map::overwrite(result, 136, 2 * grids, 4);
+  for (std::uint32_t k = 0; k < grids; ++k) {
+    Bytes one = part(grid, entries);
+    small_map::overwrite(one, 36, 1, 4);  // rows
+    small_map::overwrite(one, 40, 2 * k, 4);
+    append(result, one);
+    small_map::put(table, 0, 4);
+    small_map::put(table, k + 1 < grids ? static_cast<std::uint64_t>(-2 - std::int64_t{k}) : 1, 4);
+  }
+  append(result, table);
+  append(result, part(cells, plain.size()));
+  small_map::repair(result);
+  return result;
+}
+
+/// The reason why a file is refused, or nothing.
+std::string load_refusal(const char* path) {
+  FrictionMap map;
+  std::string why;
+  const bool loaded = map.load(path, why);
+  CHECK(loaded == why.empty());
+  return why;
 }
 
 /// A built map with a boundary between states and a shift that depends on the velocity.
@@ -137,6 +174,40 @@ TEST_CASE("what is wrong with a file is named") {
   small_map::overwrite(bytes, grids + 48 + 40, 0, 4);  // grid 1 has the entries of grid 0
   small_map::repair(bytes);
   CHECK(says(bytes, "its tables contradict each other"));
+}
+
+TEST_CASE("what a look-up goes through is bounded") {
+  CHECK(refusal(chain(1)).empty());
+  CHECK(refusal(chain(64)).empty());
+  CHECK(stands(chain(64)));
+  CHECK(says(chain(65), "its tables contradict each other"));
+  CHECK(says(chain(100'000), "its tables contradict each other"));
+  CHECK(refusal(small_map::make({.bands = 64})).empty());
+  CHECK(says(small_map::make({.bands = 65}), "its head contradicts itself"));
+}
+
+TEST_CASE("what is no regular file is refused, not waited for and not read without end") {
+  CHECK(load_refusal("no such file").starts_with("no such file: cannot be read: "));
+  CHECK(load_refusal("/dev/zero") == "/dev/zero: cannot be read: is no regular file");
+  CHECK(load_refusal("/") == "/: cannot be read: is no regular file");
+  const std::string pipe = "pipe." + std::to_string(::getpid());
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(load_refusal(pipe.c_str()) == pipe + ": cannot be read: is no regular file");
+  ::unlink(pipe.c_str());
+  const std::string loop = "loop." + std::to_string(::getpid());
+  REQUIRE(::symlink(loop.c_str(), loop.c_str()) == 0);
+  CHECK(load_refusal(loop.c_str()).starts_with(loop + ": cannot be read: "));
+  ::unlink(loop.c_str());
+}
+
+TEST_CASE("a long file that is no map is refused by its beginning") {
+  const std::string path = "long." + std::to_string(::getpid());
+  std::FILE* const file = std::fopen(path.c_str(), "wbx");
+  REQUIRE(file != nullptr);
+  REQUIRE(::ftruncate(::fileno(file), off_t{1} << 40) == 0);  // a terabyte of nothing
+  std::fclose(file);
+  CHECK(load_refusal(path.c_str()) == path + ": is no friction map: it begins otherwise");
+  ::unlink(path.c_str());
 }
 
 TEST_CASE("a file altered in any byte or cut at any length is refused") {

@@ -38,7 +38,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         ),
         (["friction", "scan.npy"], "scan.npy: not a TOML file"),
         (["area", "none.toml"], "none.toml: cannot be read"),
-        (["area", "none\nat all.toml"], "none at all.toml: cannot be read"),
+        (["area", "none\nat all.toml"], r"'none\nat all.toml': cannot be read"),
         (["spectrum", "none.npy"], "none.npy: cannot be read"),
         (
             ["friction", "scene.toml", "--output", "/proc/mu.csv"],
@@ -117,6 +117,44 @@ def test_bad_usage_is_one_line(
     assert len(err.splitlines()) == 1
     assert message in err
     assert "--help" in err
+
+
+NO_FILE = "cannot be read: not a regular file"
+DMA = ["--columns", "frequency=f,temperature=T,storage=s,loss=l", "--modulus", "E"]
+DMA += ["--units", "frequency=Hz,temperature=K,modulus=Pa"]
+
+
+@each(
+    "arguments",
+    [
+        ["friction", "FILE"],
+        ["fit", "scene.toml", "FILE"],
+        ["map", "--info", "FILE"],
+        ["rubber", "FILE", *DMA],
+        ["rubber", "sweep.csv", *DMA, "--shift", "FILE"],
+        [*SPECTRUM[:1], "FILE", *SPECTRUM[2:]],
+        ["validate", "--rows", "FILE"],
+        ["validate", "--surface", "FILE"],
+    ],
+)
+@each("name", ["pipe", "/dev/zero", "loop"])
+def test_what_has_no_end_is_refused_and_not_waited_for(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    undrawn: None,
+    arguments: list[str],
+    name: str,
+) -> None:
+    if not (folder / "pipe").exists():
+        os.mkfifo(folder / "pipe")
+    if not (folder / "loop").is_symlink():
+        (folder / "loop").symlink_to("loop")
+    rows = "".join(f"{10**k},293,2e6,1e6\n" for k in range(4))
+    (folder / "sweep.csv").write_text(f"f,T,s,l\n{rows}")
+    assert main([name if one == "FILE" else one for one in arguments]) == 2
+    out, err = capsys.readouterr()
+    problem = "cannot be read: Too many levels of symbolic links" if name == "loop" else NO_FILE
+    assert (out, err) == ("", f"asperity: {name}: {problem}\n")
 
 
 def test_an_error_in_a_later_scene_keeps_the_old_output(

@@ -53,7 +53,7 @@ def test_the_command_takes_them(files: list[Path], capsys: pytest.CaptureFixture
     assert "# temperatures = [30.0, 10.0, 20.0]" in out
     assert main(["rubber", *names, *how, "--temperatures", "30,10"]) == 2
     said = capsys.readouterr().err
-    assert said == "asperity: --temperatures has 2 entries, paths has 3: must be as many\n"
+    assert said == "asperity: --temperatures (2) and paths (3) must have equal length\n"
 
 
 @pytest.mark.parametrize("given", [None, CELSIUS])

@@ -185,7 +185,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
         ("a.npz", _npy(HEIGHTS), {}, "not a sound .npz file"),
         ("a.csv", b"", {}, "holds no numbers"),
         ("a.csv", b"# nothing but this\n", {}, "holds no numbers"),
-        ("a.csv", b"1,2\n3\n", {}, "line 2 has 1 cells, those before it 2"),
+        ("a.csv", b"1,2\n3\n", {}, "line 2 has 1 cells; it must have 2"),
         ("a.csv", b"1,2\n3,high\n", {}, "line 2: 'high' is not a number"),
         ("a.csv", b"1_0,2\n3,4\n", {}, "line 1: '1_0' is not a number"),
         ("a.csv", b"1,5;2,5\n", {}, "line 1: '1,5' is not a number"),

@@ -245,3 +245,18 @@ def test_profiles_of_a_rolled_off_surface_tell_its_spectrum_where_they_are_relia
     assert good.sum() > 6
     miss = np.abs(found.density[good] - rolled.at(found.wavenumber[good]))
     assert np.all(miss < 4 * found.standard_error[good])
+
+
+@each("aspect", [1e-294, 1e-7, 1e-6, 1e6, 1e7, 1e300])
+def test_pixels_so_narrow_that_rings_are_empty_are_refused_by_their_aspect(aspect):
+    heights = RNG.normal(size=(64, 64))
+    for part in ("all", "top"):
+        with pytest.raises(InvalidInput, match=r"pixel_size = \(.*\): its aspect of .* rings"):
+            power_spectrum(HeightMap(heights, pixel_size=(aspect * 1e-6, 1e-6)), part=part)
+
+
+@each("aspect", [1e-3, 1e-2, 1, 100])
+def test_narrow_pixels_are_no_trouble(aspect):
+    heights = RNG.normal(size=(64, 64))
+    found = power_spectrum(HeightMap(heights, pixel_size=(aspect * 1e-6, 1e-6)), window="none")
+    assert found.count.sum() == 64**2 - 1

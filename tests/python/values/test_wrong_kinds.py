@@ -1,6 +1,7 @@
 """An argument of another kind, for every argument of every call: one line that names it."""
 
 import inspect
+from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -25,7 +26,20 @@ from helpers.examples import (
 
 # What functions return holds what they computed, and nothing is checked again.
 RESULTS = {"Friction", "FrictionBand", "FrictionSlopes", "Separation"}
+
+
+class Unshown:
+    """What cannot even be shown, and is no path either."""
+
+    def __repr__(self):
+        raise RuntimeError("no repr")
+
+    def __fspath__(self):
+        return b"bytes"
+
+
 WRONG = [object(), 1j, b"\xff", {"a": 1}, "\udcff" * 200, "é\n" * 200, 10**400, 10**5000, print]
+WRONG += [Decimal("sNaN"), Unshown(), np.ma.masked_array([1.0, 2.0], [False, True])]
 ROWS = {
     "columns": {"frequency": "f", "storage": "s", "loss": "l", "temperature": "T"},
     "units": {"frequency": "Hz", "modulus": "Pa", "temperature": "K"},
@@ -135,6 +149,7 @@ def right(argument, value):
     """Whether an argument may be of this kind."""
     return (
         argument == "ax"  # whatever draws
+        or (argument == "heights" and np.ma.isMaskedArray(value))  # drop-outs
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
         or (isinstance(value, str) and argument in {"text", "path", "paths"})
     )
@@ -157,6 +172,17 @@ def test_another_kind_is_refused_in_a_line_that_names_the_argument(readers):
                     message.encode()  # as a log file asks for
                     tried += 1
     assert tried > 2000
+
+
+def test_a_file_is_named_in_one_line_whatever_its_name(readers, tmp_path):
+    for name, function, good in calls(readers):
+        for argument in {"path", "paths"} & set(inspect.signature(function).parameters):
+            with case(name=name):
+                with pytest.raises((InvalidInput, OSError)) as refused:
+                    function(**{**good, argument: tmp_path / "no\nsuch" / "\x1b[2J.npy"})
+                assert str(refused.value).isprintable()
+                with pytest.raises(InvalidInput, match=argument):
+                    function(**{**good, argument: np.array(0.3)})
 
 
 @pytest.mark.filterwarnings("ignore:strain sweeps reach")

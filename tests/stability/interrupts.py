@@ -1,0 +1,129 @@
+"""Ctrl-C in the middle of one long call: how long until it ends.
+
+python tests/stability/interrupts.py [--seconds 1] [CALL...]
+
+Each call would take far longer than the signal waits. Fails where one takes more than --seconds
+from the signal to KeyboardInterrupt, or ends by itself. Wants 8 GB of memory and a machine with
+little else to do.
+"""
+
+import argparse
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+import asperity
+
+ROAD = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6, moduli=[1e7, 1e8], relaxation_times=[1e-2, 1e-5]
+)
+BOX = {"pressure": (1e4, 1e6), "velocity": (1e-3, 1.0)}
+GRID = {"shape": (8192, 8192), "pixel_size": 1e-5}
+
+
+def points() -> np.ndarray:
+    return np.geomspace(2e-3, 0.5, 100_000_000)
+
+
+def look_up(name: str) -> Callable[[], object]:
+    fmap = asperity.friction_map(ROAD, RUBBER, **BOX, rtol=0.1, checked=0)
+    velocity = points()
+    return lambda: getattr(fmap, name)(1e5, velocity)
+
+
+def modulus() -> Callable[[], object]:
+    frequency = points()
+    return lambda: RUBBER.modulus(frequency)
+
+
+def integrals() -> Callable[[], object]:
+    frequency = points()
+    return lambda: RUBBER.angular_integrals(frequency)
+
+
+def friction() -> Callable[[], object]:
+    velocity = points()
+    return lambda: asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=velocity)
+
+
+def measured(function: Callable[..., object]) -> Callable[[], object]:
+    heights = np.random.default_rng(1).normal(size=GRID["shape"])
+    surface = asperity.HeightMap(heights=heights, pixel_size=GRID["pixel_size"])
+    return lambda: function(surface)
+
+
+def band() -> Callable[[], object]:
+    heights = asperity.synthesize(ROAD, shape=(256, 256), pixel_size=1e-5, seed=1)
+    found = asperity.power_spectrum(heights)
+    spectrum = found.truncated(q1=found.q1 / 3)
+    velocity = np.geomspace(1e-3, 1, 50)
+    return lambda: asperity.friction_band(
+        spectrum, RUBBER, pressure=1e5, velocity=velocity, samples=100_000, seed=1
+    )
+
+
+CALLS: dict[str, Callable[[], Callable[[], object]]] = {
+    "mu": lambda: look_up("mu"),
+    "derivatives": lambda: look_up("derivatives"),
+    "modulus": modulus,
+    "angular_integrals": integrals,
+    "friction": friction,
+    "synthesize": lambda: lambda: asperity.synthesize(ROAD, **GRID, seed=1),
+    "skewed": lambda: lambda: asperity.synthesize(ROAD, **GRID, seed=1, skewness=-0.5),
+    "power_spectrum": lambda: measured(asperity.power_spectrum),
+    "line_spectrum": lambda: measured(asperity.line_spectrum),
+    "spectral_density": lambda: measured(asperity.spectral_density),
+    "friction_map": lambda: lambda: asperity.friction_map(ROAD, RUBBER, **BOX, rtol=1e-7),
+    "friction_band": band,
+}
+
+
+def interrupted(run: Callable[[], object], wait: float) -> float | None:
+    """Seconds from a signal, sent after `wait`, to the end; None where the call ended before."""
+    parent = os.getpid()
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        time.sleep(wait)
+        os.write(writing, repr(time.monotonic()).encode())
+        os.kill(parent, signal.SIGINT)
+        os._exit(0)
+    try:
+        run()
+    except KeyboardInterrupt:
+        now = time.monotonic()
+        return now - float(os.read(reading, 100))
+    finally:
+        os.waitpid(child, 0)
+    return None
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("calls", nargs="*", metavar="CALL", help=", ".join(CALLS))
+    parser.add_argument("--seconds", type=float, default=1.0)
+    parser.add_argument("--wait", type=float, default=1.0, help="seconds before the signal")
+    args = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    failed = False
+    for name in args.calls or CALLS:
+        child = os.fork()  # gives back its memory
+        if child == 0:
+            try:
+                took = interrupted(CALLS[name](), args.wait)
+            except KeyboardInterrupt:  # after the end
+                took = None
+            shown = "ended before the signal" if took is None else f"ended {took:.2f} s after it"
+            print(f"{name}: {shown}", flush=True)
+            os._exit(took is None or took > args.seconds)
+        failed = os.waitpid(child, 0)[1] != 0 or failed
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
