@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,7 @@ from asperity.base.arguments import (
     OptionalVector,
     Vector,
     brief,
+    choice,
     flag,
     frozen,
     many,
@@ -287,6 +288,13 @@ def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
     return _built(parts, "power-law")
 
 
+PronyExtrapolation = Literal["prony"]
+
+
+def _goes_beyond(extrapolation: Any) -> bool:
+    return choice(extrapolation, "extrapolation", ("prony", None)) == 0
+
+
 @value
 class PronyFit(PronySeries):
     """A PronySeries [Pa] that was fitted, and how well it follows the measurement (`fit_prony`).
@@ -299,6 +307,11 @@ class PronyFit(PronySeries):
         Relative root mean square of E' and of E'' about the fit [-].
     causal : bool
         False where E' and E'' contradict each other (Kramers-Kronig) by more than their noise.
+    lowest_frequency, highest_frequency : float
+        Those that it was fitted on [rad/s]; `shifted` moves them. Beyond them it raises OutOfRange.
+    extrapolation : {None, "prony"}
+        "prony": the series may be asked beyond them. What comes from there is then counted by the
+        `extrapolated_share` of a result, whose notes say so.
     notes : tuple of str
         What a reader must know.
     """
@@ -308,21 +321,45 @@ class PronyFit(PronySeries):
     storage_residual: float
     loss_residual: float
     causal: bool
+    lowest_frequency: float
+    highest_frequency: float
+    extrapolation: PronyExtrapolation | None = None
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        lowest = number(self.lowest_frequency, "lowest_frequency")
+        highest = number(self.highest_frequency, "highest_frequency")
+        beyond = _goes_beyond(self.extrapolation)
         self._set(
+            _core=self._core.fitted_on(lowest, highest, beyond),
+            lowest_frequency=lowest,
+            highest_frequency=highest,
             storage_residual=number(self.storage_residual, "storage_residual"),
             loss_residual=number(self.loss_residual, "loss_residual"),
             causal=flag(self.causal, "causal"),
             notes=sentences(self.notes, "notes"),
         )
 
+    @classmethod
+    def _of(cls, core: Any, **others: Any) -> Self:
+        """Make a fit from the core's."""
+        lowest, highest = core.fitted_range()
+        return super()._of(core, lowest_frequency=lowest, highest_frequency=highest, **others)
+
+    def shifted(self, a_T: float) -> "PronyFit":  # noqa: N803
+        """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T."""
+        same = ("storage_residual", "loss_residual", "causal", "extrapolation", "notes")
+        core = self._core.shifted(number(a_T, "a_T"))
+        return PronyFit._of(core, **{name: getattr(self, name) for name in same})
+
+    def _drawn_range(self) -> tuple[float, float]:
+        return self.lowest_frequency, self.highest_frequency
+
     def _columns(self) -> Columns:
         columns = super()._columns()
-        more = ("storage_residual", "loss_residual", "causal", "notes")
-        facts = {**columns.attributes, **{name: getattr(self, name) for name in more}}
+        facts: dict[str, Any] = {**columns.attributes, **self._arguments()}
+        del facts["moduli"], facts["relaxation_times"]
         return Columns(columns.coordinates, columns.variables, facts)
 
 
@@ -331,11 +368,13 @@ def fit_prony(
     *,
     modes_per_decade: float | None = None,
     residual: float | None = None,
+    extrapolation: PronyExtrapolation | None = None,
 ) -> PronyFit:
     """Fit a Prony series to the rows of a master curve.
 
     Non-negative least squares with relative weights. The relaxation times are equally spaced in the
-    logarithm, from a decade below to a decade above those of the measured frequencies.
+    logarithm, from a decade below to a decade above those of the measured frequencies. The series
+    is known on those frequencies only.
 
     Parameters
     ----------
@@ -344,6 +383,8 @@ def fit_prony(
         By default the fewest that reach the noise of the rows.
     residual : float, optional
         The fewest that reach this relative root mean square of E' and E'' together instead.
+    extrapolation : {None, "prony"}
+        "prony": the series may be asked beyond the measured frequencies, where nothing holds it.
 
     Returns
     -------
@@ -358,14 +399,20 @@ def fit_prony(
     NotConverged
         No number of modes reaches `residual`.
     """
+    measured: Any = ()  # points of a build, which its rows are means of
     if isinstance(master_curve, MasterCurveBuild):
+        measured = master_curve.points.angular_frequency
         master_curve = master_curve.master_curve
     curve = of_kind(master_curve, "master_curve", MasterCurve)
+    beyond = _goes_beyond(extrapolation)
     core, storage_residual, loss_residual, causal, notes = _core.fit_prony(
         curve._core,
         number_or_none(modes_per_decade, "modes_per_decade"),
         number_or_none(residual, "residual"),
+        beyond,
     )
+    w = np.append(measured, curve.angular_frequency[[0, -1]])
+    core = core.fitted_on(w.min(), w.max(), beyond)
     if not causal:
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
@@ -374,5 +421,6 @@ def fit_prony(
         storage_residual=storage_residual,
         loss_residual=loss_residual,
         causal=causal,
+        extrapolation=extrapolation,
         notes=notes,
     )

@@ -57,7 +57,7 @@ class _HasModulus(Table):
     def modulus(self, angular_frequency: ArrayLike) -> Any:
         """Return the modulus E' + i E'' [Pa] at an `angular_frequency` [rad/s] of any shape.
 
-        Outside of its range a measured master curve raises OutOfRange.
+        Outside of its range a measured master curve raises OutOfRange, and so does a fit.
         """
         return over(angular_frequency, "angular_frequency", self._core.modulus)
 
@@ -68,6 +68,15 @@ class _HasModulus(Table):
         I2 = int_0^2pi \\|E(w cos phi)\\|^2 dphi that of Eq. 7.
         """
         return _two_over(angular_frequency, self._core.angular_integrals)
+
+    def extrapolated_shares(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
+        """Return the shares of I1 and I2 [-] that come from outside of the measured frequencies.
+
+        `angular_frequency` w [rad/s] may have any shape; w cos(phi) always runs to zero. Below the
+        lowest one a master curve takes E' as constant and E'' as proportional to w, a fitted Prony
+        series goes on. A series given by hand has no range, and no shares.
+        """
+        return _two_over(angular_frequency, self._core.extrapolated_shares)
 
 
 @value
@@ -133,9 +142,12 @@ class PronySeries(_HasModulus):
             {"equilibrium_modulus": self.equilibrium_modulus},
         )
 
-    def _draw(self, axes: Any) -> None:
+    def _drawn_range(self) -> tuple[float, float]:
         times = self.relaxation_times if self.relaxation_times.size else np.ones(1)
-        w = np.geomspace(0.1 / times.max(), 10 / times.min(), 400)
+        return 0.1 / times.max(), 10 / times.min()
+
+    def _draw(self, axes: Any) -> None:
+        w = np.geomspace(*self._drawn_range(), 400)
         modulus = self.modulus(w)
         draw_moduli(axes, w, modulus.real, modulus.imag)
 
@@ -204,14 +216,6 @@ class MasterCurve(_HasModulus):
         The new curve has no `shift_factors`.
         """
         return MasterCurve._of(self._core.shifted(number(a_T, "a_T")), self.extrapolation)
-
-    def extrapolated_shares(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
-        """Return the shares of I1 and I2 [-] that come from outside of the measured frequencies.
-
-        `angular_frequency` w [rad/s] may have any shape; w cos(phi) always runs to zero. Below the
-        lowest frequency E' is taken as constant and E'' as proportional to w.
-        """
-        return _two_over(angular_frequency, self._core.extrapolated_shares)
 
     def at_strain(
         self,

@@ -97,10 +97,11 @@ py::tuple drawn(const MasterCurve& curve, const ShiftTable& shifts, const Array&
 }
 
 /// (series, residual of E', residual of E'', causal, notes)
-py::tuple fitted(const MasterCurve& curve, std::optional<double> modes_per_decade, std::optional<double> residual) {
+py::tuple fitted(const MasterCurve& curve, std::optional<double> modes_per_decade, std::optional<double> residual,
+                 bool extrapolated) {
   PronyFit fit = released([&] {
     return fit_prony(curve.angular_frequency(), curve.storage_modulus(), curve.loss_modulus(),
-                     {.modes_per_decade = modes_per_decade, .residual = residual});
+                     {.modes_per_decade = modes_per_decade, .residual = residual, .extrapolated = extrapolated});
   });
   return py::make_tuple(std::move(fit.series), fit.storage_residual, fit.loss_residual, fit.causal,
                         tuple_of(fit.notes));

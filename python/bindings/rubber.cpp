@@ -54,10 +54,11 @@ void bind_rubber(py::classh<R>& rubber) {
 }
 
 /// Shares of I1 and I2 that come from outside of the measured frequencies.
-py::tuple extrapolated_shares(const MasterCurve& curve, const Array& angular_frequency) {
+template <class R>
+py::tuple extrapolated_shares(const R& rubber, const Array& angular_frequency) {
   return two_columns(angular_frequency, [&](auto part, double* first, double* second) {
     for (const double w : part) {
-      const AngularIntegrals integrals = curve.angular_integrals(w);
+      const AngularIntegrals integrals = rubber.angular_integrals(w);
       *first++ = integrals.i1_outside / integrals.i1;
       *second++ = integrals.i2_outside / integrals.i2;
     }
@@ -88,7 +89,17 @@ void bind_rubber(py::module_& m) {
       }))
       .def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
       .def("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
-      .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); });
+      .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); })
+      .def("fitted_on",
+           [](const PronySeries& series, double lowest, double highest, bool extrapolated) {
+             return series.fitted_on({lowest, highest}, extrapolated);
+           })
+      .def("fitted_range",
+           [](const PronySeries& series) {
+             const FrequencyRange range = series.fitted_range().value();
+             return py::make_tuple(range.lowest, range.highest);
+           })
+      .def("extrapolated_shares", &extrapolated_shares<PronySeries>);
   bind_rubber(prony);
 
   py::classh<MasterCurve> curve(m, "MasterCurve");
@@ -101,7 +112,7 @@ void bind_rubber(py::module_& m) {
       .def("angular_frequency", [](const MasterCurve& c) { return array_of(c.angular_frequency()); })
       .def("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
       .def("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
-      .def("extrapolated_shares", &extrapolated_shares);
+      .def("extrapolated_shares", &extrapolated_shares<MasterCurve>);
   bind_rubber(curve);
 
   m.def("effective_modulus", &effective_moduli);

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import rows_asperities  # noqa: F401
 import rows_bands  # noqa: F401
 import rows_contact  # noqa: F401
+import rows_fronts  # noqa: F401
 import rows_master  # noqa: F401
 import rows_rubber  # noqa: F401
 import rows_tables  # noqa: F401

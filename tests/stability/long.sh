@@ -1,6 +1,6 @@
 #!/bin/sh
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
-#   scenes       ten thousand random scenes against GSL's adaptive integration, a thousand of them with tables
+#   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
@@ -34,7 +34,8 @@ ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consume
 
 scenes() {
   "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
-    "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5
+    "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5 &&
+    "$python" tests/stability/random_scenes.py --scenes 40000 --seed 3 --tables 0.1 --edges 1
 }
 
 maps() {

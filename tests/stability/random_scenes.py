@@ -1,14 +1,18 @@
 """Random scenes: the error estimates of friction and of the area against the errors they have.
 
-    python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3]
+    python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3] [--edges 0]
 
 Surfaces, rubbers (Prony series of 1 to 20 terms, or tables of 4 to 40 rows with kinks), pressures,
 velocities, corrections of every kind, adhesion, forms and tolerances are drawn over many decades,
-most of them absurd. The truth is GSL's adaptive integration (method="qag") at a hundredth of the
-tolerance; where that disagrees, at a ten thousandth, and then method="cquad". Printed: scenes whose
-estimate, with that of the truth, was exceeded, or whose area is off by more than the tolerance,
-what did not converge, the median of estimate over error where the latter can be told. Exit status
-1 where any scene failed.
+most of them absurd. A share of `edges` has a few rows and a front of any shape: rising, flat,
+falling to a row of zero or rising from one, 25 decades steep, with notches and jumps, on bands from
+a millionth to nine decades, some with relaxation times that differ in the twelfth digit; half of
+these take the interpolated form, and their densities make G at the upper end about 1e-8 to 1e12.
+The truth is GSL's adaptive integration at rtol = 1e-11, method="qag" and, where that disagrees or
+does not converge, method="cquad". Printed: scenes whose estimate, with that
+of the truth, was exceeded, or whose area is off by more than the tolerance, what did not converge,
+scenes that GSL has no truth for, the median of estimate over error where the latter can be told.
+Exit status 1 where any scene failed.
 """
 
 import argparse
@@ -19,6 +23,10 @@ from typing import Any
 import numpy as np
 
 import asperity
+
+
+class NoTruth(Exception):
+    """None of GSL's rules converges."""
 
 
 @dataclass
@@ -73,6 +81,40 @@ def draw_surface(rng: Any, tables: float) -> tuple[Any, float, float]:
     return surface, q0, q1
 
 
+def draw_edges(rng: Any) -> tuple[Any, float, float]:
+    """A surface of few rows that starts, ends or breaks in an awkward way, and its band."""
+    q0, width = power(rng, 1, 6), power(rng, -6, 0) if rng.random() < 0.4 else power(rng, 0, 9)
+    q, c = [q0, q0 * (1 + width)], [1.0, 0.0]
+    kind = rng.choice(["rising", "roll-off", "falls to zero", "steep", "jumps", "notches"])
+    more = int(rng.integers(0, 4))
+    if kind == "rising":
+        c[1] = power(rng, -3, 3)
+        more = min(more, 1)
+    elif kind == "roll-off":
+        q.append(q[1] * (1 + power(rng, -2, 3)))
+        c = [1.0, 1.0, (q[1] / q[2]) ** rng.uniform(2, 4)]
+        more = 0
+    elif kind == "steep":
+        q[1], c[1] = q0 * (1 + power(rng, -4, 1)), power(rng, -25, 25)
+    elif kind in ("jumps", "notches"):
+        q = list(np.geomspace(q0, q0 * (1 + power(rng, -1, 4)), int(rng.integers(3, 20))))
+        c = list((np.array(q) / q0) ** -rng.uniform(2, 4))
+        for i in range(len(c)):
+            if kind == "jumps":
+                c[i] *= power(rng, -5, 5)
+            elif rng.random() < 0.2:
+                c[i] *= 0 if rng.random() < 0.4 else power(rng, -12, -1)
+        c[rng.integers(len(c))] = 1.0
+        more = 0
+    for _ in range(more):
+        q.append(q[-1] * (1 + power(rng, -3, 1.5)))
+        c.append(0.0 if rng.random() < 0.35 else max(c[-1], 1e-6) * power(rng, -12, 3))
+    if rng.random() < 0.2:  # a trace, or a ramp from zero, before all of it
+        q.insert(0, q[0] / (1 + power(rng, -3, 1)))
+        c.insert(0, 0.0 if rng.random() < 0.5 else power(rng, -12, 3))
+    return asperity.TabulatedSpectrum(wavenumber=q, density=c), q[0], q[-1]
+
+
 def draw_rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
     if rng.random() < tables:
         rows = int(rng.integers(4, 40))
@@ -116,12 +158,34 @@ def draw_correction(rng: Any, height: float) -> Any:
     return asperity.GreenwoodWilliamson(peaks=measured, reading=reading, **profile)
 
 
-def compute(seed: int, scene: int, tables: float) -> Outcome:
+def nearly_equal(rng: Any, middle: float) -> Any:
+    """A Prony series whose relaxation times differ by as little as a digit of the last."""
+    terms = int(rng.integers(2, 21))
+    return asperity.PronySeries(
+        equilibrium_modulus=power(rng, -2, 7),
+        moduli=power(rng, 4, 9.5, terms),
+        relaxation_times=power(rng, -2, 2) / middle * (1 + power(rng, -12, -0.5, terms)),
+    )
+
+
+def loaded(surface: Any, rubber: Any, pressure: float, velocity: float, g: float) -> Any:
+    """The surface with densities such that G at its upper end is about `g`."""
+    i2 = rubber.angular_integrals(velocity * surface.q1)[1]
+    unscaled = i2 * surface.rms_slope**2 / (9 * np.pi * pressure**2)
+    return surface.scaled(g / unscaled)
+
+
+def compute(seed: int, scene: int, tables: float, edges: float = 0.0) -> Outcome:
     """Scene number `scene` of a seed."""
     rng = np.random.default_rng([seed, scene])
-    surface, q0, q1 = draw_surface(rng, tables)
+    on_edge = edges > 0 and rng.random() < edges
+    surface, q0, q1 = draw_edges(rng) if on_edge else draw_surface(rng, tables)
     pressure, velocity, rtol = power(rng, 3, 8), power(rng, -6, 1), power(rng, -10, -2)
     rubber = draw_rubber(rng, tables, velocity * q0, velocity * q1)
+    if on_edge:
+        if rng.random() < 0.3:
+            rubber = nearly_equal(rng, velocity * q0 * (q1 / q0) ** rng.uniform(-0.5, 1.5))
+        surface = loaded(surface, rubber, pressure, velocity, power(rng, -8, 12))
     correction = draw_correction(rng, surface.rms_height)
     shear_stress = power(rng, 3, 8)
     options: dict[str, Any] = {
@@ -129,7 +193,7 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
         "velocity": velocity,
         "correction": correction,
         "adhesion": asperity.Adhesion(shear_stress=shear_stress) if rng.random() < 0.3 else None,
-        "form": "exact" if rng.random() < 0.8 else "interpolated",
+        "form": "exact" if rng.random() < (0.5 if on_edge else 0.8) else "interpolated",
     }
     igw = isinstance(
         correction, asperity.GreenwoodWilliamson | asperity.PeaksThenGreenwoodWilliamson
@@ -137,7 +201,7 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
     if igw:
         rtol = max(rtol, 1e-7)  # where d~ comes near z_max p_T has fewer digits than are asked for
     ours = asperity.friction(surface, rubber, rtol=rtol, **options)
-    best = max(min(rtol / 100, 1e-9), 1e-11)
+    best = 1e-11
     alike = dict(options)
     if igw and np.isfinite(ours.shift_factor):
         alike["correction"] = asperity.AffineShift(ours.shift_factor)  # the same in either method
@@ -145,9 +209,13 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
         best = rtol
     options.pop("adhesion")
     area = asperity.contact_area(surface, rubber, rtol=rtol, **options)
-    sharper = max(best / 100, 1e-11)
-    for method, rtol_of_truth in (("qag", best), ("qag", sharper), ("cquad", sharper)):
-        truth = asperity.friction(surface, rubber, rtol=rtol_of_truth, method=method, **alike)
+    for method in ("qag", "cquad"):
+        try:
+            truth = asperity.friction(surface, rubber, rtol=best, method=method, **alike)
+        except asperity.NotConverged as error:  # the next rule may do better
+            if method == "cquad":
+                raise NoTruth(str(error)) from error
+            continue
         worse = max((ours.contact_area, area), key=lambda found: abs(found - truth.contact_area))
         outcome = Outcome(
             ours.mu,
@@ -159,8 +227,7 @@ def compute(seed: int, scene: int, tables: float) -> Outcome:
             truth.contact_area,
             type(correction).__name__,
         )
-        # GSL's estimate may be too small as well: seed 11, scene 2516, tables 0.1; by 60 times,
-        # at either tolerance: seed 301, scene 4831, tables 0.1
+        # qag's estimate may be too small as well: seed 301, scene 4831, tables 0.1, by 60 times
         if outcome.kept:
             break
     return outcome
@@ -171,11 +238,16 @@ def main() -> int:
     parser.add_argument("--scenes", type=int, default=10000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tables", type=float, default=0.3)
+    parser.add_argument("--edges", type=float, default=0.0)
     arguments = parser.parse_args()
-    ratios, exceeded, unsolved = [], 0, 0
+    ratios, exceeded, unsolved, untold = [], 0, 0, 0
     for scene in range(arguments.scenes):
         try:
-            outcome = compute(arguments.seed, scene, arguments.tables)
+            outcome = compute(arguments.seed, scene, arguments.tables, arguments.edges)
+        except NoTruth as error:
+            untold += 1
+            print(f"scene {scene}: no truth: {error}")
+            continue
         except asperity.NotConverged as error:
             unsolved += 1
             print(f"scene {scene}: {error}")
@@ -185,7 +257,10 @@ def main() -> int:
         if not outcome.kept:
             exceeded += 1
             print(f"scene {scene}: {outcome}")
-    print(f"{arguments.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved}")
+    print(
+        f"{arguments.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved},"
+        f" without a truth {untold}"
+    )
     print(f"median of estimate over error: {np.median(ratios):.3g}, of {len(ratios)} scenes")
     return 1 if exceeded or unsolved else 0
 

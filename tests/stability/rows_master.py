@@ -119,3 +119,20 @@ def outside() -> Iterator[Case]:
         lambda: friction(asperity.MasterCurve(**rows), velocity=1e6).mu,
         asperity.OutOfRange,
     )
+
+
+@row(
+    "a power law beyond the table on which |E|^2 underflows",
+    "0 over 0 in what looks for the next digit",
+    naive="|E|^2 at the end of the decade",
+    truth="refused: InvalidInput",
+)
+def underflow() -> Iterator[Case]:
+    rows = {"storage_modulus": [1e-130, 1.0], "loss_modulus": [1e-130, 1.0]}
+    yield (
+        lambda: (1e-130 * 0.1**130) ** 2,
+        lambda: asperity.MasterCurve(
+            angular_frequency=[1.0, 10.0], extrapolation="power-law", **rows
+        ).angular_integrals(0.2)[0],
+        asperity.InvalidInput,
+    )

@@ -118,9 +118,10 @@ ASPERITY_EXPORT MasterCurveBuild draw_master_curve(const MasterCurveBuild& build
 struct PronyFitOptions {
   std::optional<double> modes_per_decade = std::nullopt;  // default: the fewest modes that reach the noise
   std::optional<double> residual = std::nullopt;          // ... or that reach this relative rms residual
+  bool extrapolated = false;                              // whether the series may be asked beyond the rows
 };
 
-/// A Prony series through a measured modulus.
+/// A Prony series through a measured modulus, known on the measured frequencies.
 struct PronyFit {
   PronySeries series;
   double storage_residual, loss_residual;  // relative rms of E' and E'' [-]
@@ -129,7 +130,7 @@ struct PronyFit {
   std::vector<std::string> notes;
 };
 /// Non-negative least squares with relative weights over relaxation times from one decade below to one above those of
-/// the measured range.
+/// the measured range. The series is known on the frequencies of the rows, and OutOfRange beyond unless `extrapolated`.
 ASPERITY_EXPORT PronyFit fit_prony(std::span<const double> angular_frequency, std::span<const double> storage_modulus,
                                    std::span<const double> loss_modulus, const PronyFitOptions& options = {});
 

@@ -23,7 +23,15 @@ struct AngularIntegrals {
   double i2_outside = 0;  // [Pa^2]
 };
 
-/// E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k). Without terms: elastic.
+/// Angular frequencies from the lowest to the highest [rad/s].
+struct FrequencyRange {
+  double lowest, highest;
+  bool operator==(const FrequencyRange&) const = default;
+};
+
+/// E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k). Without terms: elastic. A series that was fitted knows on
+/// which frequencies: OutOfRange beyond them, unless it was asked to go on by name; the parts from beyond are told
+/// then.
 class ASPERITY_EXPORT PronySeries {
  public:
   PronySeries(double equilibrium_modulus, std::vector<double> moduli, std::vector<double> relaxation_times);
@@ -33,19 +41,36 @@ class ASPERITY_EXPORT PronySeries {
   /// At angular frequency w [rad/s], 0 or more.
   [[nodiscard]] std::complex<double> modulus(double w) const;
   [[nodiscard]] AngularIntegrals angular_integrals(double w) const;
-  /// At each of `w`, in one pass over the terms for all of them; `i1` and `i2` have as many entries.
-  void angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2) const;
-  /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w).
+  /// At each of `w`, in one pass over the terms for all of them; `i1` and `i2` have as many entries, `i1_outside` too
+  /// or none. True where more than 1e-7 of an I1 comes from outside of the fitted frequencies; `i1_outside` may not
+  /// have been written otherwise.
+  bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                         std::span<double> i1_outside = {}) const;
+  /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w), known where a_T w is.
   [[nodiscard]] PronySeries shifted(double a_T) const;
+  /// The same series as one that was fitted on these frequencies; `extrapolated`: it may be asked beyond them.
+  [[nodiscard]] PronySeries fitted_on(const FrequencyRange& frequencies, bool extrapolated = false) const;
+  /// Frequencies that it was fitted on; none for a series given by hand, which holds at any.
+  [[nodiscard]] std::optional<FrequencyRange> fitted_range() const;
+  [[nodiscard]] bool extrapolated() const { return fit_ && fit_->extrapolated; }
   bool operator==(const PronySeries&) const = default;
 
  private:
+  struct Fit {
+    FrequencyRange range;
+    bool extrapolated;
+    double loss_below;  // no E'' is larger below the range [Pa]
+    bool operator==(const Fit&) const = default;
+  };
   void check_frequency(double w) const;
+  void check_fitted(double w) const;
+  [[nodiscard]] AngularIntegrals outside(double w, const AngularIntegrals& whole) const;
 
   double equilibrium_;
   std::vector<double> moduli_, times_;
   std::vector<double> weights_;  // w_k = 2 E_k (E_inf + sum_l E_l tau_l / (tau_k + tau_l))
   double longest_;               // relaxation time, 0 where there is none
+  std::optional<Fit> fit_;
 };
 
 enum class Extrapolation { power_law, clamp };
@@ -87,6 +112,9 @@ class ASPERITY_EXPORT MasterCurve {
 };
 
 using Rubber = std::variant<PronySeries, MasterCurve>;
+
+/// Where its modulus can be had; nothing for a rubber that has it at any frequency.
+ASPERITY_EXPORT std::optional<FrequencyRange> known_range(const Rubber& rubber);
 
 ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
 ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);

@@ -39,18 +39,24 @@ void at_point(double pressure, double velocity, Work work) {
   }
 }
 
-/// OutOfRange with the velocity in it where v q0 or v q1 leaves a measured master curve.
+/// What would let a rubber be asked beyond its measured frequencies, at the end of a message.
+inline const char* way_beyond(const Rubber& rubber) {
+  if (const auto* curve = std::get_if<MasterCurve>(&rubber))
+    return curve->extrapolation() ? "" : "; extrapolation= of the master curve adds a decade at each end";
+  return "; extrapolation=\"prony\" of fit_prony goes on beyond them";
+}
+
+/// OutOfRange with the velocity in it where v q0 or v q1 leaves the measured frequencies.
 inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
-  const auto* curve = std::get_if<MasterCurve>(&rubber);
-  if (!curve) return;
+  const std::optional<FrequencyRange> known = known_range(rubber);
+  if (!known) return;
   constexpr double rounding = 1e-12;
   const auto [q0, q1] = band(spectrum);
-  const double lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
+  const auto [lowest, highest] = *known;
   if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
     throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
                      " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) +
-                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s" +
-                     (curve->extrapolation() ? "" : "; extrapolation= of the master curve adds a decade at each end") +
+                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber) +
                      (velocity * q0 < highest && highest < velocity * q1
                           ? "; .truncated(q1=" + show(highest / velocity, 6) + ") ends the spectrum where it is known"
                           : "") +

@@ -99,17 +99,17 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
 std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
-  Notes notes(spectrum, model.correction);
+  Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction)) {
     for (const double v : velocity) notes.add({}, v, 0, {});
     return notes.texts();
   }
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
-  Worth worth_of(surface, model.form, q1);
+  ValidityRange validity(surface, model.form, q1);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? MeasuredWorth{} : worth_of(g, shift.p));
+            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
           });
   return notes.texts();
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "contact/conditions.hpp"
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/visit.hpp"
@@ -60,13 +61,12 @@ template <class GreenwoodWilliamsonKind>
 double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, const Rubber& rubber, double velocity,
                   double poisson_ratio) {
   const double q0 = macro_wavenumber(s, spectrum), w = q0 * velocity;
-  if (const auto* curve = std::get_if<MasterCurve>(&rubber); curve && s.q0) {
-    const double lowest = curve->lowest_frequency(), highest = curve->highest_frequency();
+  if (const std::optional<FrequencyRange> known = known_range(rubber); known && s.q0) {
+    const auto [lowest, highest] = *known;
     if (w < lowest || w > highest)
       throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) +
                        " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
-                       show(lowest) + ", " + show(highest) + "] rad/s" +
-                       (curve->extrapolation() ? "" : "; extrapolation= adds a decade at each end"));
+                       show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber));
   }
   return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }

@@ -1,3 +1,6 @@
+// P(G), exact, erf(1 / (2 sqrt G)), or interpolated (Eq. 7), and the S factor S = gamma + (1 - gamma) P^2 (Eq. 8)
+// inside G, where dG = S dG(uncorrected), or on the integrand of Eq. 22. NayakSFactor has an S of its own, fitted to
+// boundary elements. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/s_factor.hpp"
 
 #include <algorithm>
@@ -66,14 +69,10 @@ double SInside::operator()(double uncorrected) {
   throw NotConverged("contact area with the S factor inside G: G = " + show(std::exp(x)) + " after 20 steps");
 }
 
-namespace {
-
-/// Fitted to the areas of 177 boundary-element contacts (tests/reference/make_nayak_s_factor.py).
+// Fitted to the areas of 177 boundary-element contacts (tests/reference/make_nayak_s_factor.py).
 SFunction nayak_s(double nayak_parameter) {
   return {.gamma = 0.63 * (1 - 0.50 / std::sqrt(std::sqrt(nayak_parameter))), .rise = 0.29, .power = 13};
 }
-
-}  // namespace
 
 std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber) {
   if (const auto* s = std::get_if<SFactor>(&correction); s && s->applies_to != SFactor::AppliesTo::friction)
@@ -87,21 +86,6 @@ std::optional<SFunction> s_in_integrand(const Correction& correction) {
     return SFunction{.gamma = s->gamma};
   if (const auto* s = std::get_if<NayakSFactor>(&correction)) return SFunction{.gamma = s->friction_gamma};
   return {};
-}
-
-Worth::Worth(std::span<const Segment> surface, Form form, double wavenumber)
-    : surface_(surface), form_(form), wavenumber_(wavenumber) {}
-
-// Of one modulus G = 1 / (8 p*^2), which is what a load means where the modulus is not one.
-MeasuredWorth Worth::operator()(double g, double p) {
-  const double uncorrected = g * p * p;
-  MeasuredWorth result;
-  result.light = 8 * uncorrected * lowest_measured_load * lowest_measured_load > 1 + 1e-9;
-  if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return result;
-  if (!best_) best_.emplace(nayak_s(nayak_parameter(surface_, wavenumber_)), form_);
-  const double best = contact_share((*best_)(uncorrected), form_);
-  result.worse = std::fabs(contact_share(g, form_) - best) > std::fabs(contact_share(uncorrected, form_) - best);
-  return result;
 }
 
 AreaG::AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber) {

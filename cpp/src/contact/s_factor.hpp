@@ -15,7 +15,7 @@ double contact_share(double g, Form form);
 /// G below which P, and with it S, is 1 to rounding.
 double full_contact_g(Form form);
 
-/// S(P) = gamma + rise sqrt(P) + (1 - gamma - rise) P^power; as it stands here that of Eq. 8.
+/// S(P) = gamma + rise sqrt(P) + (1 - gamma - rise) P^power; the defaults are those of Eq. 8.
 struct SFunction {
   double gamma, rise = 0;
   int power = 2;
@@ -23,7 +23,7 @@ struct SFunction {
 };
 
 /// G with S inside it: int_0^G dg / S(P(g)) = G without, solved to rounding. The integral is kept on steps of ln G, as
-/// far as points have asked for it.
+/// far as the points so far needed it.
 class SInside {
  public:
   SInside(const SFunction& s, Form form);
@@ -38,13 +38,16 @@ class SInside {
   std::vector<double> phi_;  // the integral up to each edge
 };
 
-/// S inside G up to `wavenumber`, where the correction puts one there.
+/// The S inside G of NayakSFactor.
+SFunction nayak_s(double nayak_parameter);
+
+/// The S that the correction puts inside G up to `wavenumber`, if any.
 std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber);
 
-/// S of the uncorrected P in the integrand of Eq. 22, where the correction puts one there.
+/// The S of the uncorrected P that the correction puts in the integrand of Eq. 22, if any.
 std::optional<SFunction> s_in_integrand(const Correction& correction);
 
-/// The G that the contact area at `wavenumber` is to be taken at.
+/// From the uncorrected G to the G of the contact area at `wavenumber`.
 class AreaG {
  public:
   AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber);
@@ -52,30 +55,6 @@ class AreaG {
 
  private:
   std::optional<SInside> inside_;
-};
-
-/// What the boundary-element contacts that corrections were measured on reach from and to: Nayak's parameter, and the
-/// load p* = sigma0 / (E* h').
-inline constexpr double lowest_measured_nayak = 1.75, highest_measured_nayak = 201, lowest_measured_load = 0.005;
-
-/// How a correction stands to those contacts at one pressure and velocity.
-struct MeasuredWorth {
-  bool light = false;  // the load is below theirs
-  bool worse =
-      false;  // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
-};
-/// At one wavenumber.
-class Worth {
- public:
-  Worth(std::span<const Segment> surface, Form form, double wavenumber);
-  /// `g` as the affine shift `p` made it.
-  [[nodiscard]] MeasuredWorth operator()(double g, double p);
-
- private:
-  std::span<const Segment> surface_;
-  Form form_;
-  double wavenumber_;
-  std::optional<SInside> best_;
 };
 
 }  // namespace asperity

@@ -48,24 +48,51 @@ std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correctio
   return alpha;
 }
 
+/// Velocities at which a spectrum asks a fitted Prony series for nothing but the frequencies it was fitted on.
+std::optional<FrequencyRange> fitted_velocities(const Spectrum& spectrum, const Rubber& rubber) {
+  const auto* series = std::get_if<PronySeries>(&rubber);
+  if (!series || !series->fitted_range()) return {};
+  const auto [q0, q1] = band(spectrum);
+  return FrequencyRange{series->fitted_range()->lowest / q0, series->fitted_range()->highest / q1};
+}
+
 }  // namespace
 
-Notes::Notes(const Spectrum& spectrum, const Correction& correction)
+ValidityRange::ValidityRange(std::span<const Segment> surface, Form form, double wavenumber)
+    : surface_(surface), form_(form), wavenumber_(wavenumber) {}
+
+// With one modulus G = 1 / (8 p*^2); where the modulus varies this defines the load.
+ValidityFlags ValidityRange::operator()(double g, double p) {
+  const double uncorrected = g * p * p;
+  ValidityFlags result;
+  result.light = 8 * uncorrected * lowest_measured_load * lowest_measured_load > 1 + 1e-9;
+  if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return result;
+  if (!best_) best_.emplace(nayak_s(nayak_parameter(surface_, wavenumber_)), form_);
+  const double best = contact_share((*best_)(uncorrected), form_);
+  result.worse = std::fabs(contact_share(g, form_) - best) > std::fabs(contact_share(uncorrected, form_) - best);
+  return result;
+}
+
+Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
       corrected_(!std::holds_alternative<NoCorrection>(correction)),
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
+      fitted_(fitted_velocities(spectrum, rubber)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
-void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const MeasuredWorth& worth) {
+void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags) {
   fast_ |= velocity > flash_velocity;
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
   extrapolated_ |= extrapolated_share > share_limit;
-  worse_ |= worth.worse;
-  light_ |= corrected_ && worth.light;
+  constexpr double rounding = 1e-12;
+  beyond_fit_ |=
+      fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
+  worse_ |= flags.worse;
+  light_ |= corrected_ && flags.light;
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
@@ -89,6 +116,10 @@ std::vector<std::string> Notes::texts() const {
     result.push_back("more than " + show(100 * share_limit) +
                      " % of the hysteresis comes from frequencies outside of the measured ones at some points: see "
                      "extrapolated_share");
+  if (beyond_fit_)
+    result.emplace_back(
+        "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "
+        "there");
   if (lowest_bin_)
     result.emplace_back(
         "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of the "

@@ -1,8 +1,9 @@
-// Notes of a friction result on the limits of the theory and of its input.
+// The measured range of corrections, and the notes of a result on the limits of the theory and of its input.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,35 @@
 
 namespace asperity {
 
+/// The range of the boundary-element contacts that corrections were measured on: Nayak's parameter, and the load
+/// p* = sigma0 / (E* h').
+inline constexpr double lowest_measured_nayak = 1.75, highest_measured_nayak = 201, lowest_measured_load = 0.005;
+
+/// Whether a correction leaves the range of those contacts at one pressure and velocity.
+struct ValidityFlags {
+  bool light = false;  // the load is below theirs
+  // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
+  bool worse = false;
+};
+
+/// The flags at one wavenumber.
+class ValidityRange {
+ public:
+  ValidityRange(std::span<const Segment> surface, Form form, double wavenumber);
+  /// `g` as the affine shift `p` made it.
+  [[nodiscard]] ValidityFlags operator()(double g, double p);
+
+ private:
+  std::span<const Segment> surface_;
+  Form form_;
+  double wavenumber_;
+  std::optional<SInside> best_;
+};
+
 class Notes {
  public:
-  Notes(const Spectrum& spectrum, const Correction& correction);
-  void add(const Shift& shift, double velocity, double extrapolated_share, const MeasuredWorth& worth);
+  Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction);
+  void add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags);
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
@@ -22,6 +48,8 @@ class Notes {
   bool corrected_;
   std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
   std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
+  std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
+  bool beyond_fit_ = false;
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,
        worse_ = false, light_ = false;
 };

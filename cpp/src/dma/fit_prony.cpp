@@ -225,7 +225,8 @@ PronyFit fit_prony(std::span<const double> w, std::span<const double> storage, s
       moduli.push_back(fit.moduli[k]);
       times.push_back(fit.times[k]);
     }
-  PronyFit result{PronySeries(fit.moduli[modes], std::move(moduli), std::move(times)),
+  const PronySeries series(fit.moduli[modes], std::move(moduli), std::move(times));
+  PronyFit result{series.fitted_on({w.front(), w.back()}, options.extrapolated),
                   rms(fit.residual.head(n)),
                   rms(fit.residual.tail(n)),
                   true,

@@ -49,7 +49,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 /// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
   double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
-  MeasuredWorth worth;
+  ValidityFlags validity;
 };
 
 /// How an error of G passes on: |d ln P / d ln G| is 1/2 at most, and d ln F / d ln G is 1 at most whatever S is.
@@ -61,7 +61,7 @@ void add_contributions(Contributions& c, std::size_t i, const Solver& solver, do
   for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver.hysteresis_density(c.wavenumber[j]);
   const double whole = solver.hysteresis().value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver.parts()) {
+  for (const auto& [lower, upper, hysteresis] : solver.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
@@ -95,7 +95,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
 
   AreaG area_g(model, surface, q1);
-  Worth worth_of(surface, model.form, q1);
+  ValidityRange validity(surface, model.form, q1);
   const std::optional<SFunction> factor = s_in_integrand(model.correction);
 
   const std::size_t n = velocity.size();
@@ -118,7 +118,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
   }
 
-  Notes notes(spectrum, model.correction);
+  Notes notes(spectrum, rubber, model.correction);
   // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
   std::span<const double> stops;
@@ -133,7 +133,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
 
     const double g = solver.g(q1);
     at.contact_area = contact_share(area_g(g), model.form);
-    at.worth = worth_of(g, shift.p);
+    at.validity = validity(g, shift.p);
     if (adhesion) {
       at.adhesion = at.contact_area * adhesion_per_share(*adhesion, p, v);
       if (!std::isfinite(at.adhesion))
@@ -162,7 +162,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
       at_point(p, v, [&] { at = compute(p, v, shift); });
       if (f.contributions) add_contributions(*f.contributions, i, solver, v);
     }
-    notes.add(shift, v, at.extrapolated_share, at.worth);
+    notes.add(shift, v, at.extrapolated_share, at.validity);
     // all at once, as in a grid each of them waits for memory
     f.mu[i] = at.hysteresis + at.adhesion;
     f.hysteresis[i] = at.hysteresis;

@@ -24,11 +24,26 @@ Polynomials legendre(std::size_t n, Real x) {
   return p;
 }
 
+/// Integrals from -1 to the nodes of (1 + x)^power P_k, by the rule itself on each of the intervals.
+std::vector<Polynomials> integrals_from_root(std::size_t n, const Real* node, const Real* weight, int power) {
+  std::vector<Polynomials> result(n, Polynomials{});
+  for (std::size_t i = 0; i < n; ++i) {
+    const Real half = (node[i] + 1) / 2;
+    for (std::size_t l = 0; l < n; ++l) {
+      const Real from_lower = half * (node[l] + 1);
+      const Polynomials p = legendre(n, from_lower - 1);
+      const Real part = half * weight[l] * std::pow(from_lower, power);
+      for (std::size_t k = 0; k < n; ++k) result[i][k] += part * p[k];
+    }
+  }
+  return result;
+}
+
 LegendreRule make_rule(std::size_t n) {
   LegendreRule r{};
   r.n = n;
   const auto size = static_cast<Real>(n);
-  std::vector<Real> weight(n);
+  std::vector<Real> node(n), weight(n);
   std::vector<Polynomials> p(n), slope(n), integral(n);
   for (std::size_t i = 0; i < n; ++i) {
     Real x = -std::cos(std::numbers::pi_v<Real> * (static_cast<Real>(i) + 0.75L) / (size + 0.5L));
@@ -37,6 +52,7 @@ LegendreRule make_rule(std::size_t n) {
       x -= at[n] * (1 - x * x) / (size * (at[n - 1] - x * at[n]));
     }
     p[i] = legendre(n, x);
+    node[i] = x;
     weight[i] = 2 * (1 - x * x) / (size * size * p[i][n - 1] * p[i][n - 1]);
     r.node[i] = static_cast<double>(x);
     r.weight[i] = static_cast<double>(weight[i]);
@@ -47,8 +63,10 @@ LegendreRule make_rule(std::size_t n) {
       integral[i][k] = (p[i][k + 1] - p[i][k - 1]) / (2 * d + 1);
     }
   }
+  const auto linear = integrals_from_root(n, node.data(), weight.data(), 1);
+  const auto cubic = integrals_from_root(n, node.data(), weight.data(), 3);
   for (std::size_t j = 0; j < n; ++j) {
-    std::array<Real, LegendreRule::most> cumulative{}, change{};
+    std::array<Real, LegendreRule::most> cumulative{}, from_linear{}, from_cubic{}, change{};
     Real lower = 0, upper = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const Real coefficient = (static_cast<Real>(k) + 0.5L) * weight[j] * p[j][k];
@@ -56,6 +74,8 @@ LegendreRule make_rule(std::size_t n) {
       lower += k % 2 ? -coefficient : coefficient;
       for (std::size_t i = 0; i < n; ++i) {
         cumulative[i] += coefficient * integral[i][k];
+        from_linear[i] += coefficient * linear[i][k];
+        from_cubic[i] += coefficient * cubic[i][k];
         change[i] += coefficient * slope[i][k];
       }
       if (k == n / 2 || k + 1 == n / 2) r.tail[j][LegendreRule::tails + n / 2 - k] = static_cast<double>(coefficient);
@@ -69,6 +89,8 @@ LegendreRule make_rule(std::size_t n) {
     r.at_upper[j] = static_cast<double>(upper);
     for (std::size_t i = 0; i < n; ++i) {
       r.cumulative[j][i] = static_cast<double>(cumulative[i]);
+      r.cumulative_linear[j][i] = static_cast<double>(from_linear[i] / (1 + node[j]));
+      r.cumulative_cubic[j][i] = static_cast<double>(from_cubic[i] / std::pow(1 + node[j], 3));
       r.slope[j][i] = static_cast<double>(weight[i] * change[i]);
     }
   }

@@ -15,7 +15,10 @@ struct LegendreRule {
   double node[most], weight[most];
   double at_lower[most], at_upper[most];  // the polynomial at -1 and at 1
   double cumulative[most][most];          // its integral from -1 to each node
-  double slope[most][most];               // weight times its derivative at each node
+  // the same for values that begin as 1 + x and as (1 + x)^3: the rest of them is interpolated, which keeps the digits
+  // of small integrals beside -1
+  double cumulative_linear[most][most], cumulative_cubic[most][most];
+  double slope[most][most];  // weight times its derivative at each node
   // by nodes: what each of them adds to Legendre coefficients, the last ones from the end down, two half way, zeros;
   // int_-1 P_k of the last degrees up to it, and its weight times P_k'
   double tail[most][kept], tail_integral[most][tails], tail_slope[most][tails];

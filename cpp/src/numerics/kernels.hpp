@@ -23,7 +23,7 @@ struct PronyTerms {
 ///   F2 = z^3 y (gamma V1 + (1 - gamma) rest V3)        F2 = int F dG
 /// U1, U3, V1, V3, those of P and of P^3, are smooth in y on [0, 1]: polynomials on equal steps of it, side by side,
 /// in u from -1 to 1. Step `steps` is y = 1 alone.
-struct FrontTable {
+struct ContactTable {
   static constexpr std::size_t steps = 128, terms = 8, functions = 4;
   double power[steps + 1][terms][functions];
 };
@@ -38,23 +38,28 @@ struct Kernels {
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
   /// Integral of the polynomial through f, and its last coefficients.
   void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
-  /// Integral of the polynomial through f, to each node and over all, and its last coefficients.
-  void (*integrate)(const LegendreRule& rule, const double* f, double* cumulative, double* total, double* tail);
+  /// Integral of the polynomial through f, to each node by `columns` of the rule and over all, and its last
+  /// coefficients.
+  void (*integrate)(const LegendreRule& rule, const double (*columns)[LegendreRule::most], const double* f,
+                    double* cumulative, double* total, double* tail);
   /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
   void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
                         double* tail);
-  /// G at n nodes: that at the lower end and `cumulative`, at unit load, times `scale`. An interpolated one may be
-  /// below 0 at the first nodes: 1e-300 then. (All that passes from one loop to another is written by loops of one
+  /// G at n nodes: that at the lower end and `cumulative`, at unit load, times `scale`; 1e-300 where it would be 0. An
+  /// interpolated G may be below 0 at the first nodes and stays so: its errors there are polynomials of high degree,
+  /// which cancel in the sums over a panel. (All that passes from one loop to another is written by loops of one
   /// width.)
-  void (*place)(double lower, const double* cumulative, double scale, std::size_t n, double* g);
-  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`.
-  void (*front)(const FrontTable& table, double gamma, const double* g, std::size_t n, double* f, double* f2);
+  void (*g_at_nodes)(double lower, const double* cumulative, double scale, std::size_t n, double* g);
+  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`. Below 0 they go on as they begin,
+  /// with F = G and F2 = G^2 / 2.
+  void (*contact_integral)(const ContactTable& table, double gamma, const double* g, std::size_t n, double* f,
+                           double* f2);
   /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
   /// How much the last coefficients of dG and of R matter, F / G being a bound of P S. Takes f_lower from f: a constant
   /// falls out of all sums, and takes its rounding along.
-  void (*project)(const LegendreRule& rule, const double* slope, const double* g, double f_lower, double* f,
-                  double* by_g, double* by_r);
+  void (*error_projection)(const LegendreRule& rule, const double* slope, const double* g, double f_lower, double* f,
+                           double* by_g, double* by_r);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

@@ -40,14 +40,15 @@ void AngularSums::add_up() {
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
     const double low = edges_[p], high = edges_[p + 1];
+    panel.unit = std::ldexp(1.0, std::ilogb(high));
     Pair power[GaussRule::size], square[GaussRule::size];
     for (std::size_t i = 0; i < GaussRule::size; ++i) {
       const double w = (low + high + (high - low) * rule.node[i]) / 2, u = w / high;
-      const double weight = 2 * (high - low) * rule.weight[i];
+      const double weight = 2 * ((high - low) / panel.unit) * rule.weight[i];
       const std::complex<double> e = (*panel.piece)(w);
       panel.node[i] = w;
       panel.weight[i] = Pair{weight * e.imag(), weight * std::norm(e)};
-      power[i] = panel.weight[i] * Pair{u, 1} / high;
+      power[i] = panel.weight[i] * Pair{u, 1} / (high / panel.unit);
       square[i] = Pair{u * u, u * u};
     }
     if (p + 1 == panels_.size()) break;
@@ -94,7 +95,7 @@ Pair AngularSums::below(double w, std::size_t p) const {
     double kernel[GaussRule::size];
     for (std::size_t i = 0; i < GaussRule::size; ++i) {
       const double u = panel.node[i] * inverse;
-      kernel[i] = inverse / std::sqrt((w - panel.node[i]) * inverse * (1 + u));
+      kernel[i] = panel.unit * inverse / std::sqrt((w - panel.node[i]) * inverse * (1 + u));
     }
     for (std::size_t i = 0; i < GaussRule::size; ++i)
       sum += panel.weight[i] * Pair{panel.node[i] * inverse * kernel[i], kernel[i]};

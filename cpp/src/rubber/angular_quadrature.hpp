@@ -36,8 +36,9 @@ class AngularSums {
   static constexpr std::size_t terms = 48;  // far^(2 terms) b_terms = 1e-16
   struct Panel {
     const ModulusPiece* piece;
+    double unit;                   // a power of 2 near its frequencies: |E|^2 times one could over- or underflow
     double node[GaussRule::size];  // w'
-    Pair weight[GaussRule::size];  // of the kernel in I1 and in I2
+    Pair weight[GaussRule::size];  // of the kernel in I1 and in I2, over unit
     Pair moment[terms];            // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
   };
   void add_up();

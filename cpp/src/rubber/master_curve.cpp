@@ -12,6 +12,9 @@ namespace asperity {
 
 namespace {
 
+/// Whether the square of a modulus [Pa] can be told.
+bool tellable_square(double modulus) { return modulus >= 1e-140 && modulus <= 1e140; }
+
 constexpr double rounding = 1e-12;  // how far v q0 may miss the end of a table by its own rounding
 
 std::vector<double> logarithms(const std::vector<double>& values) {
@@ -32,9 +35,10 @@ std::vector<ModulusPiece> pieces_of(const std::vector<double>& w, const std::vec
     };
     const ModulusPiece piece{low, high, w[row], line(storage, log_storage), line(loss, log_loss), false};
     for (const std::complex<double> e : {piece(low), piece(high)})
-      if (!(e.real() > 0 && e.imag() > 0 && std::isfinite(std::norm(e))))
+      if (!(tellable_square(e.real()) && tellable_square(e.imag())))
         throw InvalidInput("extrapolation: beyond angular_frequency = " + show(w[row]) +
-                           " rad/s the modulus leaves the range of numbers within its decade");
+                           " rad/s the modulus leaves [1e-140, 1e140] Pa, in which its square can be told, within its "
+                           "decade");
     return piece;
   };
   std::vector<ModulusPiece> result(1);
@@ -95,7 +99,7 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
   for (const auto& [name, moduli] :
        {std::pair{"storage_modulus", &storage_modulus}, std::pair{"loss_modulus", &loss_modulus}})
     for (std::size_t i = 0; i < moduli->size(); ++i)
-      if (const double e = (*moduli)[i]; !(e >= 1e-140 && e <= 1e140))
+      if (const double e = (*moduli)[i]; !tellable_square(e))
         refuse(std::string(name) + "[" + std::to_string(i) + "]", e,
                "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
   for (std::size_t i = 1; i < angular_frequency.size(); ++i)

@@ -1,5 +1,5 @@
 // The generalised Maxwell model, E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k), and its angular integrals in
-// closed form.
+// closed form. A series that was fitted tells which parts of them come from beyond the frequencies it was fitted on.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +12,13 @@
 namespace asperity {
 
 using std::numbers::pi;
+
+namespace {
+
+constexpr double rounding = 1e-12;      // how far v q0 may miss the end of a range by its own rounding
+constexpr double worth_telling = 1e-7;  // of I1
+
+}  // namespace
 
 PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli, std::vector<double> relaxation_times)
     : equilibrium_(equilibrium_modulus), moduli_(std::move(moduli)), times_(std::move(relaxation_times)) {
@@ -35,6 +42,7 @@ PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli,
 
 std::complex<double> PronySeries::modulus(double w) const {
   require_not_negative("angular_frequency", w);
+  check_fitted(w);
   double storage = equilibrium_, loss = 0;
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     // x^2 / (1 + x^2) and x / (1 + x^2) in the form that neither overflows nor cancels for any x
@@ -56,6 +64,7 @@ std::complex<double> PronySeries::modulus(double w) const {
 // All terms are positive and s_k in its second form does not cancel.
 AngularIntegrals PronySeries::angular_integrals(double w) const {
   check_frequency(w);
+  check_fitted(w);
   double i1 = 0, i2 = equilibrium_ * equilibrium_;
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     const double t = w * times_[k];
@@ -64,7 +73,43 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
     i1 += moduli_[k] * s_over_t;
     i2 += weights_[k] * t * s_over_t;
   }
-  return {2 * pi * i1, 2 * pi * i2};
+  return outside(w, {2 * pi * i1, 2 * pi * i2});
+}
+
+// With t = w tau_k, r = sqrt(1 + t^2) and sin(psi) = w_low / w, the part of a term below w_low is 4 E_k g in I1 and
+// 4 w_k t g in I2,
+//   g = int_0^psi t sin^2 / (1 + t^2 sin^2) = {psi - atan(r tan psi) / r} / t,
+// here with the difference of arctangents as one. What lies beyond w_high is the whole less what lies below it.
+AngularIntegrals PronySeries::outside(double w, const AngularIntegrals& whole) const {
+  if (!fit_) return whole;
+  AngularIntegrals result = whole;
+  const auto below = [&](double end) {
+    const double sine = end / w, psi = std::asin(sine), cosine = std::sqrt((1 - sine) * (1 + sine));
+    AngularIntegrals sum{0, psi * equilibrium_ * equilibrium_};
+    for (std::size_t k = 0; k < moduli_.size(); ++k) {
+      const double t = w * times_[k];
+      if (t < 1e-150) continue;
+      const double r = t < 1e150 ? std::sqrt(1 + t * t) : t, a = t / (r + 1);
+      const double g = a / r * psi - std::atan(t * a * sine * cosine / (cosine * cosine + r * sine * sine)) / r / t;
+      sum.i1 += moduli_[k] * g;
+      sum.i2 += weights_[k] * t * g;
+    }
+    return sum;
+  };
+  if (w <= fit_->range.lowest) {
+    result.i1_outside = whole.i1;
+    result.i2_outside = whole.i2;
+    return result;
+  }
+  const AngularIntegrals low = below(fit_->range.lowest);
+  result.i1_outside = 4 * low.i1;
+  result.i2_outside = 4 * low.i2;
+  if (w > fit_->range.highest) {
+    const AngularIntegrals high = below(fit_->range.highest);
+    result.i1_outside += std::fmax(0, whole.i1 - 4 * high.i1);
+    result.i2_outside += std::fmax(0, whole.i2 - 4 * high.i2);
+  }
+  return result;
 }
 
 // Beyond 1e300 w tau itself overflows.
@@ -74,11 +119,24 @@ void PronySeries::check_frequency(double w) const {
     refuse("angular_frequency", w, "below 1e300 / relaxation_times, " + show(1e300 / longest_) + " rad/s");
 }
 
-void PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2) const {
+void PronySeries::check_fitted(double w) const {
+  if (!fit_ || fit_->extrapolated) return;
+  const auto [lowest, highest] = fit_->range;
+  if (w < lowest * (1 - rounding) || w > highest * (1 + rounding))
+    throw OutOfRange("angular_frequency = " + show(w) + " rad/s: the Prony series was fitted on [" + show(lowest) +
+                     ", " + show(highest) + "] rad/s; extrapolation=\"prony\" of fit_prony goes on beyond them");
+}
+
+bool PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                    std::span<double> i1_outside) const {
   require_room(w, i1, i2);
+  if (!i1_outside.empty()) require_same_size("i1_outside", i1_outside.size(), "angular_frequency", w.size());
   const std::size_t n = w.size();
   const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
-  for (const double one : w) require_not_negative("angular_frequency", one);
+  for (const double one : w) {
+    require_not_negative("angular_frequency", one);
+    check_fitted(one);
+  }
   check_frequency(fastest);
   if (n % lanes != 0 || !(fastest * longest_ < 1e150)) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -86,17 +144,57 @@ void PronySeries::angular_integrals(std::span<const double> w, std::span<double>
       i1[i] = one.i1;
       i2[i] = one.i2;
     }
-    return;
+  } else {
+    kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n,
+                    i1.data(), i2.data());
   }
-  kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n,
-                  i1.data(), i2.data());
+  if (!fit_) return false;
+  bool any = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    // int_0^psi 4 sin E''(w sin) <= 4 (1 - cos psi) E''_max, and 1 - cos psi <= 0.51 sin^2 psi up to 0.2
+    const double sine = fit_->range.lowest / w[i];
+    double outside_i = 0;
+    if (!(sine < 0.2 && 2.1 * sine * sine * fit_->loss_below <= worth_telling * i1[i]) || w[i] > fit_->range.highest)
+      outside_i = outside(w[i], {i1[i], i2[i]}).i1_outside;
+    if (!i1_outside.empty()) i1_outside[i] = outside_i;
+    any |= outside_i > worth_telling * i1[i];
+  }
+  return any;
 }
 
 PronySeries PronySeries::shifted(double a_T) const {
   require_positive("a_T", a_T);
   std::vector<double> times = times_;
   for (double& tau : times) tau *= a_T;
-  return {equilibrium_, moduli_, std::move(times)};
+  PronySeries result(equilibrium_, moduli_, std::move(times));
+  return fit_ ? result.fitted_on({fit_->range.lowest / a_T, fit_->range.highest / a_T}, fit_->extrapolated) : result;
+}
+
+PronySeries PronySeries::fitted_on(const FrequencyRange& frequencies, bool extrapolated) const {
+  require_positive("lowest frequency", frequencies.lowest);
+  require_positive("highest frequency", frequencies.highest);
+  if (!(frequencies.lowest < frequencies.highest))
+    refuse("highest frequency", frequencies.highest, "above the lowest, " + show(frequencies.lowest) + " rad/s");
+  Fit fit{frequencies, extrapolated, 0};
+  for (std::size_t k = 0; k < moduli_.size(); ++k) {
+    const double x = std::fmin(1, frequencies.lowest * times_[k]);  // E'' of a term is largest where w tau is 1
+    fit.loss_below += moduli_[k] * x / (1 + x * x);
+  }
+  PronySeries result = *this;
+  result.fit_ = fit;
+  return result;
+}
+
+std::optional<FrequencyRange> PronySeries::fitted_range() const {
+  if (!fit_) return std::nullopt;
+  return fit_->range;
+}
+
+std::optional<FrequencyRange> known_range(const Rubber& rubber) {
+  if (const auto* series = std::get_if<PronySeries>(&rubber))
+    return series->extrapolated() ? std::nullopt : series->fitted_range();
+  const auto& curve = std::get<MasterCurve>(rubber);
+  return FrequencyRange{curve.lowest_frequency(), curve.highest_frequency()};
 }
 
 std::complex<double> modulus(const Rubber& rubber, double angular_frequency) {
@@ -109,11 +207,7 @@ AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequenc
 
 bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, std::span<double> i1,
                        std::span<double> i2, std::span<double> i1_outside) {
-  if (const auto* series = std::get_if<PronySeries>(&rubber)) {
-    series->angular_integrals(angular_frequency, i1, i2);
-    return false;
-  }
-  return std::get<MasterCurve>(rubber).angular_integrals(angular_frequency, i1, i2, i1_outside);
+  return std::visit([&](const auto& r) { return r.angular_integrals(angular_frequency, i1, i2, i1_outside); }, rubber);
 }
 
 double effective_modulus(double modulus, double poisson_ratio, double modulus_2, double poisson_ratio_2) {

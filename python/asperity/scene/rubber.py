@@ -10,7 +10,13 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, OutOfRange
-from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve, fit_prony
+from asperity.dma import (
+    MasterCurveBuild,
+    PronyExtrapolation,
+    PronyFit,
+    build_master_curve,
+    fit_prony,
+)
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
@@ -170,6 +176,10 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
     values = {"reference_temperature_k": values["temperature_k"], **values}
+    extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
+    if extrapolation is not None and fitted != (extrapolation == "prony"):
+        allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
+        refuse(path, f"[rubber] extrapolation = {extrapolation}", allowed)
     files = [path.parent / name for name in values["isotherms"]]
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
@@ -181,18 +191,18 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
             **arguments(values, _BUILD),
             shift_factors=_shift_table(path, values),
             smooth=True,
-            extrapolation=values.get("extrapolation"),
+            extrapolation=None if fitted else extrapolation,
         )
-    rubber, notes = _at_temperature(path, values, build)
+    rubber, notes = _at_temperature(path, values, build, extrapolation)
 
-    def draw(rng: Generator) -> Rubber:
-        return _at_temperature(path, values, draw_build(build, rng))[0]
+    def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
+        return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
 
     return BuiltRubber(rubber, values, [*build.notes, *notes], Drawn[Rubber](rubber, draw))
 
 
 def _at_temperature(
-    path: Path, values: Values, build: MasterCurveBuild
+    path: Path, values: Values, build: MasterCurveBuild, beyond: str | None
 ) -> tuple[Rubber, Sequence[str]]:
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
     curve = build.master_curve.shifted(_shift_factor(path, build, values))
@@ -201,7 +211,7 @@ def _at_temperature(
     if not values.get("prony", False):
         return curve, ()
     with rename_in_errors(path, {"residual": "[rubber] prony"}):
-        series = quiet_prony(curve)
+        series = quiet_prony(curve, "prony" if beyond == "prony" else None)
     return series, series.notes
 
 
@@ -242,8 +252,10 @@ def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: V
         return a_t
 
 
-def quiet_prony(curve: MasterCurve | MasterCurveBuild) -> PronyFit:
+def quiet_prony(
+    curve: MasterCurve | MasterCurveBuild, extrapolation: PronyExtrapolation | None = None
+) -> PronyFit:
     """A Prony fit whose warning is left to the reader of its notes."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
-        return fit_prony(curve)
+        return fit_prony(curve, extrapolation=extrapolation)

@@ -84,6 +84,11 @@ TEST_CASE("shift factors of a synthetic rubber, and its modulus from a Prony ser
     CHECK_NEAR(found.real(), truth.real(), 0.01, 0);
     CHECK_NEAR(found.imag(), truth.imag(), 0.02, 0);
   }
+  CHECK(fit.series.fitted_range() ==
+        FrequencyRange{curve.angular_frequency().front(), curve.angular_frequency().back()});
+  CHECK_FALSE(fit.series.extrapolated());
+  CHECK(fit_prony(curve.angular_frequency(), curve.storage_modulus(), curve.loss_modulus(), {.extrapolated = true})
+            .series.extrapolated());
   const PronyFit swapped = fit_prony(curve.angular_frequency(), curve.loss_modulus(), curve.storage_modulus());
   CHECK_FALSE(swapped.causal);
   REQUIRE(swapped.notes.size() == 1);

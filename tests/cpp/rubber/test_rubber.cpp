@@ -54,6 +54,38 @@ TEST_CASE("extrapolation reaches one decade, by the end slope or at the end valu
   CHECK(inside.i1_outside / inside.i1 < 1e-4);
 }
 
+// The parts themselves are compared with their definition by tests/python/rubber/test_fitted_range.py.
+TEST_CASE("a fitted Prony series is known where it was fitted, shifts included, and goes on when asked to") {
+  const PronySeries by_hand(1e6, {1e8, 1e9}, {1e-3, 1e-6});
+  const PronySeries fitted = by_hand.fitted_on({10, 1e4}), beyond = by_hand.fitted_on({10, 1e4}, true);
+  CHECK_FALSE(by_hand.fitted_range());
+  CHECK_FALSE(known_range(by_hand));
+  CHECK_FALSE(known_range(beyond));
+  CHECK(*known_range(fitted) == FrequencyRange{10, 1e4});
+  CHECK(*fitted.shifted(10).fitted_range() == FrequencyRange{1, 1e3});
+  CHECK(beyond.shifted(10).extrapolated());
+  CHECK_FALSE(fitted == beyond);
+  CHECK_THROWS_AS((void)fitted.modulus(9), OutOfRange);
+  CHECK_THROWS_AS((void)fitted.modulus(1.1e4), OutOfRange);
+  CHECK_THROWS_AS((void)fitted.angular_integrals(9), OutOfRange);
+  CHECK_NOTHROW((void)fitted.shifted(10).modulus(1));
+  CHECK(by_hand.modulus(1e9) == beyond.modulus(1e9));
+  CHECK(by_hand.angular_integrals(1e9).i1_outside == 0);
+  CHECK(beyond.angular_integrals(5).i1_outside == beyond.angular_integrals(5).i1);
+  CHECK(beyond.angular_integrals(5).i2_outside == beyond.angular_integrals(5).i2);
+
+  const std::vector<double> w{5, 10, 11, 100, 1e3, 1e4, 1.1e4, 1e6};
+  std::vector<double> i1(w.size()), i2(w.size()), outside(w.size());
+  CHECK_THROWS_AS(fitted.angular_integrals(w, i1, i2), OutOfRange);
+  CHECK_FALSE(by_hand.angular_integrals(w, i1, i2, outside));
+  CHECK(angular_integrals(beyond, w, i1, i2, outside));
+  for (std::size_t i = 0; i < w.size(); ++i)
+    CHECK_NEAR(outside[i] / i1[i], beyond.angular_integrals(w[i]).i1_outside / i1[i], 2e-7, 1);
+
+  CHECK_THROWS_AS((void)by_hand.fitted_on({0, 1}), InvalidInput);
+  CHECK_THROWS_AS((void)by_hand.fitted_on({2, 1}), InvalidInput);
+}
+
 TEST_CASE("a_T above 1 is colder: the modulus of a higher frequency") {
   const PronySeries rubber(1e6, {1e8, 1e9}, {1e-3, 1e-6});
   CHECK_NEAR(rubber.shifted(10).modulus(1e3).imag(), rubber.modulus(1e4).imag(), 1e-14, 0);

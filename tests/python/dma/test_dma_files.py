@@ -1,6 +1,7 @@
 """One file for each isotherm, its temperature said beside it."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -90,3 +91,24 @@ def test_a_scene_takes_them_and_a_prony_series_through_them(files: list[Path]) -
     w = np.geomspace(0.1, 100, 9)
     # read to 12 digits, smoothed and fitted: 0.0027 off
     np.testing.assert_allclose(series.modulus(w), RUBBER.modulus(w), rtol=0.01)
+
+
+def test_a_scene_goes_beyond_the_fitted_frequencies_when_asked_by_name(files: list[Path]) -> None:
+    path = files[0].parent / "scene.toml"
+
+    def compute(*keys: str) -> Any:
+        path.write_text(SURFACE + SCENE + "\n".join((*keys, CONDITIONS)))
+        return load_scene(path).friction()
+
+    with pytest.raises(asperity.OutOfRange, match=r'extrapolation.*"prony"'):
+        compute("prony = true")
+    found = compute("prony = true", 'extrapolation = "prony"')
+    assert any("see extrapolated_share" in note for note in found.notes)
+    assert any("beyond the frequencies that it was fitted on" in note for note in found.notes)
+    for extrapolation in ("power-law", "clamp"):
+        with pytest.raises(
+            asperity.InvalidInput, match=rf'extrapolation = {extrapolation}: .*"prony"'
+        ):
+            compute("prony = true", f'extrapolation = "{extrapolation}"')
+    with pytest.raises(asperity.InvalidInput, match=r'"prony" needs prony = true'):
+        compute('extrapolation = "prony"')

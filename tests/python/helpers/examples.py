@@ -47,6 +47,8 @@ FITTED = {
     "storage_residual": 0.01,
     "loss_residual": 0.02,
     "causal": True,
+    "lowest_frequency": 1.0,
+    "highest_frequency": 1e6,
     "notes": ("a note",),
 }
 STICKING = {
@@ -149,7 +151,7 @@ RESULTS = {
     "SpectralDensity": asperity.spectral_density(asperity.HeightMap(HEIGHTS, pixel_size=1.0)),
     "MasterCurveBuild": BUILD,
     "MasterPoints": BUILD.points,
-    "PronyFit of a build": asperity.fit_prony(BUILD),
+    "PronyFit of a build": asperity.fit_prony(BUILD, extrapolation="prony"),
     "FrictionSlopes": FMAP.derivatives([1.5e5, 1.8e5], 0.1),
     "FrictionBand": asperity.friction_band(FITTED_ROAD, RUBBER, **SLIDING, samples=20),
     "LocalPeaks of a map": asperity.LocalPeaks(
@@ -225,7 +227,7 @@ DERIVED = {
     "a smooth build": asperity.build_master_curve(
         SWEPT, reference_temperature=290.0, smooth=True, extrapolation="clamp"
     ),
-    "its rubber": asperity.fit_prony(BUILD),
+    "its rubber": asperity.fit_prony(BUILD, extrapolation="prony"),
     "peaks of a strided map": asperity.LocalPeaks(STRIDED, min_distance=5e-4),
     "peaks and more of a map": asperity.PeaksThenGreenwoodWilliamson(ROUGH, min_distance=5e-4),
     "friction at a point": asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=0.01),

@@ -97,3 +97,34 @@ def test_a_power_law_that_overflows_is_refused():
     MasterCurve(**curve, extrapolation="clamp")
     with pytest.raises(InvalidInput, match=r"^extrapolation: beyond angular_frequency = 1 rad/s"):
         MasterCurve(**curve, extrapolation="power-law")
+
+
+@pytest.mark.parametrize("storage", [[1e-130, 1], [1e130, 1]])
+def test_a_power_law_whose_square_leaves_the_range_of_doubles_is_refused(storage):
+    curve = {"angular_frequency": [1, 10], "storage_modulus": storage, "loss_modulus": storage}
+    inside = MasterCurve(**curve, extrapolation="clamp").angular_integrals([0.2, 2, 9, 99])
+    assert np.isfinite(inside).all()
+    with pytest.raises(InvalidInput, match=r"^extrapolation: beyond .*1e-140, 1e140"):
+        MasterCurve(**curve, extrapolation="power-law")
+
+
+@pytest.mark.parametrize("frequency_scale", [1e-280, 1e-140, 1, 1e140, 1e280])
+@pytest.mark.parametrize("modulus_scale", [1e-140, 1, 1e129])
+@pytest.mark.parametrize("extrapolation", [None, "clamp", "power-law"])
+def test_units_far_from_one_leave_the_integrals_as_they_are(
+    frequency_scale, modulus_scale, extrapolation
+):
+    w, storage, loss = np.geomspace(1, 1e6, 9), np.geomspace(1e3, 1e9, 9), np.geomspace(1e2, 1e9, 9)
+    curve = MasterCurve(
+        angular_frequency=w, storage_modulus=storage, loss_modulus=loss, extrapolation=extrapolation
+    )
+    scaled = MasterCurve(
+        angular_frequency=frequency_scale * w,
+        storage_modulus=modulus_scale * storage,
+        loss_modulus=modulus_scale * loss,
+        extrapolation=extrapolation,
+    )
+    at = np.geomspace(1, 1e6, 40)[1:-1]
+    i1, i2 = scaled.angular_integrals(frequency_scale * at)
+    expected = np.asarray(curve.angular_integrals(at))
+    np.testing.assert_allclose([i1 / modulus_scale, i2 / modulus_scale**2], expected, rtol=2e-12)

@@ -1,3 +1,7 @@
+// Tables of F(G) = int_0^G P S(P) dG and F2 = int_0^G F dG in y = z / (1 + z), z = sqrt(G), with P = erf(1 / (2 z)) or
+// (1 + (pi G)^1.5)^(-1/3) (Eq. 7) and S = gamma + (1 - gamma) P^2 (Eq. 8): integrals over P and over P^3, divided by
+// their powers of z at both ends, as polynomials on equal steps of y.
+// B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/solver/contact_integral.hpp"
 
 #include <array>
@@ -10,13 +14,13 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t steps = FrontTable::steps, terms = FrontTable::terms;
+constexpr std::size_t steps = ContactTable::steps, terms = ContactTable::terms;
 using Samples = std::array<double, terms>;
 
 constexpr double chebyshev_angle(std::size_t j) { return std::numbers::pi * (static_cast<double>(j) + 0.5) / terms; }
 
 /// The polynomial in powers of u through samples at Chebyshev's points.
-void fit(const Samples& sample, double (&power)[terms][FrontTable::functions], std::size_t function) {
+void fit(const Samples& sample, double (&power)[terms][ContactTable::functions], std::size_t function) {
   Samples last{1}, now{0, 1};
   for (std::size_t k = 0; k < terms; ++k) {
     double coefficient = 0;
@@ -34,7 +38,7 @@ void fit(const Samples& sample, double (&power)[terms][FrontTable::functions], s
 }
 
 /// U and V of P^power into a table.
-void tabulate(Form form, int power, FrontTable& table) {
+void tabulate(Form form, int power, ContactTable& table) {
   const LegendreRule& rule = legendre_rule(24);
   struct Integrals {
     double of_p, of_gp;  // int P^power dG, int G P^power dG
@@ -76,17 +80,17 @@ void tabulate(Form form, int power, FrontTable& table) {
 }
 
 /// y = 1, where z is beyond all, is the start of one step more.
-void close(FrontTable& table) {
+void close(ContactTable& table) {
   for (std::size_t m = 0; m < terms; ++m)
-    for (std::size_t function = 0; function < FrontTable::functions; ++function)
+    for (std::size_t function = 0; function < ContactTable::functions; ++function)
       table.power[steps][0][function] += table.power[steps - 1][m][function];
 }
 
-const FrontTable& table_of(Form form) {
-  static const std::array<FrontTable, 2> tables = [] {
-    std::array<FrontTable, 2> made{};
+const ContactTable& table_of(Form form) {
+  static const std::array<ContactTable, 2> tables = [] {
+    std::array<ContactTable, 2> made{};
     for (const Form of : {Form::exact, Form::interpolated}) {
-      FrontTable& table = made[of == Form::exact ? 0 : 1];
+      ContactTable& table = made[of == Form::exact ? 0 : 1];
       for (const int power : {1, 3}) tabulate(of, power, table);
       close(table);
     }
@@ -97,7 +101,7 @@ const FrontTable& table_of(Form form) {
 
 }  // namespace
 
-FrontIntegral::FrontIntegral(Form form, const std::optional<SFunction>& factor)
+ContactIntegral::ContactIntegral(Form form, const std::optional<SFunction>& factor)
     : table(table_of(form)),
       gamma(factor ? factor->gamma : 1),
       whole(full_contact_g(form)),

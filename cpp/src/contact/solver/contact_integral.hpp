@@ -1,4 +1,4 @@
-// F(G) = int_0^G P S(P) dG: what the hysteresis asks of the contact, a function of G alone; and F2 = int_0^G F dG.
+// F(G) = int_0^G P S(P) dG, the one function of the contact that the hysteresis needs, and F2 = int_0^G F dG.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 namespace asperity {
 
 /// F and F2 for P of one form and S of Eq. 8 or none, good to 1e-15.
-struct FrontIntegral {
-  FrontIntegral(Form form, const std::optional<SFunction>& factor);
-  const FrontTable& table;
+struct ContactIntegral {
+  ContactIntegral(Form form, const std::optional<SFunction>& factor);
+  const ContactTable& table;
   double gamma;     // of S, 1 without
   double whole;     // G below which P S is 1 to rounding
   bool has_second;  // F2 of the interpolated P has a logarithm in it

@@ -1,3 +1,5 @@
+// G (Eq. 7) and mu_H (Eq. 22) by GSL's adaptive rules on ln q, G integrated anew inside the integrand: slow, and
+// independent of the panels that it checks. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/solver/gsl_solver.hpp"
 
 #include <algorithm>
@@ -12,8 +14,8 @@ namespace asperity {
 
 using std::numbers::pi;
 
-Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
-           bool resolve_front, double rtol, Adaptive rule)
+GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, const Point& point,
+                     std::span<const double> stops, bool resolve_front, double rtol, Adaptive rule)
     : rubber_(rubber), point_(point), rule_(rule), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
   const double stiffening = 1 / (1 - point.poisson_ratio * point.poisson_ratio);
   const double ratio = stiffening / point.pressure / point.shift;
@@ -41,7 +43,7 @@ Path::Path(std::span<const Segment> surface, const Rubber& rubber, const Point& 
 }
 
 /// Adds the panels between `edges` of a segment, with G at each of them.
-void Path::add_segment(const Segment& segment, std::vector<double> edges) {
+void GslSolver::add_segment(const Segment& segment, std::vector<double> edges) {
   std::ranges::sort(edges);
   const auto repeated = std::ranges::unique(edges);
   edges.erase(repeated.begin(), repeated.end());
@@ -55,32 +57,32 @@ void Path::add_segment(const Segment& segment, std::vector<double> edges) {
   }
 }
 
-double Path::front(const Segment& segment) const {
+double GslSolver::front(const Segment& segment) const {
   if (!segment.straight || segment.at_a > 0) return 1 / g_rate(segment, 0);
   const double q = segment.a, ramp = segment.at_b * (q / (segment.b - q));  // dC / ds at the start
   const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_.velocity * q).i2;
   return std::sqrt(2 / curvature);
 }
 
-double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point) {
-  return Path(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::qag).front(surface.front());
+double front_width(std::span<const Segment> surface, const Rubber& rubber, const GslSolver::Point& point) {
+  return GslSolver(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::qag).front(surface.front());
 }
 
-double Path::g_rate(const Segment& segment, double s) const {
+double GslSolver::g_rate(const Segment& segment, double s) const {
   const double c = segment.density_at(s);
   if (c == 0) return 0;
   const double q = segment.a * std::exp(s);
   return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_.velocity * q).i2;
 }
 
-const Path::Panel& Path::panel_at(double wavenumber) const {
+const GslSolver::Panel& GslSolver::panel_at(double wavenumber) const {
   const auto after = std::ranges::partition_point(
       panels_, [&](const Panel& p) { return p.segment->a <= wavenumber && p.lower <= p.segment->offset(wavenumber); });
   return after == panels_.begin() ? *after : *(after - 1);
 }
 
 /// Panels are short enough for one rule; where it says otherwise the adaptive one takes over.
-double Path::g_inside(const Panel& panel, double s) const {
+double GslSolver::g_inside(const Panel& panel, double s) const {
   if (s <= panel.lower) return panel.g_lower;
   const auto rate = [&](double at) { return g_rate(*panel.segment, at); };
   Integral step = integrate_smooth(rate, panel.lower, s);
@@ -89,14 +91,14 @@ double Path::g_inside(const Panel& panel, double s) const {
   return panel.g_lower + step.value;
 }
 
-double Path::g(double wavenumber) const {
+double GslSolver::g(double wavenumber) const {
   const Panel& panel = panel_at(wavenumber);
   if (&panel == &panels_.back() && wavenumber >= panel.segment->b) return g_end_;
   return g_inside(panel, panel.segment->offset(wavenumber));
 }
 
-double Path::hysteresis_rate(const Panel& panel, double s, Form form, const std::optional<SFunction>& factor,
-                             double* outside) const {
+double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const std::optional<SFunction>& factor,
+                                  double* outside) const {
   if (outside) *outside = 0;
   const double c = panel.segment->density_at(s);
   if (c == 0) return 0;
@@ -110,7 +112,7 @@ double Path::hysteresis_rate(const Panel& panel, double s, Form form, const std:
 }
 
 /// Whether any of I1 worth telling comes from outside of the measured frequencies at either end of a panel.
-bool Path::reaches_outside(const Panel& panel) const {
+bool GslSolver::reaches_outside(const Panel& panel) const {
   constexpr double worth_telling = 1e-7;
   return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
     const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * panel.segment->a * std::exp(s));
@@ -118,9 +120,10 @@ bool Path::reaches_outside(const Panel& panel) const {
   });
 }
 
-Path::Hysteresis Path::hysteresis(Form form, const std::optional<SFunction>& factor) const {
+GslSolver::Hysteresis GslSolver::hysteresis(Form form, const std::optional<SFunction>& factor) const {
   Hysteresis result;
-  const bool measured = std::holds_alternative<MasterCurve>(rubber_);
+  const auto* series = std::get_if<PronySeries>(&rubber_);
+  const bool measured = !series || series->fitted_range();
   for (const Panel& panel : panels_) {
     const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, factor, nullptr); },
                                     panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value, rule_);
@@ -140,12 +143,12 @@ Path::Hysteresis Path::hysteresis(Form form, const std::optional<SFunction>& fac
   return result;
 }
 
-double Path::hysteresis_density(double wavenumber, Form form, const std::optional<SFunction>& factor) const {
+double GslSolver::hysteresis_density(double wavenumber, Form form, const std::optional<SFunction>& factor) const {
   const Panel& panel = panel_at(wavenumber);
   return hysteresis_rate(panel, std::fmin(panel.segment->offset(wavenumber), panel.upper), form, factor, nullptr);
 }
 
-std::vector<std::array<double, 2>> Path::panels() const {
+std::vector<std::array<double, 2>> GslSolver::panels() const {
   std::vector<std::array<double, 2>> result;
   result.reserve(panels_.size());
   for (const Panel& p : panels_) result.push_back({p.segment->a * std::exp(p.lower), p.segment->a * std::exp(p.upper)});

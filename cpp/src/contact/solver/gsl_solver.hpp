@@ -1,4 +1,4 @@
-// Persson's G along the magnification, and the hysteresis that follows from it.
+// Persson's G along the magnification and the hysteresis that follows from it, by GSL's adaptive integration.
 #pragma once
 
 #include <array>
@@ -16,19 +16,19 @@ namespace asperity {
 ///   dmu_H/ds = q^4 C I1(v q) / (2 (1 - nu^2) sigma0 p_T^2) P(G) [S(P(G))]       (Eq. 22)
 /// Panels end wherever the spectrum or the rubber changes its formula, are no longer than 1, and grow by factors of 4
 /// from the front in which the contact breaks up: of width 1 / G'(0), or sqrt(2 / G''(0)) on a ramp from zero.
-class Path {
+class GslSolver {
  public:
   struct Point {
     double poisson_ratio, pressure, velocity, shift;
   };
   /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
   /// `rule` computes all of them.
-  Path(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
-       bool resolve_front, double rtol, Adaptive rule);
+  GslSolver(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
+            bool resolve_front, double rtol, Adaptive rule);
 
   /// G at a wavenumber, q0 to q1.
   [[nodiscard]] double g(double wavenumber) const;
-  /// Of every G above.
+  /// The relative error of every such G.
   [[nodiscard]] double relative_error() const { return relative_error_; }
 
   struct Hysteresis {
@@ -69,6 +69,6 @@ class Path {
 };
 
 /// How far in ln q the contact takes to break up from q0 on.
-double front_width(std::span<const Segment> surface, const Rubber& rubber, const Path::Point& point);
+double front_width(std::span<const Segment> surface, const Rubber& rubber, const GslSolver::Point& point);
 
 }  // namespace asperity

@@ -1,3 +1,6 @@
+// mu_H and G on panels at one pressure: mu_H = 4 (1 - nu^2) sigma0 int R dF (Eq. 22 in G of Eq. 7), by parts on each
+// panel, and panels halved until the sum of their stated errors is below the tolerance.
+// B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/solver/panel_solver.hpp"
 
 #include <algorithm>
@@ -6,7 +9,7 @@
 #include <string>
 
 #include "contact/conditions.hpp"
-#include "contact/solver/hysteresis_error.hpp"
+#include "contact/solver/panel_error.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/kernels.hpp"
 
@@ -18,21 +21,21 @@ constexpr double least_share = 8e-7;  // of the tolerance: an error of G below i
 
 }  // namespace
 
-GaussPath::GaussPath(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
+PanelSolver::PanelSolver(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
     : panels_(surface, rubber, poisson_ratio, rtol),
       stiffening_(1 / (1 - poisson_ratio * poisson_ratio)),
       rtol_(rtol) {}
 
-/// Value of a panel and its error.
-void GaussPath::add_hysteresis(std::size_t index, double scale, const FrontIntegral& front) {
-  Visit& visit = visits_[index];
-  const Panel& p = panels_[visit.panel];
+/// The value of a panel and its error.
+void PanelSolver::add_hysteresis(std::size_t index, double scale, const ContactIntegral& contact) {
+  ActivePanel& active = active_[index];
+  const Panel& p = panels_[active.panel];
   OnPanel at;
   at.g_upper = ends_.g[index];
-  if (at.g_upper < front.whole) {  // F = G
-    visit.value = p.full * scale;
-    visit.error = p.full_error * scale;
-    visit.outside = p.any_outside ? p.full_outside * scale : 0;
+  if (at.g_upper < contact.whole) {  // F = G
+    active.value = p.full * scale;
+    active.error = p.full_error * scale;
+    active.outside = p.any_outside ? p.full_outside * scale : 0;
     return;
   }
   const LegendreRule& rule = *p.rule;
@@ -40,105 +43,105 @@ void GaussPath::add_hysteresis(std::size_t index, double scale, const FrontInteg
   const Kernels& loops = kernels();
   const double* const slope = panels_.row(p, Panel::slope);
   const double f_lower = index == 0 ? 0 : ends_.f[index - 1];
-  at.twice = p.twice && front.has_second;
-  at.g_lower = visit.g_lower * scale;
+  at.by_parts_twice = p.by_parts_twice && contact.has_second;
+  at.g_lower = active.g_lower * scale;
   at.f_upper = ends_.f[index];
   at.f2_upper = ends_.f2[index];
   at.rise = at.f_upper - f_lower;
-  loops.place(visit.g_lower, panels_.row(p, Panel::cumulative), scale, n, at.g);
-  loops.front(front.table, front.gamma, at.g, n, at.f, at.twice ? at.f2 : nullptr);
-  loops.project(rule, slope, at.g, f_lower, at.f, at.by_g, at.by_r);
-  if (at.twice) {
+  loops.g_at_nodes(active.g_lower, panels_.row(p, Panel::cumulative), scale, n, at.g);
+  loops.contact_integral(contact.table, contact.gamma, at.g, n, at.f, at.by_parts_twice ? at.f2 : nullptr);
+  loops.error_projection(rule, slope, at.g, f_lower, at.f, at.by_g, at.by_r);
+  if (at.by_parts_twice) {
     // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
     const double* const curvature = panels_.row(p, Panel::curvature);
     loops.sum(rule, curvature, at.f2, at.sums);
     at.first_slope = curvature[0];
-    visit.value = p.r.upper * at.f_upper - (p.dr_dg.upper * at.f2_upper - at.sums.value) * (1 / scale);
+    active.value = p.r.upper * at.f_upper - (p.dr_dg.upper * at.f2_upper - at.sums.value) * (1 / scale);
   } else {
     loops.sum(rule, slope, at.f, at.sums);
     at.first_slope = slope[0];
-    visit.value = p.r.upper * at.rise - at.sums.value;
+    active.value = p.r.upper * at.rise - at.sums.value;
   }
   if (p.any_outside) {
     const double* outside = panels_.row(p, Panel::outside_slope);
     double part = 0;
     for (std::size_t i = 0; i < n; ++i) part += outside[i] * at.f[i];
-    visit.outside = p.outside_upper * at.rise - part;
+    active.outside = p.outside_upper * at.rise - part;
   }
-  visit.error = hysteresis_error(p, at, scale, front.gamma);
+  active.error = hysteresis_error(p, at, scale, contact.gamma);
 }
 
-void GaussPath::evaluate(double scale, const FrontIntegral* front) {
+void PanelSolver::evaluate(double scale, const ContactIntegral* contact) {
   double g = 0, g_error = 0;
   g_relative_error_ = 0;
   hysteresis_ = {};
-  const std::size_t n = visits_.size(), room = (n + lanes - 1) / lanes * lanes;
+  const std::size_t n = active_.size(), room = (n + lanes - 1) / lanes * lanes;
   for (auto* const column : {&ends_.g, &ends_.f, &ends_.f2}) column->resize(room);
   for (std::size_t i = 0; i < n; ++i) {
-    Visit& visit = visits_[i];
-    const Panel& p = panels_[visit.panel];
-    visit.g_lower = g;
+    ActivePanel& active = active_[i];
+    const Panel& p = panels_[active.panel];
+    active.g_lower = g;
     g += p.g_total;
     g_error += p.g_error;
-    visit.g_part = p.g_error / g;
+    active.g_part = p.g_error / g;
     g_relative_error_ = std::max(g_error / g, g_relative_error_);
     ends_.g[i] = g * scale;
   }
-  if (!front) return;
+  if (!contact) return;
   std::fill(ends_.g.begin() + static_cast<std::ptrdiff_t>(n), ends_.g.end(), 1.0);
-  kernels().front(front->table, front->gamma, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
+  kernels().contact_integral(contact->table, contact->gamma, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
   for (std::size_t i = 0; i < n; ++i)
-    if (ends_.g[i] < front->whole) ends_.f[i] = ends_.g[i];
+    if (ends_.g[i] < contact->whole) ends_.f[i] = ends_.g[i];
   for (std::size_t i = 0; i < n; ++i) {
-    add_hysteresis(i, scale, *front);
-    hysteresis_.value += visits_[i].value;
-    hysteresis_.error += visits_[i].error;
-    hysteresis_.outside += visits_[i].outside;
+    add_hysteresis(i, scale, *contact);
+    hysteresis_.value += active_[i].value;
+    hysteresis_.error += active_[i].error;
+    hysteresis_.outside += active_[i].outside;
   }
 }
 
-/// Puts two in the place of each panel that has more than its part of the error.
-void GaussPath::refine(bool hysteresis_good, bool g_good) {
+/// Replaces each panel that has more than its part of the error by its halves.
+void PanelSolver::refine(bool hysteresis_good, bool g_good) {
   double worst = 0, g_worst = 0;
-  for (const Visit& visit : visits_) {
-    worst = std::fmax(worst, visit.error);
-    g_worst = std::fmax(g_worst, visit.g_part);
+  for (const ActivePanel& active : active_) {
+    worst = std::fmax(worst, active.error);
+    g_worst = std::fmax(g_worst, active.g_part);
   }
-  const double part = 1 / static_cast<double>(visits_.size()), none = std::numeric_limits<double>::infinity();
+  const double part = 1 / static_cast<double>(active_.size()), none = std::numeric_limits<double>::infinity();
   const double allowed = hysteresis_good ? none : std::fmin(worst / 2, 0.1 * part * rtol_ * hysteresis_.value);
   const double g_allowed = g_good ? none : std::fmin(g_worst / 2, 0.03 * part * rtol_);
   next_.clear();
-  for (const Visit& visit : visits_) {
-    if (visit.error <= std::fmax(allowed, 1e-3 * worst) && visit.g_part <= g_allowed) {
-      next_.push_back(visit);
+  for (const ActivePanel& active : active_) {
+    if (active.error <= std::fmax(allowed, 1e-3 * worst) && active.g_part <= g_allowed) {
+      next_.push_back(active);
       continue;
     }
-    const std::size_t child = panels_.children(visit.panel);
+    const std::size_t child = panels_.children(active.panel);
     next_.push_back({child});
     next_.push_back({child + 1});
   }
-  visits_.swap(next_);
+  active_.swap(next_);
 }
 
-void GaussPath::solve(double pressure, double shift, const FrontIntegral* front) {
+void PanelSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
   scale_ = 1 / (pressure * shift) / (pressure * shift);
   mu_factor_ = 4 * pressure / stiffening_;
   density_factor_ = stiffening_ / (2 * pressure * shift * shift);
-  visits_.clear();
-  for (const std::size_t root : panels_.roots()) visits_.push_back({root});
+  active_.clear();
+  for (const std::size_t root : panels_.roots()) active_.push_back({root});
   double g_end = 0;
   for (const std::size_t root : panels_.roots()) g_end += panels_[root].g_total;
-  if (!visits_.empty()) check_g(g_end * scale_, pressure);
+  if (!active_.empty()) check_g(g_end * scale_, pressure);
   constexpr int most_rounds = 60;
-  const std::size_t most_panels = 20000 + 4 * visits_.size();
+  const std::size_t most_panels = 20000 + 4 * active_.size();
   for (int round = 0;; ++round) {
-    evaluate(scale_, front);
+    evaluate(scale_, contact);
     const bool good = hysteresis_.error <= 0.85 * rtol_ * hysteresis_.value, g_good = g_relative_error_ <= rtol_ / 16;
     if (good && g_good) break;
-    if (round == most_rounds || visits_.size() > most_panels)
+    if (round == most_rounds || active_.size() > most_panels)
       throw NotConverged("mu_H = " + show(mu_factor_ * hysteresis_.value) + " with error " +
                          show(mu_factor_ * hysteresis_.error) + ", G with relative error " + show(g_relative_error_) +
-                         " on " + std::to_string(visits_.size()) + " panels where rtol = " + show(rtol_) +
+                         " on " + std::to_string(active_.size()) + " panels where rtol = " + show(rtol_) +
                          " was asked for");
     refine(good, g_good);
   }
@@ -147,42 +150,42 @@ void GaussPath::solve(double pressure, double shift, const FrontIntegral* front)
   hysteresis_.outside *= mu_factor_;
 }
 
-const GaussPath::Visit& GaussPath::visit_at(double wavenumber) const {
-  const auto after = std::ranges::partition_point(visits_, [&](const Visit& visit) {
-    const Panel& p = panels_[visit.panel];
+const PanelSolver::ActivePanel& PanelSolver::panel_at(double wavenumber) const {
+  const auto after = std::ranges::partition_point(active_, [&](const ActivePanel& active) {
+    const Panel& p = panels_[active.panel];
     return p.segment->a <= wavenumber && p.s(p.lower) <= p.segment->offset(wavenumber);
   });
-  return after == visits_.begin() ? *after : *(after - 1);
+  return after == active_.begin() ? *after : *(after - 1);
 }
 
-double GaussPath::g(double wavenumber) const {
-  if (visits_.empty()) return 0;
-  if (const Visit& last = visits_.back(); wavenumber >= panels_[last.panel].segment->b)
+double PanelSolver::g(double wavenumber) const {
+  if (active_.empty()) return 0;
+  if (const ActivePanel& last = active_.back(); wavenumber >= panels_[last.panel].segment->b)
     return (last.g_lower + panels_[last.panel].g_total) * scale_;
-  const Visit& visit = visit_at(wavenumber);
-  const Panel& p = panels_[visit.panel];
+  const ActivePanel& active = panel_at(wavenumber);
+  const Panel& p = panels_[active.panel];
   const double s = p.segment->offset(wavenumber);
   const bool whole = wavenumber >= p.segment->b || s >= p.s(p.upper);
-  return (visit.g_lower + (whole ? p.g_total : panels_.g_to(p, s))) * scale_;
+  return (active.g_lower + (whole ? p.g_total : panels_.g_to(p, s))) * scale_;
 }
 
-double GaussPath::relative_error() const { return std::max(g_relative_error_, least_share * rtol_); }
+double PanelSolver::relative_error() const { return std::max(g_relative_error_, least_share * rtol_); }
 
-double GaussPath::full_density(double wavenumber) const {
-  if (visits_.empty()) return 0;
-  const Segment& segment = *panels_[visit_at(wavenumber).panel].segment;
+double PanelSolver::full_density(double wavenumber) const {
+  if (active_.empty()) return 0;
+  const Segment& segment = *panels_[panel_at(wavenumber).panel].segment;
   if (wavenumber < segment.a || wavenumber > segment.b) return 0;  // in an empty bin
   const double square = wavenumber * wavenumber;
   return density_factor_ * square * square * segment.density(wavenumber) * panels_.angular(wavenumber).i1;
 }
 
-std::vector<GaussPath::Part> GaussPath::parts() const {
-  std::vector<Part> result;
-  result.reserve(visits_.size());
-  for (const Visit& visit : visits_) {
-    const Panel& p = panels_[visit.panel];
+std::vector<PanelSolver::PanelShare> PanelSolver::shares() const {
+  std::vector<PanelShare> result;
+  result.reserve(active_.size());
+  for (const ActivePanel& active : active_) {
+    const Panel& p = panels_[active.panel];
     const double a = p.segment->a;
-    result.push_back({a * std::exp(p.s(p.lower)), a * std::exp(p.s(p.upper)), visit.value * mu_factor_});
+    result.push_back({a * std::exp(p.s(p.lower)), a * std::exp(p.s(p.upper)), active.value * mu_factor_});
   }
   return result;
 }

@@ -1,4 +1,4 @@
-// The solver: Persson's G and the hysteresis that follows from it, with an error of its own.
+// Persson's G and the hysteresis that follows from it by Gauss-Legendre panels, with an error of its own.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@
 
 namespace asperity {
 
-/// With R = I1 / I2 and F of `FrontIntegral` Eq. 22 reads, by parts,
+/// With R = I1 / I2 and F of `ContactIntegral` Eq. 22 reads, by parts,
 ///   mu_H = 4 (1 - nu^2) sigma0 int R dF = 4 (1 - nu^2) sigma0 (R F at q1 - int F dR),
 /// where R does not know the front at all and pressure and shift only scale G.
-class GaussPath {
+class PanelSolver {
  public:
-  GaussPath(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+  PanelSolver(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
 
   /// A velocity, at which any number of points follow.
   void start(double velocity, std::span<const double> stops) { panels_.start(velocity, stops); }
 
-  /// Solves for G, and for mu_H where `front` is given. NotConverged where the tolerance is not reached.
-  void solve(double pressure, double shift, const FrontIntegral* front);
+  /// Solves for G, and for mu_H where `contact` is given. NotConverged where the tolerance is not reached.
+  void solve(double pressure, double shift, const ContactIntegral* contact);
 
   struct Hysteresis {
     double value = 0, error = 0;
@@ -34,32 +34,32 @@ class GaussPath {
   /// dmu_H / dln q where P S is 1.
   [[nodiscard]] double full_density(double wavenumber) const;
 
-  struct Part {
+  struct PanelShare {
     double lower, upper;  // [1/m]
     double hysteresis;
   };
   /// The panels in order; their hysteresis sums to the whole.
-  [[nodiscard]] std::vector<Part> parts() const;
+  [[nodiscard]] std::vector<PanelShare> shares() const;
 
  private:
-  struct Visit {
+  struct ActivePanel {
     std::size_t panel;
     double g_lower = 0, g_part = 0;  // G at its lower end, at unit load; its own share of the relative error
     double value = 0, error = 0, outside = 0;
   };
-  void evaluate(double scale, const FrontIntegral* front);
-  void add_hysteresis(std::size_t index, double scale, const FrontIntegral& front);
+  void evaluate(double scale, const ContactIntegral* contact);
+  void add_hysteresis(std::size_t index, double scale, const ContactIntegral& contact);
   void refine(bool hysteresis_good, bool g_good);
-  [[nodiscard]] const Visit& visit_at(double wavenumber) const;
+  [[nodiscard]] const ActivePanel& panel_at(double wavenumber) const;
 
-  GaussPanels panels_;
+  Panels panels_;
   double stiffening_, rtol_;
   double scale_ = 0, mu_factor_ = 0, density_factor_ = 0, g_relative_error_ = 0;
   Hysteresis hysteresis_;
-  std::vector<Visit> visits_, next_;
+  std::vector<ActivePanel> active_, next_;
   struct Ends {
     std::vector<double> g, f, f2;
-  } ends_;  // at the upper end of each visit
+  } ends_;  // at the upper end of each active panel
 };
 
 }  // namespace asperity

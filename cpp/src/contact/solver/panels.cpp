@@ -1,3 +1,6 @@
+// Panels of ln q on which dG/ds = q^4 C I2(v q) / (8 (1 - nu^2)^2) and R = I1 / I2 are polynomials through
+// Gauss-Legendre nodes: their ends, their numbers of nodes, and the derivatives that the hysteresis by parts takes.
+// Eqs 7 and 22; B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/solver/panels.hpp"
 
 #include <algorithm>
@@ -13,29 +16,53 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t most = LegendreRule::most;
-constexpr double longest = 4;  // in s: on longer ones the last coefficients tell errors too small
+constexpr double longest = 4;  // in s: on longer panels the last coefficients understate the error
 constexpr double beside_front = 2.5;
+constexpr double most_change = 12;               // powers of e by which q^4 C changes along a panel
+constexpr double most_rise = 10, most_fall = 5;  // the same along the panel beside the front
 constexpr double rounding = 4e-16;
 constexpr double front_share = 0.125;  // of a panel in t on a ramp from zero: most is to be resolved at its foot
 
-/// By how much coefficients fall from degree to degree: by what the ellipse about the panel allows that reaches the
-/// nearest singularity. That of a Prony series is pi / 2 off the real axis of ln w, that of a table at the knot before.
+double length_of(const Panel& panel) { return panel.s(panel.upper) - panel.s(panel.lower); }
+
+/// Powers of e by which q^4 C changes along a unit of s at most.
+double steepness(const Segment& segment) { return segment.straight ? 5 : std::fabs(4 + segment.slope); }
+
+double change_of(const Panel& panel) { return steepness(*panel.segment) * length_of(panel); }
+
+/// By how much coefficients fall from degree to degree: as the ellipse about the panel allows that reaches the nearest
+/// singularity, which lies pi / 2 off the real axis of ln w for a Prony series and at the knot before for a table.
 double decay_of(const Panel& panel) {
-  const double length = panel.s(panel.upper) - panel.s(panel.lower);
-  const double decay = std::exp(-std::asinh(std::numbers::pi / length) * (panel.square > 0 ? 0.75 : 1));
+  const double decay = std::exp(-std::asinh(std::numbers::pi / length_of(panel)) * (panel.square > 0 ? 0.75 : 1));
   constexpr double with_knots = 0.35;
   return panel.tabulated ? std::fmax(decay, with_knots) : decay;
 }
 
-/// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. What is smooth
-/// everywhere is done with fewer, but the last coefficients tell the error only from some on.
+/// The same for a power law, which has no singularity, at degree n: coefficients are bounded by exp(change rho / 4)
+/// rho^-n on every ellipse rho, in the root by exp(change (1 + rho / 2)^2 / 4) rho^-n, and this is the least of them.
+/// dR/dG has a pole at a row of zero, on rho = 3.4 of a panel that ends half way to it.
+double decay_of_power(const Panel& panel, double n) {
+  const double change = change_of(panel), zero = panel.at_front && panel.segment->at_b == 0 ? 0.3 : 0;
+  if (change == 0) return zero;
+  return std::fmax(zero, panel.square > 0 ? 1 / (std::sqrt(1 + 8 * n / change) - 1) : change / (4 * n));
+}
+
+/// The length in s of the first panel. R is differentiated by G on it: dR/dG grows as q^4 C falls, and has a pole where
+/// that comes to zero, so that the panel ends half way to a row of zero.
+double front_reach(const Segment& segment) {
+  const double power = 4 + segment.slope;
+  const double reach = std::fmin(beside_front, power < 0 ? most_fall / -power : most_rise / power);
+  return segment.at_b == 0 ? std::fmin(reach, segment.offset(segment.a + (segment.b - segment.a) / 2)) : reach;
+}
+
+/// Errors of the rule fall by the square of `decay` a node; a power law C q^4 needs nodes of its own. There is a least
+/// number, as the last of few coefficients do not tell the error.
 std::size_t nodes_for(const Panel& panel, double rtol) {
-  const double digits = -std::log10(rtol), length = panel.s(panel.upper) - panel.s(panel.lower);
+  const double digits = -std::log10(rtol);
   // at the front F is rougher, elsewhere the square root lies off the panel
   const double falling = -std::log(panel.decay) * (panel.at_front ? 0.77 : panel.tabulated ? 1 : 1.2);
   const double nodes = 4 + digits * std::numbers::ln10 / (2 * falling);
-  const double growth = panel.segment->straight ? 0 : std::fabs(4 + panel.segment->slope) * length;
-  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + growth, panel.at_front ? 12 : 8))));
+  return static_cast<std::size_t>(std::ceil(std::fmax(nodes, std::fmax(8 + change_of(panel), panel.grows ? 12 : 8))));
 }
 
 }  // namespace
@@ -45,14 +72,14 @@ double Panel::t(double at) const {
   return square > 0 ? from_start / (half + std::sqrt(half * half + from_start)) : from_start / linear;
 }
 
-GaussPanels::GaussPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
+Panels::Panels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
     : surface_(surface), rubber_(rubber), rtol_(rtol) {
   const double stiffening = 1 / (1 - poisson_ratio * poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
 }
 
 /// The nodes of the panel's rule from its lower end up to `upper`.
-void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double* roughness) const {
+void Panels::roughness_at_nodes(const Panel& p, double upper, double* wavenumber, double* roughness) const {
   const double middle = (p.lower + upper) / 2, half = (upper - p.lower) / 2;
   for (std::size_t i = 0; i < p.rule->n; ++i) {
     const double t = middle + half * p.rule->node[i], s = p.s(t), q = p.segment->a * std::exp(s);
@@ -61,30 +88,31 @@ void GaussPanels::place(const Panel& p, double upper, double* wavenumber, double
   }
 }
 
-std::size_t GaussPanels::add(Panel panel) {
+std::size_t Panels::add(Panel panel) {
   panel.tabulated = std::holds_alternative<MasterCurve>(rubber_);
   panel.decay = decay_of(panel);
   panel.rule = &legendre_rule(nodes_for(panel, rtol_));
-  panel.fading = std::pow(panel.decay, static_cast<double>(panel.rule->n));
+  panel.decay = std::fmin(0.95, std::fmax(panel.decay, decay_of_power(panel, static_cast<double>(panel.rule->n))));
+  panel.decay_to_n = std::pow(panel.decay, static_cast<double>(panel.rule->n));
   panel.data = data_.size();
   panel.child = panel.filled = 0;
   data_.resize(data_.size() + Panel::rows * panel.rule->n);
-  place(panel, panel.upper, &data_[panel.data + Panel::wavenumber * panel.rule->n],
-        &data_[panel.data + Panel::roughness * panel.rule->n]);
+  roughness_at_nodes(panel, panel.upper, &data_[panel.data + Panel::wavenumber * panel.rule->n],
+                     &data_[panel.data + Panel::roughness * panel.rule->n]);
   panels_.push_back(panel);
   return panels_.size() - 1;
 }
 
-void GaussPanels::differentiate(const Panel& p, const double* f, double* slope, Panel::Smooth& of) const {
+void Panels::differentiate(const Panel& p, const double* f, double* slope, Panel::Smooth& of) const {
   const std::size_t n = p.rule->n;
   kernels().differentiate(*p.rule, f, slope, &of.lower, &of.upper, of.tail);
   of.change = 0;
   for (std::size_t i = 0; i < n; ++i) of.change += std::fabs(slope[i]);
   const double last = std::fmax(larger(of.tail, 0), larger(of.tail, 1) * p.decay);
-  of.far = last * p.fading;
+  of.far = last * p.decay_to_n;
 }
 
-void GaussPanels::fill(Panel& p) {
+void Panels::fill(Panel& p) {
   if (p.filled == starts_) return;
   p.filled = starts_;
   const LegendreRule& rule = *p.rule;
@@ -98,13 +126,17 @@ void GaussPanels::fill(Panel& p) {
     dg[i] = rows[Panel::roughness * n + i] * i2[i];
     ratio[i] = i1[i] / i2[i];
   }
-  loops.integrate(rule, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
+  // dG begins as t beside a front, and as t^3 on a ramp from zero
+  const auto& columns = !p.at_front       ? rule.cumulative
+                        : p.sqrt_endpoint ? rule.cumulative_linear
+                                          : rule.cumulative_cubic;
+  loops.integrate(rule, columns, dg, rows + Panel::cumulative * n, &p.g_total, p.g_tail);
   double* const slope = rows + Panel::slope * n;
   differentiate(p, ratio, slope, p.r);
   for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
   loops.add_up(rule, ratio, &p.full, tail);
-  p.full_error = 4 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
-  if (p.twice) {
+  p.full_error = 10 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
+  if (p.by_parts_twice) {
     for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
     differentiate(p, ratio, rows + Panel::curvature * n, p.dr_dg);
   }
@@ -116,15 +148,15 @@ void GaussPanels::fill(Panel& p) {
     }
     loops.differentiate(rule, ratio, rows + Panel::outside_slope * n, &p.outside_lower, &p.outside_upper, tail);
   }
-  p.g_error = 2 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
+  p.g_error = 4 * beyond_rule(*std::max_element(dg, dg + n), p.g_tail, p.decay, analytic) + rounding * p.g_total;
 }
 
-std::size_t GaussPanels::children(std::size_t index) {
+std::size_t Panels::children(std::size_t index) {
   if (panels_[index].child == 0) {
     Panel first = panels_[index], second = first;
-    const double share = first.at_front && !first.twice ? front_share : 0.5;
+    const double share = first.at_front && !first.by_parts_twice ? front_share : 0.5;
     first.upper = second.lower = first.lower + share * (first.upper - first.lower);
-    second.at_front = second.twice = second.rooted = false;
+    second.at_front = second.by_parts_twice = second.sqrt_endpoint = false;
     const std::size_t child = add(first);
     (void)add(second);
     panels_[index].child = child;
@@ -135,14 +167,15 @@ std::size_t GaussPanels::children(std::size_t index) {
   return child;
 }
 
-void GaussPanels::find_edges(const Segment& segment, bool front, std::span<const double> stops,
-                             std::span<const double> knots) {
+void Panels::find_edges(const Segment& segment, bool front, std::span<const double> stops,
+                        std::span<const double> knots) {
   const double end = segment.length();
   edges_.assign({0, end});
   const auto cut = [&](double s) {
     if (s > 0 && s < end) edges_.push_back(s);
   };
-  const double start = front ? beside_front : 0, pieces = std::ceil((end - start) / longest);
+  const double start = front ? front_reach(segment) : 0, steep = steepness(segment);
+  const double pieces = std::ceil((end - start) * std::fmax(1 / longest, steep / most_change));
   cut(start);
   for (double i = 1; i < pieces; ++i) cut(start + (end - start) * i / pieces);
   for (const double q : stops)
@@ -155,8 +188,8 @@ void GaussPanels::find_edges(const Segment& segment, bool front, std::span<const
   edges_.erase(repeated.begin(), repeated.end());
 }
 
-/// Where the front lies is told by the roughness alone, as I2 changes slowly beside it.
-void GaussPanels::lay_out(std::span<const double> stops) {
+/// The roughness alone tells where the front lies, as I2 changes slowly beside it.
+void Panels::lay_out(std::span<const double> stops) {
   panels_.clear();
   data_.clear();
   roots_.clear();
@@ -166,19 +199,19 @@ void GaussPanels::lay_out(std::span<const double> stops) {
   for (const Segment& segment : surface_) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
     find_edges(segment, before == 0, stops, knots);
+    double here = before, there = before;  // the same up to either end of a panel
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
       const double knot = edges_[i], end = edges_[i + 1];
       bool on_ramp = false;
-      for (double from = knot, to; from < end; from = to) {
+      for (double from = knot, to; from < end; from = to, here = there) {
         const double length = end - from, q = segment.a * std::exp(from);
-        const double here = before + (from > 0 ? segment.moment(3, q) : 0);
         const double rate = (q * q) * (q * q) * segment.density_at(from);
         const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
         Panel p{};
         p.segment = &segment;
         p.start = from;
         p.at_front = here == 0;
-        p.twice = p.at_front && rate > 0 && !curve;
+        p.by_parts_twice = p.at_front && rate > 0 && !curve;
         to = end;
         // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
         // zero begins: panels that grow away from both
@@ -199,28 +232,30 @@ void GaussPanels::lay_out(std::span<const double> stops) {
           p.linear = 1;
           p.upper = part;
         }
-        p.rooted = p.square > 0 && p.linear == 0 && rate > 0;
+        there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
+        p.grows = there > 4 * here;
+        p.sqrt_endpoint = p.square > 0 && p.linear == 0 && rate > 0;
         roots_.push_back(add(p));
       }
     }
-    before += segment.moment(3, segment.b);
+    before = here;
   }
   laid_out_ = !curve && stops.empty();
 }
 
-void GaussPanels::start(double velocity, std::span<const double> stops) {
+void Panels::start(double velocity, std::span<const double> stops) {
   velocity_ = velocity;
   ++starts_;
   if (!laid_out_ || !stops.empty()) lay_out(stops);
   for (const std::size_t root : roots_) fill(panels_[root]);
 }
 
-double GaussPanels::g_to(const Panel& panel, double s) const {
+double Panels::g_to(const Panel& panel, double s) const {
   const double t = panel.t(s);
   if (!(t > panel.lower)) return 0;
   const std::size_t n = panel.rule->n;
   double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
-  place(panel, t, q, roughness);
+  roughness_at_nodes(panel, t, q, roughness);
   for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
   (void)angular_integrals(rubber_, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
   double sum = 0;

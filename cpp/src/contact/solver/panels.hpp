@@ -1,4 +1,4 @@
-// What of G and of the hysteresis depends on the velocity alone, on Gauss-Legendre panels.
+// The parts of G and of the hysteresis that depend on the velocity alone, on Gauss-Legendre panels.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +23,24 @@ struct Panel {
   double start, linear, square;
   double lower, upper;  // in t
   bool at_front;        // G is 0 at its lower end
-  bool rooted;          // s - start = t^2 and dG/ds is not 0 there: sqrt(G - G at start) is smooth in t
+  bool sqrt_endpoint;   // s - start = t^2 and dG/ds is not 0 there: sqrt(G - G at start) is smooth in t
+  bool grows;           // G grows several times over the panel, as far as the roughness tells
   bool tabulated;       // R has knots
-  bool twice;           // and dR/dG is smooth: no ramp from zero, no table, whose last digits differences would enlarge
+  bool by_parts_twice;  // at a front where dR/dG is smooth: not on a ramp from zero, nor with a table, whose last
+                        // digits differences would enlarge
   const LegendreRule* rule;
   double decay;            // at which coefficients of dG and R fall at least, from one degree to the next
-  double fading;           // decay over as many degrees as there are nodes
+  double decay_to_n;       // decay over as many degrees as there are nodes
   std::size_t data = 0;    // where its rows start
   std::size_t child = 0;   // the first of two, 0 where it was not split
-  std::size_t filled = 0;  // the start that what follows belongs to
+  std::size_t filled = 0;  // the start that the numbers below belong to
   double g_total = 0, g_error = 0;
-  double full = 0, full_error = 0, full_outside = 0;  // int R dG, which the hysteresis is where P S is 1
+  double full = 0, full_error = 0, full_outside = 0;  // int R dG, the hysteresis where P S is 1
   double outside_lower = 0, outside_upper = 0;
   bool any_outside = false;
   double g_tail[LegendreRule::kept] = {};  // coefficients of dG
-  /// What is differentiated: at the ends, int |d| of it, its last coefficients, and about that of twice their degree.
+  /// A function differentiated: at the ends, int |d| of it, its last coefficients, and about that of twice their
+  /// degree.
   struct Smooth {
     double lower, upper, change, far, tail[LegendreRule::kept];
   };
@@ -47,11 +50,11 @@ struct Panel {
   [[nodiscard]] double t(double s) const;
 };
 
-/// The panels of one velocity: `roots` in order, some of them split, down to where somebody asked. What a panel holds
-/// depends on its place alone, so that no result depends on what was asked before.
-class GaussPanels {
+/// The panels of one velocity: `roots` in order, some of them split. The numbers of a panel depend on its place alone,
+/// so that no result depends on the questions asked before.
+class Panels {
  public:
-  GaussPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+  Panels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
   /// Starts anew for a velocity; `stops` are wavenumbers [1/m] at which panels shall end too.
   void start(double velocity, std::span<const double> stops);
 
@@ -72,7 +75,7 @@ class GaussPanels {
   void lay_out(std::span<const double> stops);
   void find_edges(const Segment& segment, bool front, std::span<const double> stops, std::span<const double> knots);
   std::size_t add(Panel panel);
-  void place(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
+  void roughness_at_nodes(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
   void fill(Panel& panel);
   void differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of) const;
 

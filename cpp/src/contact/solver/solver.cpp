@@ -1,3 +1,5 @@
+// Chooses the solver of a point: panels (panel_solver.hpp), or GSL's adaptive rules (gsl_solver.hpp) as the independent
+// check. Both solve Eqs 7 and 22. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/solver/solver.hpp"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-/// Scales so absurd that q^4 C is lost on the way are refused.
+/// Rejects scales where q^4 C over- or underflows.
 void check_scales(std::span<const Segment> surface) {
   for (const Segment& segment : surface)
     for (const auto& [q, c] : {std::pair{segment.a, segment.at_a}, std::pair{segment.b, segment.at_b}}) {
@@ -42,50 +44,54 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
       model_(model),
       factor_(factor),
       with_hysteresis_(with_hysteresis),
-      gauss_(surface, rubber, model.poisson_ratio, model.rtol),
+      panel_solver_(surface, rubber, model.poisson_ratio, model.rtol),
       stops_(stops) {
   check_scales(surface);
-  if (with_hysteresis && model.method == Method::gauss) front_.emplace(model.form, factor);
+  if (with_hysteresis && model.method == Method::gauss) contact_.emplace(model.form, factor);
 }
 
 void Solver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
-  if (model_.method == Method::gauss) gauss_.start(velocity, stop_wavenumbers_);
+  if (model_.method == Method::gauss) panel_solver_.start(velocity, stop_wavenumbers_);
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
   if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
-    gauss_.solve(pressure, shift, front_ ? &*front_ : nullptr);
+    panel_solver_.solve(pressure, shift, contact_ ? &*contact_ : nullptr);
     return;
   }
-  path_.emplace(surface_, rubber_, Path::Point{model_.poisson_ratio, pressure, velocity, shift}, stop_wavenumbers_,
-                with_hysteresis_, model_.rtol, rule(model_.method));
-  if (const double g = path_->g(surface_.back().b); g != 0) check_g(g, pressure);
+  gsl_solver_.emplace(surface_, rubber_, GslSolver::Point{model_.poisson_ratio, pressure, velocity, shift},
+                      stop_wavenumbers_, with_hysteresis_, model_.rtol, rule(model_.method));
+  if (const double g = gsl_solver_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;
-  const Path::Hysteresis found = path_->hysteresis(model_.form, factor_);
+  const GslSolver::Hysteresis found = gsl_solver_->hysteresis(model_.form, factor_);
   hysteresis_ = {found.value, found.error, found.outside};
   by_panel_ = found.by_panel;
 }
 
-double Solver::g(double wavenumber) const { return path_ ? path_->g(wavenumber) : gauss_.g(wavenumber); }
+double Solver::g(double wavenumber) const {
+  return gsl_solver_ ? gsl_solver_->g(wavenumber) : panel_solver_.g(wavenumber);
+}
 
-double Solver::relative_error() const { return path_ ? path_->relative_error() : gauss_.relative_error(); }
+double Solver::relative_error() const {
+  return gsl_solver_ ? gsl_solver_->relative_error() : panel_solver_.relative_error();
+}
 
 double Solver::hysteresis_density(double wavenumber) const {
-  if (path_) return path_->hysteresis_density(wavenumber, model_.form, factor_);
-  const double full = gauss_.full_density(wavenumber);
+  if (gsl_solver_) return gsl_solver_->hysteresis_density(wavenumber, model_.form, factor_);
+  const double full = panel_solver_.full_density(wavenumber);
   if (full == 0) return 0;
-  const double share = contact_share(gauss_.g(wavenumber), model_.form);
+  const double share = contact_share(panel_solver_.g(wavenumber), model_.form);
   return full * share * (factor_ ? (*factor_)(share) : 1);
 }
 
-std::vector<GaussPath::Part> Solver::parts() const {
-  if (!path_) return gauss_.parts();
-  std::vector<GaussPath::Part> result;
-  const auto panels = path_->panels();
+std::vector<PanelSolver::PanelShare> Solver::shares() const {
+  if (!gsl_solver_) return panel_solver_.shares();
+  std::vector<PanelSolver::PanelShare> result;
+  const auto panels = gsl_solver_->panels();
   for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});
   return result;
 }

@@ -13,21 +13,21 @@ namespace asperity {
 
 class Solver {
  public:
-  using Hysteresis = GaussPath::Hysteresis;
+  using Hysteresis = PanelSolver::Hysteresis;
 
-  /// Integrals of P S, S by `factor`, where `with_hysteresis`; otherwise G alone. Panels end at the frequencies `stops`
-  /// [rad/s] too, which are to outlive this.
+  /// Solves for G, and where `with_hysteresis` for mu_H with S by `factor`. Panels end at the frequencies `stops`
+  /// [rad/s] too, which must outlive this.
   Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
          const std::optional<SFunction>& factor, std::span<const double> stops = {});
 
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
   void solve(double pressure, double velocity, double shift);
 
-  [[nodiscard]] const Hysteresis& hysteresis() const { return path_ ? hysteresis_ : gauss_.hysteresis(); }
+  [[nodiscard]] const Hysteresis& hysteresis() const { return gsl_solver_ ? hysteresis_ : panel_solver_.hysteresis(); }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   [[nodiscard]] double relative_error() const;  // of every G
-  [[nodiscard]] std::vector<GaussPath::Part> parts() const;
+  [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
 
  private:
   void start(double velocity);
@@ -36,13 +36,13 @@ class Solver {
   const Rubber& rubber_;
   const ContactModel& model_;
   std::optional<SFunction> factor_;
-  std::optional<FrontIntegral> front_;
+  std::optional<ContactIntegral> contact_;
   bool with_hysteresis_;
-  GaussPath gauss_;
+  PanelSolver panel_solver_;
   std::span<const double> stops_;
   double velocity_ = 0;  // of the point before
   std::vector<double> stop_wavenumbers_;
-  std::optional<Path> path_;  // by GSL
+  std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;
   std::vector<double> by_panel_;
 };
