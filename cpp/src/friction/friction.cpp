@@ -119,7 +119,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   }
 
   Notes notes(spectrum, rubber, model.correction);
-  // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
+  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
   std::span<const double> stops;
   if (f.contributions) stops = f.contributions->decade_edges;
