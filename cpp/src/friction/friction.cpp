@@ -102,9 +102,11 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Friction f;
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
-  for (auto* column :
-       {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate, &f.extrapolated_share})
+  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
+                       &f.extrapolated_share}) {
+    heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
+  }
   if (contributions && n > 0) {
     const auto [slowest, fastest] = std::ranges::minmax(velocity);
     double front = 1;
