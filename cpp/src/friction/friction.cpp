@@ -104,9 +104,11 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Friction f;
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
-  for (auto* column :
-       {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate, &f.extrapolated_share})
+  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
+                       &f.extrapolated_share}) {
+    heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
+  }
   if (contributions && n > 0) {
     const auto [slowest, fastest] = std::ranges::minmax(velocity);
     double front = 1;
@@ -121,7 +123,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   }
 
   Notes notes(spectrum, rubber, model.correction);
-  // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
+  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
   std::span<const double> stops;
   if (f.contributions) stops = f.contributions->decade_edges;
