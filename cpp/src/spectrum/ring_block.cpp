@@ -1,12 +1,11 @@
 // The matrices of a block of rings (ring_blocks.hpp): a fine rule over its intervals, the polynomials that are
 // orthonormal under it by the Lanczos recurrence, and their Gauss rules from the eigenvectors of the Jacobi matrix
 // (G. H. Golub and J. H. Welsch, Math. Comp. 23, 221 (1969)).
-#include <gsl/gsl_eigen.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/symmetric_matrix.hpp"
 #include "spectrum/ring_blocks.hpp"
 
 namespace asperity {
@@ -140,25 +139,22 @@ NodeRule gauss(const Jacobi& jacobi, std::size_t wanted) {
   NodeRule result{};
   const std::size_t n = result.count = std::min(wanted, jacobi.degrees);
   if (n == 0) return result;
-  double matrix[RingBlock::fine * RingBlock::fine] = {}, value[RingBlock::fine],
-                                  vectors[RingBlock::fine * RingBlock::fine];
-  for (std::size_t i = 0; i < n; ++i) {
-    matrix[i * n + i] = jacobi.diagonal[i];
-    if (i + 1 < n) matrix[i * n + i + 1] = matrix[(i + 1) * n + i] = jacobi.beside[i];
+  const auto size = static_cast<Eigen::Index>(n);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    matrix(i, i) = jacobi.diagonal[at];
+    if (i + 1 < size) matrix(i, i + 1) = matrix(i + 1, i) = jacobi.beside[at];
   }
-  gsl_matrix_view a = gsl_matrix_view_array(matrix, n, n), v = gsl_matrix_view_array(vectors, n, n);
-  gsl_vector_view d = gsl_vector_view_array(value, n);
-  const std::unique_ptr<gsl_eigen_symmv_workspace, void (*)(gsl_eigen_symmv_workspace*)> room(gsl_eigen_symmv_alloc(n),
-                                                                                              gsl_eigen_symmv_free);
-  gsl_eigen_symmv(&a.matrix, &d.vector, &v.matrix, room.get());
-  gsl_eigen_symmv_sort(&d.vector, &v.matrix, GSL_EIGEN_SORT_VAL_ASC);
+  const PrincipalAxes axes = principal_axes(matrix);
   const double root = std::sqrt(jacobi.measure);
   for (std::size_t i = 0; i < n; ++i) {
-    const double first = vectors[i];  // of p_0
-    if (first == 0) continue;         // a node without weight
-    result.x[i] = value[i];
+    const double* const vector = axes.vectors.data() + i * n;
+    const double first = vector[0];  // of p_0
+    if (first == 0) continue;        // a node without weight
+    result.x[i] = axes.values[static_cast<Eigen::Index>(i)];
     result.measure[i] = jacobi.measure * first * first;
-    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = vectors[j * n + i] / first / root;
+    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = vector[j] / first / root;
   }
   return result;
 }
