@@ -338,7 +338,7 @@ class SelfAffineFit(Table):
         The fit as a spectrum.
     covariance : ndarray, shape (3, 3)
         Covariance of rms_height [m], hurst [-] and rolloff [1/m], from the scatter of the rows
-        about the fit; zeros where there is no roll-off.
+        about the fit and their correlation; zeros where there is no roll-off.
     residual : float
         Weighted rms of ln(C / fit) [-].
     rows : int

@@ -11,13 +11,16 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
+    Array,
     Given,
     OptionalVector,
     Vector,
+    brief,
     frozen,
     number,
     number_or_none,
     over,
+    real_array,
     vector,
     vector_or_none,
 )
@@ -188,14 +191,15 @@ class _Rows(Table):
     count: Any
     standard_error: Any
     flag: Any
+    correlation: Any
 
     def _check(self) -> None:
         for name in ("wavenumber", "density"):
             self._set(**{name: vector(getattr(self, name), name)})
         for name in ("count", "standard_error"):
             self._set(**{name: vector_or_none(getattr(self, name), name)})
-        self._set(flag=_flags(self.flag))
-        for name in ("count", "standard_error", "flag"):
+        self._set(flag=_flags(self.flag), correlation=_correlation(self.correlation))
+        for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
                 raise InvalidInput(f"{name} has 0 entries: must have one for each wavenumber")
@@ -211,8 +215,8 @@ class _Rows(Table):
         """Return count-weighted means over bins of equal width in ln q, from the lowest row on.
 
         Each row is brought to the bin's mean wavenumber along the local power law. Flagged rows
-        are left out of bins that have others. Under a Hann window neighbouring rows are alike, and
-        the errors of bins come out a quarter too small.
+        are left out of bins that have others. Errors of bins, and the correlation of neighbouring
+        ones, follow from the errors and the correlation of the rows.
 
         Parameters
         ----------
@@ -271,6 +275,16 @@ def _flags(found: Any) -> NDArray[np.uint8] | None:
     return frozen(given.astype(np.uint8))
 
 
+def _correlation(found: Any) -> Array | None:
+    """Return correlations of rows with those after them, an array of two axes."""
+    if found is None:
+        return None
+    given = np.array(real_array(found, "correlation"), order="C")
+    if given.ndim != 2:
+        raise InvalidInput(f"correlation = {brief(given)}: must have two axes, rows and lags")
+    return frozen(given)
+
+
 @value
 class TabulatedSpectrum(_Rows, _Spectrum):
     """Spectrum of a surface, given at wavenumbers.
@@ -293,6 +307,9 @@ class TabulatedSpectrum(_Rows, _Spectrum):
         cosine bell) or 10 (Hann) periods. 2: the row lies above half of pi / pixel, where
         roughness finer than the pixels is folded back. 4: the row has so few modes that their mean
         is uncertain by more than a quarter. 0: the row is reliable. The attribute is uint8.
+    correlation : array_like, shape (n, m), optional
+        Correlation [-] of the error of each row with those of the next m rows, which a window makes
+        alike; rows further apart are independent.
 
     Raises
     ------
@@ -307,6 +324,7 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     count: OptionalVector = ABSENT
     standard_error: OptionalVector = ABSENT
     flag: Flags = ABSENT
+    correlation: OptionalVector = ABSENT
 
     def __post_init__(self) -> None:
         self._check()
@@ -345,6 +363,9 @@ class LineSpectrum(_Rows):
         C1D [m^3], not negative.
     count, standard_error, flag : array_like, shape (n,), optional
         As in TabulatedSpectrum.
+    correlation : array_like, shape (n, m), optional
+        As in TabulatedSpectrum. `line_spectrum` leaves it out: its errors are those that give
+        averages of many rows theirs.
 
     Raises
     ------
@@ -359,6 +380,7 @@ class LineSpectrum(_Rows):
     count: OptionalVector = ABSENT
     standard_error: OptionalVector = ABSENT
     flag: Flags = ABSENT
+    correlation: OptionalVector = ABSENT
 
     def __post_init__(self) -> None:
         self._check()

@@ -30,11 +30,12 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
   using Column = std::optional<Array>;
   return py::classh<S>(m, name)
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
-                       const std::optional<std::vector<std::uint8_t>>& flag) {
+                       const std::optional<std::vector<std::uint8_t>>& flag, const Column& correlation) {
         RowQuality quality;
         if (count) quality.count = vector_of(*count);
         if (error) quality.standard_error = vector_of(*error);
         if (flag) quality.flag = *flag;
+        if (correlation) quality.correlation = vector_of(*correlation);
         return S(vector_of(q), vector_of(density), std::move(quality));
       }))
       .def_property_readonly("wavenumber", [](const S& s) { return array_of(std::vector(s.wavenumber())); })
@@ -42,6 +43,13 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
       .def_property_readonly("count", [column](const S& s) { return column(s.quality().count); })
       .def_property_readonly("standard_error", [column](const S& s) { return column(s.quality().standard_error); })
       .def_property_readonly("flag", [column](const S& s) { return column(s.quality().flag); })
+      .def_property_readonly("correlation",
+                             [](const S& s) -> py::object {
+                               const auto lags = static_cast<py::ssize_t>(s.quality().lags());
+                               if (lags == 0) return py::none();
+                               const auto rows = static_cast<py::ssize_t>(s.wavenumber().size());
+                               return array_of(std::vector(s.quality().correlation), {rows, lags});
+                             })
       .def(
           "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,13 @@ struct RowQuality {
   std::vector<double> count;           // modes averaged: the weights of a fit
   std::vector<double> standard_error;  // of the density, in its unit
   std::vector<std::uint8_t> flag;      // RowFlag bits, 0: reliable
+  // Of the errors of a row and of those after it, as many entries a row as rows that a window ties together: the first
+  // is that with the next row. Pairs further apart are independent; entries beyond the last row are not read.
+  std::vector<double> correlation = {};
+  /// How many rows after a row its correlations reach.
+  [[nodiscard]] ASPERITY_EXPORT std::size_t lags() const;
+  /// Of the errors of row i and of row j >= i.
+  [[nodiscard]] ASPERITY_EXPORT double correlation_of(std::size_t i, std::size_t j) const;
   bool operator==(const RowQuality&) const = default;
 };
 
@@ -164,7 +172,8 @@ struct FitOptions {
   FitMethod method = FitMethod::least_squares;  // slope: Eq. 28, a straight line without weights and roll-off
   Rolloff rolloff = Rolloff::find;
 };
-/// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it.
+/// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it and their
+/// correlation.
 struct SelfAffineFit {
   SelfAffineSpectrum spectrum;
   // of rms height [m], Hurst exponent [-] and roll-off [1/m], zeros where there is no roll-off

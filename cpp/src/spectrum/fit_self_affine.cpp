@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
@@ -18,9 +20,12 @@ using std::numbers::pi;
 
 namespace {
 
-/// Rows that are fitted: x = ln q, y = ln C, w the weights, of sum 1.
+/// Rows that are fitted: x = ln q, y = ln C, w the weights, of sum 1; their places in the spectrum and what that knows
+/// of them.
 struct Rows {
   std::vector<double> x, y, w;
+  const std::vector<std::size_t>& place;
+  const RowQuality& quality;
   [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
@@ -52,7 +57,7 @@ std::vector<std::size_t> chosen_rows(const TabulatedSpectrum& spectrum, const Fi
 }
 
 Rows gather(const TabulatedSpectrum& spectrum, const std::vector<std::size_t>& rows, FitMethod method) {
-  Rows result;
+  Rows result{{}, {}, {}, rows, spectrum.quality()};
   for (const std::size_t row : rows) {
     if (spectrum.density()[row] == 0)
       refuse("density[" + std::to_string(row) + "]", 0,
@@ -136,7 +141,9 @@ bool convincing(const Rows& rows, const Broken& line, const Broken& broken) {
          slope_below(rows, broken.x_r) > broken.slope / 4;
 }
 
-/// s^2 (J^T W J)^-1 of level, slope and, as the third, x_r: W of trace 1, s^2 what is left over the degrees of freedom.
+/// Of level, slope and, as the third, x_r, from rows of covariance V = s^2 W^-1/2 R W^-1/2, W of trace 1 and R their
+/// correlation: with A = (J^T W J)^-1 it is A J^T W V W J A. What is left has the mean s^2 (n - t), t the trace of
+/// A J^T W^1/2 R W^1/2 J.
 std::vector<double> covariance_of(const Rows& rows, const Broken& fit, std::size_t parameters) {
   const std::size_t n = rows.size();
   std::vector<double> jacobian(n * parameters, 1.0);
@@ -144,9 +151,27 @@ std::vector<double> covariance_of(const Rows& rows, const Broken& fit, std::size
     jacobian[n + i] = std::max(rows.x[i] - fit.x_r, 0.0);
     if (parameters == 3) jacobian[2 * n + i] = rows.x[i] > fit.x_r ? -fit.slope : 0;
   }
-  const double scatter = fit.sum_of_squares / static_cast<double>(std::max<std::size_t>(1, n - parameters));
-  std::vector<double> result = inverse_normal(jacobian, rows.w);
-  for (double& value : result) value *= scatter;
+  const std::vector<double> inverse = inverse_normal(jacobian, rows.w);
+  const std::size_t size = parameters * parameters;
+  std::vector<double> inner(size);  // J^T W^1/2 R W^1/2 J
+  const auto add_pair = [&](std::size_t i, std::size_t j, double correlation) {
+    for (std::size_t k = 0; k < size; ++k)
+      inner[k] += correlation * std::sqrt(rows.w[i] * rows.w[j]) * jacobian[k % parameters * n + i] *
+                  jacobian[k / parameters * n + j];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    add_pair(i, i, 1);
+    for (std::size_t j = i + 1; j < n && rows.place[j] - rows.place[i] <= rows.quality.lags(); ++j)
+      for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}})
+        add_pair(a, b, rows.quality.correlation_of(rows.place[i], rows.place[j]));
+  }
+  const double trace = std::inner_product(inverse.begin(), inverse.end(), inner.begin(), 0.0);  // both symmetric
+  const double scatter = fit.sum_of_squares / (static_cast<double>(n) - trace);
+  std::vector<double> result(size);
+  for (std::size_t k = 0; k < size; ++k)
+    for (std::size_t l = 0; l < size; ++l)
+      result[k] += scatter * inverse[k % parameters * parameters + l % parameters] * inner[l] *
+                   inverse[l / parameters * parameters + k / parameters];
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int biased = few_periods | near_nyquist;  // no average cures it
 
-/// Rows of one or several spectra. A quality that the spectra do not give stays empty.
+/// Rows of one or several spectra, those of each together. A quality that the spectra do not give stays empty.
 struct Rows {
   std::vector<double> wavenumber, density;
   RowQuality quality;
@@ -40,24 +41,62 @@ class Mean {
       moment += weight(i) * rows.wavenumber[i];
     }
     wavenumber = moment / total;
-    double power = 0, expected = 0, variance = 0;
+    double power = 0, expected = 0;
     for (const std::size_t i : members) {
       power += weight(i) * rows.density[i];
       expected += weight(i) * std::pow(rows.wavenumber[i] / wavenumber, slope);
-      if (!known.standard_error.empty()) variance += std::pow(weight(i) * known.standard_error[i], 2);
       if (!known.flag.empty()) flag |= known.flag[i] & biased;
     }
     density = power / expected;
     count = counted ? total : 0;
-    standard_error = std::sqrt(variance) / expected;
-    if (!known.standard_error.empty() && standard_error > density / 4) flag |= few_modes;
+    for (const std::size_t i : members) share.push_back(weight(i) / expected);
   }
-  double wavenumber, density, count, standard_error;
+  double wavenumber, density, count;
+  std::vector<double> share;  // of each member's density in this one
   int flag = 0;
 };
 
+/// The standard errors of means and their correlation, from those of the rows. Rows of one spectrum that follow each
+/// other lie in bins that do.
+void add_errors(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins,
+                const std::vector<std::vector<double>>& shares, Rows& result) {
+  constexpr std::size_t none = -1;
+  const std::size_t n = rows.wavenumber.size(), reach = rows.quality.lags();
+  std::vector<std::size_t> bin(n, none);
+  std::vector<double> error(n);  // what a row adds to that of its bin
+  for (std::size_t b = 0; b < bins.size(); ++b)
+    for (std::size_t k = 0; k < bins[b].size(); ++k) {
+      const std::size_t i = bins[b][k];
+      bin[i] = b;
+      error[i] = shares[b][k] * rows.quality.standard_error[i];
+    }
+  std::vector<std::vector<double>> covariance(bins.size());  // with the bin itself and those after it
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n && j - i <= reach; ++j) {
+      const double correlation = rows.quality.correlation_of(i, j);
+      if (bin[i] == none || bin[j] == none || correlation == 0) continue;
+      std::vector<double>& row = covariance[bin[i]];
+      const std::size_t apart = bin[j] - bin[i];
+      row.resize(std::max(row.size(), apart + 1));
+      row[apart] += (i < j && apart == 0 ? 2 : 1) * correlation * error[i] * error[j];
+    }
+  RowQuality& quality = result.quality;
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    quality.standard_error.push_back(std::sqrt(covariance[b][0]));
+    if (!quality.flag.empty() && quality.standard_error[b] > result.density[b] / 4) quality.flag[b] |= few_modes;
+  }
+  const std::size_t lags = std::ranges::max(covariance, {}, &std::vector<double>::size).size() - 1;
+  quality.correlation.assign(lags * bins.size(), 0);
+  for (std::size_t b = 0; b < bins.size(); ++b)
+    for (std::size_t m = 1; m < covariance[b].size(); ++m) {
+      const double scale = quality.standard_error[b] * quality.standard_error[b + m];
+      if (scale > 0) quality.correlation[b * lags + m - 1] = std::clamp(covariance[b][m] / scale, -1.0, 1.0);
+    }
+}
+
 Rows means(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins) {
   Rows result;
+  std::vector<std::vector<double>> shares(bins.size());
   const auto n = bins.size();
   // the means need the slopes and the slopes the means: in turn, until neither changes
   std::vector<double> slope(n);
@@ -66,12 +105,12 @@ Rows means(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins) 
     result = {};
     change = 0;
     for (std::size_t b = 0; b < n; ++b) {
-      const Mean mean(rows, bins[b], slope[b]);
+      Mean mean(rows, bins[b], slope[b]);
       result.wavenumber.push_back(mean.wavenumber);
       result.density.push_back(mean.density);
       if (!rows.quality.count.empty()) result.quality.count.push_back(mean.count);
-      if (!rows.quality.standard_error.empty()) result.quality.standard_error.push_back(mean.standard_error);
       if (!rows.quality.flag.empty()) result.quality.flag.push_back(static_cast<std::uint8_t>(mean.flag));
+      shares[b] = std::move(mean.share);
     }
     for (std::size_t b = 0; b < n && n > 1; ++b) {
       const std::size_t below = b > 0 ? b - 1 : b, above = b + 1 < n ? b + 1 : b;
@@ -82,6 +121,7 @@ Rows means(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins) 
       slope[b] = bounded;
     }
   }
+  if (!rows.quality.standard_error.empty()) add_errors(rows, bins, shares, result);
   return result;
 }
 
@@ -145,6 +185,8 @@ TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std:
   Rows all;
   std::vector<std::vector<std::size_t>> same(spectra.front().wavenumber().size());
   bool errors = true, flags = true;
+  std::size_t lags = 0;
+  for (const TabulatedSpectrum& s : spectra) lags = std::max(lags, s.quality().lags());
   for (const TabulatedSpectrum& s : spectra) {
     for (std::size_t i = 0; i < same.size() && !per_decade; ++i) same[i].push_back(all.wavenumber.size() + i);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
@@ -153,10 +195,17 @@ TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std:
     append(all.quality.count, s.quality().count);
     append(all.quality.standard_error, s.quality().standard_error);
     append(all.quality.flag, s.quality().flag);
+    const std::size_t rows = s.wavenumber().size();
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t j = i + 1; j <= i + lags; ++j)
+        all.quality.correlation.push_back(j < rows ? s.quality().correlation_of(i, j) : 0);
     errors = errors && !s.quality().standard_error.empty();
     flags = flags && !s.quality().flag.empty();
   }
-  if (!errors) all.quality.standard_error.clear();
+  if (!errors) {
+    all.quality.standard_error.clear();
+    all.quality.correlation.clear();
+  }
   if (!flags) all.quality.flag.clear();
   Rows result = means(all, per_decade ? log_bins(all, *per_decade) : same);
   return {std::move(result.wavenumber), std::move(result.density), std::move(result.quality)};

@@ -14,7 +14,7 @@ struct Preparation {
   std::optional<Trend> trend;  // taken out
   /// Eqs 26-27 with n = nx ny points: C = A / ((2 pi)^2 n^2) |sum|^2, over the window's mean square.
   double scale;
-  double ring_variance_factor;  // of a mean over a ring of modes, which has neighbours on two of four sides only
+  std::vector<double> ring_covariances;  // of rings 0, 1, ... apart, as in spectrum/ring_covariance.hpp
 };
 
 /// Throws where the map has drop-outs.

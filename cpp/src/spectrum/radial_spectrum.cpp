@@ -11,6 +11,7 @@
 #include "numerics/simd.hpp"
 #include "spectrum/fft2d.hpp"
 #include "spectrum/preparation.hpp"
+#include "spectrum/ring_covariance.hpp"
 #include "spectrum/tabulated.hpp"
 #include "spectrum/window.hpp"
 
@@ -35,13 +36,14 @@ void require_plane(const HeightMap& map) {
 Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads) {
   require_plane(map);
   const auto [ny, nx] = map.shape();
-  Preparation result{window_weights(window, ny), window_weights(window, nx), {}, 0, 0};
+  Preparation result{window_weights(window, ny), window_weights(window, nx), {}, 0, {}};
   if (detrend) result.trend.emplace(map, *detrend, threads);
   const WindowMoments y(result.wy), x(result.wx);
   const auto [dy, dx] = map.pixel_size();
   const double n = static_cast<double>(ny) * static_cast<double>(nx);
   result.scale = dy * dx / (4 * pi * pi * n) / (y.mean_square * x.mean_square);
-  result.ring_variance_factor = std::sqrt(y.variance_factor * x.variance_factor);
+  const double ly = static_cast<double>(ny) * dy, lx = static_cast<double>(nx) * dx, longest = std::max(ly, lx);
+  result.ring_covariances = ring_covariances(result.wy, result.wx, {longest / ly, longest / lx});
   return result;
 }
 
@@ -172,7 +174,8 @@ std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detren
 }  // namespace
 
 // |h|^2 of a mode is spread like its own mean (exponentially, for a Gaussian surface), so that its square, whose mean
-// is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike.
+// is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike. Rings are as
+// many rows apart as rings, but for empty ones near the corner.
 TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
                                  Part part) {
   if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
@@ -188,7 +191,8 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   const Rings rings(map.shape(), map.pixel_size());
   const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads);
   const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
-  const Reliability reliable(window, shorter, std::max(dy, dx), prepared.ring_variance_factor);
+  const std::vector<double>& covariances = prepared.ring_covariances;
+  const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
   std::vector<double> wavenumber, density;
   RowQuality quality;
   for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
@@ -198,9 +202,9 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     wavenumber.push_back(rings.dq() * 2 * sum.modes[0] / modes);
     density.push_back(prepared.scale * sum.power[0] / modes);
     quality.count.push_back(modes);
-    quality.standard_error.push_back(prepared.scale * std::sqrt(prepared.ring_variance_factor * sum.power[1] / 2) /
-                                     modes);
+    quality.standard_error.push_back(prepared.scale * std::sqrt(covariances[0] * sum.power[1] / 2) / modes);
     quality.flag.push_back(reliable.flag(wavenumber.back(), modes));
+    for (std::size_t m = 1; m < covariances.size(); ++m) quality.correlation.push_back(covariances[m] / covariances[0]);
   }
   if (wavenumber.size() < 2)
     throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +

@@ -55,7 +55,7 @@ Anisotropy anisotropy(const HeightMap& map, Window window, std::optional<Detrend
   const std::size_t ny = map.shape()[0], nx = map.shape()[1];
   const auto [dy, dx] = map.pixel_size();
   const double ly = static_cast<double>(ny) * dy, lx = static_cast<double>(nx) * dx;
-  const Reliability reliable(window, std::min(ly, lx), std::max(dy, dx), prepared.ring_variance_factor);
+  const Reliability reliable(window, std::min(ly, lx), std::max(dy, dx), prepared.ring_covariances[0]);
   const double lowest = q_min.value_or(reliable.lowest), highest = q_max.value_or(reliable.highest);
   if (!(highest > lowest))
     throw InvalidInput("surface: has no band between " + show(lowest) +

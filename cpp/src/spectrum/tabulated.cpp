@@ -2,6 +2,8 @@
 #include "spectrum/tabulated.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "numerics/arguments.hpp"
@@ -33,14 +35,30 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
   require_rows("count", quality.count.size());
   require_rows("standard_error", quality.standard_error.size());
   require_rows("flag", quality.flag.size());
+  if (!quality.correlation.empty() && quality.standard_error.empty())
+    throw InvalidInput("correlation: standard_error is missing, whose entries it ties together");
+  if (quality.correlation.size() % wavenumber.size() != 0)
+    throw InvalidInput("correlation has " + std::to_string(quality.correlation.size()) + " entries, wavenumber has " +
+                       std::to_string(wavenumber.size()) + ": each row must have as many");
   require_each_not_negative("count", quality.count);
   require_each_not_negative("standard_error", quality.standard_error);
   for (std::size_t i = 0; i < quality.flag.size(); ++i)
     if (quality.flag[i] > (few_periods | near_nyquist | few_modes))
       refuse("flag[" + std::to_string(i) + "]", quality.flag[i], "from 0 to 7");
+  for (std::size_t i = 0; i < quality.correlation.size(); ++i)
+    if (!(std::abs(quality.correlation[i]) <= 1))
+      refuse("correlation: entry " + std::to_string(i), quality.correlation[i], "in [-1, 1]");
 }
 
 }  // namespace
+
+std::size_t RowQuality::lags() const { return correlation.empty() ? 0 : correlation.size() / standard_error.size(); }
+
+double RowQuality::correlation_of(std::size_t i, std::size_t j) const {
+  if (i == j) return 1;
+  const std::size_t reach = lags();
+  return j - i <= reach ? correlation[i * reach + j - i - 1] : 0;
+}
 
 TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
     : wavenumber_(std::move(wavenumber)),
@@ -76,6 +94,9 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
     if (!old.count.empty()) quality.count.push_back(old.count[i]);
     if (!old.standard_error.empty()) quality.standard_error.push_back(old.standard_error[i]);
     if (!old.flag.empty()) quality.flag.push_back(old.flag[i]);
+    const auto lags = static_cast<std::ptrdiff_t>(old.lags());
+    const auto at = old.correlation.begin() + lags * static_cast<std::ptrdiff_t>(i);
+    quality.correlation.insert(quality.correlation.end(), at, at + lags);  // a cut stands where the row outside did
   };
   // A row put in at a cut is no measurement of its own: its count is 0, the rest is that of the row outside.
   const auto add_cut = [&](double cut, std::size_t outside) {

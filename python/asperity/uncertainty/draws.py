@@ -45,12 +45,19 @@ def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
 
 
 def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
-    """Gamma, as means of squared amplitudes are: positive, of the row's mean and deviation."""
+    """Lognormal: positive, with the mean and the deviation of each row, and their correlation."""
     density, error = np.array(table.density), np.asarray(table.standard_error)
-    uncertain = (density > 0) & (error > 0)
-    shape = (density[uncertain] / error[uncertain]) ** 2
-    density[uncertain] *= rng.gamma(shape) / shape
-    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density)
+    relative = np.divide(error, density, out=np.zeros_like(density), where=density > 0)
+    covariance = np.diag(relative**2)
+    if table.correlation is not None:
+        for lag, column in enumerate(table.correlation.T, start=1):
+            first = np.arange(density.size - lag)
+            pair = column[first] * relative[first] * relative[first + lag]
+            covariance[first, first + lag] = covariance[first + lag, first] = pair
+    logarithm = np.log1p(covariance)
+    mean = -np.diag(logarithm) / 2
+    factor = np.exp(rng.multivariate_normal(mean, logarithm, method="eigh"))
+    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density * factor)
 
 
 def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> SelfAffineSpectrum:

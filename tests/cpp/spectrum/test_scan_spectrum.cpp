@@ -172,3 +172,37 @@ TEST_CASE("bins and merged spectra hold every mode once") {
   CHECK(sum(log_binned(plain, 10).quality().count) == sum(first.quality().count));
   CHECK_THROWS_AS(merge_spectra({}), InvalidInput);
 }
+
+// Against every pair of modes: tests/python/spectrum/test_ring_correlation.py. Far from the axes a Hann window ties the
+// nearest rings by 0.457 and the next by 0.055.
+TEST_CASE("rows know how alike a window makes them, and bins of them do") {
+  const SelfAffineSpectrum law{.rms_height = 1, .hurst = 0.8, .q0 = 0.1, .q1 = 3};
+  const HeightMap map = synthesize(law, {64, 64}, {1, 1}, 1);
+  CHECK(power_spectrum(map, Window::none).quality().lags() == 0);
+  const TabulatedSpectrum tied = power_spectrum(map, Window::hann);
+  const RowQuality& rows = tied.quality();
+  CHECK(rows.correlation_of(20, 20) == 1);
+  CHECK_NEAR(rows.correlation_of(20, 21), 0.457, 2e-3, 1);
+  CHECK_NEAR(rows.correlation_of(20, 22), 0.055, 2e-3, 1);
+  CHECK(rows.correlation_of(20, 30) == 0);
+
+  RowQuality free = rows;
+  free.correlation.clear();
+  const TabulatedSpectrum loose(tied.wavenumber(), tied.density(), free);
+  const RowQuality bins = log_binned(tied, 10).quality(), apart = log_binned(loose, 10).quality();
+  CHECK(apart.lags() == 0);
+  CHECK(bins.lags() > 0);
+  const std::size_t last = bins.standard_error.size() - 1;  // of many rows
+  CHECK(bins.standard_error[last] > 1.3 * apart.standard_error[last]);
+  CHECK(bins.standard_error[last] < 1.45 * apart.standard_error[last]);
+
+  const FitOptions band{.q_min = 0.5, .q_max = 3, .rolloff = Rolloff::none};
+  const SelfAffineFit narrow = fit_self_affine(loose, band), wide = fit_self_affine(tied, band);
+  CHECK(narrow.spectrum == wide.spectrum);
+  CHECK(wide.covariance[1][1] > 1.6 * narrow.covariance[1][1]);
+
+  free.correlation.assign(rows.count.size() + 1, 0.1);
+  CHECK_THROWS_AS(TabulatedSpectrum(tied.wavenumber(), tied.density(), free), InvalidInput);
+  free.correlation.assign(rows.count.size(), 1.1);
+  CHECK_THROWS_AS(TabulatedSpectrum(tied.wavenumber(), tied.density(), free), InvalidInput);
+}

@@ -119,6 +119,44 @@ def test_bad_usage_is_one_line(
     assert "--help" in err
 
 
+NO_FILE = "cannot be read: not a regular file"
+DMA = ["--columns", "frequency=f,temperature=T,storage=s,loss=l", "--modulus", "E"]
+DMA += ["--units", "frequency=Hz,temperature=K,modulus=Pa"]
+
+
+@each(
+    "arguments",
+    [
+        ["friction", "FILE"],
+        ["fit", "scene.toml", "FILE"],
+        ["map", "--info", "FILE"],
+        ["rubber", "FILE", *DMA],
+        ["rubber", "sweep.csv", *DMA, "--shift", "FILE"],
+        [*SPECTRUM[:1], "FILE", *SPECTRUM[2:]],
+        ["validate", "--rows", "FILE"],
+        ["validate", "--surface", "FILE"],
+    ],
+)
+@each("name", ["pipe", "/dev/zero", "loop"])
+def test_what_has_no_end_is_refused_and_not_waited_for(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    undrawn: None,
+    arguments: list[str],
+    name: str,
+) -> None:
+    if not (folder / "pipe").exists():
+        os.mkfifo(folder / "pipe")
+    if not (folder / "loop").is_symlink():
+        (folder / "loop").symlink_to("loop")
+    rows = "".join(f"{10**k},293,2e6,1e6\n" for k in range(4))
+    (folder / "sweep.csv").write_text(f"f,T,s,l\n{rows}")
+    assert main([name if one == "FILE" else one for one in arguments]) == 2
+    out, err = capsys.readouterr()
+    problem = "cannot be read: Too many levels of symbolic links" if name == "loop" else NO_FILE
+    assert (out, err) == ("", f"asperity: {name}: {problem}\n")
+
+
 def test_an_error_in_a_later_scene_keeps_the_old_output(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -32,7 +32,7 @@ def synthesize(size: int) -> object:
     return asperity.synthesize(ROAD, shape=(size, 512), pixel_size=1e-5, seed=1, skewness=-0.5)
 
 
-@each(("call", "small", "times"), [(line_density, 10_000, 50), (synthesize, 64, 50)])
+@each(("call", "small", "times"), [(line_density, 10_000, 50), (synthesize, 64, 250)])
 def test_a_call_ends_long_before_its_end(
     call: Callable[[int], object], small: int, times: int
 ) -> None:

@@ -135,7 +135,7 @@ void Panels::fill(Panel& p) {
   differentiate(p, ratio, slope, p.r);
   for (std::size_t i = 0; i < n; ++i) ratio[i] *= dg[i];
   loops.add_up(rule, ratio, &p.full, tail);
-  p.full_error = 4 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
+  p.full_error = 10 * beyond_rule(*std::max_element(ratio, ratio + n), tail, p.decay, analytic) + rounding * p.full;
   if (p.by_parts_twice) {
     for (std::size_t i = 0; i < n; ++i) ratio[i] = slope[i] / (rule.weight[i] * dg[i]);
     differentiate(p, ratio, rows + Panel::curvature * n, p.dr_dg);
@@ -199,12 +199,12 @@ void Panels::lay_out(std::span<const double> stops) {
   for (const Segment& segment : surface_) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
     find_edges(segment, before == 0, stops, knots);
+    double here = before, there = before;  // the same up to either end of a panel
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
       const double knot = edges_[i], end = edges_[i + 1];
       bool on_ramp = false;
-      for (double from = knot, to; from < end; from = to) {
+      for (double from = knot, to; from < end; from = to, here = there) {
         const double length = end - from, q = segment.a * std::exp(from);
-        const double here = before + (from > 0 ? segment.moment(3, q) : 0);
         const double rate = (q * q) * (q * q) * segment.density_at(from);
         const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
         Panel p{};
@@ -232,13 +232,13 @@ void Panels::lay_out(std::span<const double> stops) {
           p.linear = 1;
           p.upper = part;
         }
-        const double there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
+        there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
         p.grows = there > 4 * here;
         p.sqrt_endpoint = p.square > 0 && p.linear == 0 && rate > 0;
         roots_.push_back(add(p));
       }
     }
-    before += segment.moment(3, segment.b);
+    before = here;
   }
   laid_out_ = !curve && stops.empty();
 }

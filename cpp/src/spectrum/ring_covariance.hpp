@@ -1,0 +1,18 @@
+// How alike a window makes the means of neighbouring rings of modes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace asperity {
+
+/// Covariances of ring means, times n / 2 over the squares of the densities, of rings 0, 1, ... apart, as far as they
+/// are worth telling; `step` is the distance of neighbouring modes along either side in units of the width of a ring.
+std::vector<double> ring_covariances(const std::vector<double>& window_y, const std::vector<double>& window_x,
+                                     std::array<double, 2> step);
+
+/// |W(j)|^2 of w^2, W(0) = 1, for j = 0, 1, ... as far as it is worth telling: the covariance of |h|^2 of two modes of
+/// a profile j apart over the product of their densities.
+std::vector<double> mode_covariances(const std::vector<double>& window);
+
+}  // namespace asperity
