@@ -4,7 +4,8 @@
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
-#   isotherms    shift factors of 400 random sets of isotherms, and 200 bands on mu from isotherms
+#   isotherms    shift factors of 400 random sets of isotherms
+#   coverage     how often bands on mu hold the truth, 200 of each kind of measured input; errors of fits
 #   catalogue    every regime in which methods fail
 #   files        mutated files of every kind, commands killed while they write, two writers with equal numbers
 #   interrupts   Ctrl-C in single calls of 1e8 points and of 8192 x 8192 heights; wants 8 GB
@@ -47,8 +48,10 @@ tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }
 
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
-isotherms() {
-  "$python" tests/stability/random_isotherms.py && "$python" tests/stability/coverage_isotherms.py
+isotherms() { "$python" tests/stability/random_isotherms.py; }
+
+coverage() {
+  "$python" tests/stability/band_coverage.py && "$python" tests/stability/standard_errors.py
 }
 
 catalogue() { "$python" tests/stability/catalogue.py; }
@@ -79,12 +82,13 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue isotherms scenes maps tests properties files interrupts fuzz sanitize threads memcheck
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes maps tests properties files interrupts fuzz \
+  sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | isotherms | scenes | maps | tests | properties | files | interrupts | fuzz) ;;
+    catalogue | isotherms | coverage | scenes | maps | tests | properties | files | interrupts | fuzz) ;;
     sanitize | threads | memcheck) ;;
-    *) sed -n '2,14s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,15s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

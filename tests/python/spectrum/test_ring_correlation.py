@@ -71,7 +71,7 @@ def test_without_a_window_rings_are_independent():
 
 @pytest.mark.parametrize("window", WINDOWS)
 def test_standard_errors_of_a_fit_are_its_scatter(window):
-    """tests/stability/coverage.py takes more of them; 120 tell the scatter to 6 %."""
+    """tests/stability/standard_errors.py takes more of them; 120 tell the scatter to 6 %."""
     fits = [
         asperity.fit_self_affine(
             asperity.power_spectrum(surface(seed, (128, 128)), window=window), rolloff="none"

@@ -27,6 +27,7 @@ from asperity.uncertainty.draws import Drawn, drawn_rubber, drawn_spectrum
 from helpers.cases import each
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+from band_coverage import KINDS
 from coverage_isotherms import trial
 
 ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
@@ -109,11 +110,21 @@ def test_the_truth_lies_in_the_band_of_isotherms():
 
 
 def test_bands_of_random_rubbers_hold_the_truth_and_stand_still():
-    """tests/stability/coverage_isotherms.py runs 200 trials of 100 draws."""
+    """tests/stability/band_coverage.py runs 200 trials of 100 draws."""
     held, _, moved = (
         np.array(x) for x in zip(*[trial(9, k, samples=60) for k in range(25)], strict=True)
     )
     assert 0.86 < held.mean() < 0.995  # 25 trials at velocities that are not independent
+    assert np.median(moved) < 0.2  # of the width, between two seeds
+
+
+@each("kind", ["rings-hann", "fit-hann"])
+def test_bands_of_random_scans_hold_the_truth_and_stand_still(kind):
+    """tests/stability/band_coverage.py runs 200 trials of 100 draws."""
+    held, _, moved = (
+        np.array(x) for x in zip(*[KINDS[kind](9, k, 60) for k in range(30)], strict=True)
+    )
+    assert held.mean() > 0.9  # 30 trials at velocities that are not independent
     assert np.median(moved) < 0.2  # of the width, between two seeds
 
 
