@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, TypeVar
 
 Outcome = TypeVar("Outcome")
@@ -13,39 +12,32 @@ def in_order(
     draw: Callable[[], tuple[Any, ...]],
     compute: Callable[..., Outcome],
     threads: int,
-) -> Iterator[Future[Outcome]]:
-    """Yield the outcome of compute(*draw()) for each step: a value, or what either raised.
+) -> Iterator[Callable[[], Outcome]]:
+    """Yield, for each step, what returns compute(*draw()) when it is called, or raises its error.
 
-    `draw` is called in this thread alone, so that what it draws is the same for any number of
-    them. With one thread nothing runs beside it.
+    Each is called before the next is asked for. `draw` runs in this thread alone, so that what it
+    draws is the same for any number of threads.
     """
     if threads == 1:
         for _ in steps:
-            yield _done(lambda: compute(*draw()))
+            yield lambda: compute(*draw())
         return
+    from concurrent.futures import ThreadPoolExecutor  # here: `import asperity` is to be quick
+
     with ThreadPoolExecutor(threads) as pool:
-        pending: deque[Future[Outcome]] = deque()
+        pending: deque[Callable[[], Outcome]] = deque()
         for _ in steps:
-            drawn = _done(draw)
-            error = drawn.exception()
-            pending.append(
-                pool.submit(compute, *drawn.result()) if error is None else _failed(error)
-            )
+            try:
+                pending.append(pool.submit(compute, *draw()).result)
+            except Exception as error:
+                pending.append(_raises(error))
             if len(pending) > 2 * threads:  # no thread waits, and no more is kept than that
                 yield pending.popleft()
         yield from pending
 
 
-def _done(call: Callable[[], Outcome]) -> Future[Outcome]:
-    future: Future[Outcome] = Future()
-    try:
-        future.set_result(call())
-    except Exception as error:
-        future.set_exception(error)
-    return future
+def _raises(error: Exception) -> Callable[[], Any]:
+    def outcome() -> Any:
+        raise error
 
-
-def _failed(error: BaseException) -> Future[Any]:
-    future: Future[Any] = Future()
-    future.set_exception(error)
-    return future
+    return outcome

@@ -220,7 +220,7 @@ def relative_band(
     with progress(range(samples)) as shown:
         for outcome in in_order(shown, draw, curve, threads):
             try:
-                found.append(outcome.result())
+                found.append(outcome())
             except _FAILURES as error:
                 problem, failed = error, failed + 1
                 if failed > _FAILED * samples:
