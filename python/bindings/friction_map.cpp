@@ -50,10 +50,12 @@ struct Points {
 py::tuple mu_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T, bool shifts_adhesion,
                 int outside) {
   const Points points(p, v, a_T);
-  std::vector<double> mu(points.size);
+  // not cleared: of 1e8 points that takes a second in which no signal is heeded
+  py::array_t<double> mu(static_cast<py::ssize_t>(points.size));
+  const std::span<double> to(mu.mutable_data(), points.size);
   const std::size_t first =
-      released([&] { return look_up(map, points.columns, static_cast<Outside>(outside), shifts_adhesion, mu); });
-  return py::make_tuple(array_of(std::move(mu)), first);
+      released([&] { return look_up(map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to); });
+  return py::make_tuple(mu, first);
 }
 
 /// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv: a row each; the first point without a value).
@@ -61,7 +63,8 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
                     int outside) {
   const Points points(p, v, a_T);
   const std::size_t n = points.size;
-  std::vector<double> rows(6 * n);
+  py::array_t<double> rows({std::size_t{6}, n});
+  double* const to = rows.mutable_data();
   std::size_t first = n;
   released([&] {
     for (std::size_t i = 0; i < n; ++i) {
@@ -71,27 +74,28 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
              {points.a_T(i), shifts_adhesion});
       if (std::isnan(at.mu) && first == n) first = i;
       const double values[] = {at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
-      for (std::size_t k = 0; k < 6; ++k) rows[k * n + i] = values[k];
+      for (std::size_t k = 0; k < 6; ++k) to[k * n + i] = values[k];
     }
   });
-  return py::make_tuple(array_of(std::move(rows), {6, static_cast<py::ssize_t>(n)}), first);
+  return py::make_tuple(rows, first);
 }
 
 /// (traction, the first point without a value): there is one without load and at rest too.
 py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T, bool shifts_adhesion,
                       int outside) {
   const Points points(p, v, a_T);
-  std::vector<double> traction(points.size);
+  py::array_t<double> traction(static_cast<py::ssize_t>(points.size));
+  double* const to = traction.mutable_data();
   std::size_t first = points.size;
   released([&] {
     for (std::size_t i = 0; i < points.size; ++i) {
       heed_at(i);
-      traction[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
-                                 {points.a_T(i), shifts_adhesion});
-      if (std::isnan(traction[i]) && first == points.size) first = i;
+      to[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
+                           {points.a_T(i), shifts_adhesion});
+      if (std::isnan(to[i]) && first == points.size) first = i;
     }
   });
-  return py::make_tuple(array_of(std::move(traction)), first);
+  return py::make_tuple(traction, first);
 }
 
 py::dict info_of(const FrictionMap& map) {

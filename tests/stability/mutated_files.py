@@ -227,7 +227,7 @@ def problem(name: str, arguments: list[str]) -> tuple[str, str]:
                     status = 2
                     err.write(f"asperity: {error}\n")
     except (Exception, SystemExit):
-        return "trouble", traceback.format_exc(limit=-4)
+        return "trouble", traceback.format_exc(limit=-1)
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     told = err.getvalue()

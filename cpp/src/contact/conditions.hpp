@@ -29,7 +29,7 @@ inline void check_g(double g, double pressure) {
                        ", must be such that G is in [1e-280, 1e180]");
 }
 
-/// work(), with the point added to what a NotConverged says.
+/// work(), with the point added to the message of a NotConverged.
 template <class Work>
 void at_point(double pressure, double velocity, Work work) {
   try {

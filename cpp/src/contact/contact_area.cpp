@@ -30,7 +30,7 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   return {wavenumber.begin(), wavenumber.end()};
 }
 
-/// The surface as far as the highest of the wavenumbers: what lies beyond has no part in G there.
+/// The surface as far as the highest of the wavenumbers: the rest has no part in G there.
 std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const double> wavenumber) {
   std::vector<Segment> surface = segments(spectrum);
   const double highest = std::ranges::max(wavenumber);

@@ -169,7 +169,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   const double stiffness =
       std::log(2 / (3 * pi * pi * std::sqrt(3 * sqrt2))) + std::log(a.q0) - std::log(a.rms_height) / 2;
   const double load = std::log(pressure) - std::log(effective_modulus);
-  constexpr double most = 700;  // ln of what is short of the largest double
+  constexpr double most = 700;  // the largest double is exp(709.8)
   const double log_depth = (load - stiffness) * (2.0 / 3), log_interaction = load + std::log(2 * pi) - std::log(a.q0);
   if (log_depth > most || log_depth - std::log(a.rms_height) > most || log_interaction > most)
     refuse("pressure", pressure,

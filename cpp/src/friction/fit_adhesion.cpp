@@ -20,13 +20,13 @@ using std::numbers::ln10;
 
 namespace {
 
-// Limits of what counts as determined.
+// Limits beyond which a parameter counts as not determined.
 constexpr double uncertain_share = 0.5;  // standard error of tau_f0, and of c, over their values
 constexpr double uncertain_decades = 1;  // standard error of log10 v0
 constexpr double uncertain_width = 0.3;  // ... of c about a v0 that is held: a third of mu_A a decade away
 constexpr double many_outliers = 0.25;   // share of the points
 constexpr double large_scatter = 0.2;    // of ln mu: repeated measurements differ by less
-constexpr Index few_spare = 20;          // below it robust errors are not yet what they are with many points
+constexpr Index few_spare = 20;          // below it robust errors are not yet those of many points
 constexpr double edge_errors = 3;        // standard errors by which c may lie below 0 and be taken as 0
 
 std::size_t count_free(const FixedAdhesion& fixed) {

@@ -110,7 +110,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   }
   const double mu = at.hysteresis + at.adhesion;
 
-  // of I1 and I2: rounding of closed forms, or what the pieces of a table are made to, over all their passes
+  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const double angular_error = std::holds_alternative<MasterCurve>(scene_.rubber) ? 3e-13 : 1e-15;
   const double g_error = solver_.relative_error() + 2 * shift.relative_error + angular_error;
   const double area_error = sensitivity(false) * g_error;
@@ -209,9 +209,11 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   Friction f;
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
-  for (auto* column :
-       {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate, &f.extrapolated_share})
+  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
+                       &f.extrapolated_share}) {
+    heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
+  }
   if (contributions) {
     f.contributions = empty_contributions(scene, pressure, velocity);
     scene.stops = f.contributions->decade_edges;

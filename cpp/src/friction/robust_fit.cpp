@@ -96,7 +96,7 @@ class Fit {
   ArrayXd above_;
 };
 
-/// d ln mu / dp, with columns of zeros for what is held.
+/// d ln mu / dp, with columns of zeros for parameters that are held.
 Eigen::MatrixX3d Fit::jacobian(const Vector3d& p) const {
   const ArrayXd share = part(p), distance = points_.x - p[1];
   Eigen::MatrixX3d j(n_, 3);
@@ -108,7 +108,7 @@ Eigen::MatrixX3d Fit::jacobian(const Vector3d& p) const {
   return j;
 }
 
-/// M-scale: what makes the mean rho half of its limit; mean over n - p, as p points may lie on any curve.
+/// M-scale: the scale at which the mean rho is half of its limit; mean over n - p, as p points may lie on any curve.
 double Fit::scale_of(const Vector3d& at) const {
   const ArrayXd left = residual(at).abs();
   // rho is 0 to 1: where all are 1 the mean is too large, and as large as they are it is too small

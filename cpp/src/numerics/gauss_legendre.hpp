@@ -1,4 +1,4 @@
-// Gauss-Legendre rules with what a panel needs beside nodes and weights: integrals and derivatives of the interpolant.
+// Gauss-Legendre rules with the integrals and derivatives of the interpolant that a panel needs.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct LegendreRule {
   // of small integrals beside -1
   double cumulative_linear[most][most], cumulative_cubic[most][most];
   double slope[most][most];  // weight times its derivative at each node
-  // by nodes: what each of them adds to Legendre coefficients, the last ones from the end down, two half way, zeros;
+  // by nodes: the addition of each to Legendre coefficients, the last ones from the end down, two half way, zeros;
   // int_-1 P_k of the last degrees up to it, and its weight times P_k'
   double tail[most][kept], tail_integral[most][tails], tail_slope[most][tails];
 };

@@ -16,6 +16,8 @@ using std::numbers::pi;
 
 namespace {
 
+// Where one side is many times the other, steps along the short one lead over many rings, and tie no two of them much.
+constexpr std::size_t most_rings = 32;
 constexpr double told = 1e-3;    // of what is left out
 constexpr int directions = 180;  // in a quarter of a ring: the mean over them is exact to 1e-4
 
@@ -47,12 +49,11 @@ std::vector<double> mode_covariances(const std::vector<double>& window) {
 std::vector<double> ring_covariances(const std::vector<double>& window_y, const std::vector<double>& window_x,
                                      std::array<double, 2> step) {
   const std::vector<double> y = mode_covariances(window_y), x = mode_covariances(window_x);
-  const double farthest =
-      std::hypot(static_cast<double>(y.size() - 1) * step[0], static_cast<double>(x.size() - 1) * step[1]);
-  std::vector<double> result(static_cast<std::size_t>(farthest) + 2);
+  std::vector<double> result(most_rings + 1);
   const auto add = [&](double distance, double covariance) {  // to the two rings that a step outwards leads to
-    const double ring = std::floor(distance), upper = distance - ring;
-    const auto m = static_cast<std::size_t>(ring);
+    if (!(distance < most_rings)) return;
+    const auto m = static_cast<std::size_t>(distance);
+    const double upper = distance - static_cast<double>(m);
     result[m] += covariance * (1 - upper);
     result[m + 1] += covariance * upper;
   };

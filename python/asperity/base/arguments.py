@@ -114,7 +114,11 @@ def real_array(found: Any, name: str) -> Array:
     """Return an array-like of real numbers as float64, of the shape that it has."""
     if type(found) is float:
         return np.array(found)
-    return real_numbers(found, name).astype(np.float64, copy=False)
+    array = real_numbers(found, name)
+    if array.dtype == np.float64:
+        return array
+    with np.errstate(invalid="ignore"):  # signalling NaN, of which the core says what is wrong
+        return array.astype(np.float64)
 
 
 def real_numbers(found: Any, name: str) -> NDArray[Any]:

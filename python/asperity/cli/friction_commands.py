@@ -95,7 +95,7 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
 
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
-    curves = scene.friction(progress(str(scene.path)))
+    curves = scene.friction(progress(f"{scene.path}"))
     if not (band and scene.has_errors):
         return curves
     return curves.within(scene.band(curves.mu, band_progress(scene)))
@@ -128,7 +128,7 @@ def area(args: Namespace) -> None:
         )
         raise InvalidInput(f"{scene.path}: {problem}")
     wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
-    values = scene.contact_area(wavenumber, progress(str(scene.path)))
+    values = scene.contact_area(wavenumber, progress(f"{scene.path}"))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
     columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}

@@ -84,7 +84,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             loads=args.loads or LOADS,
             q0=args.q0,
             periodic=args.periodic,
-            progress=progress(str(path)),
+            progress=progress(f"{path}"),
         )
     return contacts, {"surface": args.surface, **given, "detrend": detrend}, [*unusual, *notes]
 

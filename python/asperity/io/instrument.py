@@ -35,7 +35,8 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
         kept = heights.dtype.kind == "f" and heights.dtype.itemsize == 4
         real = np.dtype(np.float32 if kept else np.float64)
         own = heights if heights.dtype == real and heights.flags.writeable else None
-        heights = np.multiply(heights, metres, out=own, dtype=real, casting="same_kind")
+        with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
+            heights = np.multiply(heights, metres, out=own, dtype=real, casting="same_kind")
     if heights.ndim == 2:
         return HeightMap(heights, pixel_size=pixel_size)
     if isinstance(pixel_size, tuple) or np.ndim(pixel_size) > 0:

@@ -278,7 +278,8 @@ def check_scan(where: str, heights: NDArray[Any], spacing: ArrayLike, unit: str)
     """
     check(f"{where}: pixel_size", spacing, SPACING)
     step = max(1, heights.size // 50_000)  # an order of magnitude is enough
-    sample = np.asarray(heights.ravel(order="K")[::step], dtype=np.float64)
+    with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
+        sample = np.asarray(heights.ravel(order="K")[::step], dtype=np.float64)
     sample = sample[np.isfinite(sample)]
     length = float(np.max(np.array(heights.shape) * np.asarray(spacing)))
     if sample.size < 2 or not 0 < length < math.inf:

@@ -271,6 +271,8 @@ def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
         data = path.read_bytes()
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -91,7 +91,7 @@ def read_surface(
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
     spacing = surface.pixel_size if isinstance(surface, HeightMap) else surface.spacing
-    plausible.check_scan(str(path), surface.heights, spacing, unit or "m")
+    plausible.check_scan(f"{path}", surface.heights, spacing, unit or "m")
     return surface
 
 

@@ -79,6 +79,46 @@ def test_the_error_estimate_is_kept_on_a_front(wavenumber, density, pressure, ve
         assert area == pytest.approx(part.area, rel=rtol)
 
 
+def test_the_error_estimate_is_kept_where_the_contact_is_whole():
+    wavenumber, density = [1.14e4, 1.93e4, 9.25e5], [1.3e-25, 1.3e-25, 1.04e-30]
+    moduli = [
+        1.54e09,
+        3.89e04,
+        5.34e07,
+        1.26e04,
+        6.8e05,
+        2.87e09,
+        1.9e05,
+        1.17e06,
+        2.21e04,
+        1.2e05,
+        2.02e06,
+        1.7e04,
+    ]
+    times = [
+        6.63e-10,
+        2.1e-08,
+        0.156,
+        2.23,
+        0.000162,
+        2.1,
+        3.6,
+        0.000122,
+        0.00271,
+        0.518,
+        0.000266,
+        1.18e-10,
+    ]
+    options = {"pressure": 5.75e7, "velocity": 0.0217, "poisson_ratio": 0.27}
+    rubber = asperity.PronySeries(equilibrium_modulus=1.66e6, moduli=moduli, relaxation_times=times)
+    surface = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=density)
+    found = asperity.friction(surface, rubber, rtol=6e-3, **options)
+    integrals = truth.prony(1.66e6, moduli, times)
+    exact = truth.contact(truth.table(wavenumber, density), integrals, **options)
+    assert exact.g < 0.007  # P is 1 to rounding
+    assert abs(found.mu - exact.mu) <= found.error_estimate
+
+
 def test_a_point_does_not_depend_on_the_points_beside_it():
     pressure, velocity = np.geomspace(1e3, 1e7, 5), np.geomspace(1e-6, 1, 7)[:, None]
     for correction in (None, asperity.SFactor()):

@@ -265,3 +265,27 @@ def test_without_surface_topography_says_what_to_install(
 
 def test_is_public() -> None:
     assert "read_surface" in asperity.__all__
+
+
+@each(
+    ("dtype", "bits", "signalling"),
+    [
+        (np.float32, np.uint32, 0x7F800001),
+        (np.float64, np.uint64, 0x7FF0000000000001),
+        (np.float16, np.uint16, 0x7C01),
+    ],
+)
+@each("unit", ["m", "um"])
+@pytest.mark.filterwarnings("error")
+def test_a_signalling_nan_is_a_dropout_like_others(
+    tmp_path: Path, dtype: type, bits: type, signalling: int, unit: str
+) -> None:
+    heights = np.random.default_rng(1).normal(size=(24, 20)).astype(dtype)
+    heights.view(bits)[3, 3] = signalling
+    for given, name in ((heights, "map.npy"), (heights[3], "line.npy")):
+        np.save(tmp_path / name, given)
+        read = read_surface(tmp_path / name, pixel_size=1e-6 if unit == "um" else 1.0, unit=unit)
+        assert read.dropout_fraction == 1 / given.size
+    road = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
+    with pytest.raises(InvalidInput, match=r"^wavenumber = nan"):
+        road.line_density(heights[3, 3:4])

@@ -111,12 +111,12 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
   return weight * angular.i1;
 }
 
-/// Whether any of I1 worth telling comes from outside of the measured frequencies at either end of a panel.
+/// Whether more than 1e-7 of I1 comes from outside of the measured frequencies at either end of a panel.
 bool GslSolver::reaches_outside(const Panel& panel) const {
-  constexpr double worth_telling = 1e-7;
+  constexpr double least_share = 1e-7;
   return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
     const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * panel.segment->a * std::exp(s));
-    return angular.i1_outside > worth_telling * angular.i1;
+    return angular.i1_outside > least_share * angular.i1;
   });
 }
 

@@ -1,4 +1,4 @@
-// The errors of G and of the hysteresis on a Gauss-Legendre panel, told from the last Legendre coefficients known.
+// The errors of G and of the hysteresis on a Gauss-Legendre panel, estimated from the last Legendre coefficients known.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace asperity {
 double larger(const double* tail, std::size_t k);
 
 /// The part of the integral over a function as large as `size` that the rule of n nodes leaves out: its coefficients
-/// from degree 2 n on, told from those half way to n and at n, to which the last ones fall by `decay` a degree. ln(size
-/// / coefficient) grows with the degree like n for an analytic function, and by `growth` at most from n to 2 n.
+/// from degree 2 n on, estimated from those half way to n and at n, to which the last ones fall by `decay` a degree.
+/// ln(size / coefficient) grows with the degree like n for an analytic function, and by `growth` at most from n to 2 n.
 double beyond_rule(double size, const double* tail, double decay, double growth);
 inline constexpr double analytic = 2;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/table_surface.hpp"
@@ -115,7 +116,11 @@ std::vector<PanelSolver::PanelShare> Solver::shares() const {
 std::vector<std::size_t> by_velocity(std::span<const double> velocity) {
   std::vector<std::size_t> order(velocity.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return velocity[i]; });
+  std::size_t looks = 0;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    heed_at(looks++);
+    return velocity[i];
+  });
   return order;
 }
 
