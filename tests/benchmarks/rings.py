@@ -10,6 +10,7 @@ error is the worst of 20 of the velocities, against GSL's CQUAD at 1e-11.
 """
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import timing
@@ -19,12 +20,11 @@ import asperity
 RUNS = 21
 ROWS = {"392 rings": (392, 8), "392 rings from one period on": (392, 1), "5000 rings": (5000, 8)}
 VELOCITY = np.geomspace(1e-6, 10, 60)
-
-
-def rubber() -> asperity.PronySeries:
-    time = np.geomspace(1e2, 1e-10, 20)
-    moduli = 3e6 * 10 ** np.linspace(0, 2.3, 20)
-    return asperity.PronySeries(equilibrium_modulus=2e6, moduli=moduli, relaxation_times=time)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=2e6,
+    moduli=3e6 * 10 ** np.linspace(0, 2.3, 20),
+    relaxation_times=np.geomspace(1e2, 1e-10, 20),
+)
 
 
 def rings(rows: int, first: int) -> asperity.TabulatedSpectrum:
@@ -34,15 +34,12 @@ def rings(rows: int, first: int) -> asperity.TabulatedSpectrum:
     return asperity.TabulatedSpectrum(wavenumber=2000 / first * k, density=density)
 
 
-def curve(surface: object, velocity: object = VELOCITY, **options: object) -> object:
-    options = {"rtol": 1e-6, **options}
-    correction = asperity.NayakSFactor()
-    return asperity.friction(
-        surface, rubber(), pressure=81e3, velocity=velocity, correction=correction, **options
-    ).mu
+def curve(surface: Any, velocity: Any = VELOCITY, **options: Any) -> Any:
+    options = {"pressure": 81e3, "correction": asperity.NayakSFactor(), "rtol": 1e-6, **options}
+    return asperity.friction(surface, RUBBER, velocity=velocity, **options).mu
 
 
-def error(surface: object) -> float:
+def error(surface: Any) -> float:
     few = VELOCITY[::3]
     truth = curve(surface, few, rtol=1e-11, method="cquad")
     return float(np.abs(curve(surface, few) / truth - 1).max())
@@ -50,7 +47,9 @@ def error(surface: object) -> float:
 
 def make() -> timing.Report:
     closed = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-    surfaces = {"closed form": closed} | {name: rings(*shape) for name, shape in ROWS.items()}
+    surfaces: dict[str, Any] = {"closed form": closed} | {
+        name: rings(*shape) for name, shape in ROWS.items()
+    }
     calls = {name: partial(curve, surface) for name, surface in surfaces.items()}
     first = {
         name: [timing.seconds(partial(curve, rings(*shape))) for _ in range(RUNS)]

@@ -139,22 +139,20 @@ NodeRule gauss(const Jacobi& jacobi, std::size_t wanted) {
   NodeRule result{};
   const std::size_t n = result.count = std::min(wanted, jacobi.degrees);
   if (n == 0) return result;
-  const auto size = static_cast<Eigen::Index>(n);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    matrix(i, i) = jacobi.diagonal[at];
-    if (i + 1 < size) matrix(i, i + 1) = matrix(i + 1, i) = jacobi.beside[at];
+  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(index(n), index(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    matrix(index(i), index(i)) = jacobi.diagonal[i];
+    if (i + 1 < n) matrix(index(i), index(i + 1)) = matrix(index(i + 1), index(i)) = jacobi.beside[i];
   }
   const PrincipalAxes axes = principal_axes(matrix);
   const double root = std::sqrt(jacobi.measure);
   for (std::size_t i = 0; i < n; ++i) {
-    const double* const vector = axes.vectors.data() + i * n;
-    const double first = vector[0];  // of p_0
-    if (first == 0) continue;        // a node without weight
-    result.x[i] = axes.values[static_cast<Eigen::Index>(i)];
+    const double first = axes.vectors(0, index(i));  // that of p_0
+    result.x[i] = axes.values(index(i));
+    if (first == 0) continue;  // a node without weight
     result.measure[i] = jacobi.measure * first * first;
-    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = vector[j] / first / root;
+    for (std::size_t j = 0; j < n; ++j) result.p[i][j] = axes.vectors(index(j), index(i)) / first / root;
   }
   return result;
 }
@@ -205,17 +203,20 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
       const double part = std::fmax(m[i], 0);
       x[i] = part > 0 ? 2 * (part / (std::sqrt(m_lower + part) + root)) / whole - 1 : -1;
     }
-    constexpr double small = 0.02;
-    for (std::size_t i = 0; i < n; ++i)
-      if (m[i] > 0 && root + whole * (x[i] + 1) / 2 < small * (root + whole)) block.foot += weight[i];
+    const double root_of_tenth = std::sqrt(0.1);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double share = (root + whole * (x[i] + 1) / 2) / (root + whole);
+      double small = root_of_tenth;
+      for (double& length : block.foot) {
+        if (share < small) length += weight[i];
+        small *= root_of_tenth;
+      }
+    }
     jacobi = orthonormal(weight, x, rows);
     for (std::size_t i = 0; i < n; ++i) weight[i] = std::sqrt(weight[i]);
   }
-  std::size_t smooth = 0;  // points before the first roughness
-  if (m_lower == 0)
-    while (smooth < n && !(m[smooth] > 0)) ++smooth;
   std::vector<double> over_m(n);
-  for (std::size_t i = smooth; i < n; ++i) over_m[i] = weight[i] / (m_lower + m[i]);
+  for (std::size_t i = 0; i < n && m_part > 0; ++i) over_m[i] = weight[i] / (m_lower + m[i]);
 
   // int p_j / m int c P_k and int p_j dP_k / dy, P_k Legendre's, on as many points at a time as stay in the cache
   std::array<std::array<double, degrees>, nodes> of_m{}, of_slope{};
@@ -254,16 +255,7 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
   }
   legendre(((upper - group.lower) + (upper - group.upper)) / (group.upper - group.lower), end);
   std::array<double, degrees> of_lower{};  // int p_j / m
-  if (m_lower > 0) {
-    for (std::size_t j = 0; j < jacobi.degrees; ++j) of_lower[j] = dot(n, &rows[j * n], over_m.data());
-  } else if (smooth < n) {  // int c P_k / m goes on as it begins
-    Row first;
-    legendre(z[smooth], first);
-    for (std::size_t j = 0; j < jacobi.degrees; ++j) {
-      const double before = dot(smooth, &rows[j * n], weight.data());
-      for (std::size_t k = 0; k < nodes; ++k) of_m[k][j] += before * first[k];
-    }
-  }
+  for (std::size_t j = 0; m_lower > 0 && j < jacobi.degrees; ++j) of_lower[j] = dot(n, &rows[j * n], over_m.data());
 
   const auto& matrix = to_legendre();
   const auto to_values = [&](const Row& by_legendre, double factor, std::size_t row, RowsOf24* into) {

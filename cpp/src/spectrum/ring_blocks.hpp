@@ -30,7 +30,7 @@ struct RingBlock {
   std::array<double, rows> measure{};                   // g_i
   double lower, upper;                                  // in y
   double m_lower, m_part;                               // m at the lower end, and its growth
-  double foot = 0;  // length in y on which u is small beside its value at the upper end, but not 0
+  std::array<double, 16> foot{};  // lengths in y on which u is below 10^-0.5, 10^-1 ... of its value at the upper end
 };
 
 /// A block with the two halves that it is split into when they are first asked for.

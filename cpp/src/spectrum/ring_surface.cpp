@@ -15,13 +15,18 @@ RingSurface::RingSurface(std::span<const Segment> surface, double longest) : sur
     m_part_.push_back(segment.moment(3, segment.b));
   }
   const double length = std::log1p((surface.back().b - q0) / q0);
-  count_ = static_cast<std::size_t>(std::ceil(length / longest));
+  // up to the first roughness G and F are 0, and no polynomial is so at first and a root of m then
+  const auto rough = std::ranges::find_if(surface, [](const Segment& s) { return s.at_a > 0 || s.at_b > 0; });
+  const double begin = rough == surface.end() ? length : start_[static_cast<std::size_t>(rough - surface.begin())];
+  count_ = static_cast<std::size_t>(std::ceil((length - begin) / longest));
   groups_ = std::make_unique<Group[]>(count_);
   const LegendreRule& rule = legendre_rule(RingBlock::nodes);
   double m = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     Group& group = groups_[i];
-    const auto at = [&](std::size_t k) { return length * (static_cast<double>(k) / static_cast<double>(count_)); };
+    const auto at = [&](std::size_t k) {
+      return begin + (length - begin) * (static_cast<double>(k) / static_cast<double>(count_));
+    };
     group.lower = at(i);
     group.upper = at(i + 1);
     for (std::size_t k = 0; k < RingBlock::nodes; ++k)
