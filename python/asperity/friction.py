@@ -229,7 +229,7 @@ PeaksThenGreenwoodWilliamson or None
     parts = surface_and_rubber(spectrum, rubber)
     added = adhesion_core(adhesion)
     told = flag(contributions, "contributions")
-    count = 1 if threads == 1 else whole(threads, "threads", lowest=1, highest=MOST_THREADS)
+    count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     rows, notes, shares = _core.friction(*parts, model, added, p, v, told, count)
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
     given: dict[str, Any] = {"notes": notes}
