@@ -53,6 +53,18 @@ def with_zeros(*spans):
     return table(q, c)
 
 
+def rings(count, change):
+    """Return rows at equal steps of q, as of a scan, a power law times change(dice, k)."""
+    dice = random.Random(count)
+    q = 2e3 * np.arange(1, count + 1)
+    return table(q, [2e-15 * k**-3.6 * change(dice, k) for k in range(1, count + 1)])
+
+
+def many_modes(dice, k):
+    """Return the scatter of a ring: the further out, the more modes are averaged."""
+    return np.exp(0.5 * dice.gauss(0, 1) / np.sqrt(k))
+
+
 ASPHALT = measured_asphalt()
 SCATTERED = scattered()
 STEEP = [[1e3, 3e3, 1e4, 1e5, 1e6], [2e-12, 2e-15, 5e-18, 1e-24, 4e-29]]
@@ -97,6 +109,19 @@ SCENES = {
     "clamp above": {"spectrum": SCATTERED, "rubber": KINKY, "velocity": 280.0},
     "clamp both ends": {"spectrum": SMOOTH_TABLE, "rubber": SHORT, "velocity": 0.3, "gamma": 0.4},
     "clamp above low load": {"spectrum": ASPHALT, "rubber": SHORT, "velocity": 2.3},
+    "rings": {"spectrum": rings(90, many_modes)},
+    "rings high load": {"spectrum": rings(90, many_modes), "pressure": 3e7, "velocity": 1.0},
+    "rings low load": {"spectrum": rings(90, many_modes), "pressure": 1e3, "gamma": 0.4},
+    "rings and lines": {
+        "spectrum": rings(60, lambda _, k: 1000.0 if k % 20 == 7 else 1.0),
+        "velocity": 0.3,
+    },
+    "rings that jump": {"spectrum": rings(50, lambda dice, _: 1000 ** dice.random())},
+    "rings with empty rows": {"spectrum": rings(70, lambda dice, _: dice.random() > 0.25)},
+    "rings after a trace": {
+        "spectrum": rings(50, lambda dice, k: 10 ** dice.uniform(-12, -3) if k < 12 else 1.0),
+        "velocity": 1e-4,
+    },
 }
 SCENES["clamp above low load"]["pressure"] = 1e4
 for _name in SCENES:

@@ -36,7 +36,8 @@ ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consume
 scenes() {
   "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
     "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5 &&
-    "$python" tests/stability/random_scenes.py --scenes 40000 --seed 3 --tables 0.1 --edges 1
+    "$python" tests/stability/random_scenes.py --scenes 40000 --seed 3 --tables 0.1 --edges 1 &&
+    "$python" tests/stability/random_scenes.py --scenes 5000 --seed 4 --tables 0 --rings 1
 }
 
 maps() {

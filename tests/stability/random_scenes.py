@@ -1,6 +1,7 @@
 """Random scenes: the error estimates of friction and of the area against the errors they have.
 
     python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3] [--edges 0]
+        [--rings 0]
 
 Surfaces, rubbers (Prony series of 1 to 20 terms, or tables of 4 to 40 rows with kinks), pressures,
 velocities, corrections of every kind, adhesion, forms and tolerances are drawn over many decades,
@@ -8,6 +9,8 @@ most of them absurd. A share of `edges` has a few rows and a front of any shape:
 falling to a row of zero or rising from one, 25 decades steep, with notches and jumps, on bands from
 a millionth to nine decades, some with relaxation times that differ in the twelfth digit; half of
 these take the interpolated form, and their densities make G at the upper end about 1e-8 to 1e12.
+A share of `rings` has 32 to 300 rows at equal steps of q, as of a scan, smooth or with scatter,
+steps, lines, empty rows or traces before the roughness.
 The truth is GSL's adaptive integration at rtol = 1e-11, method="qag" and, where that disagrees or
 does not converge, method="cquad". Printed: scenes whose estimate, with that
 of the truth, was exceeded, or whose area is off by more than the tolerance, what did not converge,
@@ -115,6 +118,34 @@ def draw_edges(rng: Any) -> tuple[Any, float, float]:
     return asperity.TabulatedSpectrum(wavenumber=q, density=c), q[0], q[-1]
 
 
+def draw_rings(rng: Any) -> tuple[Any, float, float]:
+    """A surface of many rows, as of a scan, and its band."""
+    rows, first, step = int(power(rng, 1.51, 2.48)), int(power(rng, 0, 1.5)), power(rng, 0, 5)
+    k = np.arange(first, first + rows)
+    q, c = step * k, (k / first) ** -rng.uniform(2.1, 4)
+    level = power(rng, 0.5, 4)
+    kind = rng.choice(["scatter", "roll-off", "steps", "lines", "empty", "any level", "traces"])
+    if kind == "scatter":
+        c *= np.exp(power(rng, -1.5, 0.3) * rng.standard_normal(rows) / np.sqrt(k / first))
+    elif kind == "roll-off":
+        end = k[int(rng.integers(rows))]
+        c = np.maximum(k / end, 1) ** -rng.uniform(2.1, 4)
+    elif kind == "steps":
+        c[(np.arange(rows) // int(rng.integers(2, 60))) % 2 == 1] *= level
+    elif kind == "lines":
+        c[rng.random(rows) < power(rng, -2.5, -0.5)] *= level
+    elif kind == "empty":
+        c[rng.random(rows) < rng.uniform(0.02, 0.6)] = 0
+    elif kind == "any level":
+        c *= level ** rng.random(rows)
+    else:
+        before = int(rng.integers(1, rows // 2))
+        c[:before] *= np.where(rng.random(before) < 0.4, 0, power(rng, -12, 0, before))
+    c[-1] = max(c[-1], (k[-1] / first) ** -4.0)
+    c *= power(rng, -3, 1) ** 2 / q[0] ** 4
+    return asperity.TabulatedSpectrum(wavenumber=q, density=c), q[0], q[-1]
+
+
 def draw_rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
     if rng.random() < tables:
         rows = int(rng.integers(4, 40))
@@ -175,11 +206,16 @@ def loaded(surface: Any, rubber: Any, pressure: float, velocity: float, g: float
     return surface.scaled(g / unscaled)
 
 
-def compute(seed: int, scene: int, tables: float, edges: float = 0.0) -> Outcome:
+def compute(
+    seed: int, scene: int, tables: float, edges: float = 0.0, rings: float = 0.0
+) -> Outcome:
     """Scene number `scene` of a seed."""
     rng = np.random.default_rng([seed, scene])
     on_edge = edges > 0 and rng.random() < edges
-    surface, q0, q1 = draw_edges(rng) if on_edge else draw_surface(rng, tables)
+    if not on_edge and rings > 0 and rng.random() < rings:
+        surface, q0, q1 = draw_rings(rng)
+    else:
+        surface, q0, q1 = draw_edges(rng) if on_edge else draw_surface(rng, tables)
     pressure, velocity, rtol = power(rng, 3, 8), power(rng, -6, 1), power(rng, -10, -2)
     rubber = draw_rubber(rng, tables, velocity * q0, velocity * q1)
     if on_edge:
@@ -239,11 +275,14 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tables", type=float, default=0.3)
     parser.add_argument("--edges", type=float, default=0.0)
+    parser.add_argument("--rings", type=float, default=0.0)
     arguments = parser.parse_args()
     ratios, exceeded, unsolved, untold = [], 0, 0, 0
     for scene in range(arguments.scenes):
         try:
-            outcome = compute(arguments.seed, scene, arguments.tables, arguments.edges)
+            outcome = compute(
+                arguments.seed, scene, arguments.tables, arguments.edges, arguments.rings
+            )
         except NoTruth as error:
             untold += 1
             print(f"scene {scene}: no truth: {error}")

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <variant>
@@ -50,6 +51,8 @@ struct RowQuality {
   bool operator==(const RowQuality&) const = default;
 };
 
+class TableSurface;  // internal
+
 /// Densities at given wavenumbers, log-log linear between rows (linear in q beside a zero).
 class ASPERITY_EXPORT TabulatedSpectrum {
  public:
@@ -57,11 +60,14 @@ class ASPERITY_EXPORT TabulatedSpectrum {
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
   [[nodiscard]] const std::vector<double>& density() const { return density_; }
   [[nodiscard]] const RowQuality& quality() const { return quality_; }
-  bool operator==(const TabulatedSpectrum&) const = default;
+  /// What contact computes of the rows alone, once: copies and threads share it.
+  [[nodiscard]] TableSurface& surface() const { return *surface_; }
+  bool operator==(const TabulatedSpectrum& other) const;
 
  private:
   std::vector<double> wavenumber_, density_;
   RowQuality quality_;
+  std::shared_ptr<TableSurface> surface_;
 };
 
 using Spectrum = std::variant<SelfAffineSpectrum, TabulatedSpectrum>;

@@ -44,12 +44,12 @@ std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const dou
 }
 
 /// One for each wavenumber.
-std::vector<AreaG> area_gs(const ContactModel& model, std::span<const Segment> surface,
+std::vector<AreaG> area_gs(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
                            std::span<const double> wavenumber) {
   std::vector<AreaG> result;
   for (const double q : wavenumber) {
     heed();
-    result.emplace_back(model, surface, q);
+    result.emplace_back(model, spectrum, surface, q);
   }
   return result;
 }
@@ -63,6 +63,8 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   check_contact(model, pressure, velocity);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
   Solver solver(surface, rubber, model, false, {});
+  const double q1 = band(spectrum)[1];
+  if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_rings_of(spectrum);
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
@@ -88,7 +90,7 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
-  std::vector<AreaG> area_g = area_gs(model, surface, q);
+  std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift&) {
             result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g[j](g), model.form);
@@ -131,7 +133,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
   const std::optional<SFunction> s = s_in_integrand(model.correction);
-  std::vector<AreaG> area_g = area_gs(model, surface, q);
+  std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
             double& factor = result[i * q.size() + j];
@@ -156,7 +158,7 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size());
-  AreaG area_g(model, surface, wavenumber);
+  AreaG area_g(model, spectrum, surface, wavenumber);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
             if (uncorrected < 0) return;

@@ -74,10 +74,12 @@ SFunction nayak_s(double nayak_parameter) {
   return {.gamma = 0.63 * (1 - 0.50 / std::sqrt(std::sqrt(nayak_parameter))), .rise = 0.29, .power = 13};
 }
 
-std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber) {
+std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
+                                  std::span<const Segment> surface, double wavenumber) {
   if (const auto* s = std::get_if<SFactor>(&correction); s && s->applies_to != SFactor::AppliesTo::friction)
     return SFunction{.gamma = s->gamma};
-  if (std::holds_alternative<NayakSFactor>(correction)) return nayak_s(nayak_parameter(surface, wavenumber));
+  if (std::holds_alternative<NayakSFactor>(correction))
+    return nayak_s(wavenumber == band(spectrum)[1] ? nayak_parameter(spectrum) : nayak_parameter(surface, wavenumber));
   return {};
 }
 
@@ -88,8 +90,8 @@ std::optional<SFunction> s_in_integrand(const Correction& correction) {
   return {};
 }
 
-AreaG::AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber) {
-  if (const auto s = s_inside(model.correction, surface, wavenumber)) inside_.emplace(*s, model.form);
+AreaG::AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber) {
+  if (const auto s = s_inside(model.correction, spectrum, surface, wavenumber)) inside_.emplace(*s, model.form);
 }
 
 double AreaG::operator()(double g) { return inside_ && g > 0 ? (*inside_)(g) : g; }

@@ -42,7 +42,8 @@ class SInside {
 SFunction nayak_s(double nayak_parameter);
 
 /// The S that the correction puts inside G up to `wavenumber`, if any.
-std::optional<SFunction> s_inside(const Correction& correction, std::span<const Segment> surface, double wavenumber);
+std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
+                                  std::span<const Segment> surface, double wavenumber);
 
 /// The S of the uncorrected P that the correction puts in the integrand of Eq. 22, if any.
 std::optional<SFunction> s_in_integrand(const Correction& correction);
@@ -50,7 +51,7 @@ std::optional<SFunction> s_in_integrand(const Correction& correction);
 /// From the uncorrected G to the G of the contact area at `wavenumber`.
 class AreaG {
  public:
-  AreaG(const ContactModel& model, std::span<const Segment> surface, double wavenumber);
+  AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber);
   [[nodiscard]] double operator()(double g);
 
  private:

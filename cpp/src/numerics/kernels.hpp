@@ -33,6 +33,11 @@ struct PanelSums {
   double value, tail[LegendreRule::kept];
 };
 
+/// A column of a matrix of 24 rows.
+struct RowsOf24 {
+  double data[24];
+};
+
 struct Kernels {
   /// I1 and I2 of a Prony series at n frequencies, n a multiple of `lanes`; no (w tau)^2 may overflow.
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
@@ -60,6 +65,11 @@ struct Kernels {
   /// falls out of all sums, and takes its rounding along.
   void (*error_projection)(const LegendreRule& rule, const double* slope, const double* g, double f_lower, double* f,
                            double* by_g, double* by_r);
+  /// The sum of n columns times their factors.
+  void (*combine)(const RowsOf24* columns, std::size_t n, const double* factor, double* result);
+  /// Adds the products of `count` rows of n numbers, n a multiple of `lanes`, that lie `apart`, with a and with b.
+  void (*dots)(const double* rows, std::size_t apart, std::size_t count, std::size_t n, const double* a,
+               const double* b, double* by_a, double* by_b);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

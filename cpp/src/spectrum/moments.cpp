@@ -13,6 +13,7 @@
 #include "numerics/visit.hpp"
 #include "spectrum/segments.hpp"
 #include "spectrum/self_affine.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -31,18 +32,16 @@ std::vector<Segment> checked_segments(const Spectrum& spectrum) {
 }
 
 /// sqrt(2 pi int q^n C dq)
-double root_of_moment(std::string_view name, const Spectrum& spectrum, int n) {
+double root_of_moment(std::string_view name, std::span<const Segment> surface, int n) {
   double sum = 0;
   bool rough = false;
-  for (const Segment& s : checked_segments(spectrum)) {
+  for (const Segment& s : surface) {
     sum += 2 * pi * s.moment(n, s.b);
     rough |= s.at_a > 0 || s.at_b > 0;
   }
-  if (rough && !std::isnormal(sum)) {
-    const auto [q0, q1] = band(spectrum);
-    throw InvalidInput(std::string(name) + " of a spectrum from q0 = " + show(q0) + " to q1 = " + show(q1) +
-                       " 1/m: its square, " + show(sum) + ", leaves the range of a double");
-  }
+  if (rough && !std::isnormal(sum))
+    throw InvalidInput(std::string(name) + " of a spectrum from q0 = " + show(surface.front().a) + " to q1 = " +
+                       show(surface.back().b) + " 1/m: its square, " + show(sum) + ", leaves the range of a double");
   return std::sqrt(sum);
 }
 
@@ -74,14 +73,20 @@ double Segment::moment(int n, double q) const {
 
 std::vector<Segment> segments(const Spectrum& spectrum) {
   validate(spectrum);
-  std::vector<Segment> result;
-  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
-    const double top = density_at_rolloff(*s), q_r = s->rolloff.value_or(s->q0);
-    if (q_r > s->q0) result.push_back({s->q0, q_r, top, top, 0, false});
-    result.push_back({q_r, s->q1, top, top * std::pow(s->q1 / q_r, fall(*s)), fall(*s), false});
-    return result;
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) {
+    const std::span<const Segment> kept = table->surface().segments(*table);
+    return {kept.begin(), kept.end()};
   }
-  const auto& table = std::get<TabulatedSpectrum>(spectrum);
+  std::vector<Segment> result;
+  const auto& s = std::get<SelfAffineSpectrum>(spectrum);
+  const double top = density_at_rolloff(s), q_r = s.rolloff.value_or(s.q0);
+  if (q_r > s.q0) result.push_back({s.q0, q_r, top, top, 0, false});
+  result.push_back({q_r, s.q1, top, top * std::pow(s.q1 / q_r, fall(s)), fall(s), false});
+  return result;
+}
+
+std::vector<Segment> segments_of_rows(const TabulatedSpectrum& table) {
+  std::vector<Segment> result;
   const auto& q = table.wavenumber();
   const auto& c = table.density();
   for (std::size_t i = 0; i + 1 < q.size(); ++i) {
@@ -149,14 +154,20 @@ std::array<double, 2> band(const Spectrum& spectrum) {
 double rms_height(const Spectrum& spectrum) {
   validate(spectrum);
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) return s->rms_height;
-  return root_of_moment("rms_height", spectrum, 1);
+  return root_of_moment("rms_height", checked_segments(spectrum), 1);
 }
 
 double nayak_parameter(const Spectrum& spectrum) {
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) return table->surface().nayak_parameter(*table);
   return nayak_parameter(checked_segments(spectrum), band(spectrum)[1]);
 }
 
-double rms_slope(const Spectrum& spectrum) { return root_of_moment("rms_slope", spectrum, 3); }
+double rms_slope_of(std::span<const Segment> surface) { return root_of_moment("rms_slope", surface, 3); }
+
+double rms_slope(const Spectrum& spectrum) {
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) return table->surface().rms_slope(*table);
+  return rms_slope_of(checked_segments(spectrum));
+}
 
 double cutoff_for_slope(const Spectrum& spectrum, double slope) {
   require_positive("slope", slope);

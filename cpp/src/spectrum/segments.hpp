@@ -25,6 +25,9 @@ struct Segment {
 };
 
 std::vector<Segment> segments(const Spectrum& spectrum);
+std::vector<Segment> segments_of_rows(const TabulatedSpectrum& table);
+
+double rms_slope_of(std::span<const Segment> surface);
 
 /// Nayak's parameter of the surface up to `wavenumber`; 1.5, its least, where there is no roughness.
 double nayak_parameter(std::span<const Segment> surface, double wavenumber);

@@ -8,6 +8,7 @@
 
 #include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -60,8 +61,15 @@ double RowQuality::correlation_of(std::size_t i, std::size_t j) const {
 }
 
 TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
-    : wavenumber_(std::move(wavenumber)), density_(std::move(density)), quality_(std::move(quality)) {
+    : wavenumber_(std::move(wavenumber)),
+      density_(std::move(density)),
+      quality_(std::move(quality)),
+      surface_(std::make_shared<TableSurface>()) {
   validate_rows(wavenumber_, density_, quality_);
+}
+
+bool TabulatedSpectrum::operator==(const TabulatedSpectrum& other) const {
+  return wavenumber_ == other.wavenumber_ && density_ == other.density_ && quality_ == other.quality_;
 }
 
 LineSpectrum::LineSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)

@@ -1,7 +1,9 @@
 """The two ways to integrate against each other, and what the error estimate promises."""
 
+import copy
 import dataclasses
 import math
+import pickle
 import sys
 from pathlib import Path
 
@@ -31,6 +33,40 @@ def test_the_error_estimate_is_kept_on_random_scenes():
 def test_the_error_estimate_is_kept_on_fronts_of_every_shape():
     outcomes = [random_scenes.compute(6, scene, tables=0.05, edges=1) for scene in range(400)]
     assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
+
+
+def test_the_error_estimate_is_kept_on_rings():
+    outcomes = [random_scenes.compute(5, scene, tables=0, rings=1) for scene in range(150)]
+    assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
+
+
+@pytest.mark.parametrize(
+    "again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))]
+)
+def test_a_copy_of_used_rings_gives_the_same_friction(again):
+    """What is kept with the rows is shared, or made anew."""
+    surface, *_ = random_scenes.draw_rings(np.random.default_rng(3))
+    velocity = np.geomspace(1e-5, 1, 9)
+    first = asperity.friction(surface, RUBBER, pressure=1e5, velocity=velocity)
+    twin = again(surface)
+    assert twin == surface
+    second = asperity.friction(twin, RUBBER, pressure=1e5, velocity=velocity)
+    np.testing.assert_array_equal(second.mu, first.mu)
+    alone = [
+        asperity.friction(again(surface), RUBBER, pressure=1e5, velocity=v).mu for v in velocity
+    ]
+    np.testing.assert_array_equal(alone, first.mu)
+
+
+def test_rings_leave_what_they_cannot_do_to_the_panels():
+    """Contributions, the interpolated form and tolerances below 1e-7: the same mu within both."""
+    surface, *_ = random_scenes.draw_rings(np.random.default_rng(3))
+    scene = {"pressure": 1e5, "velocity": 1e-2}
+    usual = asperity.friction(surface, RUBBER, **scene)
+    for options in ({"contributions": True}, {"rtol": 1e-9}):
+        other = asperity.friction(surface, RUBBER, **scene, **options)
+        assert other.mu != usual.mu
+        assert abs(other.mu - usual.mu) <= other.error_estimate + usual.error_estimate
 
 
 INTEGRALS = truth.prony(1e6, [1e8], [1e-3])

@@ -8,6 +8,7 @@
 
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
+#include "contact/solver/ring_solver.hpp"
 
 namespace asperity {
 
@@ -20,10 +21,16 @@ class Solver {
   Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
          const std::optional<SFunction>& factor, std::span<const double> stops = {});
 
+  /// Takes a table of rings in blocks where that holds: G is known at the upper end of the spectrum alone then, which
+  /// the surface is to reach up to, and nothing part by part.
+  void use_rings_of(const Spectrum& spectrum);
+
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
   void solve(double pressure, double velocity, double shift);
 
-  [[nodiscard]] const Hysteresis& hysteresis() const { return gsl_solver_ ? hysteresis_ : panel_solver_.hysteresis(); }
+  [[nodiscard]] const Hysteresis& hysteresis() const {
+    return gsl_solver_ ? hysteresis_ : by_rings_ ? rings_->hysteresis() : panel_solver_.hysteresis();
+  }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   [[nodiscard]] double relative_error() const;  // of every G
@@ -40,7 +47,9 @@ class Solver {
   bool with_hysteresis_;
   PanelSolver panel_solver_;
   std::span<const double> stops_;
-  double velocity_ = 0;  // of the point before
+  double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
+  std::optional<RingSolver> rings_;
+  bool by_rings_ = false;  // the point
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;

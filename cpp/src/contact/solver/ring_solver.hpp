@@ -1,0 +1,73 @@
+// Area and hysteresis on a measured spectrum, at the cost of a smooth one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "asperity/rubber.hpp"
+#include "contact/solver/contact_integral.hpp"
+#include "contact/solver/panel_solver.hpp"
+#include "spectrum/ring_blocks.hpp"
+
+namespace asperity {
+
+/// Eq. 22 by parts on blocks of rings (spectrum/ring_blocks.hpp), with R = I1 / I2 and F of `ContactIntegral`:
+///   mu_H = 4 (1 - nu^2) sigma0 sum over blocks of [R at the upper end times the rise of F
+///                                                  - int (F - F at the lower end) dR].
+/// For rubbers whose I1 and I2 are analytic in ln w, which those of a table are not.
+class RingSolver {
+ public:
+  /// Where it holds: for tables of as many rows at least, that are not quicker done one by one, and tolerances no less.
+  static constexpr std::size_t least_rows = 32;
+  static constexpr double least_rtol = 1e-7;
+
+  RingSolver(const RingSurface& surface, const PronySeries& rubber, double poisson_ratio, double rtol);
+
+  /// A velocity, at which any number of points follow.
+  void start(double velocity);
+  /// Solves for G, and for mu_H where `contact` is given. False where the tolerance is not reached for certain.
+  [[nodiscard]] bool solve(double pressure, double shift, const ContactIntegral* contact);
+
+  [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
+  /// G at the upper end of the spectrum, and its relative error.
+  [[nodiscard]] double g() const { return unit_g_ * scale_; }
+  [[nodiscard]] double relative_error() const { return g_relative_error_; }
+
+ private:
+  /// The rubber on a group at the velocity, and by how much the polynomials through the points miss it at most.
+  struct Modulus {
+    double i2[RingBlock::nodes + 1], ratio[RingBlock::nodes];  // the last one is for G at the lower end of a part
+    double ratio_error;
+  };
+  /// A part of a group's tree: what the velocity makes of it, and then the pressure.
+  struct Part {
+    const RingTree* tree;
+    std::size_t group;
+    std::size_t halves = 0;   // where the first of two is, 0 if they were not asked for yet
+    std::size_t started = 0;  // the velocity that the next three are of
+    double g_lower = 0;       // at unit load
+    double g[RingBlock::rows] = {}, slope[RingBlock::rows] = {};
+    double f_lower = 0, f_upper = 0;
+    double value = 0;      // R dF
+    double area = 0;       // int (F - F at the lower end) dy
+    double by_nodes = 0;   // how much both change, by R, where the rule has fewer nodes
+    double by_halves = 0;  // and where the halves stand for the whole
+    [[nodiscard]] const RingBlock& block() const { return tree->block; }
+  };
+  void fill(Part& part);
+  void evaluate(Part& part, double f_lower, const ContactIntegral& contact);
+  void evaluate_halves(std::size_t index, const ContactIntegral& contact);
+  [[nodiscard]] double error(const Part& part) const;
+
+  const RingSurface& surface_;
+  const PronySeries& rubber_;
+  double stiffening_, g_factor_, rtol_;
+  double velocity_ = 0, scale_ = 0, unit_g_ = 0, g_relative_error_ = 0;
+  std::size_t starts_ = 0;
+  PanelSolver::Hysteresis hysteresis_;
+  std::vector<Modulus> moduli_;            // of each group
+  std::vector<Part> parts_;                // the groups' roots first
+  std::vector<std::size_t> whole_, next_;  // parts whose halves make up the sum
+};
+
+}  // namespace asperity

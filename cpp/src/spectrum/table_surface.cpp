@@ -1,0 +1,42 @@
+// The surface of a table, part by part when first asked for.
+#include "spectrum/table_surface.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double longest = 2;  // of a group in ln q: I1 and I2 of a Prony series have singularities pi / 2 off the axis
+
+}  // namespace
+
+std::span<const Segment> TableSurface::segments(const TabulatedSpectrum& table) {
+  std::call_once(segments_made_, [&] { segments_ = segments_of_rows(table); });
+  return segments_;
+}
+
+double TableSurface::rms_slope(const TabulatedSpectrum& table) {
+  std::call_once(slope_made_, [&] { rms_slope_ = rms_slope_of(segments(table)); });
+  return rms_slope_;
+}
+
+double TableSurface::nayak_parameter(const TabulatedSpectrum& table) {
+  std::call_once(nayak_made_,
+                 [&] { nayak_parameter_ = asperity::nayak_parameter(segments(table), table.wavenumber().back()); });
+  return nayak_parameter_;
+}
+
+const RingSurface& TableSurface::rings(const TabulatedSpectrum& table) {
+  std::call_once(rings_made_, [&] { rings_ = std::make_unique<RingSurface>(segments(table), longest); });
+  return *rings_;
+}
+
+SurfaceSegments::SurfaceSegments(const Spectrum& spectrum) {
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) {
+    all_ = table->surface().segments(*table);
+  } else {
+    made_ = segments(spectrum);
+    all_ = made_;
+  }
+}
+
+}  // namespace asperity

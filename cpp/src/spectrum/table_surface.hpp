@@ -1,0 +1,45 @@
+// What contact makes of the rows of a table: made when first asked for, kept with them, shared by copies and threads.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "asperity/spectrum.hpp"
+#include "spectrum/ring_blocks.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+class TableSurface {
+ public:
+  /// All of them take the table that this is kept with.
+  std::span<const Segment> segments(const TabulatedSpectrum& table);
+  double rms_slope(const TabulatedSpectrum& table);
+  double nayak_parameter(const TabulatedSpectrum& table);
+  const RingSurface& rings(const TabulatedSpectrum& table);
+
+ private:
+  std::once_flag segments_made_, slope_made_, nayak_made_, rings_made_;
+  std::vector<Segment> segments_;
+  double rms_slope_ = 0, nayak_parameter_ = 0;
+  std::unique_ptr<const RingSurface> rings_;
+};
+
+/// The segments of a spectrum for as long as it is there: a table's own, or made here.
+class SurfaceSegments {
+ public:
+  explicit SurfaceSegments(const Spectrum& spectrum);
+  SurfaceSegments(const SurfaceSegments&) = delete;
+  SurfaceSegments(SurfaceSegments&&) = delete;
+  SurfaceSegments& operator=(const SurfaceSegments&) = delete;
+  SurfaceSegments& operator=(SurfaceSegments&&) = delete;
+  [[nodiscard]] std::span<const Segment> get() const { return all_; }
+
+ private:
+  std::vector<Segment> made_;
+  std::span<const Segment> all_;
+};
+
+}  // namespace asperity

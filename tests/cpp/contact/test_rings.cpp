@@ -1,0 +1,176 @@
+// Blocks of rings: their matrices against sums over fine grids, friction on random tables against GSL, and that what is
+// kept with a table changes nothing but the time.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "asperity/friction.hpp"
+#include "spectrum/ring_blocks.hpp"
+
+using namespace asperity;
+
+namespace {
+
+/// Rings of a scan: equal steps of q, a power law with scatter, zeros, lines, steps or traces in it.
+TabulatedSpectrum random_rings(std::mt19937_64& dice, std::size_t rows) {
+  std::uniform_real_distribution<> uniform;
+  std::normal_distribution<> normal;
+  const auto power = [&](double low, double high) { return std::pow(10, low + (high - low) * uniform(dice)); };
+  const double q0 = power(2, 5), first = std::floor(power(0, 1.5)), fall = -2 * (1 + uniform(dice));
+  const double level = power(0.5, 3.5), size = power(-3, 1);
+  const int kind = static_cast<int>(6 * uniform(dice));
+  std::vector<double> q, c;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double r = 1 + static_cast<double>(i) / first;
+    q.push_back(q0 * r);
+    double shape = std::pow(r, fall) * std::exp(0.5 * normal(dice) / std::sqrt(first * r));
+    if (kind == 1 && (i / 9) % 2 == 1) shape *= level;
+    if (kind == 2 && i % 17 == 5) shape *= level;
+    if (kind == 3 && i != rows / 2 && uniform(dice) < 0.3) shape = 0;
+    if (kind == 4) shape *= std::pow(level, uniform(dice));
+    if (kind == 5 && i < rows / 3) shape *= uniform(dice) < 0.5 ? 0 : power(-12, -3);
+    c.push_back(shape * size * size / (q0 * q0) / (q0 * q0));
+  }
+  return {std::move(q), std::move(c)};
+}
+
+PronySeries random_rubber(std::mt19937_64& dice, double frequency) {
+  std::uniform_real_distribution<> uniform;
+  const auto power = [&](double low, double high) { return std::pow(10, low + (high - low) * uniform(dice)); };
+  std::vector<double> moduli, times;
+  for (int left = uniform(dice) < 0.2 ? 1 : static_cast<int>(1 + 20 * uniform(dice)); left > 0; --left) {
+    moduli.push_back(power(4, 9.5));
+    times.push_back(power(-4, 4) / frequency);
+  }
+  return {power(5, 7), std::move(moduli), std::move(times)};
+}
+
+Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, std::vector<double> velocity,
+            double pressure) {
+  return friction(spectrum, rubber, model, {}, std::vector<double>(velocity.size(), pressure), velocity);
+}
+
+}  // namespace
+
+TEST_CASE("the matrices of a block of rings") {
+  std::mt19937_64 dice(4);
+  const TabulatedSpectrum table = random_rings(dice, 60);
+  const std::vector<Segment> surface = segments(table);
+  const double q0 = surface.front().a;
+  const RingSurface rings(surface, 2);
+  constexpr std::size_t nodes = RingBlock::nodes, fine = RingBlock::fine, end = RingBlock::end;
+  std::vector<const RingBlock*> blocks;
+  std::vector<const RingSurface::Group*> groups;
+  for (const auto& group : rings.groups())
+    for (const RingTree* tree :
+         {&group.root, &rings.halves(group, group.root)[0], &rings.halves(group, group.root)[1]}) {
+      groups.push_back(&group);
+      blocks.push_back(&tree->block);
+    }
+  REQUIRE(blocks.size() >= 6);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const RingBlock& block = *blocks[b];
+    const auto& points = groups[b]->wavenumber;
+    // by midpoints in each interval between rows: int c, int c y, int m dy, int 2 y u dy
+    double of_c = 0, of_cy = 0, of_m = 0, of_yu = 0, m = 0;
+    for (const Segment& s : surface) {
+      constexpr int steps = 4000;
+      const double begin = std::log(s.a / q0), length = s.length(), h = length / steps;
+      for (int i = 0; i < steps; ++i) {
+        const double t = (i + 0.5) * h, y = begin + t, q = s.a * std::exp(t), c = std::pow(q, 4) * s.density_at(t);
+        if (y > block.lower && y < block.upper) {
+          of_c += c * h;
+          of_cy += c * y * h;
+          of_m += (m + c * h / 2) * h;
+          of_yu += 2 * y * std::sqrt(m + c * h / 2) * h;
+        }
+        m += c * h;
+      }
+    }
+    double found_c = 0, found_cy = 0, found_m = 0, found_yu = 0, measure = 0, squares = 0, lines = 0;
+    for (std::size_t k = 0; k < nodes; ++k) {
+      found_c += block.to_g[k].data[end];
+      found_cy += block.to_g[k].data[end] * std::log(points[k] / q0);
+    }
+    for (std::size_t i = 0; i < fine; ++i) {
+      double g = block.to_g[nodes].data[i] * block.m_lower, slope = 0, straight = 0;
+      for (std::size_t k = 0; k < nodes; ++k) {
+        const double y = std::log(points[k] / q0);
+        g += block.to_g[k].data[i];
+        straight += y * block.to_slope[k].data[i];
+        slope += y * y * block.to_slope[k].data[i];
+      }
+      CHECK(straight == doctest::Approx(block.measure[i]).epsilon(1e-9));
+      measure += block.measure[i];
+      found_m += block.measure[i] * g;  // G is m where I2 is 1
+      squares += slope;
+      found_yu += slope * std::sqrt(g);
+      lines += straight;
+    }
+    const double length = block.upper - block.lower;
+    CHECK(found_c == doctest::Approx(of_c).epsilon(1e-4));
+    CHECK(found_c == doctest::Approx(block.m_part).epsilon(1e-12));
+    CHECK(found_cy == doctest::Approx(of_cy).epsilon(1e-4));
+    CHECK(measure == doctest::Approx(length).epsilon(1e-12));
+    CHECK(lines == doctest::Approx(length).epsilon(1e-9));
+    CHECK(found_m == doctest::Approx(of_m).epsilon(1e-4));
+    CHECK(squares == doctest::Approx(block.upper * block.upper - block.lower * block.lower).epsilon(1e-9));
+    CHECK(found_yu == doctest::Approx(of_yu).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("the stated error of blocks of rings holds against GSL") {
+  std::uniform_real_distribution<> uniform;
+  for (std::uint64_t scene = 0; scene < 120; ++scene) {
+    CAPTURE(scene);
+    std::mt19937_64 dice(scene);
+    const TabulatedSpectrum table = random_rings(dice, 40 + static_cast<std::size_t>(60 * uniform(dice)));
+    const double velocity = std::pow(10, 7 * uniform(dice) - 6), pressure = std::pow(10, 3 + 5 * uniform(dice));
+    const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());
+    const PronySeries rubber = random_rubber(dice, velocity * middle);
+    ContactModel model;
+    constexpr double tolerances[] = {1e-3, 1e-4, 1e-6, 1e-7};
+    model.rtol = tolerances[scene % 4];
+    if (scene % 5 == 1) model.correction = SFactor{0.4, SFactor::AppliesTo::friction};
+    if (scene % 5 == 2) model.correction = SFactor{0.5};
+    if (scene % 5 == 3) model.correction = NayakSFactor{};
+    if (scene % 5 == 4) model.correction = AffineShift{1.7};
+    const Friction found = at(table, rubber, model, {velocity}, pressure);
+    ContactModel best = model;
+    best.rtol = 1e-11;
+    best.method = Method::cquad;
+    const Friction truth = at(table, rubber, best, {velocity}, pressure);
+    const double error = std::fabs(found.mu[0] - truth.mu[0]);
+    CHECK(error <= found.error_estimate[0] + truth.error_estimate[0]);
+    CHECK(found.error_estimate[0] <= model.rtol * found.mu[0]);
+    CHECK(found.contact_area[0] == doctest::Approx(truth.contact_area[0]).epsilon(model.rtol));
+    const double one[] = {velocity}, load[] = {pressure};
+    CHECK(contact_area(table, rubber, model, load, one)[0] == found.contact_area[0]);
+  }
+}
+
+TEST_CASE("a point on rings has the same bits alone, in a sweep, after others and on several threads") {
+  std::mt19937_64 dice(8);
+  const TabulatedSpectrum table = random_rings(dice, 300);
+  const PronySeries rubber = random_rubber(dice, 1e3);
+  const std::vector<double> velocity = {1e-5, 3e-4, 0.02, 1, 7};
+  const auto fresh = [&] { return TabulatedSpectrum(table.wavenumber(), table.density()); };
+  const Friction sweep = at(table, rubber, {}, velocity, 1e5);
+  (void)at(table, rubber, {}, velocity, 10);
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    CHECK(at(fresh(), rubber, {}, {velocity[i]}, 1e5).mu[0] == sweep.mu[i]);
+    CHECK(at(table, rubber, {}, {velocity[i]}, 1e5).mu[0] == sweep.mu[i]);
+  }
+  const TabulatedSpectrum shared = fresh();
+  std::vector<std::vector<double>> by_thread(4);
+  std::vector<std::thread> threads;
+  for (auto& mu : by_thread)
+    threads.emplace_back([&] { mu = at(TabulatedSpectrum(shared), rubber, {}, velocity, 1e5).mu; });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& mu : by_thread) CHECK(mu == sweep.mu);
+  CHECK(fresh() == table);
+  CHECK(fresh() != TabulatedSpectrum({1, 2}, {1, 1}));
+}
