@@ -9,10 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 from asperity import _core
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import (
+    MOST_THREADS,
     Array,
     broadcast,
     flag,
     frozen,
+    whole,
 )
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
@@ -165,6 +167,7 @@ def friction(
     rtol: float = 1e-6,
     contributions: bool = False,
     method: Method = "gauss",
+    threads: int = 1,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -194,6 +197,9 @@ PeaksThenGreenwoodWilliamson or None
     method : {"gauss", "qag", "qags", "cquad"}
         As above, or GSL's adaptive integration of that name to check it with, slower by hundreds of
         times.
+    threads : int
+        As many at most share the points, a hundred or more each. The numbers are the same for any
+        of them.
 
     Returns
     -------
@@ -221,9 +227,10 @@ PeaksThenGreenwoodWilliamson or None
     shape, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     model = contact_model(poisson_ratio, correction, form, rtol, method)
     parts = surface_and_rubber(spectrum, rubber)
-    rows, notes, shares = _core.friction(
-        *parts, model, adhesion_core(adhesion), p, v, flag(contributions, "contributions")
-    )
+    added = adhesion_core(adhesion)
+    told = flag(contributions, "contributions")
+    count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
+    rows, notes, shares = _core.friction(*parts, model, added, p, v, told, count)
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
     given: dict[str, Any] = {"notes": notes}
     if shares is not None:

@@ -12,6 +12,7 @@ from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import (
+    MOST_THREADS,
     Array,
     brief,
     broadcast,
@@ -355,6 +356,7 @@ def friction_map(
     method: Method = "gauss",
     checked: int = 1_000_000,
     text: str = "",
+    threads: int | None = None,
 ) -> FrictionMap:
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
 
@@ -377,6 +379,8 @@ def friction_map(
     text : str
         Lines to keep in the file, for whoever reads it; unless given, what stands for the
         arguments.
+    threads : int, optional
+        At most; by default as many as the machine has. The map is the same for any of them.
 
     Returns
     -------
@@ -425,6 +429,7 @@ def friction_map(
         number(rtol, "rtol"),
         whole(checked, "checked"),
         lines,
+        0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
     )
     return FrictionMap(content=content)
 

@@ -14,9 +14,10 @@ namespace {
 /// (a row a column of Friction in the order of `friction_columns`, notes, contributions or None).
 py::tuple friction_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                       const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
-                      bool contributions) {
-  Friction f = released(
-      [&] { return friction(spectrum, rubber, model, adhesion, span_of(pressure), span_of(velocity), contributions); });
+                      bool contributions, unsigned threads) {
+  Friction f = released([&] {
+    return friction(spectrum, rubber, model, adhesion, span_of(pressure), span_of(velocity), contributions, threads);
+  });
   const auto points = static_cast<std::size_t>(pressure.size());
   py::array_t<double> rows({std::size(friction_columns), points});
   double* to = rows.mutable_data();

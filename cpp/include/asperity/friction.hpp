@@ -65,10 +65,11 @@ struct Conditions {
 ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
                                   std::span<const double> velocity);
 
-/// For pairs of pressure and velocity. NotConverged where the relative tolerance of mu is not reached.
+/// For pairs of pressure and velocity. NotConverged where the relative tolerance of mu is not reached. At most
+/// `threads` share the points, a hundred or more each; the numbers are the same for any of them.
 ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
-                                  std::span<const double> velocity, bool contributions = false);
+                                  std::span<const double> velocity, bool contributions = false, unsigned threads = 1);
 
 /// Parameters of Eq. 23 that a fit holds instead of fitting them.
 struct FixedAdhesion {

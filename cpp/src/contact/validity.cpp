@@ -95,6 +95,13 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
   light_ |= corrected_ && flags.light;
 }
 
+void Notes::add(const Notes& others) {
+  for (bool Notes::*const flag :
+       {&Notes::beyond_fit_, &Notes::lowest_bin_, &Notes::fast_, &Notes::full_, &Notes::no_contact_, &Notes::far_,
+        &Notes::extrapolated_, &Notes::worse_, &Notes::light_})
+    this->*flag |= others.*flag;
+}
+
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
 std::vector<std::string> Notes::texts() const {
   std::vector<std::string> result;

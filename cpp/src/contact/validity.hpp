@@ -41,6 +41,8 @@ class Notes {
  public:
   Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction);
   void add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags);
+  /// What others found on other points of the same scene.
+  void add(const Notes& others);
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:

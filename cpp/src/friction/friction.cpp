@@ -13,6 +13,7 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -56,17 +57,125 @@ struct Point {
 /// How an error of G passes on: |d ln P / d ln G| is 1/2 at most, and d ln F / d ln G is 1 at most whatever S is.
 double sensitivity(bool with_s) { return with_s ? 1 : 0.5; }
 
-/// Row i of the tables of contributions, from the panels that `hysteresis` was summed over.
-void add_contributions(Contributions& c, std::size_t i, const Solver& solver, double velocity) {
+/// Everything that points share.
+struct Scene {
+  const Spectrum& spectrum;
+  const Rubber& rubber;
+  const ContactModel& model;
+  const std::optional<Adhesion>& adhesion;
+  std::span<const Segment> surface;
+  std::optional<SFunction> factor;
+  std::span<const double> stops;  // angular frequencies at which contributions are told apart
+};
+
+/// What one thread solves points with.
+class PointSolver {
+ public:
+  explicit PointSolver(const Scene& scene)
+      : scene_(scene),
+        q1_(band(scene.spectrum)[1]),
+        area_g_(scene.model, scene.spectrum, scene.surface, q1_),
+        validity_(scene.surface, scene.model.form, q1_),
+        solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
+    if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
+  }
+
+  Point operator()(double pressure, double velocity, const Shift& shift);
+  /// Of the last point: row i of the tables.
+  void add_contributions(Contributions& c, std::size_t i, double velocity) const;
+
+ private:
+  const Scene& scene_;
+  double q1_;
+  AreaG area_g_;
+  ValidityRange validity_;
+  Solver solver_;
+};
+
+Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
+  Point at;
+  solver_.solve(pressure, velocity, shift.p);
+  const Solver::Hysteresis& hysteresis = solver_.hysteresis();
+  at.hysteresis = hysteresis.value;
+  if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
+
+  const double g = solver_.g(q1_);
+  at.contact_area = contact_share(area_g_(g), scene_.model.form);
+  at.validity = validity_(g, shift.p);
+  if (scene_.adhesion) {
+    at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
+    if (!std::isfinite(at.adhesion))
+      throw InvalidInput("shear_stress = " + show(scene_.adhesion->shear_stress) +
+                         ": overflows over pressure = " + show(pressure) + ", their ratio must be finite");
+  }
+  const double mu = at.hysteresis + at.adhesion;
+
+  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
+  const double angular_error = std::holds_alternative<MasterCurve>(scene_.rubber) ? 3e-13 : 1e-15;
+  const double g_error = solver_.relative_error() + 2 * shift.relative_error + angular_error;
+  const double area_error = sensitivity(false) * g_error;
+  at.error_estimate =
+      hysteresis.error +
+      at.hysteresis * (sensitivity(scene_.factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
+      at.adhesion * area_error;
+  if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
+    throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
+                       " where rtol = " + show(scene_.model.rtol) + " was asked for");
+  return at;
+}
+
+void PointSolver::add_contributions(Contributions& c, std::size_t i, double velocity) const {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver.hysteresis_density(c.wavenumber[j]);
-  const double whole = solver.hysteresis().value;
+  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver_.hysteresis_density(c.wavenumber[j]);
+  const double whole = solver_.hysteresis().value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver.shares()) {
+  for (const auto& [lower, upper, hysteresis] : solver_.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
     c.decade_share[i * m + decade] += hysteresis / whole;
+  }
+}
+
+/// Tables of zeros over wavenumbers that resolve the narrowest front of all points.
+Contributions empty_contributions(const Scene& scene, std::span<const double> pressure,
+                                  std::span<const double> velocity) {
+  const auto [q0, q1] = band(scene.spectrum);
+  const auto [slowest, fastest] = std::ranges::minmax(velocity);
+  double front = 1;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    heed();
+    front = std::fmin(
+        front, front_width(scene.surface, scene.rubber, {scene.model.poisson_ratio, pressure[i], velocity[i], 1}));
+  }
+  Contributions c{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
+  c.dmu_dlnq.assign(velocity.size() * c.wavenumber.size(), 0.0);
+  c.decade_share.assign(velocity.size() * (c.decade_edges.size() - 1), 0.0);
+  return c;
+}
+
+/// The points of `order`, each at its place in the columns of f; notes of them go to `notes`.
+void solve_points(const Scene& scene, std::span<const std::size_t> order, Friction& f, Notes& notes) {
+  PointSolver solve(scene);
+  for (const std::size_t i : order) {
+    heed();
+    const double p = f.pressure[i], v = f.velocity[i];
+    const Shift shift =
+        affine_shift(scene.model.correction, scene.spectrum, scene.rubber, p, v, scene.model.poisson_ratio);
+    Point at;
+    if (shift.state != ContactState::no_contact) {
+      at_point(p, v, [&] { at = solve(p, v, shift); });
+      if (f.contributions) solve.add_contributions(*f.contributions, i, v);
+    }
+    notes.add(shift, v, at.extrapolated_share, at.validity);
+    // all at once, as in a grid each of them waits for memory
+    f.mu[i] = at.hysteresis + at.adhesion;
+    f.hysteresis[i] = at.hysteresis;
+    f.adhesion[i] = at.adhesion;
+    f.contact_area[i] = at.contact_area;
+    f.shift_factor[i] = shift.p;
+    f.error_estimate[i] = at.error_estimate;
+    f.extrapolated_share[i] = at.extrapolated_share;
   }
 }
 
@@ -88,17 +197,13 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditio
 
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
-                  std::span<const double> velocity, bool contributions) {
+                  std::span<const double> velocity, bool contributions, unsigned threads) {
   check_contact(model, pressure, velocity);
   if (adhesion) validate(*adhesion);
-  const SurfaceSegments kept(spectrum);
-  const std::span<const Segment> surface = kept.get();
-  const auto [q0, q1] = band(spectrum);
+  if (threads == 0) throw InvalidInput("threads = 0: must be 1 or more");
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
-
-  AreaG area_g(model, spectrum, surface, q1);
-  ValidityRange validity(surface, model.form, q1);
-  const std::optional<SFunction> factor = s_in_integrand(model.correction);
+  const SurfaceSegments kept(spectrum);
+  Scene scene{spectrum, rubber, model, adhesion, kept.get(), s_in_integrand(model.correction), {}};
 
   const std::size_t n = velocity.size();
   Friction f;
@@ -109,75 +214,20 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
   }
-  if (contributions && n > 0) {
-    const auto [slowest, fastest] = std::ranges::minmax(velocity);
-    double front = 1;
-    for (std::size_t i = 0; i < n; ++i) {
-      heed();
-      front = std::fmin(front, front_width(surface, rubber, {model.poisson_ratio, pressure[i], velocity[i], 1}));
-    }
-    f.contributions =
-        Contributions{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
-    f.contributions->dmu_dlnq.assign(n * f.contributions->wavenumber.size(), 0.0);
-    f.contributions->decade_share.assign(n * (f.contributions->decade_edges.size() - 1), 0.0);
+  if (contributions) {
+    f.contributions = empty_contributions(scene, pressure, velocity);
+    scene.stops = f.contributions->decade_edges;
   }
 
-  Notes notes(spectrum, rubber, model.correction);
-  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
-  const double angular_error = std::holds_alternative<MasterCurve>(rubber) ? 3e-13 : 1e-15;
-  std::span<const double> stops;
-  if (f.contributions) stops = f.contributions->decade_edges;
-  Solver solver(surface, rubber, model, true, factor, stops);
-  if (!f.contributions) solver.use_rings_of(spectrum);
-  const auto compute = [&](double p, double v, const Shift& shift) {
-    Point at;
-    solver.solve(p, v, shift.p);
-    const Solver::Hysteresis& hysteresis = solver.hysteresis();
-    at.hysteresis = hysteresis.value;
-    if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
-
-    const double g = solver.g(q1);
-    at.contact_area = contact_share(area_g(g), model.form);
-    at.validity = validity(g, shift.p);
-    if (adhesion) {
-      at.adhesion = at.contact_area * adhesion_per_share(*adhesion, p, v);
-      if (!std::isfinite(at.adhesion))
-        throw InvalidInput("shear_stress = " + show(adhesion->shear_stress) + ": overflows over pressure = " + show(p) +
-                           ", their ratio must be finite");
-    }
-    const double mu = at.hysteresis + at.adhesion;
-
-    const double g_error = solver.relative_error() + 2 * shift.relative_error + angular_error;
-    const double area_error = sensitivity(false) * g_error;
-    at.error_estimate =
-        hysteresis.error +
-        at.hysteresis * (sensitivity(factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
-        at.adhesion * area_error;
-    if (!(at.error_estimate <= model.rtol * mu && std::isfinite(mu)))
-      throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
-                         " where rtol = " + show(model.rtol) + " was asked for");
-    return at;
-  };
-  for (const std::size_t i : by_velocity(velocity)) {
-    heed();
-    const double p = pressure[i], v = velocity[i];
-    const Shift shift = affine_shift(model.correction, spectrum, rubber, p, v, model.poisson_ratio);
-    Point at;
-    if (shift.state != ContactState::no_contact) {
-      at_point(p, v, [&] { at = compute(p, v, shift); });
-      if (f.contributions) add_contributions(*f.contributions, i, solver, v);
-    }
-    notes.add(shift, v, at.extrapolated_share, at.validity);
-    // all at once, as in a grid each of them waits for memory
-    f.mu[i] = at.hysteresis + at.adhesion;
-    f.hysteresis[i] = at.hysteresis;
-    f.adhesion[i] = at.adhesion;
-    f.contact_area[i] = at.contact_area;
-    f.shift_factor[i] = shift.p;
-    f.error_estimate[i] = at.error_estimate;
-    f.extrapolated_share[i] = at.extrapolated_share;
-  }
-  f.notes = notes.texts();
+  constexpr std::size_t fewest = 100;  // points that are worth a thread of their own
+  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(n / fewest, 1, threads));
+  const std::vector<std::size_t> order = by_velocity(velocity);
+  std::vector<Notes> notes(parts, Notes(spectrum, rubber, model.correction));
+  in_parts(parts, n, [&](unsigned part, std::size_t begin, std::size_t end) {
+    solve_points(scene, std::span(order).subspan(begin, end - begin), f, notes[part]);
+  });
+  for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
+  f.notes = notes.front().texts();
   return f;
 }
 

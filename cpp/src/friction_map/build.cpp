@@ -55,10 +55,10 @@ std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber
   return friction(spectrum, rubber, model, adhesion, pressure, velocity).notes;
 }
 
-/// The finished map against the solver on random points, 200 pressures a velocity, on as many threads as there are.
-void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, MapCertificate& certificate) {
+/// The finished map against the solver on random points, 200 pressures a velocity.
+void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, unsigned threads,
+           MapCertificate& certificate) {
   constexpr std::size_t block = 20'000, pressures = 200;
-  const unsigned parts = std::max(1u, std::thread::hardware_concurrency());
   Random random;
   const auto [x_lo, x_hi] = frame.x();
   const double y_lo = frame.ln_pressure(0), y_hi = frame.ln_pressure(1);
@@ -66,14 +66,14 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
   std::vector<double> errors;
   for (std::size_t done = 0; done < request.checked; done += places.size()) {
     heed();
-    places.resize(std::min(block * parts, request.checked - done));
+    places.resize(std::min(block * threads, request.checked - done));
     errors.resize(places.size());
     double x = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (i % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
       places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.log_modulus_offset(x)};
     }
-    in_parts(parts, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
+    in_parts(threads, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
       const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [ln_hysteresis, ln_area] = truth[i - begin].f;
@@ -105,15 +105,16 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   MapRequest whole = request;
   whole.text = text;
 
+  const unsigned threads = request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
   const MapFrame frame(spectrum, rubber, model, request);
-  const RefinedMap refined = refine(frame, request.rtol);
+  const RefinedMap refined = refine(frame, request.rtol, threads);
   MapCertificate certificate{.max_error = refined.max_error};
   std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
   if (request.checked == 0) return file;
   FrictionMap map;
   std::string why;
   if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
-  check(frame, map, request, certificate);
+  check(frame, map, request, threads, certificate);
   if (certificate.largest_checked_error > request.rtol)
     throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
                        " was reached, on one of " + std::to_string(request.checked) + " random points");

@@ -7,7 +7,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -20,7 +19,8 @@ constexpr double lattice_share = 0.45;  // of rtol, allowed on lattices: between
 
 class Builder {
  public:
-  Builder(const MapFrame& frame, double rtol) : frame_(frame), rtol_(rtol), tree_(frame.x(), frame.cuts()) {}
+  Builder(const MapFrame& frame, double rtol, unsigned threads)
+      : frame_(frame), rtol_(rtol), threads_(threads), tree_(frame.x(), frame.cuts()) {}
 
   /// Halves cells until lattices and unseen points agree; returns twice the largest error of both.
   double refine() {
@@ -71,15 +71,8 @@ class Builder {
     return !bad.empty();
   }
 
-  std::vector<MapSample> sample(std::span<const MapPlace> places) const {
-    constexpr std::size_t block = 5000;
-    std::vector<MapSample> found;
-    for (std::size_t i = 0; i < places.size(); i += block) {
-      heed();
-      const std::vector<MapSample> part = frame_.sample(places.subspan(i, std::min(block, places.size() - i)));
-      found.insert(found.end(), part.begin(), part.end());
-    }
-    return found;
+  [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places) const {
+    return frame_.sample(places, threads_);
   }
 
   /// Whether any of it is in the box; one at its very edge is.
@@ -261,6 +254,7 @@ class Builder {
 
   const MapFrame& frame_;
   double rtol_;
+  unsigned threads_;
   MapTree tree_;
   std::unordered_map<std::uint64_t, MapSample> lattice_;
   std::unordered_map<std::uint64_t, MapCorner> corners_;
@@ -269,8 +263,8 @@ class Builder {
 
 }  // namespace
 
-RefinedMap refine(const MapFrame& frame, double rtol) {
-  Builder builder(frame, rtol);
+RefinedMap refine(const MapFrame& frame, double rtol, unsigned threads) {
+  Builder builder(frame, rtol, threads);
   const double max_error = builder.refine();
   return {std::move(builder).tree(), max_error};
 }

@@ -24,6 +24,6 @@ struct RefinedMap {
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed.
-RefinedMap refine(const MapFrame& frame, double rtol);
+RefinedMap refine(const MapFrame& frame, double rtol, unsigned threads);
 
 }  // namespace asperity

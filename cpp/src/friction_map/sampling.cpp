@@ -129,7 +129,7 @@ void MapFrame::cut_bands() {
   cuts_.push_back(top);
 }
 
-std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places) const {
+std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsigned threads) const {
   if (places.empty()) return {};
   std::vector<double> pressure, velocity;
   for (const MapPlace& place : places) {
@@ -138,7 +138,7 @@ std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places) const 
   }
   const Friction f = [&] {
     try {
-      return friction(spectrum_, rubber_, model_, {}, pressure, velocity);
+      return friction(spectrum_, rubber_, model_, {}, pressure, velocity, false, threads);
     } catch (const NotConverged& error) {
       throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a thousandth of it, found " +
                          error.what());

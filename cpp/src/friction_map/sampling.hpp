@@ -33,7 +33,7 @@ class MapFrame {
   [[nodiscard]] const std::vector<double>& log_modulus_nodes() const { return offset_; }
   [[nodiscard]] bool hysteresis() const { return hysteresis_; }
 
-  [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places) const;
+  [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
 
  private:
   void make_log_modulus_offset(double tolerance);

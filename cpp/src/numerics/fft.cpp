@@ -102,6 +102,11 @@ class Reserve {
     static Reserve reserve;
     return reserve;
   }
+  Reserve() = default;
+  Reserve(const Reserve&) = delete;
+  Reserve& operator=(const Reserve&) = delete;
+  Reserve(Reserve&&) = delete;
+  Reserve& operator=(Reserve&&) = delete;
   ~Reserve() { std::free(kept_.data); }
 
   Block take(std::size_t bytes) {

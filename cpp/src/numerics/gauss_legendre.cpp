@@ -71,7 +71,7 @@ LegendreRule make_rule(std::size_t n) {
     for (std::size_t k = 0; k < n; ++k) {
       const Real coefficient = (static_cast<Real>(k) + 0.5L) * weight[j] * p[j][k];
       upper += coefficient;
-      lower += k % 2 ? -coefficient : coefficient;
+      lower += k % 2 == 1 ? -coefficient : coefficient;
       for (std::size_t i = 0; i < n; ++i) {
         cumulative[i] += coefficient * integral[i][k];
         from_linear[i] += coefficient * linear[i][k];
@@ -102,7 +102,7 @@ LegendreRule make_rule(std::size_t n) {
 const LegendreRule& legendre_rule(std::size_t n) {
   static const std::vector<LegendreRule> rules = [] {
     std::vector<LegendreRule> made;
-    for (const std::size_t size : {8, 12, 16, 20, 24, 28, 32}) made.push_back(make_rule(size));
+    for (const std::size_t size : {8UL, 12UL, 16UL, 20UL, 24UL, 28UL, 32UL}) made.push_back(make_rule(size));
     return made;
   }();
   for (const LegendreRule& rule : rules)

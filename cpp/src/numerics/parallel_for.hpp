@@ -24,7 +24,7 @@ void in_parts(unsigned parts, std::size_t size, Work work) {
   };
   const Watch* const caller = Watch::current();
   const auto run_beside = [&](unsigned part) noexcept {
-    struct Ended {};
+    struct Ended : std::exception {};
     const Watch follow([caller] {
       if (caller != nullptr && caller->ended()) throw Ended();
     });

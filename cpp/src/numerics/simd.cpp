@@ -13,13 +13,13 @@ namespace {
 
 VectorUnit choose() {
   const char* const wish = std::getenv("ASPERITY_VECTORS");
-  if (wish && std::strcmp(wish, "baseline") != 0 && std::strcmp(wish, "avx2") != 0)
+  if (wish != nullptr && std::strcmp(wish, "baseline") != 0 && std::strcmp(wish, "avx2") != 0)
     throw InvalidInput("ASPERITY_VECTORS = " + std::string(wish) + ": must be baseline or avx2");
 #ifdef __x86_64__
   if ((wish && std::strcmp(wish, "baseline") == 0) || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     return VectorUnit::baseline;
   const bool wider = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512vl") && !wish;
+                     __builtin_cpu_supports("avx512vl") && wish == nullptr;
   return wider ? VectorUnit::avx512 : VectorUnit::avx2;
 #else
   return VectorUnit::baseline;

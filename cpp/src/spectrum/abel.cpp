@@ -96,6 +96,7 @@ class ProfilePieces {
 std::vector<double> isotropic_densities(const LineSpectrum& spectrum) {
   const ProfilePieces pieces(spectrum);
   std::vector<double> c;
+  c.reserve(spectrum.wavenumber().size());
   for (std::size_t i = 0; i < spectrum.wavenumber().size(); ++i) c.push_back(pieces.isotropic_density(i));
   return c;
 }

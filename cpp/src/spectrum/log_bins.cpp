@@ -60,7 +60,7 @@ class Mean {
 /// other lie in bins that do.
 void add_errors(const Rows& rows, const std::vector<std::vector<std::size_t>>& bins,
                 const std::vector<std::vector<double>>& shares, Rows& result) {
-  constexpr std::size_t none = -1;
+  constexpr auto none = static_cast<std::size_t>(-1);
   const std::size_t n = rows.wavenumber.size(), reach = rows.quality.lags();
   std::vector<std::size_t> bin(n, none);
   std::vector<double> error(n);  // what a row adds to that of its bin

@@ -72,7 +72,7 @@ class Rings {
                          show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " + show(corner, 3) +
                          " rings of wavenumbers for the " + show(modes) + " modes of this map: must be at most " +
                          show(most_rings));
-    count_ = static_cast<std::size_t>(corner + 0.5) + 1;
+    count_ = static_cast<std::size_t>(std::lround(corner)) + 1;
   }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
@@ -101,7 +101,7 @@ class Rings {
     int* const ring = sums.ring.data();
     for (std::size_t ky = 0; ky <= last; ++ky) {
       length[ky] = std::sqrt(x2 + y2[ky]);
-      ring[ky] = static_cast<int>(length[ky] + 0.5);
+      ring[ky] = static_cast<int>(length[ky] + 0.5);  // NOLINT(bugprone-incorrect-roundings): it runs on vectors
     }
     Pair* const power = sums.power.data();
     for (std::size_t ky = 1; ky <= last; ++ky) {

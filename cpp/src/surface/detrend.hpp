@@ -30,11 +30,12 @@ class Trend {
     const auto anchor = static_cast<T>(line.anchor), constant = static_cast<T>(line.constant),
                linear = static_cast<T>(line.linear), square = static_cast<T>(line.square);
     const T scale = static_cast<T>(weight);
-    const T* u;
-    if constexpr (std::is_same_v<T, float>)
-      u = single_u_.data();
-    else
-      u = u_.data();
+    const T* const u = [this] {
+      if constexpr (std::is_same_v<T, float>)
+        return single_u_.data();
+      else
+        return u_.data();
+    }();
     for (std::size_t x = 0; x < u_.size(); ++x)
       result[x] = ((row[x] - anchor) - (constant + u[x] * (linear + u[x] * square))) * (scale * weights[x]);
   }

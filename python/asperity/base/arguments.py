@@ -31,6 +31,7 @@ class Given(Protocol[Taken, Kept]):
 
 Vector = Given[ArrayLike, Array]
 OptionalVector = Given[ArrayLike | None, Array | None]
+MOST_THREADS = 1024  # more would be a slip
 ABSENT: Any = None  # the default of a field whose type is Given
 
 

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
-from asperity.base.arguments import broadcast, number, of_kind, shaped, whole
+from asperity.base.arguments import MOST_THREADS, broadcast, number, of_kind, shaped, whole
+from asperity.base.in_order import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Correction
@@ -96,6 +97,7 @@ def friction_band(
     samples: int = 100,
     seed: int = 0,
     level: float = 0.95,
+    threads: int = 1,
 ) -> FrictionBand:
     """Return a band on mu, from the standard errors of its measured inputs.
 
@@ -122,6 +124,8 @@ def friction_band(
         The same band for the same seed.
     level : float
         Share of the draws between the two curves, in (0, 1).
+    threads : int
+        As many at most compute the curves of the draws. The band is the same for any of them.
 
     Returns
     -------
@@ -163,6 +167,7 @@ def friction_band(
         samples=samples,
         seed=seed,
         level=level,
+        threads=threads,
     )
     return FrictionBand(
         lower=mu * shaped(band.lower, shape),
@@ -186,6 +191,7 @@ def relative_band(
     level: float,
     progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
     refit: DrawAdhesion | None = None,
+    threads: int = 1,
 ) -> Bounds:
     """Return quantiles of mu of drawn inputs over mu of the plain ones; 1 without friction.
 
@@ -193,24 +199,28 @@ def relative_band(
     """
     whole(samples, "samples", lowest=20)
     whole(seed, "seed")
+    whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     if not 0 < number(level, "level") < 1:
         raise InvalidInput(f"level = {level}: must be in (0, 1)")
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
     centre = friction(spectrum.plain, rubber.plain, adhesion=adhesion, **options).mu
 
-    def draw() -> Any:
+    def draw() -> tuple[Spectrum, Rubber, Adhesion | None]:
         surface, solid = spectrum(rng), rubber(rng)
         of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, solid, rng)
+        return surface, solid, of_draw
+
+    def curve(surface: Spectrum, solid: Rubber, of_draw: Adhesion | None) -> Any:
         return friction(surface, solid, adhesion=of_draw, **options).mu
 
     found: list[Any] = []
     problem: Exception | None = None
     failed = 0
     with progress(range(samples)) as shown:
-        for _ in shown:
+        for outcome in in_order(shown, draw, curve, threads):
             try:
-                found.append(draw())
+                found.append(outcome())
             except _FAILURES as error:
                 problem, failed = error, failed + 1
                 if failed > _FAILED * samples:

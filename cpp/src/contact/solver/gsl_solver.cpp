@@ -123,7 +123,7 @@ bool GslSolver::reaches_outside(const Panel& panel) const {
 GslSolver::Hysteresis GslSolver::hysteresis(Form form, const std::optional<SFunction>& factor) const {
   Hysteresis result;
   const auto* series = std::get_if<PronySeries>(&rubber_);
-  const bool measured = !series || series->fitted_range();
+  const bool measured = series == nullptr || series->fitted_range();
   for (const Panel& panel : panels_) {
     const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, factor, nullptr); },
                                     panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value, rule_);
