@@ -60,7 +60,7 @@ class ASPERITY_EXPORT TabulatedSpectrum {
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
   [[nodiscard]] const std::vector<double>& density() const { return density_; }
   [[nodiscard]] const RowQuality& quality() const { return quality_; }
-  /// What contact computes of the rows alone, once: copies and threads share it.
+  /// Results that depend on the rows alone, computed once: copies and threads share them.
   [[nodiscard]] TableSurface& surface() const { return *surface_; }
   bool operator==(const TabulatedSpectrum& other) const;
 

@@ -208,7 +208,8 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
       const double share = (root + whole * (x[i] + 1) / 2) / (root + whole);
       double small = root_of_tenth;
       for (double& length : block.foot) {
-        if (share < small) length += weight[i];
+        if (!(share < small)) break;
+        length += weight[i];
         small *= root_of_tenth;
       }
     }

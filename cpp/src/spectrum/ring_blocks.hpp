@@ -21,8 +21,8 @@ namespace asperity {
 ///   to_g:     u_i^2 sum_j p_j(u_i) int p_j M_k / m dy,  M_k(y) = int_a^y c L_k dy, and 1 instead of M_k in column
 ///             `nodes`: G at u_i, of I2 at the points and of G at a
 ///   to_slope: g_i sum_j p_j(u_i) int p_j L_k' dy: the weight times dR / dy at u_i, of R at the points
-/// G / m is what is projected, so that it is told in its own digits where it is small: what is left out is orthogonal
-/// to all that is smooth in u, and so is u^2 of it times F', that is u at least, times dR / dy. Row `end` has int c L_k
+/// The projection is that of G / m, so that a small G is told in its own digits: the rest is orthogonal to all that is
+/// smooth in u, and so is u^2 of it times F', which goes like 1 / u or less, times dR / dy. Row `end` has int c L_k
 /// dy over the block and 1, and L_k at its upper end. Rows in excess tell G at a.
 struct RingBlock {
   static constexpr std::size_t nodes = 16, fine = 12, coarse = 8, end = fine + coarse, rows = 24;

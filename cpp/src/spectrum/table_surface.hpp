@@ -1,4 +1,5 @@
-// What contact makes of the rows of a table: made when first asked for, kept with them, shared by copies and threads.
+// The data that contact derives from the rows of a table: made when first asked for, kept with them, shared by copies
+// and threads.
 #pragma once
 
 #include <memory>
