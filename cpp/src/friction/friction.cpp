@@ -155,8 +155,8 @@ Contributions empty_contributions(const Scene& scene, std::span<const double> pr
 }
 
 /// The points of `order`, each at its place in the columns of f; notes of them go to `notes`.
-void solve_points(const Scene& scene, std::span<const std::size_t> order, Friction& f, Notes& notes) {
-  PointSolver solve(scene);
+void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::size_t> order, Friction& f,
+                  Notes& notes) {
   for (const std::size_t i : order) {
     heed();
     const double p = f.pressure[i], v = f.velocity[i];
@@ -219,12 +219,14 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
     scene.stops = f.contributions->decade_edges;
   }
 
-  constexpr std::size_t fewest = 100;  // points that are worth a thread of their own
-  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(n / fewest, 1, threads));
+  constexpr std::size_t block = 100;  // points that are worth a thread of their own
+  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
   const std::vector<std::size_t> order = by_velocity(velocity);
-  std::vector<Notes> notes(parts, Notes(spectrum, rubber, model.correction));
-  in_parts(parts, n, [&](unsigned part, std::size_t begin, std::size_t end) {
-    solve_points(scene, std::span(order).subspan(begin, end - begin), f, notes[part]);
+  std::vector<Notes> notes(workers, Notes(spectrum, rubber, model.correction));
+  std::vector<std::optional<PointSolver>> solvers(workers);
+  in_blocks(workers, n, workers == 1 ? n : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+    if (!solvers[worker]) solvers[worker].emplace(scene);
+    solve_points(scene, *solvers[worker], std::span(order).subspan(begin, end - begin), f, notes[worker]);
   });
   for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
   f.notes = notes.front().texts();
