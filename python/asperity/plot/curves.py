@@ -180,10 +180,10 @@ def picture(figure: "Figure", path: Path) -> bytes:
 
     out = io.BytesIO()
     # text as text: Type 3 fonts and outlines are refused by many journals
-    settings = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "asperity"}
+    as_text = rc_context({"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "asperity"})
     kind = path.suffix[1:].lower()
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
-    with warnings.catch_warnings(), rc_context(settings):
+    with warnings.catch_warnings(), as_text:
         warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
         figure.savefig(out, format=kind, dpi=300, metadata=undated)
     return out.getvalue()
