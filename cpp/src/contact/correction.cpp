@@ -34,8 +34,7 @@ void validate_macro(const std::optional<double>& rms_height, const std::optional
 void validate_peaks(const LocalPeaks& peaks) {
   if (peaks.heights.size() < 3)
     throw InvalidInput("heights has " + std::to_string(peaks.heights.size()) + " peaks: must be 3 or more");
-  for (std::size_t i = 0; i < peaks.heights.size(); ++i)
-    require_finite("heights[" + std::to_string(i) + "]", peaks.heights[i]);
+  require_each_finite("heights", peaks.heights);
   const double highest = std::ranges::max(peaks.heights), top = highest_point(peaks);
   require_finite("z_max", top);
   if (top < highest) refuse("z_max", top, "no lower than the highest peak, " + show(highest));
@@ -112,8 +111,7 @@ void validate(const Correction& correction) {
             if (!s.peaks.empty()) {
               if (s.peaks.size() < 3)
                 throw InvalidInput("peaks has " + std::to_string(s.peaks.size()) + " entries: must be 3 or more");
-              for (std::size_t i = 0; i < s.peaks.size(); ++i)
-                require_finite("peaks[" + std::to_string(i) + "]", s.peaks[i]);
+              require_each_finite("peaks", s.peaks);
               const auto [lowest, highest] = std::ranges::minmax(s.peaks);
               if (highest > s.z_max) refuse("z_max", s.z_max, "no lower than the highest peak, " + show(highest));
               require_span("z_max", s.z_max, lowest);

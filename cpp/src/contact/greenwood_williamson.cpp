@@ -116,15 +116,44 @@ double log_gaussian_moment(double t) {
 
 namespace {
 
-/// ln of the mean of max(z - d, 0)^1.5 over the peaks, d = highest - depth.
-double log_peak_moment(std::span<const double> peaks, double highest, double log_depth) {
-  const double depth = std::exp(log_depth);
-  double sum = 0;
-  for (const double z : peaks) {
-    const double share = std::fmax(0, 1 - (highest - z) / depth);  // of the depth that a peak reaches into
-    sum += share * std::sqrt(share);
+/// ln of the mean of max(z - d, 0)^1.5 over the peaks, d = highest - depth, and its slope over ln depth.
+struct PeakMoment {
+  double log, slope;
+};
+
+PeakMoment peak_moment(std::span<const double> peaks, double highest, double log_depth) {
+  const double* const z = peaks.data();
+  const std::size_t n = peaks.size();
+  const double per_depth = std::exp(-log_depth);
+  double moment = 0, roots = 0;
+#pragma omp simd reduction(+ : moment, roots)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double reached = 1 - (highest - z[i]) * per_depth;  // the share of the depth that a peak reaches into
+    const double share = reached > 0 ? reached : 0, root = std::sqrt(share);
+    moment += share * root;
+    roots += root;
   }
-  return 1.5 * log_depth + std::log(sum / static_cast<double>(peaks.size()));
+  return {1.5 * log_depth + std::log(moment / static_cast<double>(n)), 1.5 * roots / moment};
+}
+
+/// The ln depth at which the moment is `log_moment`, from above: Newton's steps, and a half of the bracket where one
+/// would leave it. The moment is nearly a power of the depth, so that five or six do.
+double log_depth_of(std::span<const double> peaks, double highest, double log_moment, double lower, double upper) {
+  constexpr int most_steps = 100;
+  double x = upper, before = upper - lower;
+  for (int i = 0; i < most_steps; ++i) {
+    const PeakMoment at = peak_moment(peaks, highest, x);
+    const double excess = at.log - log_moment;
+    (excess > 0 ? upper : lower) = x;
+    double next = x - excess / at.slope;
+    if (!(next >= lower && next <= upper)) next = lower + (upper - lower) / 2;
+    const double step = std::fabs(next - x);
+    // beyond this, rounding alone moves it
+    if (step <= 4e-16 * std::fabs(x) || (step < 1e-13 && step >= before / 2)) return next;
+    before = step;
+    x = next;
+  }
+  throw NotConverged("peaks: no separation of ln depth between " + show(lower) + " and " + show(upper));
 }
 
 /// d of sigma0 / E* = (4/3) sqrt(R) n_a <(z - d)^1.5> (Eqs 16 and 20), solved in the logarithm: the moment falls
@@ -145,10 +174,10 @@ double greenwood_williamson(const MacroAsperities& a, double log_moment) {
   double below = 0;  // of the mean peak
   for (const double z : a.peaks) below += (highest - z) / static_cast<double>(a.peaks.size());
   // In the depth below the highest peak and its logarithm, so that shallow roots keep their digits.
-  const auto excess = [&](double log_depth) { return log_peak_moment(a.peaks, highest, log_depth) - log_moment; };
   const double shallowest = std::exp(log_moment * (2.0 / 3));  // every peak as high as the highest
   const double deepest = below + shallowest;
-  return highest - std::exp(bracketed_root(excess, std::log(shallowest) - 1e-9, std::log(deepest) + 1e-9));
+  const double lower = std::log(shallowest) - 1e-9, upper = std::log(deepest) + 1e-9;
+  return highest - std::exp(log_depth_of(a.peaks, highest, log_moment, lower, upper));
 }
 
 }  // namespace
@@ -160,7 +189,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   require_positive("q0", a.q0);
   if (!a.peaks.empty() && a.peaks.size() < 3)
     throw InvalidInput("peaks has " + std::to_string(a.peaks.size()) + " entries: must be 3 or more");
-  for (std::size_t i = 0; i < a.peaks.size(); ++i) require_finite("peaks[" + std::to_string(i) + "]", a.peaks[i]);
+  require_each_finite("peaks", a.peaks);
   if (!a.peaks.empty()) {
     const auto [lowest, highest] = std::ranges::minmax(a.peaks);
     require_span("peaks: their highest", highest, lowest);

@@ -77,8 +77,7 @@ ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::v
                        " entries: must be 2 or more for shift factors");
   require_each_positive("temperature", temperature_);
   require_rising("temperature", temperature_);
-  for (std::size_t i = 0; i < log10_a_T_.size(); ++i)
-    require_finite("log10_a_T[" + std::to_string(i) + "]", log10_a_T_[i]);
+  require_each_finite("log10_a_T", log10_a_T_);
   if (!deviation_.empty()) {
     require_same_size("standard_deviation", deviation_.size(), "temperature", temperature_.size());
     for (std::size_t i = 0; i < deviation_.size(); ++i)

@@ -18,6 +18,11 @@ void refuse(std::string_view name, double value, std::string_view allowed) {
   throw InvalidInput(std::string(name) + " = " + show(value) + ": must be " + std::string(allowed));
 }
 
+void require_each_finite(std::string_view name, std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i])) refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "finite");
+}
+
 void require_each_positive(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0) || !std::isfinite(values[i]))

@@ -34,6 +34,7 @@ inline void require_span(std::string_view name, double highest, double lowest) {
 inline void require_poisson(std::string_view name, double value) {
   if (!(value >= 0 && value <= 0.5)) refuse(name, value, "in [0, 0.5]");
 }
+void require_each_finite(std::string_view name, std::span<const double> values);
 void require_each_positive(std::string_view name, std::span<const double> values);
 void require_rising(std::string_view name, std::span<const double> values);
 /// Beyond this ratio ln(q1 / q0) has lost its digits.

@@ -175,14 +175,17 @@ def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
 
 
 def picture(figure: "Figure", path: Path) -> bytes:
-    """The figure as the bytes of a file of that ending."""
+    """The figure as the bytes of a file of that ending, the same for the same figure."""
     from matplotlib import rc_context
 
     out = io.BytesIO()
     # text as text: Type 3 fonts and outlines are refused by many journals
-    with warnings.catch_warnings(), rc_context({"pdf.fonttype": 42, "svg.fonttype": "none"}):
+    as_text = rc_context({"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "asperity"})
+    kind = path.suffix[1:].lower()
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
+    with warnings.catch_warnings(), as_text:
         warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
-        figure.savefig(out, format=path.suffix[1:].lower(), dpi=300)
+        figure.savefig(out, format=kind, dpi=300, metadata=undated)
     return out.getvalue()
 
 

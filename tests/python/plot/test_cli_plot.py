@@ -24,7 +24,10 @@ MAGIC = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}
 def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
     picture = f"picture{ending}"
     assert main([*verb, "--plot", picture, "--output", "table.csv"]) == 0
-    assert (folder / picture).read_bytes().startswith(MAGIC[ending])
+    drawn = (folder / picture).read_bytes()
+    assert drawn.startswith(MAGIC[ending])
+    assert main([*verb, "--plot", picture, "--output", "table.csv"]) == 0
+    assert (folder / picture).read_bytes() == drawn  # neither dates nor random names in it
     assert sorted(path.name for path in folder.iterdir()) == sorted(
         ["scan.npy", "scene.toml", picture, "table.csv"]
     )
