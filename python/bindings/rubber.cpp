@@ -49,7 +49,7 @@ void bind_rubber(py::classh<R>& rubber) {
       .def("angular_integrals",
            [](const R& r, const Array& w) {
              return two_columns(w, [&](auto part, double* i1, double* i2) {
-               r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
+               (void)r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
              });
            })
       .def("shifted", &R::shifted, py::call_guard<Released>());

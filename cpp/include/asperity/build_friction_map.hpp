@@ -20,7 +20,7 @@ struct MapRequest {
   std::array<double, 2> pressure, velocity;  // lo, hi [Pa], [m/s]
   double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion
   std::size_t checked = 1'000'000;           // random points on which the finished map is checked
-  std::string_view text = "";                // lines for whoever reads the file, UTF-8
+  std::string_view text = {};                // lines for whoever reads the file, UTF-8
   unsigned threads = 0;                      // at most, 0: as many as the machine has; the bytes are the same
 };
 

@@ -18,8 +18,8 @@ namespace asperity {
 class ASPERITY_EXPORT Isotherm {
  public:
   /// temperature [K], angular frequency [rad/s] in any order, storage and loss modulus [Pa].
-  Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
-           std::vector<double> loss_modulus);
+  Isotherm(double temperature, const std::vector<double>& angular_frequency, const std::vector<double>& storage_modulus,
+           const std::vector<double>& loss_modulus);
   /// Rows of an isotherm as they are, its notes with them: frequencies that rise, none averaged again.
   Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
            std::vector<double> loss_modulus, std::vector<std::string> notes);

@@ -80,22 +80,22 @@ namespace asperity {
 namespace map_detail {
 
 inline std::uint64_t bits(double x) noexcept {
-  std::uint64_t result;
+  std::uint64_t result = 0;
   std::memcpy(&result, &x, sizeof x);
   return result;
 }
 
 inline double from_bits(std::uint64_t u) noexcept {
-  double result;
+  double result = 0;
   std::memcpy(&result, &u, sizeof u);
   return result;
 }
 
 /// ln c and 1 / c for c = (i + 1/2) / 128, i from 128 to 255, and 2^(i / 128): the tables of ln and exp below.
 struct Tables {
-  double ln[128], inverse[128], power[128];
+  double ln[128] = {}, inverse[128] = {}, power[128] = {};
 
-  constexpr Tables() : ln(), inverse(), power() {
+  constexpr Tables() {
     for (int i = 0; i < 128; ++i) {
       const double c = (128.5 + i) / 128, s = (c - 1) / (c + 1);
       double sum = 0;
@@ -196,8 +196,8 @@ class FrictionMap {
   enum class Status { ok, pressure_outside, velocity_outside, not_a_number };
 
   /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
-  double mu(double pressure, double velocity, Outside outside = Outside::nan,
-            const MapTemperature& temperature = {}) const noexcept {
+  [[nodiscard]] double mu(double pressure, double velocity, Outside outside = Outside::nan,
+                          const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);
     if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
     const map_detail::Pair f = bicubic(at.cell + 2, at.dx, at.dz);
@@ -220,7 +220,7 @@ class FrictionMap {
     const map_detail::Pair f = bicubic(c, at.dx, at.dz);
     for (int j = 4; j-- > 0;)
       for (int k = 0; k < 2; ++k) {
-        const double* const row = c + 8 * j + k;
+        const double* const row = &c[8 * j + k];
         fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
         if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
       }
@@ -236,15 +236,15 @@ class FrictionMap {
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
-  double traction(double pressure, double velocity, Outside outside = Outside::nan,
-                  const MapTemperature& temperature = {}) const noexcept {
+  [[nodiscard]] double traction(double pressure, double velocity, Outside outside = Outside::nan,
+                                const MapTemperature& temperature = {}) const noexcept {
     if (map_detail::is_nan(pressure) || map_detail::is_nan(velocity)) return std::numeric_limits<double>::quiet_NaN();
     if (pressure <= 0 || velocity == 0) return 0;
     const double size = mu(pressure, velocity, outside, temperature) * pressure;
     return velocity < 0 ? -size : size;
   }
 
-  const FrictionMapInfo& info() const noexcept { return info_; }
+  [[nodiscard]] const FrictionMapInfo& info() const noexcept { return info_; }
 
   /// From the bytes of a file. False with the reason, and the map as it was, where they are not those of a map.
   bool read(const void* data, std::size_t size, std::string& why);
@@ -271,7 +271,7 @@ class FrictionMap {
   }
 
   /// ln of mu_A over A/A0.
-  double log_adhesion(const Where& at) const noexcept {
+  [[nodiscard]] double log_adhesion(const Where& at) const noexcept {
     const double off = at.ln_v - ln_reference_;
     return ln_shear_stress_ - at.ln_p - width_ * off * off;
   }
@@ -283,7 +283,8 @@ class FrictionMap {
     return static_cast<std::uint32_t>(i < 0 ? 0 : i > last ? last : i);
   }
 
-  Where where(double pressure, double velocity, Outside outside, const MapTemperature& temperature) const noexcept {
+  [[nodiscard]] Where where(double pressure, double velocity, Outside outside,
+                            const MapTemperature& temperature) const noexcept {
     Where at;
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     double shifted = speed * temperature.a_T;
@@ -309,9 +310,9 @@ class FrictionMap {
     at.free_v = map_detail::within(shifted, info_.velocity);
     at.status = at.free_p ? Status::velocity_outside : Status::pressure_outside;
     if (outside == Outside::nan) return false;
-    if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0]];
+    if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0] ? 1 : 0];
     if (!at.free_v) {
-      shifted = info_.velocity[shifted > info_.velocity[0]];
+      shifted = info_.velocity[shifted > info_.velocity[0] ? 1 : 0];
       speed = shifted / a_T;
     }
     return true;
@@ -330,12 +331,14 @@ class FrictionMap {
     return s[0] + t * (h * s[1] + t * (square + t * cube));
   }
 
-  const double* cell_at(double x, double z) const noexcept {
+  [[nodiscard]] const double* cell_at(double x, double z) const noexcept {
     std::size_t g = 0;
     while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
-    std::int32_t entry;
-    while ((entry = entries_[entry_of(grids_[g], x, z)]) < 0) g = static_cast<std::size_t>(-1 - entry);
-    return &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
+    for (;;) {
+      const std::int32_t entry = entries_[entry_of(grids_[g], x, z)];
+      if (entry >= 0) return &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
+      g = static_cast<std::size_t>(-1 - entry);
+    }
   }
 
   static std::size_t entry_of(const map_detail::Grid& grid, double x, double z) noexcept {
@@ -398,6 +401,32 @@ class Reader {
   const unsigned char* at_;
 };
 
+inline bool is_box(const std::array<double, 2>& sides) noexcept {
+  return !is_nan(sides[0]) && !is_nan(sides[1]) && sides[0] >= 1e-300 && sides[1] > sides[0] * (1 + 1e-9) &&
+         sides[1] <= 1e300;
+}
+
+/// Every grid comes after those that it is in, and they are no more than look-ups shall go through.
+inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<std::int32_t>& entries) {
+  std::vector<std::uint32_t> around(grids.size());  // how many grids each is in
+  for (std::size_t k = 0; k < grids.size(); ++k)
+    for (std::size_t i = 0; i < std::size_t{grids[k].columns} * grids[k].rows; ++i) {
+      const std::int32_t entry = entries[grids[k].first + i];
+      if (entry >= 0) continue;
+      const auto inner = static_cast<std::size_t>(-1 - entry);
+      if (inner <= k || around[k] + 1 >= most_nested) return false;
+      if (around[inner] <= around[k]) around[inner] = around[k] + 1;
+    }
+  return true;
+}
+
+/// Powers of the offsets from a cell's corner stay finite.
+inline bool corners_are_near(const std::vector<double>& cells) noexcept {
+  for (std::size_t i = 0; i < cells.size(); i += cell_size)
+    if (!(std::fabs(cells[i]) < 1e4 && std::fabs(cells[i + 1]) < 1e4)) return false;
+  return true;
+}
+
 }  // namespace map_detail
 
 inline bool FrictionMap::read(const void* data, std::size_t size, std::string& why) {
@@ -427,8 +456,7 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   bool good = true;
   for (std::array<double, 2>* const box : {&info.pressure, &info.velocity}) {
     for (double& side : *box) side = in.f64();
-    good = good && !is_nan((*box)[0]) && !is_nan((*box)[1]) && (*box)[0] >= 1e-300 &&
-           (*box)[1] > (*box)[0] * (1 + 1e-9) && (*box)[1] <= 1e300;
+    good = good && map_detail::is_box(*box);
   }
   const auto positive_or_0 = [&](double& x) {
     x = in.f64();
@@ -474,21 +502,12 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   map.entries_.resize(entries);
   for (std::int32_t& entry : map.entries_) {
     entry = static_cast<std::int32_t>(in.u32());
-    good = good && entry < static_cast<std::int64_t>(cells) && -1 - static_cast<std::int64_t>(entry) < grids;
+    good = good && entry < std::int64_t{cells} && -1 - std::int64_t{entry} < std::int64_t{grids};
   }
   in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
-  std::vector<std::uint32_t> around(grids);  // how many grids each is in
-  for (std::size_t k = 0; good && k < grids; ++k)
-    for (std::size_t i = 0; good && i < std::size_t{map.grids_[k].columns} * map.grids_[k].rows; ++i) {
-      const std::int32_t entry = map.entries_[map.grids_[k].first + i];
-      if (entry >= 0) continue;
-      const auto inner = static_cast<std::size_t>(-1 - entry);
-      good = inner > k && around[k] + 1 < map_detail::most_nested;  // no grid leads back to itself
-      if (good && around[inner] <= around[k]) around[inner] = around[k] + 1;
-    }
-  good = good && in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100);
-  for (std::size_t i = 0; good && i < map.cells_.size(); i += map_detail::cell_size)  // powers of offsets stay finite
-    good = std::fabs(map.cells_[i]) < 1e4 && std::fabs(map.cells_[i + 1]) < 1e4;
+  good = good && map_detail::no_grid_in_itself(map.grids_, map.entries_) &&
+         in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100) &&
+         map_detail::corners_are_near(map.cells_);
   if (!good) return refuse("is damaged: its tables contradict each other");
   info.cells = cells;
   info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
@@ -516,7 +535,7 @@ inline bool FrictionMap::load(const char* path, std::string& why) {
   if (!file) return unreadable(std::strerror(errno));
   std::vector<unsigned char> bytes;
   unsigned char block[65536];
-  std::size_t n;
+  std::size_t n = 0;
   while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) {
     bytes.insert(bytes.end(), block, block + n);
     if (bytes.size() >= 8 && std::memcmp(bytes.data(), "ASPERMAP", 8) != 0) break;  // it is no map, however long

@@ -44,8 +44,8 @@ class ASPERITY_EXPORT PronySeries {
   /// At each of `w`, in one pass over the terms for all of them; `i1` and `i2` have as many entries, `i1_outside` too
   /// or none. True where more than 1e-7 of an I1 comes from outside of the fitted frequencies; `i1_outside` may not
   /// have been written otherwise.
-  bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
-                         std::span<double> i1_outside = {}) const;
+  [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                       std::span<double> i1_outside = {}) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w), known where a_T w is.
   [[nodiscard]] PronySeries shifted(double a_T) const;
   /// The same series as one that was fitted on these frequencies; `extrapolated`: it may be asked beyond them.
@@ -93,8 +93,8 @@ class ASPERITY_EXPORT MasterCurve {
   [[nodiscard]] AngularIntegrals angular_integrals(double angular_frequency) const;
   /// At each of `w`, into spans of as many entries (`i1_outside` may be empty); true where more than 1e-7 of an I1
   /// comes from outside.
-  bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
-                         std::span<double> i1_outside = {}) const;
+  [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                       std::span<double> i1_outside = {}) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;

@@ -75,7 +75,7 @@ class MomentTable {
 
  private:
   static constexpr std::size_t terms = 24, panels = 22;
-  static constexpr double width = 0.5, lowest = -0.5 * (panels / 2);  // panels meet at t = 0
+  static constexpr double width = 0.5, lowest = -0.25 * panels;  // panels meet at t = 0
 
   struct Panel {
     std::once_flag made;

@@ -35,8 +35,8 @@ std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
   if (!table) return ends;
   const auto& flag = table->quality().flag;
   for (std::size_t i = 0; i < flag.size(); ++i) {
-    if (flag[i] & few_periods) ends[0] = table->wavenumber()[i];
-    if (flag[i] & near_nyquist) ends[1] = std::min(ends[1], table->wavenumber()[i]);
+    if ((flag[i] & few_periods) != 0) ends[0] = table->wavenumber()[i];
+    if ((flag[i] & near_nyquist) != 0) ends[1] = std::min(ends[1], table->wavenumber()[i]);
   }
   return ends;
 }

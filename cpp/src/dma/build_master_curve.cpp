@@ -106,6 +106,7 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
                        " temperature(s): must be at 2 or more to shift; one isotherm is a MasterCurve as it stands");
   const std::vector<double> b_T = vertical_shifts(isotherms, options);
   std::vector<double> temperature;
+  temperature.reserve(isotherms.size());
   for (const Isotherm& i : isotherms) temperature.push_back(i.temperature());
   const double reference = options.reference_temperature;
   if (!options.shift_table && !(reference >= temperature.front() && reference <= temperature.back()))

@@ -50,8 +50,8 @@ Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, st
   require_enough(frequency_.size(), temperature);
 }
 
-Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
-                   std::vector<double> loss_modulus)
+Isotherm::Isotherm(double temperature, const std::vector<double>& angular_frequency,
+                   const std::vector<double>& storage_modulus, const std::vector<double>& loss_modulus)
     : temperature_(temperature) {
   require_rows(temperature, angular_frequency, storage_modulus, loss_modulus);
   const std::size_t n = angular_frequency.size();

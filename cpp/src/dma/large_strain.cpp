@@ -30,6 +30,7 @@ Ratio ratio_of(const StrainSweep& sweep, double strain, double a_T, std::size_t 
     throw OutOfRange(name + ": was measured in strains " + range + ", must hold 0.005, the small strain of reference");
   const auto logarithms = [](const std::vector<double>& values) {
     std::vector<double> result;
+    result.reserve(values.size());
     for (const double v : values) result.push_back(std::log(v));
     return result;
   };
@@ -46,6 +47,7 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
   require_positive("strain", strain);
   if (sweeps.empty()) throw InvalidInput("sweeps has 0 entries: must have 1 or more");
   std::vector<Ratio> ratios;
+  ratios.reserve(sweeps.size());
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     ratios.push_back(ratio_of(sweeps[i], strain, shifts.shift_factor(sweeps[i].temperature()), i));
   std::ranges::sort(ratios, {}, &Ratio::x);
@@ -76,7 +78,8 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
     if (at > std::log(w.front()) && at < std::log(w.back())) frequency.push_back(std::exp(at));
   std::ranges::sort(frequency);
   const auto near = [](double a, double b) { return b - a <= 1e-9 * a; };
-  frequency.erase(std::unique(frequency.begin(), frequency.end(), near), frequency.end());
+  const auto repeated = std::ranges::unique(frequency, near);
+  frequency.erase(repeated.begin(), repeated.end());
   std::vector<double> large_storage, large_loss;
   for (const double f : frequency) {
     const std::complex<double> e = small_strain.modulus(f);

@@ -73,7 +73,7 @@ double penalties_for(const Alone& of, double variance, std::vector<double>& chos
 
 Smoothness local_smoothness(const SweepPoints& points) {
   Smoothness result;
-  const double freedom = static_cast<double>(points.x.size() - 3 * points.isotherms());
+  const auto freedom = static_cast<double>(points.x.size() - 3 * points.isotherms());
   for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
     const Alone of = alone(points, modulus);
     std::vector<double> chosen(points.isotherms()), spread(points.isotherms());

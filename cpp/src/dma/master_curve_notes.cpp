@@ -18,6 +18,7 @@ constexpr double least_overlap = 0.3;  // decades that neighbours should share
 
 std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference) {
   std::vector<double> b_T;
+  b_T.reserve(isotherms.size());
   for (const Isotherm& i : isotherms) b_T.push_back(i.temperature() / reference);
   return b_T;
 }

@@ -11,7 +11,7 @@
 namespace asperity {
 
 Eigen::Vector2d MasterSpline::at(double x) const {
-  const double intervals = static_cast<double>(coefficients[0].size() - 3);
+  const auto intervals = static_cast<double>(coefficients[0].size() - 3);
   const double place = (x - lower) / SplineBasis::spacing;
   const double interval = std::clamp(std::floor(place), 0.0, intervals - 1);
   const auto basis = cubic_basis(place - interval);

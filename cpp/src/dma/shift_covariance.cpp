@@ -31,7 +31,7 @@ Eigen::MatrixXd hessian(ShiftLikelihood& likelihood, const ShiftFit& fit) {
 /// were it a parabola: no farther than `limit`.
 double reach_of(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vector<double>& shift, std::size_t step,
                 double way, double from, double limit) {
-  const std::array<double, moduli> factor = likelihood.log_factors(fit.unknowns);
+  const std::array<double, moduli> factor = ShiftLikelihood::log_factors(fit.unknowns);
   const double here = likelihood.misfit(shift, factor);
   std::vector<double> moved = shift;
   const auto rise = [&](double distance) {

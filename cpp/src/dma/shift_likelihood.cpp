@@ -38,7 +38,7 @@ std::vector<double> ShiftLikelihood::shifts(const Eigen::VectorXd& unknowns) con
   return shift;
 }
 
-std::array<double, moduli> ShiftLikelihood::log_factors(const Eigen::VectorXd& unknowns) const {
+std::array<double, moduli> ShiftLikelihood::log_factors(const Eigen::VectorXd& unknowns) {
   return {unknowns[unknowns.size() - 2], unknowns[unknowns.size() - 1]};
 }
 

@@ -81,7 +81,7 @@ class ShiftLikelihood {
 
   /// Shifts of the unknowns, the first isotherm at 0, and back.
   [[nodiscard]] std::vector<double> shifts(const Eigen::VectorXd& unknowns) const;
-  [[nodiscard]] std::array<double, moduli> log_factors(const Eigen::VectorXd& unknowns) const;
+  [[nodiscard]] static std::array<double, moduli> log_factors(const Eigen::VectorXd& unknowns);
 
   // Of the last evaluation.
   [[nodiscard]] const SplineBasis& basis() const { return basis_; }

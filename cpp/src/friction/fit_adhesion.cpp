@@ -178,7 +178,7 @@ std::vector<std::string> notes_on(const AdhesionCurve& curve, const AdhesionPoin
     notes.emplace_back(
         "neighbours in velocity are off the fit to the same side, by more than chance: the hysteresis (spectrum, "
         "modulus, correction), what was held or Eq. 23 does not fit these points; errors are larger than stated");
-  const Index spare = points.size() - count_free(fixed);
+  const Index spare = points.size() - static_cast<Index>(count_free(fixed));
   if (curve.scale > rtol && spare < few_spare)
     notes.push_back(
         "only " + std::to_string(spare) +

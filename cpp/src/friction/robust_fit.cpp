@@ -45,8 +45,10 @@ double weighted_median(std::vector<std::pair<double, double>>& entries) {
   std::ranges::sort(entries);
   double total = 0, below = 0;
   for (const auto& [value, weight] : entries) total += weight;
-  for (const auto& [value, weight] : entries)
-    if ((below += weight) >= total / 2) return value;
+  for (const auto& [value, weight] : entries) {
+    below += weight;
+    if (below >= total / 2) return value;
+  }
   return -infinity;
 }
 
@@ -172,6 +174,7 @@ std::vector<Vector3d> Fit::starts() const {
   std::ranges::sort(nodes, {}, &Node::median);
   nodes.resize(std::min(nodes.size(), many_starts));
   std::vector<Vector3d> result;
+  result.reserve(nodes.size());
   for (const Node& node : nodes) result.push_back(node.at);
   return result;
 }

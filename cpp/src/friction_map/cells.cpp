@@ -53,7 +53,8 @@ std::size_t MapTree::leaf_around(std::uint32_t half_x, std::uint32_t half_z) con
   while (nodes_[at].child >= 0) {
     const auto first = static_cast<std::size_t>(nodes_[at].child);
     const Leaf& second = nodes_[first + 1];
-    at = first + (nodes_[at].in_x ? half_x > 2 * second.x : half_z > 2 * second.z);
+    const bool beyond = nodes_[at].in_x ? half_x > 2 * second.x : half_z > 2 * second.z;
+    at = beyond ? first + 1 : first;
   }
   return at;
 }
@@ -117,9 +118,8 @@ void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, st
     }
     return known.emplace(key(x, z), c).first->second;
   };
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].child >= 0 || !nodes_[i].needed) continue;
-    Leaf& leaf = nodes_[i];
+  for (Leaf& leaf : nodes_) {
+    if (leaf.child >= 0 || !leaf.needed) continue;
     const auto [hx, hz] = size(leaf);
     for (std::size_t k = 0; k < 2; ++k) {
       // rows: value at both ends in x, slope in x at both; columns the same in z

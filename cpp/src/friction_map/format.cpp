@@ -106,7 +106,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, 
   out.u64(certificate.checked);
   out.u64(certificate.exceeded);
   for (const double x : {law.shear_stress, law.reference_velocity, law.width}) out.f64(x);
-  out.u32(frame.hysteresis());
+  out.u32(frame.hysteresis() ? 1 : 0);
   out.u32(tree.bands());
   out.u32(frame.log_modulus_nodes().size() / 2);
   out.u32(index.grids.size());

@@ -89,7 +89,7 @@ class FrictionMapBatch {
     if (map_.offset_.empty()) {
       std::copy_n(ln_p_, n, z_);
     } else {
-      double slope;
+      double slope = 0;
       for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.log_modulus_offset(x_[i], slope);
     }
     const bool one_band = map_.cuts_.size() == 2;

@@ -155,7 +155,7 @@ class Builder {
       // one in each of 4 x 3 parts; of a cell that the box's side cuts, where the box is
       std::size_t taken = 0;
       for (std::size_t tried = 0; taken < unseen && tried < 50 * unseen; ++tried) {
-        const double column = static_cast<double>(tried % 4), row = static_cast<double>(taken % 3);
+        const auto column = static_cast<double>(tried % 4), row = static_cast<double>(taken % 3);
         const double at_x = x + (column + random_()) / 4 * wide, s = frame_.log_modulus_offset(at_x);
         const double from = std::fmax(z, frame_.ln_pressure(0) - s);
         const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);

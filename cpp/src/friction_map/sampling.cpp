@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
@@ -34,8 +35,8 @@ std::array<double, 5> derivative_weights(std::size_t k) {
   return result;
 }
 
-MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const MapRequest& request)
-    : spectrum_(spectrum), rubber_(rubber), model_(model), rtol_(request.rtol), velocity_(request.velocity) {
+MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request)
+    : spectrum_(spectrum), rubber_(rubber), model_(std::move(model)), rtol_(request.rtol), velocity_(request.velocity) {
   model_.rtol = std::clamp(request.rtol * 1e-3, 1e-12, 1e-6);
   x_lo_ = std::log(velocity_[0]);
   x_hi_ = std::log(velocity_[1]);
@@ -48,7 +49,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, const Contact
     cuts_ = {y_lo_, y_hi_};
   }
   const auto* prony = std::get_if<PronySeries>(&rubber_);
-  hysteresis_ = !prony || !prony->moduli().empty();
+  hysteresis_ = prony == nullptr || !prony->moduli().empty();
 }
 
 double MapFrame::log_modulus_offset(double x) const {
@@ -102,13 +103,14 @@ void MapFrame::cut_bands() {
   cuts_ = {bottom};
   int before = state(bottom);
   const auto refuse_no_contact = [&](double z) {
-    const double apart = (x_hi_ - x_lo_) / static_cast<double>(offset_.size() / 2 - 1);
+    const std::size_t last = offset_.size() / 2 - 1;
+    const double apart = (x_hi_ - x_lo_) / static_cast<double>(last);
     std::size_t node = 0;  // one where z is in the box, or nearly
-    while (node + 2 < offset_.size() && (z + offset_[node] < y_lo_ || z + offset_[node] > y_hi_)) node += 2;
-    const double y = std::clamp(z + offset_[node], y_lo_, y_hi_);
+    while (node < last && (z + offset_[2 * node] < y_lo_ || z + offset_[2 * node] > y_hi_)) ++node;
+    const double y = std::clamp(z + offset_[2 * node], y_lo_, y_hi_);
     throw InvalidInput("pressure = (" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + "): at " +
                        show(std::exp(y), 6) + " Pa and " +
-                       show(std::exp(x_lo_ + static_cast<double>(node / 2) * apart), 6) +
+                       show(std::exp(x_lo_ + static_cast<double>(node) * apart), 6) +
                        " m/s the Greenwood-Williamson correction finds no contact (d~ >= z_max): must be such that "
                        "there is contact everywhere");
   };

@@ -21,7 +21,7 @@ struct MapSample {
 class MapFrame {
  public:
   /// Refuses a box in which a part has no contact.
-  MapFrame(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const MapRequest& request);
+  MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request);
 
   [[nodiscard]] std::array<double, 2> x() const { return {x_lo_, x_hi_}; }
   [[nodiscard]] double ln_pressure(int side) const { return side == 0 ? y_lo_ : y_hi_; }

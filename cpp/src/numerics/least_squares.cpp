@@ -80,6 +80,23 @@ VectorXd solve_shortest(const Eigen::CompleteOrthogonalDecomposition<MatrixXd>& 
   return x;
 }
 
+/// From x towards z, its new values of the passive columns, until the first unknown is zero.
+void step_towards(const VectorXd& z, const std::vector<Index>& passive, VectorXd& x) {
+  double share = 1;
+  Index zero = 0;
+  for (Index i = 0; i < z.size(); ++i) {
+    const double from = x[passive[static_cast<std::size_t>(i)]];
+    if (z[i] <= 0 && from / (from - z[i]) <= share) {
+      share = from / (from - z[i]);
+      zero = i;
+    }
+  }
+  for (Index i = 0; i < z.size(); ++i) {
+    double& value = x[passive[static_cast<std::size_t>(i)]];
+    value = i == zero ? 0 : value + share * (z[i] - value);
+  }
+}
+
 Map<const VectorXd> vector(std::span<const double> values) {
   return {values.data(), static_cast<Index>(values.size())};
 }
@@ -156,20 +173,7 @@ VectorXd nnls(const MatrixXd& original, const VectorXd& right) {
       continue;
     }
     while (!passive.empty() && !(z.minCoeff() > 0)) {
-      // from x towards z until the first unknown is zero; that one leaves P
-      double share = 1;
-      Index leaves = 0;
-      for (Index i = 0; i < z.size(); ++i) {
-        const double from = x[passive[static_cast<std::size_t>(i)]];
-        if (z[i] <= 0 && from / (from - z[i]) <= share) {
-          share = from / (from - z[i]);
-          leaves = i;
-        }
-      }
-      for (Index i = 0; i < z.size(); ++i) {
-        double& value = x[passive[static_cast<std::size_t>(i)]];
-        value = i == leaves ? 0 : value + share * (z[i] - value);
-      }
+      step_towards(z, passive, x);
       std::erase_if(passive, [&](Index k) { return !(x[k] > 0); });
       z = solve_passive(a, b, passive);
     }

@@ -66,7 +66,8 @@ class Rings {
     longest_ = std::max(side_y_, side_x_);
     for (std::size_t k = 0; k <= shape[0] / 2; ++k) squared_radius_.push_back(std::pow(radius(k, side_y_), 2));
     const double corner = std::sqrt(std::pow(radius(shape[1] / 2, side_x_), 2) + squared_radius_.back());
-    const double modes = static_cast<double>(shape[0]) * static_cast<double>(shape[1] / 2 + 1);
+    const std::size_t columns = shape[1] / 2 + 1;
+    const double modes = static_cast<double>(shape[0]) * static_cast<double>(columns);
     if (!(corner <= most_rings || corner <= modes))  // of more rings than modes most are empty
       throw InvalidInput("pixel_size = (" + show(pixel[0]) + ", " + show(pixel[1]) + "): its aspect of " +
                          show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " + show(corner, 3) +

@@ -157,81 +157,78 @@ NodeRule gauss(const Jacobi& jacobi, std::size_t wanted) {
   return result;
 }
 
-}  // namespace
-
-void RingSurface::make(const Group& group, double lower, double upper, double m_lower, RingBlock& block) const {
-  std::vector<Piece> pieces;
-  cut(lower, upper, m_lower, pieces);
-  const PieceRule& rule = piece_rule();
-  const std::size_t n = points * pieces.size();
-  // z, from -1 to 1 over the group; dy; dm; m from the lower end on
-  std::vector<double> z(n), weight(n), rate(n), m(n);
+/// The points of a block: z, from -1 to 1 over the group; dy and dm, the latter without the rule's weight; m from the
+/// lower end on, and at the upper one.
+struct FineRule {
+  std::vector<double> z, weight, rate, m;
   double m_part = 0;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Piece& piece = pieces[k];
-    const Segment& segment = *piece.segment;
-    const double a4 = (segment.a * segment.a) * (segment.a * segment.a);
-    const double begin = start_[static_cast<std::size_t>(&segment - surface_.data())];
-    for (std::size_t i = points * k; i < points * (k + 1); ++i) {
-      const double t = piece.upper * (1 + rule.node[i % points]) / 2;
-      const double s = piece.start + t * (piece.linear + piece.square * t);
-      const double dy = piece.upper / 2 * (piece.linear + 2 * piece.square * t);
-      const double c = segment.straight ? a4 * std::exp(4 * s) * segment.density_at(s)
-                                        : a4 * segment.at_a * std::exp((4 + segment.slope) * s);
-      rate[i] = c * dy;
-      weight[i] = rule.weight[i % points] * dy;
-      z[i] = ((begin - group.lower) + (begin - group.upper) + 2 * s) / (group.upper - group.lower);
-    }
+
+  explicit FineRule(std::size_t n) : z(n), weight(n), rate(n), m(n) {}
+  [[nodiscard]] std::size_t size() const { return z.size(); }
+
+  /// m at the points of a piece, whose rates are known.
+  void add_up(std::size_t first) {
+    const PieceRule& rule = piece_rule();
     for (std::size_t i = 0; i < points; ++i) {
       double part = 0;
-      for (std::size_t l = 0; l < points; ++l) part += rule.to_node[l][i] * rate[points * k + l];
-      m[points * k + i] = m_part + part;
+      for (std::size_t l = 0; l < points; ++l) part += rule.to_node[l][i] * rate[first + l];
+      m[first + i] = m_part + part;
     }
-    for (std::size_t l = 0; l < points; ++l) m_part += rule.weight[l] * rate[points * k + l];
+    for (std::size_t l = 0; l < points; ++l) m_part += rule.weight[l] * rate[first + l];
   }
-  block.lower = lower;
-  block.upper = upper;
-  block.m_lower = m_lower;
-  block.m_part = m_part;
+};
 
-  // x: u from its value at the lower end to that at the upper one, as -1 to 1
-  const double root = std::sqrt(m_lower), whole = m_part / (std::sqrt(m_lower + m_part) + root);
-  std::vector<double> x(n), rows(n * degrees);
-  Jacobi jacobi;
-  if (m_part > 0) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double part = std::fmax(m[i], 0);
-      x[i] = part > 0 ? 2 * (part / (std::sqrt(m_lower + part) + root)) / whole - 1 : -1;
-    }
-    const double root_of_tenth = std::sqrt(0.1);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double share = (root + whole * (x[i] + 1) / 2) / (root + whole);
-      double small = root_of_tenth;
-      for (double& length : block.foot) {
-        if (!(share < small)) break;
-        length += weight[i];
-        small *= root_of_tenth;
-      }
-    }
-    jacobi = orthonormal(weight, x, rows);
-    for (std::size_t i = 0; i < n; ++i) weight[i] = std::sqrt(weight[i]);
+/// u = sqrt(m) over a block, from its lower end on.
+struct Root {
+  double m_lower, lower, whole;
+
+  Root(double m_at_lower, double m_part)
+      : m_lower(m_at_lower),
+        lower(std::sqrt(m_at_lower)),
+        whole(m_part / (std::sqrt(m_at_lower + m_part) + std::sqrt(m_at_lower))) {}
+
+  /// u at m beyond that of the lower end, as -1 to 1 over the block, and u from there.
+  [[nodiscard]] double scaled(double part) const {
+    return part > 0 ? 2 * (part / (std::sqrt(m_lower + part) + lower)) / whole - 1 : -1;
   }
-  std::vector<double> over_m(n);
-  for (std::size_t i = 0; i < n && m_part > 0; ++i) over_m[i] = weight[i] / (m_lower + m[i]);
+  [[nodiscard]] double at(double x) const { return lower + whole * (x + 1) / 2; }
+};
 
-  // int p_j / m int c P_k and int p_j dP_k / dy, P_k Legendre's, on as many points at a time as stay in the cache
+void measure_foot(const Root& u, const std::vector<double>& x, const std::vector<double>& weight, RingBlock& block) {
+  const double root_of_tenth = std::sqrt(0.1);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double share = u.at(x[i]) / (u.lower + u.whole);
+    double small = root_of_tenth;
+    for (double& length : block.foot) {
+      if (!(share < small)) break;
+      length += weight[i];
+      small *= root_of_tenth;
+    }
+  }
+}
+
+/// int p_j / m int c P_k, int p_j dP_k / dy and int p_j / m, P_k Legendre's, and int c P_k.
+struct Projection {
   std::array<std::array<double, degrees>, nodes> of_m{}, of_slope{};
-  Row to_m{}, end;
-  const double per_y = 2 / (group.upper - group.lower);
+  std::array<double, degrees> of_lower{};
+  Row to_m{};
+};
+
+/// On as many points at a time as stay in the cache; the weights are roots by now, as in `rows`.
+Projection project(const FineRule& fine, const std::vector<double>& over_m, const std::vector<double>& rows,
+                   std::size_t count, double per_y) {
+  Projection result;
+  const std::size_t n = fine.size();
+  const PieceRule& rule = piece_rule();
   const Kernels& loops = kernels();
   for (std::size_t from = 0; from < n; from += chunk) {
     const std::size_t size = std::min(chunk, n - from);
-    const double *const z_at = &z[from], *const rate_at = &rate[from], *const weight_at = &weight[from],
+    const double *const z_at = &fine.z[from], *const rate_at = &fine.rate[from], *const weight_at = &fine.weight[from],
                         *const over_m_at = &over_m[from];
     double last[chunk] = {}, now[chunk], up_to[chunk], slope[chunk] = {}, slope_last[chunk] = {};
     std::fill_n(now, size, 1);
     for (std::size_t k = 0; k < nodes; ++k) {
-      double sum = to_m[k];
+      double sum = result.to_m[k];
       for (std::size_t i = 0; i < size; i += points) {
         double c[points];
         for (std::size_t l = 0; l < points; ++l) c[l] = rate_at[i + l] * now[i + l];
@@ -240,8 +237,8 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
                                              (rule.to_node[2][l] * c[2] + rule.to_node[3][l] * c[3]));
         sum += (rule.weight[0] * c[0] + rule.weight[1] * c[1]) + (rule.weight[2] * c[2] + rule.weight[3] * c[3]);
       }
-      to_m[k] = sum;
-      loops.dots(&rows[from], n, jacobi.degrees, size, up_to, slope, of_m[k].data(), of_slope[k].data());
+      result.to_m[k] = sum;
+      loops.dots(&rows[from], n, count, size, up_to, slope, result.of_m[k].data(), result.of_slope[k].data());
       const auto d = static_cast<double>(k);
       const double a = (2 * d + 1) / (d + 1), b = d / (d + 1), growth = (2 * d + 1) * per_y;
       for (std::size_t i = 0; i < size; ++i) {  // P'_k+1 = P'_k-1 + (2 k + 1) P_k
@@ -254,40 +251,89 @@ void RingSurface::make(const Group& group, double lower, double upper, double m_
       }
     }
   }
-  legendre(((upper - group.lower) + (upper - group.upper)) / (group.upper - group.lower), end);
-  std::array<double, degrees> of_lower{};  // int p_j / m
-  for (std::size_t j = 0; m_lower > 0 && j < jacobi.degrees; ++j) of_lower[j] = dot(n, &rows[j * n], over_m.data());
+  return result;
+}
 
+/// A row of a matrix: the function of the values at the group's nodes that is known by Legendre's polynomials.
+void set_values(const Row& by_legendre, double factor, std::size_t row, RowsOf24* into) {
   const auto& matrix = to_legendre();
-  const auto to_values = [&](const Row& by_legendre, double factor, std::size_t row, RowsOf24* into) {
-    for (std::size_t k = 0; k < nodes; ++k) {
-      double sum = 0;
-      for (std::size_t j = 0; j < nodes; ++j) sum += by_legendre[j] * matrix[j][k];
-      into[k].data[row] = factor * sum;
-    }
-  };
-  to_values(to_m, 1, RingBlock::end, block.to_g);
-  to_values(end, 1, RingBlock::end, block.to_slope);
-  for (double& one : block.to_g[nodes].data) one = 1;
-  for (const auto& [first, wanted] :
-       {std::pair{std::size_t{0}, RingBlock::fine}, {RingBlock::fine, RingBlock::coarse}}) {
-    const NodeRule of = gauss(jacobi, wanted);
-    for (std::size_t i = 0; i < of.count; ++i) {
-      Row g{}, weighted{};
-      double lower_share = 0;
-      for (std::size_t j = 0; j < of.count; ++j) lower_share += of.p[i][j] * of_lower[j];
-      for (std::size_t j = 0; j < of.count; ++j)
-        for (std::size_t k = 0; k < nodes; ++k) {
-          g[k] += of.p[i][j] * of_m[k][j];
-          weighted[k] += of.p[i][j] * of_slope[k][j];
-        }
-      const double u = root + whole * (of.x[i] + 1) / 2;
-      to_values(g, u * u, first + i, block.to_g);
-      block.to_g[nodes].data[first + i] = u * u * lower_share;
-      to_values(weighted, of.measure[i], first + i, block.to_slope);
-      block.measure[first + i] = of.measure[i];
-    }
+  for (std::size_t k = 0; k < nodes; ++k) {
+    double sum = 0;
+    for (std::size_t j = 0; j < nodes; ++j) sum += by_legendre[j] * matrix[j][k];
+    into[k].data[row] = factor * sum;
   }
+}
+
+/// The rows of one of the block's Gauss rules.
+void set_rows(const NodeRule& of, const Projection& projection, const Root& root, std::size_t first, RingBlock& block) {
+  for (std::size_t i = 0; i < of.count; ++i) {
+    Row g{}, weighted{};
+    double lower_share = 0;
+    for (std::size_t j = 0; j < of.count; ++j) lower_share += of.p[i][j] * projection.of_lower[j];
+    for (std::size_t j = 0; j < of.count; ++j)
+      for (std::size_t k = 0; k < nodes; ++k) {
+        g[k] += of.p[i][j] * projection.of_m[k][j];
+        weighted[k] += of.p[i][j] * projection.of_slope[k][j];
+      }
+    const double u = root.at(of.x[i]);
+    set_values(g, u * u, first + i, block.to_g);
+    block.to_g[nodes].data[first + i] = u * u * lower_share;
+    set_values(weighted, of.measure[i], first + i, block.to_slope);
+    block.measure[first + i] = of.measure[i];
+  }
+}
+
+}  // namespace
+
+void RingSurface::make(const Group& group, double lower, double upper, double m_lower, RingBlock& block) const {
+  std::vector<Piece> pieces;
+  cut(lower, upper, m_lower, pieces);
+  const PieceRule& rule = piece_rule();
+  const std::size_t n = points * pieces.size();
+  FineRule fine(n);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Piece& piece = pieces[k];
+    const Segment& segment = *piece.segment;
+    const double a4 = (segment.a * segment.a) * (segment.a * segment.a);
+    const double begin = start_[static_cast<std::size_t>(&segment - surface_.data())];
+    for (std::size_t i = points * k; i < points * (k + 1); ++i) {
+      const double t = piece.upper * (1 + rule.node[i % points]) / 2;
+      const double s = piece.start + t * (piece.linear + piece.square * t);
+      const double dy = piece.upper / 2 * (piece.linear + 2 * piece.square * t);
+      const double c = segment.straight ? a4 * std::exp(4 * s) * segment.density_at(s)
+                                        : a4 * segment.at_a * std::exp((4 + segment.slope) * s);
+      fine.rate[i] = c * dy;
+      fine.weight[i] = rule.weight[i % points] * dy;
+      fine.z[i] = ((begin - group.lower) + (begin - group.upper) + 2 * s) / (group.upper - group.lower);
+    }
+    fine.add_up(points * k);
+  }
+  block.lower = lower;
+  block.upper = upper;
+  block.m_lower = m_lower;
+  block.m_part = fine.m_part;
+
+  const Root u(m_lower, fine.m_part);
+  std::vector<double> x(n), rows(n * degrees), over_m(n);
+  Jacobi jacobi;
+  if (fine.m_part > 0) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = u.scaled(std::fmax(fine.m[i], 0));
+    measure_foot(u, x, fine.weight, block);
+    jacobi = orthonormal(fine.weight, x, rows);
+    for (double& weight : fine.weight) weight = std::sqrt(weight);
+    for (std::size_t i = 0; i < n; ++i) over_m[i] = fine.weight[i] / (m_lower + fine.m[i]);
+  }
+
+  Projection projection = project(fine, over_m, rows, jacobi.degrees, 2 / (group.upper - group.lower));
+  for (std::size_t j = 0; m_lower > 0 && j < jacobi.degrees; ++j)
+    projection.of_lower[j] = dot(n, &rows[j * n], over_m.data());
+  Row end;
+  legendre(((upper - group.lower) + (upper - group.upper)) / (group.upper - group.lower), end);
+  set_values(projection.to_m, 1, RingBlock::end, block.to_g);
+  set_values(end, 1, RingBlock::end, block.to_slope);
+  for (double& one : block.to_g[nodes].data) one = 1;
+  set_rows(gauss(jacobi, RingBlock::fine), projection, u, 0, block);
+  set_rows(gauss(jacobi, RingBlock::coarse), projection, u, RingBlock::fine, block);
 }
 
 }  // namespace asperity

@@ -66,6 +66,8 @@ class RingSurface {
   };
   void make(const Group& group, double lower, double upper, double m_lower, RingBlock& block) const;
   void cut(double lower, double upper, double m_lower, std::vector<Piece>& pieces) const;
+  static void cut(const Segment& segment, double begin, double end, double m, double longest,
+                  std::vector<Piece>& pieces);
 
   std::vector<Segment> surface_;
   std::vector<double> start_, m_part_;  // of each segment: where it starts in y, and int c dy over it

@@ -71,6 +71,17 @@ const std::array<RingTree, 2>& RingSurface::halves(const Group& group, const Rin
   return tree.halves.compare_exchange_strong(first, mine.get(), std::memory_order_acq_rel) ? *mine.release() : *first;
 }
 
+namespace {
+
+bool empty(const Segment& segment) { return segment.at_a == 0 && segment.at_b == 0; }
+
+/// int c dy of a segment up to a place on its s.
+double m_before(const Segment& segment, double s) {
+  return s > 0 && !empty(segment) ? segment.moment(3, segment.a * std::exp(s)) : 0;
+}
+
+}  // namespace
+
 void RingSurface::cut(double lower, double upper, double m_lower, std::vector<Piece>& pieces) const {
   pieces.clear();
   auto i = static_cast<std::size_t>(std::ranges::upper_bound(start_, lower) - start_.begin()) - 1;
@@ -82,34 +93,41 @@ void RingSurface::cut(double lower, double upper, double m_lower, std::vector<Pi
     const bool whole = i + 1 < surface_.size() && start_[i + 1] <= upper;
     const double end = (whole ? start_[i + 1] : upper) - start_[i];
     if (!(end > begin)) continue;
-    const bool empty = segment.at_a == 0 && segment.at_b == 0;
-    const double steep = empty ? 0 : segment.straight ? 6 : std::fabs(4 + segment.slope);
-    const double regular = std::fmin(longest, steep > 0 ? 0.25 / steep : longest);
-    const double before = begin > 0 ? segment.moment(3, segment.a * std::exp(begin)) : 0;
-    const double at_start = (segment.a * segment.a) * (segment.a * segment.a) * segment.at_a;
-    for (double from = begin, to; from < end; from = to) {
-      const double left = end - from, q = from > 0 ? segment.a * std::exp(from) : segment.a;
-      const double here = from > begin ? m + (empty ? 0 : segment.moment(3, q) - before) : m;
-      const double rate = from > 0 ? (q * q) * (q * q) * segment.density_at(from) : at_start;
-      double step = left / std::ceil(left / regular * (1 - 1e-12));
-      if (!empty && segment.at_a == 0) {  // a ramp from zero: u grows like s once m is above what it was
-        const double slope = std::pow(segment.a, 5) * segment.at_b / (segment.b - segment.a);
-        const double level = std::sqrt(2 * m / slope);
-        step = std::fmin(step, m == 0 ? std::fmax(from, step / 4) : std::fmax(std::fmax(from, level), 1e-4 * step));
-      }
-      if (rate > 0 && here < 4 * rate * step) step = std::fmin(step, regular / 2);  // a rule in the root of s sees more
-      to = left - step < 1e-9 * left ? end : from + step;
-      const double part = to - from;
-      Piece piece{&segment, from, 1, 0, part};
-      const double behind = rate > 0 ? here / rate : std::numeric_limits<double>::infinity();
-      if (behind < 4 * part) {
-        piece.linear = 2 * std::sqrt(behind);
-        piece.square = 1;
-        piece.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
-      }
-      pieces.push_back(piece);
+    cut(segment, begin, end, m, longest, pieces);
+    m += (whole ? m_part_[i] : m_before(segment, end)) - m_before(segment, begin);
+  }
+}
+
+/// From `begin` to `end` on s of one segment; `m` is that at `begin`.
+void RingSurface::cut(const Segment& segment, double begin, double end, double m, double longest,
+                      std::vector<Piece>& pieces) {
+  const double steep = empty(segment) ? 0 : segment.straight ? 6 : std::fabs(4 + segment.slope);
+  const double regular = std::fmin(longest, steep > 0 ? 0.25 / steep : longest);
+  const double before = m_before(segment, begin);
+  const double at_start = (segment.a * segment.a) * (segment.a * segment.a) * segment.at_a;
+  double from = begin;
+  while (from < end) {
+    const double left = end - from, q = from > 0 ? segment.a * std::exp(from) : segment.a;
+    const double here = from > begin ? m + (m_before(segment, from) - before) : m;
+    const double rate = from > 0 ? (q * q) * (q * q) * segment.density_at(from) : at_start;
+    double step = left / std::ceil(left / regular * (1 - 1e-12));
+    if (!empty(segment) && segment.at_a == 0) {  // a ramp from zero: u grows like s once m is above what it was
+      const double slope = std::pow(segment.a, 5) * segment.at_b / (segment.b - segment.a);
+      const double level = std::sqrt(2 * m / slope);
+      step = std::fmin(step, m == 0 ? std::fmax(from, step / 4) : std::fmax(std::fmax(from, level), 1e-4 * step));
     }
-    m += (whole ? m_part_[i] : empty ? 0 : segment.moment(3, segment.a * std::exp(end))) - before;
+    if (rate > 0 && here < 4 * rate * step) step = std::fmin(step, regular / 2);  // a rule in the root of s sees more
+    const double to = left - step < 1e-9 * left ? end : from + step;
+    const double part = to - from;
+    Piece piece{&segment, from, 1, 0, part};
+    const double behind = rate > 0 ? here / rate : std::numeric_limits<double>::infinity();
+    if (behind < 4 * part) {
+      piece.linear = 2 * std::sqrt(behind);
+      piece.square = 1;
+      piece.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
+    }
+    pieces.push_back(piece);
+    from = to;
   }
 }
 

@@ -164,7 +164,7 @@ HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap
   });
   std::vector<double> heights = modes.heights();
   if (skewness != 0) heights = skewed(heights, skewness, amplitude, shape);
-  return HeightMap(std::move(heights), shape, pixel_size);
+  return {std::move(heights), shape, pixel_size};
 }
 
 }  // namespace asperity

@@ -36,6 +36,7 @@ class SurfaceSegments {
   SurfaceSegments(SurfaceSegments&&) = delete;
   SurfaceSegments& operator=(const SurfaceSegments&) = delete;
   SurfaceSegments& operator=(SurfaceSegments&&) = delete;
+  ~SurfaceSegments() = default;
   [[nodiscard]] std::span<const Segment> get() const { return all_; }
 
  private:

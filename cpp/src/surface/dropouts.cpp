@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <string>
 
 #include "asperity/surface.hpp"
@@ -88,15 +89,16 @@ class Filler {
       if (last > first) ends.push_back({static_cast<Index>(y), last});
     }
     std::vector<Point> hull;
-    const auto chain = [&](auto p, auto end) {
-      for (const std::size_t base = hull.size(); p != end; ++p) {
-        while (hull.size() >= base + 2 && side(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
-        hull.push_back(*p);
+    const auto chain = [&](const auto& points) {
+      const std::size_t base = hull.size();
+      for (const Point& p : points) {
+        while (hull.size() >= base + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+        hull.push_back(p);
       }
       hull.pop_back();
     };
-    chain(ends.begin(), ends.end());
-    chain(ends.rbegin(), ends.rend());
+    chain(ends);
+    chain(std::views::reverse(ends));
     return hull;
   }
 
@@ -150,8 +152,7 @@ class Filler {
     steps_.assign(static_cast<std::size_t>(nx_ + 2 * ny_), {});
     const double diagonal = std::hypot(aspect_, 1);
     const std::array<double, 4> spacing{1, aspect_, diagonal, diagonal};  // in units of dx: no unit of length matters
-    for (auto p = holes_.rbegin(); p != holes_.rend(); ++p) {
-      Hole& hole = *p;
+    for (Hole& hole : std::views::reverse(holes_)) {
       heed_at(static_cast<std::size_t>(hole.x + hole.y));
       double sum = 0, weights = 0;
       bool isolated = false;

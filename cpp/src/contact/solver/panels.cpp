@@ -103,13 +103,13 @@ std::size_t Panels::add(Panel panel) {
   return panels_.size() - 1;
 }
 
-void Panels::differentiate(const Panel& p, const double* f, double* slope, Panel::Smooth& of) const {
-  const std::size_t n = p.rule->n;
-  kernels().differentiate(*p.rule, f, slope, &of.lower, &of.upper, of.tail);
+void Panels::differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of) {
+  const std::size_t n = panel.rule->n;
+  kernels().differentiate(*panel.rule, f, slope, &of.lower, &of.upper, of.tail);
   of.change = 0;
   for (std::size_t i = 0; i < n; ++i) of.change += std::fabs(slope[i]);
-  const double last = std::fmax(larger(of.tail, 0), larger(of.tail, 1) * p.decay);
-  of.far = last * p.decay_to_n;
+  const double last = std::fmax(larger(of.tail, 0), larger(of.tail, 1) * panel.decay);
+  of.far = last * panel.decay_to_n;
 }
 
 void Panels::fill(Panel& p) {
@@ -199,48 +199,56 @@ void Panels::lay_out(std::span<const double> stops) {
   for (const Segment& segment : surface_) {
     if (segment.at_a == 0 && segment.at_b == 0) continue;
     find_edges(segment, before == 0, stops, knots);
-    double here = before, there = before;  // the same up to either end of a panel
-    for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
-      const double knot = edges_[i], end = edges_[i + 1];
-      bool on_ramp = false;
-      for (double from = knot, to; from < end; from = to, here = there) {
-        const double length = end - from, q = segment.a * std::exp(from);
-        const double rate = (q * q) * (q * q) * segment.density_at(from);
-        const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
-        Panel p{};
-        p.segment = &segment;
-        p.start = from;
-        p.at_front = here == 0;
-        p.by_parts_twice = p.at_front && rate > 0 && !curve;
-        to = end;
-        // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
-        // zero begins: panels that grow away from both
-        const double ramp =
-            from == 0 && rate == 0 && here > 0 ? length * std::sqrt(here / segment.moment(3, segment.b)) : 0;
-        if (ramp > 0 && ramp < length / 2) on_ramp = true;
-        if (on_ramp || (curve && here > 0 && behind <= length / 4))
-          to = std::fmin(end, from > knot ? from + 3 * (from - knot) : from + (on_ramp ? ramp : 2 * behind));
-        const double part = to - from;
-        if (here == 0 || (curve && from == knot)) {
-          p.square = 1;
-          p.upper = std::sqrt(part);
-        } else if (behind < 4 * part) {
-          p.linear = 2 * std::sqrt(behind);
-          p.square = 1;
-          p.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
-        } else {
-          p.linear = 1;
-          p.upper = part;
-        }
-        there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
-        p.grows = there > 4 * here;
-        p.sqrt_endpoint = p.square > 0 && p.linear == 0 && rate > 0;
-        roots_.push_back(add(p));
-      }
-    }
+    double here = before;
+    for (std::size_t i = 0; i + 1 < edges_.size(); ++i) here = lay_out(segment, edges_[i], edges_[i + 1], before, here);
     before = here;
   }
   laid_out_ = !curve && stops.empty();
+}
+
+/// Panels from a knot to the next edge; `before` and `here` are int q^4 C ds up to the segment and to the knot, and
+/// what is returned is that up to the edge.
+double Panels::lay_out(const Segment& segment, double knot, double end, double before, double here) {
+  const bool table = std::holds_alternative<MasterCurve>(rubber_);
+  bool on_ramp = false;
+  double from = knot;
+  while (from < end) {
+    const double length = end - from, q = segment.a * std::exp(from);
+    const double rate = (q * q) * (q * q) * segment.density_at(from);
+    const double behind = here == 0 ? 0 : rate > 0 ? here / rate : 1e300;  // how far back G would be 0
+    Panel p{};
+    p.segment = &segment;
+    p.start = from;
+    p.at_front = here == 0;
+    p.by_parts_twice = p.at_front && rate > 0 && !table;
+    double to = end;
+    // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
+    // zero begins: panels that grow away from both
+    const double ramp =
+        from == 0 && rate == 0 && here > 0 ? length * std::sqrt(here / segment.moment(3, segment.b)) : 0;
+    if (ramp > 0 && ramp < length / 2) on_ramp = true;
+    if (on_ramp || (table && here > 0 && behind <= length / 4))
+      to = std::fmin(end, from > knot ? from + 3 * (from - knot) : from + (on_ramp ? ramp : 2 * behind));
+    const double part = to - from;
+    if (here == 0 || (table && from == knot)) {
+      p.square = 1;
+      p.upper = std::sqrt(part);
+    } else if (behind < 4 * part) {
+      p.linear = 2 * std::sqrt(behind);
+      p.square = 1;
+      p.upper = part / (std::sqrt(behind) + std::sqrt(behind + part));
+    } else {
+      p.linear = 1;
+      p.upper = part;
+    }
+    const double there = before + segment.moment(3, to < segment.length() ? segment.a * std::exp(to) : segment.b);
+    p.grows = there > 4 * here;
+    p.sqrt_endpoint = p.square > 0 && p.linear == 0 && rate > 0;
+    roots_.push_back(add(p));
+    from = to;
+    here = there;
+  }
+  return here;
 }
 
 void Panels::start(double velocity, std::span<const double> stops) {

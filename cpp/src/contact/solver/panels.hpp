@@ -47,7 +47,7 @@ struct Panel {
   Smooth r = {}, dr_dg = {};  // R, and dR/dG
 
   [[nodiscard]] double s(double t) const { return start + t * (linear + square * t); }
-  [[nodiscard]] double t(double s) const;
+  [[nodiscard]] double t(double at) const;
 };
 
 /// The panels of one velocity: `roots` in order, some of them split. The numbers of a panel depend on its place alone,
@@ -64,7 +64,7 @@ class Panels {
     return &data_[panel.data + row * panel.rule->n];
   }
   /// The first of the two halves of a panel; the second follows it.
-  [[nodiscard]] std::size_t children(std::size_t panel);
+  [[nodiscard]] std::size_t children(std::size_t index);
   /// int dG from the panel's lower end to s.
   [[nodiscard]] double g_to(const Panel& panel, double s) const;
   [[nodiscard]] AngularIntegrals angular(double wavenumber) const {
@@ -73,11 +73,12 @@ class Panels {
 
  private:
   void lay_out(std::span<const double> stops);
+  double lay_out(const Segment& segment, double knot, double end, double before, double here);
   void find_edges(const Segment& segment, bool front, std::span<const double> stops, std::span<const double> knots);
   std::size_t add(Panel panel);
   void roughness_at_nodes(const Panel& panel, double upper, double* wavenumber, double* roughness) const;
   void fill(Panel& panel);
-  void differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of) const;
+  static void differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of);
 
   std::span<const Segment> surface_;
   const Rubber& rubber_;

@@ -25,7 +25,7 @@ constexpr double of_points = 3e-9;  // relative error of G by the fine rules of 
 /// and as much again for their effect on the known ones. I1 and I2 of a Prony series have their singularities pi / 2
 /// off the real axis of ln w, so that coefficients fall by `decay` a degree on the whole, if not from each to the next.
 double missed(const LegendreRule& rule, const double* values, double decay) {
-  double total, tail[LegendreRule::kept], last = 0, fading = 1;
+  double total = 0, tail[LegendreRule::kept], last = 0, fading = 1;
   kernels().add_up(rule, values, &total, tail);
   for (std::size_t k = 0; k < LegendreRule::tails; ++k, fading *= decay)
     last = std::fmax(last, std::fabs(tail[k]) * fading);
@@ -61,7 +61,7 @@ void RingSolver::start(double velocity) {
     Modulus& at = moduli_[i];
     double w[nodes], i1[nodes];
     for (std::size_t k = 0; k < nodes; ++k) w[k] = velocity * group.wavenumber[k];
-    rubber_.angular_integrals(w, i1, {at.i2, nodes});
+    (void)rubber_.angular_integrals(w, i1, {at.i2, nodes});
     for (std::size_t k = 0; k < nodes; ++k) {
       at.ratio[k] = i1[k] / at.i2[k];
       at.i2[k] *= g_factor_;
@@ -76,7 +76,7 @@ void RingSolver::start(double velocity) {
   g_relative_error_ = unit_error / unit_g_ + of_points;
 }
 
-void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) {
+void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) const {
   double g[rows], f[rows];
   const Kernels& loops = kernels();
   const RingBlock& block = part.block();

@@ -55,7 +55,7 @@ class RingSolver {
     [[nodiscard]] const RingBlock& block() const { return tree->block; }
   };
   void fill(Part& part);
-  void evaluate(Part& part, double f_lower, const ContactIntegral& contact);
+  void evaluate(Part& part, double f_lower, const ContactIntegral& contact) const;
   void evaluate_halves(std::size_t index, const ContactIntegral& contact);
   [[nodiscard]] double error(const Part& part) const;
 

@@ -109,6 +109,7 @@ std::vector<PanelSolver::PanelShare> Solver::shares() const {
   if (!gsl_solver_) return panel_solver_.shares();
   std::vector<PanelSolver::PanelShare> result;
   const auto panels = gsl_solver_->panels();
+  result.reserve(panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});
   return result;
 }
