@@ -226,6 +226,10 @@ TEST_CASE("rounding mode and traps stay, and are lived with") {
   // As compiled with Fortran's -ffpe-trap=invalid,zero,overflow: a signal would end this process.
   std::feclearexcept(FE_ALL_EXCEPT);
   feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+  if (fegetexcept() == 0) {
+    MESSAGE("there are no traps here, as under valgrind: not tried");
+    return;
+  }
   const std::vector<double> trapped = one_of_each();
   const int traps = fegetexcept();
   fedisableexcept(FE_ALL_EXCEPT);
