@@ -101,6 +101,23 @@ def rows(given: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(given, name) for name in names}
 
 
+def markdown(found: list[tuple[Any, ...]]) -> str:
+    """The table of surface, rubber, time, ratio, time of once and error."""
+    header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
+    lines = [
+        [
+            surface,
+            terms,
+            timing.number(1e6 * t / VELOCITY.size),
+            timing.number(ratio),
+            timing.number(1e3 * once),
+            f"{worst:.0e}",
+        ]
+        for surface, terms, t, ratio, once, worst in found
+    ]
+    return timing.markdown(header, lines)
+
+
 def make() -> timing.Report:
     cases = scenes()
     first = {
@@ -119,20 +136,9 @@ def make() -> timing.Report:
         ],
         "error": [inputs.error() for inputs in cases.values()],
     }
-    header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
-    lines = [
-        [
-            surface,
-            terms,
-            timing.number(1e6 * t / VELOCITY.size),
-            timing.number(ratio),
-            timing.number(1e3 * once),
-            f"{worst:.0e}",
-        ]
-        for surface, terms, t, ratio, once, worst in zip(*columns.values(), strict=True)
-    ]
+    text = markdown(list(zip(*columns.values(), strict=True)))
     files = {"rings.csv": timing.table("benchmark rings", columns)}
-    return timing.Report(timing.markdown(header, lines), files)
+    return timing.Report(text, files)
 
 
 if __name__ == "__main__":
