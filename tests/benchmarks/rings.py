@@ -44,7 +44,7 @@ def rubber() -> asperity.PronySeries:
     )
 
 
-def curve(noise: float) -> dict[str, Any]:
+def tabulated(noise: float) -> dict[str, Any]:
     """Rows of the series from 1e-3 to 1e11 rad/s."""
     frequency = np.geomspace(1e-3, 1e11, 140)
     modulus = rubber().modulus(frequency)
@@ -113,7 +113,7 @@ def scenes() -> dict[tuple[str, str], Inputs]:
         found[name, TERMS] = Inputs(surface, rubber, VELOCITY)
         for terms, noise in CURVES.items():
             found[name, terms] = Inputs(
-                surface, partial(asperity.MasterCurve, **curve(noise)), VELOCITY
+                surface, partial(asperity.MasterCurve, **tabulated(noise)), VELOCITY
             )
     return found
 
