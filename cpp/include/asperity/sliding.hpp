@@ -31,7 +31,7 @@ struct SlidingContact {
   double contact_area;              // A/A0 without the excess of the pixels' perimeter
   double contact_area_raw;          // share of the points that carry pressure
   double hysteresis;                // mu_H, energy that the rubber dissipates over load and way
-  double work_of_slopes;            // -<p dh/dx> / sigma0, equal to it but for the mesh
+  double work_of_slopes;            // -<p dh/dx> / sigma0, equal to it but for the mesh and the band of q_x = 0
   double elastic_energy;            // <p u> / 2 per nominal area [J/m^2]
   double error;                     // <p (gap - least gap)> / (sigma0 h_rms)
   std::vector<double> pressure;     // [Pa], row by row

@@ -22,11 +22,11 @@ namespace asperity {
 
 namespace {
 
-constexpr double enough = 0.3;    // of the residual is what a step leaves of it
+constexpr double enough = 0.4;    // of the residual is what a step leaves of it
 constexpr int most_vectors = 40;  // of GMRES, in pairs
 constexpr int patience = 150;     // steps in which the error must halve
 constexpr double worse = 1.2;     // by more than this no step may raise the residual
-constexpr double least_beta = 0.15, first_beta = 0.5, most_beta = 8;
+constexpr double least_beta = 0.15, first_beta = 0.5, most_beta = 1000;
 
 /// Points of a grid, row by row.
 struct PointSet {
@@ -75,12 +75,10 @@ class ContactSolver {
 
   ContactSolution solve(std::vector<double> start, double rtol, Deadline deadline) {
     state_ = std::move(start);
-    bool flat = state_.empty();
-    if (flat) state_.assign(size_, problem_.load);
+    if (state_.empty()) state_.assign(size_, problem_.load);
     normalise(state_);
     evaluate(state_, gap_);
-    double level = weighted_gap(state_, gap_);
-    set_ = points(problem_.shape, [&](std::size_t i) { return state_[i] > 0 || gap_[i] < level; });
+    set_ = points(problem_.shape, [&](std::size_t i) { return state_[i] > 0; });
     double beta = first_beta, merit = std::numeric_limits<double>::infinity();
     double best = merit;
     int best_step = 0;
@@ -89,7 +87,7 @@ class ContactSolver {
       set_beta(beta);
       newton_step();
       evaluate(next_, next_gap_);
-      level = weighted_gap(next_, next_gap_);
+      const double level = weighted_gap(next_, next_gap_);
       const auto [error, residual] = measure(next_, next_gap_, level);
       const bool accepted = residual < worse * merit;
       result.steps = step;
@@ -190,11 +188,10 @@ class ContactSolver {
     subtract_mean(to, set_.size());
   }
 
-  /// From state and gap to the pressure `next_`; `raw_` is that of the points of the set before it was cut off at 0.
+  /// From state and gap to the pressure `next_`, and which points of the set fell below 0 and leave it.
   void newton_step() {
     const std::size_t n = set_.size(), nx = problem_.shape[1];
     std::vector<float> right(n), change(n);
-    for_each_point([&](std::size_t i, std::size_t at) { right[i] = -static_cast<float>(gap_[at]); }, nx);
     double sum = 0;
     for_each_point([&](std::size_t, std::size_t at) { sum += gap_[at]; }, nx);
     const double mean = sum / static_cast<double>(n);
