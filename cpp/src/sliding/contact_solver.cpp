@@ -1,5 +1,5 @@
 // Semismooth Newton iteration for the contact: on the set S of points in contact K p - h is a constant, outside of it p
-// is 0; points whose pressure falls below 0 leave S, points with a negative gap join it (M. Hintermueller, K. Ito and
+// is 0; points whose pressure falls below 0 leave S, points of negative gap join it (M. Hintermueller, K. Ito and
 // K. Kunisch, SIAM J. Optim. 13, 865 (2002)). Pressures of zero sum on S leave the constant out. Each step is solved
 // roughly, by GMRES in single precision with the complex 1 / K on S as preconditioner; the gap is computed in double.
 //
@@ -24,8 +24,9 @@ namespace {
 
 constexpr double enough = 0.4;    // of the residual is what a step leaves of it
 constexpr int most_vectors = 40;  // of GMRES, in pairs
-constexpr int patience = 150;     // steps in which the error must halve
+constexpr int patience = 200;     // steps in which the error must halve
 constexpr double worse = 1.2;     // by more than this no step may raise the residual
+constexpr double deep = 0.25;     // of the deepest penetration: points that reach it join the set
 constexpr double least_beta = 0.15, first_beta = 0.5, most_beta = 1000;
 
 /// Points of a grid, row by row.
@@ -96,7 +97,7 @@ class ContactSolver {
         merit = residual;
         std::swap(state_, next_);
         std::swap(gap_, next_gap_);
-        set_ = next_set(level);
+        set_ = next_set(level - deep * error);
         result.error = error;
         if (error < 0.5 * best) {
           best = error;
@@ -218,15 +219,16 @@ class ContactSolver {
       for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i) visit(i, y * nx + set_.column[i]);
   }
 
-  /// Points of the set whose pressure stayed positive, and others whose gap is below the level.
-  [[nodiscard]] PointSet next_set(double level) const {
+  /// Points of the set whose pressure stayed positive, and others whose gap is below `depth`. Where all points of
+  /// negative gap join at once, the next step throws most of them out again.
+  [[nodiscard]] PointSet next_set(double depth) const {
     std::size_t i = 0, y = 0;
     const std::size_t nx = problem_.shape[1];
     return points(problem_.shape, [&](std::size_t at) {
       y = at / nx;
       while (i < set_.first[y]) ++i;
       if (i < set_.first[y + 1] && set_.column[i] == at - y * nx) return !leaves_[i++];
-      return gap_[at] < level;
+      return gap_[at] < depth;
     });
   }
 
