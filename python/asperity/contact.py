@@ -44,7 +44,7 @@ def contact_model(
     if correction is not None and not isinstance(correction, CORRECTIONS):
         names = ", ".join(kind.__name__ for kind in CORRECTIONS)
         raise InvalidInput(f"correction = {brief(correction)}: must be None or one of {names}")
-    return _core.ContactModel(
+    return (
         number(poisson_ratio, "poisson_ratio"),
         None if correction is None else correction._core,
         choice(form, "form", FORMS),

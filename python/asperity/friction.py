@@ -232,9 +232,9 @@ PeaksThenGreenwoodWilliamson or None
     count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     rows, notes, shares = _core.friction(*parts, model, added, p, v, told, count)
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
-    given: dict[str, Any] = {"notes": notes}
+    given: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), notes=notes)
     if shares is not None:
         q, density, edges, share = map(frozen, shares)
         given |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}
         given |= {"decade_edges": edges, "decade_share": share.reshape(*shape, len(edges) - 1)}
-    return Friction._made(zip(COLUMNS, columns, strict=True), **given)
+    return Friction._made(given)

@@ -1,6 +1,7 @@
 """Friction maps for simulators: built to a tolerance, certified, looked up in nanoseconds."""
 
 import os
+from collections.abc import Callable
 from dataclasses import field
 from functools import cached_property
 from typing import Any, Literal
@@ -361,9 +362,12 @@ def friction_map(
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
 
     Cells are halved until hysteresis and contact area keep rtol / 2 on lattices of 5 x 5 and on
-    random points that nothing was made from, 12 a cell; then the finished map is checked on more
-    random points. Where a Greenwood-Williamson correction changes its state (full contact, beyond
-    its range) the map is split along the boundary, where mu has a kink.
+    random points that nothing was made from, 12 a cell. There they are held against polynomials
+    through 12 x 12 points of the solver each, halved until they keep rtol / 40 on random points of
+    their own. Then the finished map is checked against the solver itself on more random points,
+    where a mistake of the polynomials would show. Where a Greenwood-Williamson correction changes
+    its state (full contact, beyond its range) the map is split along the boundary, where mu has a
+    kink.
 
     Parameters
     ----------
@@ -375,7 +379,8 @@ def friction_map(
         Relative, of hysteresis and area and so of mu, 1e-12 to 0.1. Cells grow in number as
         rtol^(-1/2).
     checked : int
-        Random points of the last check; a million take a second with a Prony series.
+        Random points of the last check, 200 random pressures at each of as many random velocities
+        as make them up; a million take a second with a Prony series.
     text : str
         Lines to keep in the file, for whoever reads it; unless given, what stands for the
         arguments.
@@ -408,6 +413,42 @@ def friction_map(
     >>> round(fmap.mu(81e3, 1e-2), 4)
     0.0205
     """
+    return built(
+        spectrum,
+        rubber,
+        None,
+        pressure=pressure,
+        velocity=velocity,
+        rtol=rtol,
+        poisson_ratio=poisson_ratio,
+        correction=correction,
+        adhesion=adhesion,
+        form=form,
+        method=method,
+        checked=checked,
+        text=text,
+        threads=threads,
+    )
+
+
+def built(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    told: Callable[[float], None] | None,
+    *,
+    pressure: tuple[float, float],
+    velocity: tuple[float, float],
+    rtol: float = 1e-4,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    adhesion: Adhesion | None = None,
+    form: Form = "exact",
+    method: Method = "gauss",
+    checked: int = 1_000_000,
+    text: str = "",
+    threads: int | None = None,
+) -> FrictionMap:
+    """`friction_map`, which calls `told` with the share of the work that is done, now and then."""
     if not isinstance(text, str):
         raise InvalidInput(f"text = {brief(text)}: must be a str")
     parts = surface_and_rubber(spectrum, rubber)
@@ -430,6 +471,7 @@ def friction_map(
         whole(checked, "checked"),
         lines,
         0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
+        told,
     )
     return FrictionMap(content=content)
 

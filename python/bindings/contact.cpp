@@ -74,12 +74,6 @@ void bind_corrections(py::module_& m) {
 
 void bind_contact(py::module_& m) {
   bind_corrections(m);
-  py::classh<ContactModel>(m, "ContactModel")
-      .def(py::init(
-          [](double poisson_ratio, const std::optional<Correction>& correction, int form, double rtol, int method) {
-            return ContactModel{poisson_ratio, correction.value_or(NoCorrection{}), static_cast<Form>(form), rtol,
-                                static_cast<Method>(method)};
-          }));
   m.def("hertz_penetration", &hertz_penetration);
   m.def("separation", &separations);
   bind_over_wavenumber(m, "contact_area", &contact_area);

@@ -24,8 +24,13 @@ FrictionMap read(const py::bytes& content, const std::string& name) {
 
 py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::array<double, 2> pressure, std::array<double, 2> velocity,
-                double rtol, std::size_t checked, const std::string& text, unsigned threads) {
-  const MapRequest request{pressure, velocity, rtol, checked, text, threads};
+                double rtol, std::size_t checked, const std::string& text, unsigned threads, const py::object& told) {
+  MapRequest request{pressure, velocity, rtol, checked, text, threads};
+  if (!told.is_none())
+    request.progress = [&told](double share) {
+      const py::gil_scoped_acquire held;
+      told(share);
+    };
   const auto file = released([&] { return build_friction_map(spectrum, rubber, model, adhesion, request); });
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }

@@ -1,11 +1,14 @@
-// Arguments that may be one of several classes of the core, none of which need be default constructible.
+// Arguments that are of no class of the module's own: one of several classes, or a tuple.
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <optional>
+#include <tuple>
 #include <variant>
 
+#include "asperity/contact.hpp"
 #include "asperity/rubber.hpp"
 #include "asperity/spectrum.hpp"
 
@@ -34,6 +37,26 @@ struct OneOf<std::variant<Classes...>> {
   std::optional<Variant> found_;
 };
 
+/// How the contact is computed: from the tuple (poisson_ratio, correction or None, form, rtol, method), which is made
+/// faster than an object of a class.
+struct ModelOfTuple {
+  static constexpr auto name = pybind11::detail::const_name("tuple");
+  template <class>
+  using cast_op_type = const ContactModel&;
+
+  bool load(pybind11::handle from, bool) {
+    auto [poisson_ratio, correction, form, rtol, method] =
+        from.cast<std::tuple<double, std::optional<Correction>, int, double, int>>();
+    model_ = {poisson_ratio, correction ? *std::move(correction) : NoCorrection{}, static_cast<Form>(form), rtol,
+              static_cast<Method>(method)};
+    return true;
+  }
+  operator const ContactModel&() const { return model_; }  // NOLINT: pybind11 asks for a conversion
+
+ private:
+  ContactModel model_;
+};
+
 }  // namespace asperity::python
 
 namespace pybind11::detail {
@@ -41,4 +64,6 @@ template <>
 struct type_caster<asperity::Spectrum> : asperity::python::OneOf<asperity::Spectrum> {};
 template <>
 struct type_caster<asperity::Rubber> : asperity::python::OneOf<asperity::Rubber> {};
+template <>
+struct type_caster<asperity::ContactModel> : asperity::python::ModelOfTuple {};
 }  // namespace pybind11::detail

@@ -1,4 +1,7 @@
-"""Friction curves known to sixteen digits, tests/reference/friction_curves.csv, and ours."""
+"""Friction curves known to thirteen digits and more, and ours.
+
+Self-affine surfaces are tests/reference/friction_curves.csv, rings of a scan friction_rings.csv.
+"""
 
 import csv
 from collections.abc import Callable
@@ -11,34 +14,56 @@ from moduli import Array, Prony, Steffen
 
 import asperity
 
-TABLE = Path(__file__).parents[1] / "reference" / "friction_curves.csv"
+TABLES = Path(__file__).parents[1] / "reference"
 MOST = 20  # velocities of a curve of the diagrams
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A self-affine surface, a rubber, a pressure and velocities; S of the uncorrected P in Eq. 22.
+    """A surface, a rubber, a pressure and velocities; S of the uncorrected P in Eq. 22.
 
     `inputs` holds the row of the table, `modulus` the rubber in NumPy, `truth` mu_H.
     """
 
     name: str
     inputs: dict[str, Any]
-    road: asperity.SelfAffineSpectrum
+    road: asperity.SelfAffineSpectrum | asperity.TabulatedSpectrum
     rubber: asperity.PronySeries | asperity.MasterCurve
     modulus: Prony | Steffen
     velocity: Array  # [m/s]
     truth: Array
 
     @property
+    def measured(self) -> bool:
+        """Whether the surface is rings of a scan."""
+        return isinstance(self.road, asperity.TabulatedSpectrum)
+
+    @property
     def density(self) -> float:
         """C(q0) [m^4]."""
-        rms, hurst, q0, q1 = (self.inputs[key] for key in ("rms_height", "hurst", "q0", "q1"))
+        if self.measured:
+            return self.inputs["table_density"][0]
+        rms, hurst = self.inputs["rms_height"], self.inputs["hurst"]
+        q0, q1 = self.road.q0, self.road.q1
         return hurst / np.pi * (rms / q0) ** 2 / (1 - (q1 / q0) ** (-2 * hurst))
+
+    def power(self, s: Array) -> Array:
+        """q^4 C over that at q0, at s = ln(q / q0)."""
+        if self.measured:
+            density = np.log(self.inputs["table_density"] / self.density)
+            return np.exp(4 * s + np.interp(s, self.rings, density))
+        return np.exp((2 - 2 * self.inputs["hurst"]) * s)
+
+    @property
+    def rings(self) -> Array:
+        """s of the rows of a scan's spectrum, none of a closed form."""
+        return (
+            np.log(self.inputs["table_wavenumber"] / self.road.q0) if self.measured else np.empty(0)
+        )
 
     @property
     def length(self) -> float:
-        return np.log(self.inputs["q1"] / self.inputs["q0"])
+        return np.log(self.road.q1 / self.road.q0)
 
     @property
     def correction(self) -> asperity.SFactor:
@@ -70,8 +95,17 @@ class Curve:
 
 
 def curves() -> dict[str, Curve]:
-    """All of the table, by their names."""
-    with TABLE.open(encoding="utf-8") as file:
+    """The self-affine ones, by their names."""
+    return _curves("friction_curves.csv")
+
+
+def measured_curves() -> dict[str, Curve]:
+    """Those on rings, by their names."""
+    return _curves("friction_rings.csv")
+
+
+def _curves(table: str) -> dict[str, Curve]:
+    with (TABLES / table).open(encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return {row["case"]: _curve(row) for row in rows}
 
@@ -83,7 +117,6 @@ def _curve(row: dict[str, str]) -> Curve:
         for key, cell in row.items()
         if cell
     }
-    surface = {key: inputs[key] for key in ("rms_height", "hurst", "q0", "q1")}
     rubber: Any
     make: Callable[..., Any]
     if "moduli" in inputs:
@@ -95,6 +128,13 @@ def _curve(row: dict[str, str]) -> Curve:
         table = [inputs[key] for key in ("table_frequency", "table_storage", "table_loss")]
         rubber, make = dict(zip(columns, table, strict=True)), asperity.MasterCurve
         modulus = Steffen(*table)
-    road = asperity.SelfAffineSpectrum(**surface)
+    road: Any
+    if "hurst" in inputs:
+        names = ("rms_height", "hurst", "q0", "q1")
+        road = asperity.SelfAffineSpectrum(**{key: inputs[key] for key in names})
+    else:
+        road = asperity.TabulatedSpectrum(
+            wavenumber=inputs["table_wavenumber"], density=inputs["table_density"]
+        )
     velocity, truth = inputs["velocities"], inputs["hystereses"]
     return Curve(name, inputs, road, make(**rubber), modulus, velocity, truth)

@@ -109,6 +109,7 @@ class Steffen:
         c = 1 / np.cosh(z)
         t = np.log(w[:, None] * c)
         t -= self.x[i]
+        np.clip(t, 0, self.x[i + 1] - self.x[i], out=t)  # of no width where w is below the interval
         modulus, rise = [], []
         for a, b, d, e in (part[i] for part in self.cubics):
             modulus.append(np.exp(a + t * (b + t * (d + t * e))))

@@ -1,10 +1,11 @@
-"""Cost over the number of Prony terms and over the number of points: both linear.
+"""Cost over the number of Prony terms and of points, both linear, and of rings, which is not.
 
     python tests/benchmarks/scaling.py [--output DIR]
 
 Table 1's surface and conditions at rtol 1e-6: 60 velocities of series of 1 to 200 terms over the
 same range of relaxation times, and 1 to 1e6 points of 20 terms, each with a velocity of its own or
-as a grid of as many pressures as velocities.
+as a grid of as many pressures as velocities. Last 60 velocities on 30 to 10,000 rings of a scan,
+with the series and with a noisy master curve of 140 rows, after a first call that prepares them.
 """
 
 from pathlib import Path
@@ -12,13 +13,15 @@ from typing import Any
 
 import numpy as np
 import timing
-from curves import Curve, curves
+from curves import Curve, curves, measured_curves
+from rings import rings
 
 import asperity
 from asperity.plot.curves import COLOURS, new_figure, picture
 
 TERMS = (1, 2, 5, 10, 20, 50, 100, 200)
 POINTS = tuple(10**k for k in range(7))
+ROWS = (30, 100, 300, 1000, 3000, 10000)
 SMALL = 100  # below this part of the largest count the call costs more than what is counted
 
 
@@ -34,13 +37,15 @@ def series(curve: Curve, terms: int) -> asperity.PronySeries:
     )
 
 
-def seconds(curve: Curve, rubber: Any, pressure: Any, velocity: Any) -> float:
+def seconds(curve: Curve, rubber: Any, pressure: Any, velocity: Any, road: Any = None) -> float:
+    inputs = (curve.road if road is None else road, rubber)
     conditions = {"pressure": pressure, "velocity": velocity, "correction": curve.correction}
-    return timing.typical(lambda: asperity.friction(curve.road, rubber, **conditions), 9)
+    asperity.friction(*inputs, **conditions)  # prepares what is kept with them
+    return timing.typical(lambda: asperity.friction(*inputs, **conditions), 9)
 
 
 def measure() -> dict[str, dict[int, float]]:
-    """Seconds by the number of terms, and by that of points."""
+    """Seconds by the number of terms, by that of points, and by that of rings."""
     curve = curves()["Table 1"]
     load = curve.inputs["pressure"]
     found: dict[str, dict[int, float]] = {
@@ -55,6 +60,11 @@ def measure() -> dict[str, dict[int, float]]:
         found["grid"][side**2] = seconds(
             curve, curve.rubber, pressure, np.geomspace(1e-6, 10, side)
         )
+    table = measured_curves()["392 rings, master curve"].rubber
+    for name, rubber in (("rings", curve.rubber), ("rings, master curve", table)):
+        found[name] = {
+            n: seconds(curve, rubber, load, np.geomspace(1e-5, 1, 60), rings(n, 8)) for n in ROWS
+        }
     return found
 
 
@@ -72,7 +82,7 @@ def straight(found: dict[int, float]) -> tuple[float, float]:
 
 
 def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
-    figure, (left, right) = new_figure(2)
+    figure, (left, right, last) = new_figure(3)
     start, slope = straight(found["terms"])
     n = np.array([0, max(TERMS)])
     left.plot(n, 1e3 * (start + slope * n), "--", color="0.5", linewidth=1, label="straight line")
@@ -95,6 +105,19 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
     right.set_xscale("log")
     right.set_yscale("log")
     right.legend(loc="upper left", fontsize="small", frameon=False)
+    for name, label, colour in (
+        ("rings", "20 Prony terms", COLOURS[0]),
+        ("rings, master curve", "master curve of 140 rows", COLOURS[1]),
+    ):
+        n, times = np.array(list(found[name].items())).T
+        last.plot(n, 1e6 * times / 60, "o-", color=colour, label=label)
+    closed = 1e6 * found["terms"][20] / 60
+    last.axhline(closed, color="0.5", linestyle="--", linewidth=1, label="closed form, 20 terms")
+    last.set_ylim(bottom=0)
+    last.set_xlabel("Rings of the scan [-]")
+    last.set_ylabel("Time a velocity [us]")
+    last.set_xscale("log")
+    last.legend(loc="upper left", fontsize="small", frameon=False)
     return picture(figure, path)
 
 

@@ -18,7 +18,7 @@ from scipy.special import erf
 def factors(curve: Curve) -> tuple[float, float]:
     """Of dG/ds = g q^4 C I2 and dmu/ds = m q^4 C I1, with C(q0) q0^4 taken in."""
     stiff = 1 / ((1 - curve.inputs["poisson_ratio"] ** 2) * curve.inputs["pressure"])
-    at_q0 = curve.inputs["q0"] ** 4 * curve.density
+    at_q0 = curve.road.q0**4 * curve.density
     return at_q0 * stiff**2 / 8, at_q0 * stiff / 2
 
 
@@ -26,9 +26,9 @@ def rates(curve: Curve, s: Array, velocity: Array) -> tuple[Array, Array]:
     """dG/ds, and dmu/ds without P S; `velocity` goes with the first axis of s."""
     g, m = factors(curve)
     w = np.exp(s)
-    w *= (np.asarray(velocity) * curve.inputs["q0"]).reshape(-1, *[1] * (s.ndim - 1))
+    w *= (np.asarray(velocity) * curve.road.q0).reshape(-1, *[1] * (s.ndim - 1))
     i1, i2 = (column.reshape(s.shape) for column in curve.modulus(w.ravel()))
-    power = np.exp((2 - 2 * curve.inputs["hurst"]) * s)
+    power = curve.power(s)
     i2 *= power
     i2 *= g
     i1 *= power
@@ -62,16 +62,17 @@ def gauss(count: int) -> tuple[Array, Array, Array]:
 def graded_panels(
     curve: Curve, nodes: int = 16, growth: float = 4, first: float = 0.3, longest: float = 0.7
 ) -> Array:
-    """Gauss-Legendre panels that grow from the front of each velocity, ending at the table's knots.
+    """Gauss-Legendre panels that grow from the front of each velocity, ending at a table's rows.
 
     The first panel is `first` fronts long, the next grow by factors of about `growth` up to a
-    length `longest` in ln q; `nodes` in each.
+    length `longest` in ln q; `nodes` in each. Rows are those of the modulus, and of a scan's rings.
     """
     front = first / rates(curve, np.zeros((curve.velocity.size, 1)), curve.velocity)[0]
     front = np.minimum(front, longest)
     grown = max(1, int(np.ceil(np.log(longest / front.min()) / np.log(growth))))
     steps = (longest / front) ** (np.arange(grown + 1) / grown)
     rest = np.linspace(0, curve.length, 1 + int(np.ceil(curve.length / longest)))
+    rest = np.union1d(rest, curve.rings[:-1])
     edges = np.sort(_merged(front * steps, rest, _knots(curve)).clip(0, curve.length), axis=1)
     half = np.diff(edges)[:, :, None] / 2
     x, w, matrix = gauss(nodes)
@@ -97,7 +98,7 @@ def _knots(curve: Curve) -> Array:
     """Where w passes the knots of a table, s by velocity; 0 where outside of the band."""
     if not hasattr(curve.modulus, "knots"):
         return np.zeros((curve.velocity.size, 0))
-    s = np.log(curve.modulus.knots / (curve.velocity[:, None] * curve.inputs["q0"]))
+    s = np.log(curve.modulus.knots / (curve.velocity[:, None] * curve.road.q0))
     s = np.sort(np.where((s > 0) & (s < curve.length), s, 0), axis=1)
     return s[:, (s > 0).any(axis=0)]
 
@@ -112,12 +113,12 @@ def by_parts(curve: Curve, nodes: int) -> Array:
     t = (1 + x) / 2
     s = curve.length * t * t
     weights = w * curve.length * t
-    omega = (curve.velocity * curve.inputs["q0"])[:, None] * np.exp([*s, curve.length])
+    omega = (curve.velocity * curve.road.q0)[:, None] * np.exp([*s, curve.length])
     columns = [c.reshape(omega.shape) for c in curve.modulus.with_slopes(omega.ravel())]
     i1, i2, slope1, slope2 = columns
     r = i1 / i2
     r_slope = ((slope1 - r * slope2) / i2)[:, :-1]
-    power = factors(curve)[0] * np.exp((2 - 2 * curve.inputs["hurst"]) * s)
+    power = factors(curve)[0] * curve.power(s)
     g_rate = i2[:, :-1] * (power * curve.length * t)
     f = friction_integral(curve.inputs["gamma"])
     whole = r[:, -1] * f(g_rate @ w) - (r_slope * f(np.maximum(g_rate @ matrix, 0))) @ weights

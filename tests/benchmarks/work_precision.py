@@ -2,11 +2,13 @@
 
     python tests/benchmarks/work_precision.py [--output DIR]
 
-Scenes and truth are those of tests/reference/friction_curves.csv, known to 16 digits and not by
-this code. One thread; the time is the median of a few runs, the error the worst of the curve. Each
-line is one method, from coarse to fine: ours and GSL's by rtol 1e-2 to 1e-12, by parts and the
-graded panels by their nodes, the logarithmic grid by its points from 30 to 1e5, nested quad by
-epsrel (timed on two of the velocities). A line ends with the first point that takes over a second.
+Scenes and truth are those of tests/reference: rings of a scan (friction_rings.csv), known to 13
+digits, then closed forms (friction_curves.csv), to 16, and not by this code. One thread; the time
+is the median of a few runs, the error the worst of the curve. Each line is one method, from coarse
+to fine: ours and GSL's by rtol 1e-2 to 1e-12, by parts and the graded panels by their nodes, the
+logarithmic grid by its points from 30 to 1e5, nested quad by epsrel (timed on two of the
+velocities; on rings it takes minutes and is left out). A line ends with the first point that takes
+over a second.
 """
 
 import warnings
@@ -17,7 +19,7 @@ from typing import Any
 
 import numpy as np
 import timing
-from curves import Curve, curves
+from curves import Curve, curves, measured_curves
 from schemes import by_parts, graded_panels, log_trapezoid, nested_quad
 
 from asperity import NotConverged
@@ -27,6 +29,7 @@ RTOLS = [10.0**-k for k in range(2, 13)]
 # nodes, growth, first and longest panel, as good as each number of nodes can be on these curves
 PANELS = [(6, 9, 0.3, 3), (8, 6, 0.3, 3), (12, 9, 0.3, 3), (14, 6, 0.3, 3), (20, 4, 0.15, 1.5)]
 PANELS += [(24, 3, 0.1, 1)]
+ON_RINGS = (2, 3, 4, 6, 8, 12)  # nodes a panel, one and more a ring
 LONGEST = 1.0  # seconds of a curve
 FLOOR, CEILING = 1e-16, 1e3  # of the errors that are shown
 STYLES: dict[str, dict[str, Any]] = {
@@ -45,10 +48,11 @@ def lines(curve: Curve) -> dict[str, dict[str, timing.Call]]:
     """Calls of each method by their setting, from coarse to fine."""
     points = [30, 100, 300, 1000, 3000, 10000, 30000, 100000]
     nodes = [8, 12, 16, 24, 32, 48, 64, 96, 128]
+    panels = [(n, 2, 0.03, 1) for n in ON_RINGS] if curve.measured else PANELS
     found: dict[str, dict[str, timing.Call]] = {
         "ours": {f"{rtol:.0e}": partial(curve.ours, rtol) for rtol in RTOLS},
         "by parts, fixed nodes": {str(n): partial(by_parts, curve, n) for n in nodes},
-        "graded panels": {f"{p[0]} a panel": partial(graded_panels, curve, *p) for p in PANELS},
+        "graded panels": {f"{p[0]} a panel": partial(graded_panels, curve, *p) for p in panels},
         "logarithmic trapezoid": {str(n): partial(log_trapezoid, curve, n) for n in points},
     }
     for name in ("QAG", "QAGS", "CQUAD"):
@@ -70,6 +74,8 @@ def measure(curve: Curve) -> Iterator[tuple[str, str, float, float]]:
             yield name, setting, elapsed, error
             if elapsed > LONGEST:
                 break
+    if curve.measured:
+        return
     few = curve.of_velocities(slice(3, None, 10))
     for rtol in (1e-2, 1e-5, 1e-9):
         with warnings.catch_warnings(action="ignore"):  # scipy knows where it does not converge
@@ -85,11 +91,11 @@ def measure(curve: Curve) -> Iterator[tuple[str, str, float, float]]:
 
 
 def draw(rows: list[tuple[str, str, str, float, float]], path: Path) -> bytes:
-    figure, panels = new_figure(6)
+    figure, panels = new_figure(8)
     for axes, case in zip(panels, dict.fromkeys(row[0] for row in rows), strict=True):
         for name, style in STYLES.items():
             points = [row[3:] for row in rows if row[:2] == (case, name)]
-            time, error = np.array(points).T
+            time, error = np.array(points).reshape(-1, 2).T
             axes.plot(time, error.clip(FLOOR, CEILING), label=name, markersize=5, **style)
         axes.set_title(case, fontsize="medium")
         axes.set_xscale("log")
@@ -125,7 +131,8 @@ def summary(rows: list[tuple[str, str, str, float, float]]) -> str:
 
 
 def make() -> timing.Report:
-    rows = [(name, *row) for name, curve in curves().items() for row in measure(curve.thinned())]
+    scenes = measured_curves() | curves()
+    rows = [(name, *row) for name, curve in scenes.items() for row in measure(curve.thinned())]
     names = ("scene", "method", "setting", "time_s", "error")
     columns = dict(zip(names, zip(*rows, strict=True), strict=True))
     files = {"work_precision.csv": timing.table("benchmark work_precision", columns)}

@@ -1,7 +1,7 @@
 """Random scenes: the error estimates of friction and of the area against the errors they have.
 
     python tests/stability/random_scenes.py [--scenes 10000] [--seed 1] [--tables 0.3] [--edges 0]
-        [--rings 0]
+        [--rings 0] [--curves 0]
 
 Surfaces, rubbers (Prony series of 1 to 20 terms, or tables of 4 to 40 rows with kinks), pressures,
 velocities, corrections of every kind, adhesion, forms and tolerances are drawn over many decades,
@@ -10,7 +10,9 @@ falling to a row of zero or rising from one, 25 decades steep, with notches and 
 a millionth to nine decades, some with relaxation times that differ in the twelfth digit; half of
 these take the interpolated form, and their densities make G at the upper end about 1e-8 to 1e12.
 A share of `rings` has 32 to 300 rows at equal steps of q, as of a scan, smooth or with scatter,
-steps, lines, empty rows or traces before the roughness.
+steps, lines, empty rows or traces before the roughness. A share of `curves` of the rubbers is a
+master curve of 4 to 1000 rows, smooth or with noise, plateaus and rows beside each other; with any,
+tolerances are those for which rings are taken together.
 The truth is GSL's adaptive integration at rtol = 1e-11, method="qag" and, where that disagrees or
 does not converge, method="cquad". Printed: scenes whose estimate, with that
 of the truth, was exceeded, or whose area is off by more than the tolerance, what did not converge,
@@ -164,6 +166,28 @@ def draw_rubber(rng: Any, tables: float, slowest: float, fastest: float) -> Any:
     )
 
 
+def draw_curve(rng: Any, slowest: float, fastest: float) -> Any:
+    """A master curve as it is measured, its ends at the frequencies that are asked for at times."""
+    rows = int(power(rng, 0.6, 3))
+    beyond = 1 + (1e-9 if rng.random() < 0.3 else power(rng, -2, 2))
+    x = np.linspace(np.log(slowest / beyond), np.log(fastest * beyond), rows)
+    x[1:-1] += (x[1] - x[0]) * rng.uniform(0, 0.999) * (rng.random(rows - 2) - 0.5)
+    steps = rng.exponential(size=rows) * np.where(rng.random(rows) < rng.uniform(0, 0.8), 0, 1)
+    glass = 1 / (1 + np.exp(-rng.uniform(0.5, 3) * (x - rng.uniform(x[0], x[-1]))))
+    decades = rng.uniform(0, 4)
+    kind = rng.choice(["stairs", "glass", "flat"])
+    shape = {"stairs": np.cumsum(steps) / steps.sum() if steps.sum() > 0 else 0 * x, "glass": glass}
+    storage = power(rng, 5, 7) * 10 ** (decades * shape.get(kind, 0 * x))
+    tangent = power(rng, -2, 0) * (1 + 20 * rng.random() * glass * (1 - glass))
+    noise = 0 if rng.random() < 0.3 else power(rng, -4, -0.5)
+    return asperity.MasterCurve(
+        angular_frequency=np.exp(x),
+        storage_modulus=storage * np.exp(noise * rng.standard_normal(rows)),
+        loss_modulus=storage * tangent * np.exp(noise * rng.standard_normal(rows)),
+        extrapolation=rng.choice([None, "power-law", "clamp"]) if rng.random() < 0.2 else None,
+    )
+
+
 def draw_correction(rng: Any, height: float) -> Any:
     """Any of them; heights of macro-asperities follow the rms height of the surface."""
     kind = rng.choice(
@@ -207,7 +231,12 @@ def loaded(surface: Any, rubber: Any, pressure: float, velocity: float, g: float
 
 
 def compute(
-    seed: int, scene: int, tables: float, edges: float = 0.0, rings: float = 0.0
+    seed: int,
+    scene: int,
+    tables: float,
+    edges: float = 0.0,
+    rings: float = 0.0,
+    curves: float = 0.0,
 ) -> Outcome:
     """Scene number `scene` of a seed."""
     rng = np.random.default_rng([seed, scene])
@@ -216,8 +245,12 @@ def compute(
         surface, q0, q1 = draw_rings(rng)
     else:
         surface, q0, q1 = draw_edges(rng) if on_edge else draw_surface(rng, tables)
-    pressure, velocity, rtol = power(rng, 3, 8), power(rng, -6, 1), power(rng, -10, -2)
-    rubber = draw_rubber(rng, tables, velocity * q0, velocity * q1)
+    pressure, velocity = power(rng, 3, 8), power(rng, -6, 1)
+    rtol = power(rng, -7 if curves > 0 else -10, -2)
+    if curves > 0 and rng.random() < curves:
+        rubber = draw_curve(rng, velocity * q0, velocity * q1)
+    else:
+        rubber = draw_rubber(rng, tables, velocity * q0, velocity * q1)
     if on_edge:
         if rng.random() < 0.3:
             rubber = nearly_equal(rng, velocity * q0 * (q1 / q0) ** rng.uniform(-0.5, 1.5))
@@ -276,12 +309,18 @@ def main() -> int:
     parser.add_argument("--tables", type=float, default=0.3)
     parser.add_argument("--edges", type=float, default=0.0)
     parser.add_argument("--rings", type=float, default=0.0)
+    parser.add_argument("--curves", type=float, default=0.0)
     arguments = parser.parse_args()
     ratios, exceeded, unsolved, untold = [], 0, 0, 0
     for scene in range(arguments.scenes):
         try:
             outcome = compute(
-                arguments.seed, scene, arguments.tables, arguments.edges, arguments.rings
+                arguments.seed,
+                scene,
+                arguments.tables,
+                arguments.edges,
+                arguments.rings,
+                arguments.curves,
             )
         except NoTruth as error:
             untold += 1

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,11 +18,12 @@ namespace asperity {
 
 /// The range of a map and its tolerance.
 struct MapRequest {
-  std::array<double, 2> pressure, velocity;  // lo, hi [Pa], [m/s]
-  double rtol = 1e-4;                        // of mu_H and A/A0, and so of mu with any adhesion
-  std::size_t checked = 1'000'000;           // random points on which the finished map is checked
-  std::string_view text = {};                // lines for whoever reads the file, UTF-8
-  unsigned threads = 0;                      // at most, 0: as many as the machine has; the bytes are the same
+  std::array<double, 2> pressure, velocity;   // lo, hi [Pa], [m/s]
+  double rtol = 1e-4;                         // of mu_H and A/A0, and so of mu with any adhesion
+  std::size_t checked = 1'000'000;            // random points on which the finished map is checked
+  std::string_view text = {};                 // lines for whoever reads the file, UTF-8
+  unsigned threads = 0;                       // at most, 0: as many as the machine has; the bytes are the same
+  std::function<void(double)> progress = {};  // told the share of the work that is done, now and then
 };
 
 /// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in

@@ -1,6 +1,7 @@
 // Checks of arguments that contact and friction share.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "asperity/contact.hpp"
@@ -46,6 +47,12 @@ inline const char* way_beyond(const Rubber& rubber) {
   return "; extrapolation=\"prony\" of fit_prony goes on beyond them";
 }
 
+/// To six digits, no more than x.
+inline double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 5);
+  return std::floor(x / unit) * unit;
+}
+
 /// OutOfRange with the velocity in it where v q0 or v q1 leaves the measured frequencies.
 inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
   const std::optional<FrequencyRange> known = known_range(rubber);
@@ -54,13 +61,14 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, do
   const auto [q0, q1] = band(spectrum);
   const auto [lowest, highest] = *known;
   if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
-    throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
-                     " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) +
-                     " rad/s, known in [" + show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber) +
-                     (velocity * q0 < highest && highest < velocity * q1
-                          ? "; .truncated(q1=" + show(highest / velocity, 6) + ") ends the spectrum where it is known"
-                          : "") +
-                     "; velocities from " + show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
+    throw OutOfRange(
+        "velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
+        " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) + " rad/s, known in [" +
+        show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber) +
+        (velocity * q0 < highest && highest < velocity * q1
+             ? "; .truncated(q1=" + show(rounded_down(highest / velocity), 6) + ") ends the spectrum where it is known"
+             : "") +
+        "; velocities from " + show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
 }
 
 }  // namespace asperity

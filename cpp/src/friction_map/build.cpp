@@ -11,6 +11,7 @@
 #include "friction_map/refine.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
+#include "numerics/random.hpp"
 
 namespace asperity {
 
@@ -18,6 +19,9 @@ namespace {
 
 // Limits of the numbers in the file.
 constexpr double smallest = 1e-300, largest = 1e300;
+
+/// Of the whole work, as progress tells it: the points that cells are made from. The rest is the check.
+constexpr double sampling_share = 0.2;
 
 void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
   for (const auto& [name, box] : {std::pair{"pressure", request.pressure}, std::pair{"velocity", request.velocity}}) {
@@ -59,7 +63,7 @@ std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber
 void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, unsigned threads,
            MapCertificate& certificate) {
   constexpr std::size_t block = 20'000, pressures = 200;
-  Random random;
+  Random random(20261120);
   const auto [x_lo, x_hi] = frame.x();
   const double y_lo = frame.ln_pressure(0), y_hi = frame.ln_pressure(1);
   std::vector<MapPlace> places;
@@ -85,6 +89,9 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
           errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
       }
     });
+    if (request.progress)
+      request.progress(sampling_share + (1 - sampling_share) * static_cast<double>(done + places.size()) /
+                                            static_cast<double>(request.checked));
     for (const double error : errors) {
       certificate.largest_checked_error = std::fmax(certificate.largest_checked_error, error);
       if (!(error <= certificate.max_error)) ++certificate.exceeded;
@@ -107,7 +114,10 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
 
   const unsigned threads = request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
   const MapFrame frame(spectrum, rubber, model, request);
-  const RefinedMap refined = refine(frame, request.rtol, threads);
+  const auto sampled = [&](double share) {
+    if (request.progress) request.progress(share * (request.checked == 0 ? 1 : sampling_share));
+  };
+  const RefinedMap refined = refine(frame, request.rtol, threads, sampled);
   MapCertificate certificate{.max_error = refined.max_error};
   std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
   if (request.checked == 0) return file;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "asperity/friction_map.hpp"
 
@@ -36,11 +37,15 @@ class Index {
   };
 
   explicit Index(const MapTree& tree) : tree_(tree), cell_(tree.nodes().size(), 0) {
-    for (std::size_t i = 0; i < cell_.size(); ++i)
-      if (tree.nodes()[i].child < 0 && tree.nodes()[i].needed) cell_[i] = cells++;
     for (std::uint32_t band = 0; band < tree.bands(); ++band)
-      grids.push_back({0, band * MapTree::unit, MapTree::unit, MapTree::unit, 1, 1, 0});
-    for (std::size_t k = 0; k < grids.size(); ++k) fill(k);
+      add({0, band * MapTree::unit, MapTree::unit, MapTree::unit, 1, 1, 0});
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      const MapTree::Leaf& leaf = tree.nodes()[i];
+      if (leaf.child >= 0) continue;
+      if (leaf.needed) cell_[i] = cells++;
+      leaves_[leaf.z / MapTree::unit].push_back(i);
+    }
+    for (std::size_t k = 0; k < grids.size(); ++k) fill(k, std::exchange(leaves_[k], {}));
   }
 
   std::vector<Grid> grids;
@@ -48,43 +53,51 @@ class Index {
   std::int32_t cells = 0;
 
  private:
+  void add(const Grid& grid) {
+    grids.push_back(grid);
+    leaves_.emplace_back();
+  }
+
   /// As fine as the leaves in it where that takes no more than `dense` entries a leaf; finer parts have a grid of
   /// their own.
-  void fill(std::size_t k) {
+  void fill(std::size_t k, const std::vector<std::size_t>& leaves) {
     constexpr std::uint64_t dense = 8;
     Grid grid = grids[k];
     std::uint32_t narrowest = grid.wide, lowest = grid.high;
-    std::uint64_t leaves = 0;
-    for (const MapTree::Leaf& leaf : tree_.nodes()) {
-      if (leaf.child >= 0 || leaf.x + leaf.wide <= grid.x || leaf.x >= grid.x + grid.wide ||
-          leaf.z + leaf.high <= grid.z || leaf.z >= grid.z + grid.high)
-        continue;
-      narrowest = std::min(narrowest, leaf.wide);
-      lowest = std::min(lowest, leaf.high);
-      ++leaves;
+    for (const std::size_t at : leaves) {
+      narrowest = std::min(narrowest, tree_.nodes()[at].wide);
+      lowest = std::min(lowest, tree_.nodes()[at].high);
     }
-    while (std::uint64_t{grid.wide / narrowest} * (grid.high / lowest) > std::max<std::uint64_t>(dense * leaves, 2))
+    while (std::uint64_t{grid.wide / narrowest} * (grid.high / lowest) >
+           std::max<std::uint64_t>(dense * leaves.size(), 2))
       (grid.wide / narrowest > grid.high / lowest ? narrowest : lowest) *= 2;
     grid.columns = grid.wide / narrowest;
     grid.rows = grid.high / lowest;
     grid.first = static_cast<std::uint32_t>(entries.size());
     grids[k] = grid;
-    entries.resize(entries.size() + std::size_t{grid.columns} * grid.rows);
-    for (std::uint32_t i = 0; i < grid.columns; ++i)
-      for (std::uint32_t j = 0; j < grid.rows; ++j) {
-        const std::uint32_t x = grid.x + i * narrowest, z = grid.z + j * lowest;
-        const std::size_t at = tree_.leaf_around(2 * x + narrowest + 1, 2 * z + lowest + 1);
-        const MapTree::Leaf& leaf = tree_.nodes()[at];
-        std::int32_t& entry = entries[grid.first + std::size_t{i} * grid.rows + j];
-        if (leaf.wide >= narrowest && leaf.high >= lowest) {
-          entry = cell_[at];
-        } else {
-          entry = -1 - static_cast<std::int32_t>(grids.size());
-          grids.push_back({x, z, narrowest, lowest, 1, 1, 0});
+    constexpr std::int32_t none = -1;  // grid 0 is in no other one
+    entries.resize(entries.size() + std::size_t{grid.columns} * grid.rows, none);
+    for (const std::size_t at : leaves) {
+      const MapTree::Leaf& leaf = tree_.nodes()[at];
+      const std::uint32_t left = std::max(leaf.x, grid.x), right = std::min(leaf.x + leaf.wide, grid.x + grid.wide);
+      const std::uint32_t bottom = std::max(leaf.z, grid.z), top = std::min(leaf.z + leaf.high, grid.z + grid.high);
+      for (std::uint32_t i = (left - grid.x) / narrowest; grid.x + i * narrowest < right; ++i)
+        for (std::uint32_t j = (bottom - grid.z) / lowest; grid.z + j * lowest < top; ++j) {
+          std::int32_t& entry = entries[grid.first + std::size_t{i} * grid.rows + j];
+          if (leaf.wide >= narrowest && leaf.high >= lowest) {
+            entry = cell_[at];
+            continue;
+          }
+          if (entry == none) {
+            entry = -1 - static_cast<std::int32_t>(grids.size());
+            add({grid.x + i * narrowest, grid.z + j * lowest, narrowest, lowest, 1, 1, 0});
+          }
+          leaves_[static_cast<std::size_t>(-1 - entry)].push_back(at);
         }
-      }
+    }
   }
 
+  std::vector<std::vector<std::size_t>> leaves_;  // of the tree, in each grid that is not filled yet
   const MapTree& tree_;
   std::vector<std::int32_t> cell_;
 };

@@ -61,6 +61,20 @@ double MapFrame::log_modulus_offset(double x) const {
   return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i)).value;
 }
 
+bool MapFrame::touches_box(const MapPlace& corner, const MapPlace& size) const {
+  if (offset_.empty()) return true;
+  constexpr double margin = 1e-9;
+  constexpr int steps = 16;
+  double lowest = log_modulus_offset(corner.x), highest = lowest;
+  for (int i = 1; i <= steps; ++i) {
+    const double s = log_modulus_offset(corner.x + i * (size.x / steps));
+    lowest = std::fmin(lowest, s);
+    highest = std::fmax(highest, s);
+  }
+  const double slack = (highest - lowest) / steps + margin;
+  return corner.z + size.z + highest >= y_lo_ - slack && corner.z + lowest <= y_hi_ + slack;
+}
+
 void MapFrame::make_log_modulus_offset(double tolerance) {
   const auto exact = [&](double x) {
     const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);

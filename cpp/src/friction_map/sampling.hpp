@@ -32,6 +32,10 @@ class MapFrame {
   /// s and s' at nodes, for the file; empty where s is 0.
   [[nodiscard]] const std::vector<double>& log_modulus_nodes() const { return offset_; }
   [[nodiscard]] bool hysteresis() const { return hysteresis_; }
+  /// Whether any of a rectangle with its lower corner there is in the box; one at its very edge is.
+  [[nodiscard]] bool touches_box(const MapPlace& corner, const MapPlace& size) const;
+  /// What the solver is asked for.
+  [[nodiscard]] double solver_rtol() const { return model_.rtol; }
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
 

@@ -1,17 +1,16 @@
 // The texts of refused arguments: out of line, as every file checks arguments and none needs to compile this again.
 #include "numerics/arguments.hpp"
 
-#include <locale>
-#include <sstream>
+#include <charconv>
+#include <iterator>
 
 namespace asperity {
 
+// As std::to_chars writes it: no locale of a host puts a decimal comma in.
 std::string show(double value, int digits) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());  // a host may have made a decimal comma the default of its streams
-  text.precision(digits);
-  text << value;
-  return text.str();
+  char text[64];  // of 17 digits at most, which tell every double
+  const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, digits).ptr;
+  return {text, end};
 }
 
 void refuse(std::string_view name, double value, std::string_view allowed) {

@@ -1,4 +1,4 @@
-// Memory on large pages, aligned for SIMD, of which the last large block is kept for the next computation.
+// Memory on large pages, aligned for SIMD; the last large block is kept on loan for the next computation.
 #include "numerics/scratch.hpp"
 
 #include <complex>
@@ -21,8 +21,9 @@ struct Block {
   std::size_t bytes = 0;
 };
 
-/// The last large block that was given back, kept for the next scan of about that size: the system clears fresh
-/// pages, which takes a tenth of a transform's time.
+/// The last large block that was given back, kept for the next scan of about that size: fresh pages are cleared, which
+/// takes a tenth of a transform's time, and on a virtual machine that has given them back to its host more than the
+/// transform. The system may take pages of a kept block whenever it is short of memory.
 class Reserve {
  public:
   static Reserve& get() {
@@ -41,7 +42,7 @@ class Reserve {
     return kept_.bytes >= bytes && kept_.bytes <= 2 * bytes ? std::exchange(kept_, {}) : Block{};
   }
   void give(Block block) {
-    if (block.bytes >= large_page && block.bytes <= most) {
+    if (block.bytes >= large_page && on_loan(block)) {
       const std::scoped_lock lock(mutex_);
       std::swap(block, kept_);
     }
@@ -49,7 +50,18 @@ class Reserve {
   }
 
  private:
-  static constexpr std::size_t most = std::size_t{64} << 20;
+  static constexpr std::size_t little = std::size_t{64} << 20;
+
+  /// Whether a block may be kept: a large one where the system can have its pages without asking.
+  static bool on_loan(const Block& block) {
+    if (block.bytes <= little) return true;
+#ifdef MADV_FREE
+    return madvise(block.data, block.bytes, MADV_FREE) == 0;
+#else
+    return false;
+#endif
+  }
+
   std::mutex mutex_;
   Block kept_;
 };

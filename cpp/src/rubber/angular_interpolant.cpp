@@ -122,33 +122,53 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   }
 }
 
-AngularTable::Place AngularTable::find(double w) const {
+/// `panel` is where the frequency before was: neighbours are asked for one after the other.
+AngularTable::Place AngularTable::find(double w, std::size_t& panel) const {
   const std::span<const double> edges = sums_.edges();
   const double at = std::clamp(w, lowest_, highest_);
-  const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
-  const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
-  const double low = above[-1], fraction = (at - low) / (*above - low);
-  auto part = parts(static_cast<std::size_t>(above - edges.begin()) - 1).begin();
+  constexpr std::size_t near = 4;
+  if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
+    while (at >= edges[panel + 1]) ++panel;
+  } else {
+    const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
+    const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
+    panel = static_cast<std::size_t>(above - edges.begin()) - 1;
+  }
+  const double low = edges[panel], fraction = (at - low) / (edges[panel + 1] - low);
+  auto part = parts(panel).begin();
   const double t = part->root ? std::sqrt(fraction) : fraction;
   while (t > part->upper) ++part;
-  return {*part, part->scale * t + part->shift};
+  return {&*part, part->scale * t + part->shift};
 }
 
 AngularIntegrals AngularTable::operator()(double w) const {
-  const auto [part, u] = find(w);
-  const Pair all = part.all(u), outside = part.outside(u);
+  std::size_t panel = 0;
+  const auto [part, u] = find(w, panel);
+  const Pair all = part->all(u), outside = part->outside(u);
   return {all[0], all[1], std::clamp(outside[0], 0.0, all[0]), std::clamp(outside[1], 0.0, all[1])};
 }
 
 bool AngularTable::operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+  constexpr std::size_t together = 8;  // polynomials, whose terms wait for each other
   bool any_outside = false;
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    const auto [part, u] = find(w[i]);
-    const Pair all = part.all(u);
-    i1[i] = all[0];
-    i2[i] = all[1];
-    if (i1_outside) i1_outside[i] = part.has_outside ? std::clamp(part.outside(u)[0], 0.0, all[0]) : 0;
-    any_outside |= part.has_outside;
+  std::size_t panel = 0;
+  for (std::size_t from = 0; from < w.size(); from += together) {
+    const std::size_t n = std::min(together, w.size() - from);
+    Place at[together];
+    for (std::size_t i = 0; i < n; ++i) at[i] = find(w[from + i], panel);
+    for (std::size_t i = n; i < together; ++i) at[i] = at[0];
+    Pair sum[together];
+    for (std::size_t i = 0; i < together; ++i) sum[i] = at[i].part->all.coefficient[order - 1];
+    for (std::size_t k = order - 1; k-- > 0;)
+      for (std::size_t i = 0; i < together; ++i) sum[i] = sum[i] * at[i].u + at[i].part->all.coefficient[k];
+    for (std::size_t i = 0; i < n; ++i) {
+      i1[from + i] = sum[i][0];
+      i2[from + i] = sum[i][1];
+      const Part& part = *at[i].part;
+      if (i1_outside)
+        i1_outside[from + i] = part.has_outside ? std::clamp(part.outside(at[i].u)[0], 0.0, sum[i][0]) : 0;
+      any_outside |= part.has_outside;
+    }
   }
   return any_outside;
 }

@@ -32,11 +32,11 @@ class AngularTable {
  private:
   struct Part;
   struct Place {
-    const Part& part;
+    const Part* part;
     double u;
   };
   using Parts = std::vector<Part>;
-  [[nodiscard]] Place find(double w) const;
+  [[nodiscard]] Place find(double w, std::size_t& panel) const;
   [[nodiscard]] const Parts& parts(std::size_t panel) const;
   void append(std::size_t panel, double t0, double t1, Parts& parts) const;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "numerics/kernels.hpp"
+#include "spectrum/ring_points.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -17,19 +18,21 @@ namespace asperity {
 /// On y = ln(q / q0), with c = q^4 C as rough as it may be, G is smooth in m(y) = int_0^y c dy, since dG / dm is I2 up
 /// to a factor; and u = sqrt(m) makes F(G), which goes like sqrt(G), nearly linear. A block is a stretch of y. p_j are
 /// the polynomials in u that are orthonormal under dy on it, u_i and g_i the nodes and weights of their Gauss rule.
-/// L_k are the polynomials through `nodes` points of the block's group. For a block from a on, row i of a matrix is
-///   to_g:     u_i^2 sum_j p_j(u_i) int p_j M_k / m dy,  M_k(y) = int_a^y c L_k dy, and 1 instead of M_k in column
-///             `nodes`: G at u_i, of I2 at the points and of G at a
-///   to_slope: g_i sum_j p_j(u_i) int p_j L_k' dy: the weight times dR / dy at u_i, of R at the points
+/// I2 and R are known at `nodes` points of each cell of the block's group; L_k are the polynomials through those of a
+/// cell, and nothing outside of it. For a block from a on, row i of a matrix has in column k
+///   to_g:     u_i^2 sum_j p_j(u_i) int p_j M_k / m dy,  M_k(y) = int_a^y c L_k dy: G at u_i, of I2 at the points
+///   to_slope: g_i sum_j p_j(u_i) int p_j dL_k, jumps at the ends of cells included: the weight times dR / dy at u_i
 /// The projection is that of G / m, so that a small G is told in its own digits: the rest is orthogonal to all that is
 /// smooth in u, and so is u^2 of it times F', which goes like 1 / u or less, times dR / dy. Row `end` has int c L_k
-/// dy over the block and 1, and L_k at its upper end. Rows in excess tell G at a.
+/// dy over the block, and L_k at its upper end.
 struct RingBlock {
   static constexpr std::size_t nodes = 16, fine = 12, coarse = 8, end = fine + coarse, rows = 24;
-  RowsOf24 to_g[nodes + 1] = {}, to_slope[nodes] = {};  // by columns
-  std::array<double, rows> measure{};                   // g_i
-  double lower, upper;                                  // in y
-  double m_lower, m_part;                               // m at the lower end, and its growth
+  std::size_t first_cell = 0;            // of the group's
+  std::vector<RowsOf24> to_g, to_slope;  // by columns
+  RowsOf24 of_lower = {};                // 1 instead of M_k: what G at a adds; rows in excess tell it
+  std::array<double, rows> measure{};    // g_i
+  double lower = 0, upper = 0;           // in y
+  double m_lower = 0, m_part = 0;        // m at the lower end, and its growth
   std::array<double, 16> foot{};  // lengths in y on which u is below 10^-0.5, 10^-1 ... of its value at the upper end
 };
 
@@ -39,23 +42,43 @@ struct RingTree {
   mutable std::atomic<const std::array<RingTree, 2>*> halves{nullptr};
 };
 
+/// Groups of blocks are no longer than `longest` in ln q, and each has as many cells.
+struct RingGrid {
+  double longest;
+  std::size_t cells;
+};
+
 class RingSurface {
  public:
-  /// Groups of blocks are no longer than `longest` in ln q.
-  RingSurface(std::span<const Segment> surface, double longest);
+  RingSurface(std::span<const Segment> surface, const RingGrid& grid);
   ~RingSurface();
   RingSurface(const RingSurface&) = delete;
   RingSurface(RingSurface&&) = delete;
   RingSurface& operator=(const RingSurface&) = delete;
   RingSurface& operator=(RingSurface&&) = delete;
 
+  /// The growth of m, and the integrals of a Legendre polynomial of high degree over m and over u in units of theirs.
+  struct Cell {
+    double m_part, roughness_of_m, roughness_of_u;
+  };
   struct Group {
-    double lower, upper;                              // in y
-    std::array<double, RingBlock::nodes> wavenumber;  // at which I1 and I2 are wanted [1/m]
-    RingTree root;
+    double lower, upper;             // in y
+    std::vector<double> wavenumber;  // at which I1 and I2 are wanted, those of a cell after those of another [1/m]
+    std::vector<double> to_g;        // of each of them: int c L_k dy over its cell
+    std::vector<Cell> cells;
+    double m_lower = 0;  // m at the lower end
+    mutable std::atomic<const RingTree*> root{nullptr};
+    /// Where a cell begins, and the last one ends, in y.
+    [[nodiscard]] double edge(std::size_t cell) const {
+      return cell == cells.size()
+                 ? upper
+                 : lower + (upper - lower) * (static_cast<double>(cell) / static_cast<double>(cells.size()));
+    }
   };
   [[nodiscard]] std::span<const Group> groups() const { return {groups_.get(), count_}; }
-  /// The halves of a part of `group`. Of threads that come at once the first leaves its own.
+  /// The block that is all of a group, and the halves of a part of it, made when first asked for. Of threads that come
+  /// at once the first leaves its own.
+  [[nodiscard]] const RingTree& root(const Group& group) const;
   [[nodiscard]] const std::array<RingTree, 2>& halves(const Group& group, const RingTree& tree) const;
 
  private:
@@ -65,7 +88,12 @@ class RingSurface {
     double start, linear, square, upper;
   };
   void make(const Group& group, double lower, double upper, double m_lower, RingBlock& block) const;
-  void cut(double lower, double upper, double m_lower, std::vector<Piece>& pieces) const;
+  /// Sets what is known of the cells of a group. Returns the growth of m.
+  double measure_cells(Group& group) const;
+  [[nodiscard]] FineRule points_of(const Group& group, double lower, double upper, double m_lower) const;
+  void add_points(const Piece& piece, double begin, double end, FineRule& fine) const;
+  /// Appends the pieces from `lower` to `upper`, none longer than `longest`. Returns m at the upper end.
+  double cut(double lower, double upper, double m_lower, double longest, std::vector<Piece>& pieces) const;
   static void cut(const Segment& segment, double begin, double end, double m, double longest,
                   std::vector<Piece>& pieces);
 

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
+
+#include "numerics/fft.hpp"
 
 namespace asperity {
 
@@ -25,22 +28,22 @@ constexpr int directions = 180;  // in a quarter of a ring: the mean over them i
 
 std::vector<double> mode_covariances(const std::vector<double>& window) {
   const std::size_t n = window.size();
+  const Scratch<double> squares(n);
+  const Scratch<std::complex<double>> modes(n / 2 + 1);
   double square = 0, fourth = 0;
-  for (const double w : window) {
-    square += w * w;
-    fourth += w * w * w * w;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w2 = window[i] * window[i];
+    squares.data()[i] = w2;
+    square += w2;
+    fourth += w2 * w2;
   }
+  const RealTransform<double> transform(n);
+  transform(squares.data(), modes.data());
   const double all = static_cast<double>(n) * fourth / (square * square);  // Parseval: over all j of either sign
   std::vector<double> result{1};
   double sum = 1;
   for (std::size_t j = 1; 2 * j < n && all - sum > told * all; ++j) {
-    double real = 0, imaginary = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double angle = 2 * pi * static_cast<double>(j * i % n) / static_cast<double>(n), w2 = window[i] * window[i];
-      real += w2 * std::cos(angle);
-      imaginary += w2 * std::sin(angle);
-    }
-    result.push_back((real * real + imaginary * imaginary) / (square * square));
+    result.push_back(std::norm(modes.data()[j]) / (square * square));
     sum += 2 * result.back();
   }
   return result;

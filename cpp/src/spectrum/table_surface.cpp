@@ -5,7 +5,10 @@ namespace asperity {
 
 namespace {
 
-constexpr double longest = 2;  // of a group in ln q: I1 and I2 of a Prony series have singularities pi / 2 off the axis
+/// On the first one cells are as long as I1 and I2 of a Prony series allow, with their singularities pi / 2 off the
+/// axis of ln q.
+constexpr std::array<RingGrid, TableSurface::grids> grids_of_rings{
+    {{2, 1}, {2, 2}, {1, 2}, {1, 4}, {0.5, 4}, {0.5, 8}}};
 
 }  // namespace
 
@@ -25,9 +28,10 @@ double TableSurface::nayak_parameter(const TabulatedSpectrum& table) {
   return nayak_parameter_;
 }
 
-const RingSurface& TableSurface::rings(const TabulatedSpectrum& table) {
-  std::call_once(rings_made_, [&] { rings_ = std::make_unique<RingSurface>(segments(table), longest); });
-  return *rings_;
+const RingSurface& TableSurface::rings(const TabulatedSpectrum& table, std::size_t grid) {
+  std::call_once(rings_made_[grid],
+                 [&] { rings_[grid] = std::make_unique<RingSurface>(segments(table), grids_of_rings[grid]); });
+  return *rings_[grid];
 }
 
 SurfaceSegments::SurfaceSegments(const Spectrum& spectrum) {

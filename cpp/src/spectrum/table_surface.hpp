@@ -2,6 +2,8 @@
 // and threads.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -19,13 +21,16 @@ class TableSurface {
   std::span<const Segment> segments(const TabulatedSpectrum& table);
   double rms_slope(const TabulatedSpectrum& table);
   double nayak_parameter(const TabulatedSpectrum& table);
-  const RingSurface& rings(const TabulatedSpectrum& table);
+  /// On one of so many grids, each finer than the one before.
+  static constexpr std::size_t grids = 6;
+  const RingSurface& rings(const TabulatedSpectrum& table, std::size_t grid);
 
  private:
-  std::once_flag segments_made_, slope_made_, nayak_made_, rings_made_;
+  std::once_flag segments_made_, slope_made_, nayak_made_;
+  std::array<std::once_flag, grids> rings_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
-  std::unique_ptr<const RingSurface> rings_;
+  std::array<std::unique_ptr<const RingSurface>, grids> rings_;
 };
 
 /// The segments of a spectrum for as long as it is there: a table's own, or made here.

@@ -1,6 +1,6 @@
 """Values: frozen, compared by content, pickled by what they were made from, shown in one line."""
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from html import escape
 from typing import Any, Self, dataclass_transform
@@ -37,10 +37,10 @@ class Value:
         self.__dict__.update(values)
 
     @classmethod
-    def _made(cls, pairs: Iterable[tuple[str, Any]] = (), **values: Any) -> Self:
-        """Make an object from values that the core has checked already, by name or in pairs."""
+    def _made(cls, values: Mapping[str, Any] | tuple[()] = (), **named: Any) -> Self:
+        """Make an object from values that the core has checked already."""
         made = object.__new__(cls)
-        made.__dict__.update(pairs, **values)
+        made.__dict__.update(values, **named)
         return made
 
     def _arguments(self) -> dict[str, Any]:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
-from asperity.cli.friction_commands import check_outputs, refuse_overwrite
+from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.streams import print_stdout, printable, tell_notes
 from asperity.friction import friction
-from asperity.friction_map import FrictionMap, friction_map
+from asperity.friction_map import FrictionMap, built
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import write_files
@@ -58,9 +58,8 @@ def friction_map_of(args: Namespace) -> None:
     lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
     names = {name: f"--{name}" for name in given}
     with rename_in_errors(scene.path, names):
-        made = friction_map(
-            scene.spectrum,
-            scene.rubber,
+        made = _shown_while_built(
+            scene,
             pressure=pressure,
             velocity=velocity,
             adhesion=scene.adhesion,
@@ -76,6 +75,20 @@ def friction_map_of(args: Namespace) -> None:
         files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
+
+
+def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
+    """The map of a scene, with a bar on a terminal where it takes long."""
+    steps = [slice(i, i + 1) for i in range(100)]
+    with progress(f"{scene.path}, map")(steps) as shown:
+        left, done = iter(shown), 0
+
+        def tell(share: float) -> None:
+            nonlocal done
+            while done < int(share * len(steps)):
+                done = next(left).stop
+
+        return built(scene.spectrum, scene.rubber, tell, **asked)
 
 
 def _check_sides(args: Namespace, scene: Scene) -> None:

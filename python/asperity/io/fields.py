@@ -195,9 +195,19 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
     return {f.argument: values[key] for key, f in fields.items() if f.argument and key in values}
 
 
+_ADVICE = {
+    r"\.truncated\(q1=([^)]+)\)": r"[surface] q1_per_m = \1",
+    r"extrapolation= of the master curve": '[rubber] extrapolation = "power-law" or "clamp"',
+    r'extrapolation="prony" of fit_prony': '[rubber] extrapolation = "prony"',
+}
+
+
 @contextmanager
 def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
-    """Let errors of the core name the file and its fields: `names` is argument -> [table] key."""
+    """Let errors of the core name the file and its fields: `names` is argument -> [table] key.
+
+    Of a file, advice for Python becomes advice for a scene.
+    """
     try:
         yield
     except (InvalidInput, OutOfRange, NotConverged) as error:
@@ -206,7 +216,11 @@ def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[No
             name = f"({'|'.join(names)})"
             pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = | \(\d)"
             message = re.sub(pattern, lambda found: names[found[1] or found[2]], message)
-        raise type(error)(message if path is None else f"{path}: {message}") from error
+        if path is not None:
+            for pattern, in_scene in _ADVICE.items():
+                message = re.sub(pattern, in_scene, message)
+            message = f"{path}: {message}"
+        raise type(error)(message) from error
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:

@@ -161,12 +161,12 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
 
 
 def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
-    """A figure of one to three panels in a row, of two by two or of two rows of three."""
+    """A figure of one to three panels in a row, or of two rows of two to four."""
     from matplotlib.figure import Figure
 
     rows = 1 if panels < 4 else 2
     columns = panels // rows
-    width = {1: 6.6, 2: 9.0, 3: 13.0, 4: 10.0, 6: 13.0}[panels]
+    width = {1: 6.6, 2: 9.0, 3: 13.0, 4: 10.0, 6: 13.0, 8: 16.0}[panels]
     figure = Figure(figsize=(width, 3.5 if rows == 1 else 7.2), layout="constrained")
     drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
     for axes in drawn:

@@ -1,7 +1,8 @@
 """A surface of one's own pressed by boundary elements: the contact that the theory is held against.
 
-The solver is tamaas (AGPL-3.0-or-later), an optional package: it is imported when a contact is
-asked for, and by nothing else in asperity.
+The solver is tamaas (AGPL-3.0-or-later) where this optional package is installed, and otherwise
+`slide` at velocity 0, which finds the same contacts. tamaas is imported when a contact is asked
+for, and by nothing else in asperity.
 """
 
 import math
@@ -14,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.rubber import PronySeries
 from asperity.scene.scene import Progress
 from asperity.surface import HeightMap
+from asperity.validation.sliding import slide
 
 _Array = NDArray[np.float64]
 

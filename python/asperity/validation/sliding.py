@@ -182,7 +182,7 @@ def slide(
     )
     names = ("contact_area", "contact_area_raw", "hysteresis", "work_of_slopes")
     return SlidingContact._made(
-        zip((*names, "elastic_energy", "error"), figures, strict=True),
+        dict(zip((*names, "elastic_energy", "error"), figures, strict=True)),
         pressure=frozen(p),
         gap=frozen(gap),
         pixel_size=pixel_size,

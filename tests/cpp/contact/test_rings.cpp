@@ -48,6 +48,29 @@ PronySeries random_rubber(std::mt19937_64& dice, double frequency) {
   return {power(5, 7), std::move(moduli), std::move(times)};
 }
 
+/// A measured rubber from `slowest` to `fastest`: rising E', with noise, plateaus, rows close to each other.
+MasterCurve random_curve(std::mt19937_64& dice, double slowest, double fastest) {
+  std::uniform_real_distribution<> uniform;
+  std::normal_distribution<> normal;
+  const auto rows = static_cast<std::size_t>(std::pow(10, 0.5 + 2.2 * uniform(dice)));
+  const double noise = uniform(dice) < 0.3 ? 0 : std::pow(10, -3 + 2 * uniform(dice));
+  const double step = std::log(fastest / slowest) / static_cast<double>(rows - 1), uneven = 0.95 * uniform(dice);
+  const double growth = 12 * uniform(dice) / static_cast<double>(rows), plateau = 0.5 * uniform(dice);
+  std::vector<double> w, storage, loss;
+  double level = 1e6, tangent = 0.05 + 0.5 * uniform(dice);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double shift = i == 0 || i + 1 == rows ? 0 : uneven * (uniform(dice) - 0.5);
+    w.push_back(slowest * std::exp(step * (static_cast<double>(i) + shift)));
+    storage.push_back(level * std::exp(noise * normal(dice)));
+    loss.push_back(level * tangent * std::exp(noise * normal(dice)));
+    if (uniform(dice) > plateau) {
+      level *= std::exp(-growth * std::log(uniform(dice)));
+      tangent *= std::exp(growth / 2 * normal(dice));
+    }
+  }
+  return {std::move(w), std::move(storage), std::move(loss)};
+}
+
 Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, std::vector<double> velocity,
             double pressure) {
   return friction(spectrum, rubber, model, {}, std::vector<double>(velocity.size(), pressure), velocity);
@@ -56,91 +79,98 @@ Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& 
 }  // namespace
 
 TEST_CASE("the matrices of a block of rings") {
-  std::mt19937_64 dice(4);
-  const TabulatedSpectrum table = random_rings(dice, 60);
-  const std::vector<Segment> surface = segments(table);
-  const double q0 = surface.front().a;
-  const RingSurface rings(surface, 2);
-  constexpr std::size_t nodes = RingBlock::nodes, fine = RingBlock::fine, end = RingBlock::end;
-  std::vector<const RingBlock*> blocks;
-  std::vector<const RingSurface::Group*> groups;
-  for (const auto& group : rings.groups())
-    for (const RingTree* tree :
-         {&group.root, &rings.halves(group, group.root)[0], &rings.halves(group, group.root)[1]}) {
-      groups.push_back(&group);
-      blocks.push_back(&tree->block);
-    }
-  REQUIRE(blocks.size() >= 6);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const RingBlock& block = *blocks[b];
-    const auto& points = groups[b]->wavenumber;
-    // by midpoints in each interval between rows: int c, int c y, int m dy, int 2 y u dy
-    double of_c = 0, of_cy = 0, of_m = 0, of_yu = 0, m = 0;
-    for (const Segment& s : surface) {
-      constexpr int steps = 4000;
-      const double begin = std::log(s.a / q0), length = s.length(), h = length / steps;
-      for (int i = 0; i < steps; ++i) {
-        const double t = (i + 0.5) * h, y = begin + t, q = s.a * std::exp(t), c = std::pow(q, 4) * s.density_at(t);
-        if (y > block.lower && y < block.upper) {
-          of_c += c * h;
-          of_cy += c * y * h;
-          of_m += (m + c * h / 2) * h;
-          of_yu += 2 * y * std::sqrt(m + c * h / 2) * h;
+  for (const std::size_t cells : {std::size_t{1}, std::size_t{3}}) {
+    CAPTURE(cells);
+    std::mt19937_64 dice(4);
+    const TabulatedSpectrum table = random_rings(dice, 60);
+    const std::vector<Segment> surface = segments(table);
+    const double q0 = surface.front().a;
+    const RingSurface rings(surface, {2, cells});
+    constexpr std::size_t nodes = RingBlock::nodes, fine = RingBlock::fine, end = RingBlock::end;
+    std::vector<const RingBlock*> blocks;
+    std::vector<const RingSurface::Group*> groups;
+    for (const auto& group : rings.groups())
+      for (const RingTree* tree : {&rings.root(group), &rings.halves(group, rings.root(group))[0],
+                                   &rings.halves(group, rings.root(group))[1]}) {
+        groups.push_back(&group);
+        blocks.push_back(&tree->block);
+      }
+    REQUIRE(blocks.size() >= 6);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const RingBlock& block = *blocks[b];
+      const double* const points = &groups[b]->wavenumber[nodes * block.first_cell];
+      const std::size_t columns = block.to_g.size();
+      REQUIRE(block.to_slope.size() == columns);
+      // by midpoints in each interval between rows: int c, int c y, int m dy, int 2 y u dy
+      double of_c = 0, of_cy = 0, of_m = 0, of_yu = 0, m = 0;
+      for (const Segment& s : surface) {
+        constexpr int steps = 4000;
+        const double begin = std::log(s.a / q0), length = s.length(), h = length / steps;
+        for (int i = 0; i < steps; ++i) {
+          const double t = (i + 0.5) * h, y = begin + t, q = s.a * std::exp(t), c = std::pow(q, 4) * s.density_at(t);
+          if (y > block.lower && y < block.upper) {
+            of_c += c * h;
+            of_cy += c * y * h;
+            of_m += (m + c * h / 2) * h;
+            of_yu += 2 * y * std::sqrt(m + c * h / 2) * h;
+          }
+          m += c * h;
         }
-        m += c * h;
       }
-    }
-    double found_c = 0, found_cy = 0, found_m = 0, found_yu = 0, measure = 0, squares = 0, lines = 0;
-    for (std::size_t k = 0; k < nodes; ++k) {
-      found_c += block.to_g[k].data[end];
-      found_cy += block.to_g[k].data[end] * std::log(points[k] / q0);
-    }
-    for (std::size_t i = 0; i < fine; ++i) {
-      double g = block.to_g[nodes].data[i] * block.m_lower, slope = 0, straight = 0;
-      for (std::size_t k = 0; k < nodes; ++k) {
-        const double y = std::log(points[k] / q0);
-        g += block.to_g[k].data[i];
-        straight += y * block.to_slope[k].data[i];
-        slope += y * y * block.to_slope[k].data[i];
+      double found_c = 0, found_cy = 0, found_m = 0, found_yu = 0, measure = 0, squares = 0, lines = 0;
+      for (std::size_t k = 0; k < columns; ++k) {
+        found_c += block.to_g[k].data[end];
+        found_cy += block.to_g[k].data[end] * std::log(points[k] / q0);
       }
-      CHECK(straight == doctest::Approx(block.measure[i]).epsilon(1e-9));
-      measure += block.measure[i];
-      found_m += block.measure[i] * g;  // G is m where I2 is 1
-      squares += slope;
-      found_yu += slope * std::sqrt(g);
-      lines += straight;
+      for (std::size_t i = 0; i < fine; ++i) {
+        double g = block.of_lower.data[i] * block.m_lower, slope = 0, straight = 0;
+        for (std::size_t k = 0; k < columns; ++k) {
+          const double y = std::log(points[k] / q0);
+          g += block.to_g[k].data[i];
+          straight += y * block.to_slope[k].data[i];
+          slope += y * y * block.to_slope[k].data[i];
+        }
+        CHECK(straight == doctest::Approx(block.measure[i]).epsilon(1e-9));
+        measure += block.measure[i];
+        found_m += block.measure[i] * g;  // G is m where I2 is 1
+        squares += slope;
+        found_yu += slope * std::sqrt(g);
+        lines += straight;
+      }
+      const double length = block.upper - block.lower;
+      CHECK(found_c == doctest::Approx(of_c).epsilon(1e-4));
+      CHECK(found_c == doctest::Approx(block.m_part).epsilon(1e-12));
+      CHECK(found_cy == doctest::Approx(of_cy).epsilon(1e-4));
+      CHECK(measure == doctest::Approx(length).epsilon(1e-12));
+      CHECK(lines == doctest::Approx(length).epsilon(1e-9));
+      CHECK(found_m == doctest::Approx(of_m).epsilon(1e-4));
+      CHECK(squares == doctest::Approx(block.upper * block.upper - block.lower * block.lower).epsilon(1e-9));
+      CHECK(found_yu == doctest::Approx(of_yu).epsilon(1e-4));
     }
-    const double length = block.upper - block.lower;
-    CHECK(found_c == doctest::Approx(of_c).epsilon(1e-4));
-    CHECK(found_c == doctest::Approx(block.m_part).epsilon(1e-12));
-    CHECK(found_cy == doctest::Approx(of_cy).epsilon(1e-4));
-    CHECK(measure == doctest::Approx(length).epsilon(1e-12));
-    CHECK(lines == doctest::Approx(length).epsilon(1e-9));
-    CHECK(found_m == doctest::Approx(of_m).epsilon(1e-4));
-    CHECK(squares == doctest::Approx(block.upper * block.upper - block.lower * block.lower).epsilon(1e-9));
-    CHECK(found_yu == doctest::Approx(of_yu).epsilon(1e-4));
   }
 }
 
 TEST_CASE("the stated error of blocks of rings holds against GSL") {
   std::uniform_real_distribution<> uniform;
-  for (std::uint64_t scene = 0; scene < 120; ++scene) {
+  for (std::uint64_t scene = 0; scene < 240; ++scene) {
     CAPTURE(scene);
     std::mt19937_64 dice(scene);
     const TabulatedSpectrum table = random_rings(dice, 40 + static_cast<std::size_t>(60 * uniform(dice)));
     const double velocity = std::pow(10, 7 * uniform(dice) - 6), pressure = std::pow(10, 3 + 5 * uniform(dice));
     const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());
-    const PronySeries rubber = random_rubber(dice, velocity * middle);
+    const Rubber rubber = scene % 2 == 0 ? Rubber(random_rubber(dice, velocity * middle))
+                                         : random_curve(dice, 0.99 * velocity * table.wavenumber().front(),
+                                                        1.01 * velocity * table.wavenumber().back());
     ContactModel model;
     constexpr double tolerances[] = {1e-3, 1e-4, 1e-6, 1e-7};
-    model.rtol = tolerances[scene % 4];
-    if (scene % 5 == 1) model.correction = SFactor{0.4, SFactor::AppliesTo::friction};
-    if (scene % 5 == 2) model.correction = SFactor{0.5};
-    if (scene % 5 == 3) model.correction = NayakSFactor{};
-    if (scene % 5 == 4) model.correction = AffineShift{1.7};
+    model.rtol = tolerances[scene / 2 % 4];
+    if (scene / 2 % 5 == 1) model.correction = SFactor{0.4, SFactor::AppliesTo::friction};
+    if (scene / 2 % 5 == 2) model.correction = SFactor{0.5};
+    if (scene / 2 % 5 == 3) model.correction = NayakSFactor{};
+    if (scene / 2 % 5 == 4) model.correction = AffineShift{1.7};
     const Friction found = at(table, rubber, model, {velocity}, pressure);
     ContactModel best = model;
-    best.rtol = 1e-11;
+    best.rtol = scene % 2 == 0 ? 1e-11 : 1e-10;  // I1 and I2 of a curve are good to 1e-12
     best.method = Method::cquad;
     const Friction truth = at(table, rubber, best, {velocity}, pressure);
     const double error = std::fabs(found.mu[0] - truth.mu[0]);
@@ -148,7 +178,11 @@ TEST_CASE("the stated error of blocks of rings holds against GSL") {
     CHECK(found.error_estimate[0] <= model.rtol * found.mu[0]);
     CHECK(found.contact_area[0] == doctest::Approx(truth.contact_area[0]).epsilon(model.rtol));
     const double one[] = {velocity}, load[] = {pressure};
-    CHECK(contact_area(table, rubber, model, load, one)[0] == found.contact_area[0]);
+    const double area = contact_area(table, rubber, model, load, one)[0];
+    if (scene % 2 == 0)
+      CHECK(area == found.contact_area[0]);
+    else  // row by row where no grid is fine enough
+      CHECK(area == doctest::Approx(truth.contact_area[0]).epsilon(model.rtol));
   }
 }
 

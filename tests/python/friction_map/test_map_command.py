@@ -1,6 +1,9 @@
 """`asperity map`: the map of a scene, what a file holds, and what is refused."""
 
 import json
+import subprocess
+import sys
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -97,4 +100,58 @@ def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message
     told = capsys.readouterr()
     assert message in told.err
     assert len(told.err.splitlines()) == 1
+    assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]
+
+
+def test_a_bar_only_on_a_terminal(scene, monkeypatch):
+    tqdm = pytest.importorskip("tqdm")
+    bars, seen = [], []
+
+    def bar(steps, **settings):
+        bars.append((settings["delay"], len(steps)))
+        return nullcontext(seen.append(step.start) or step for step in steps)
+
+    monkeypatch.setattr(tqdm, "tqdm", bar)
+    assert run("map", scene, *QUICK) in (0, None)
+    assert bars == []
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    assert run("map", scene, *QUICK) in (0, None)
+    assert bars == [(2, 100)]  # after two seconds
+    assert seen == list(range(100))
+
+
+INTERRUPTED = """
+import os, signal, sys, threading
+from asperity.cli.main import main
+from asperity.cli import map_command
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
+running, compute = threading.Event(), map_command.built
+
+def built(surface, rubber, told, **asked):
+    def tell(share):
+        told(share)
+        if share > 0.2:  # in the check
+            running.set()
+    return compute(surface, rubber, tell, **asked)
+
+def interrupt():
+    running.wait()
+    os.kill(os.getpid(), signal.SIGINT)
+
+map_command.built = built
+threading.Thread(target=interrupt, daemon=True).start()
+sys.exit(main(["map", "scene.toml", "--output", "a.fmap", "--checked", "2000000000"]))  # an hour
+"""
+
+
+def test_interrupt_leaves_no_half_of_a_map(scene):
+    done = subprocess.run(
+        ["sh", "-c", 'trap "" INT; exec "$0" -c "$1"', sys.executable, INTERRUPTED],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
     assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]

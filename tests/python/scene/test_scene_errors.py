@@ -1,5 +1,6 @@
 """Foolish scene files: each is refused in one line that names file, table and key."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -248,6 +249,19 @@ def test_foolish_master_curves(folder: Path, content: str, message: str) -> None
     text = refusal(folder, MASTER)
     assert "curve.csv: " in text
     assert message in text
+
+
+def test_advice_beyond_what_was_measured_is_in_the_keys_of_a_scene(folder: Path) -> None:
+    fast = MASTER.replace("to = 1,", "to = 60,")  # 1e6 / 60 has no end
+    message = refusal(folder, fast)
+    told = r"\[surface\] q1_per_m = (\S+) ends the spectrum where it is known"
+    found = re.search(told, message)
+    assert found is not None, message
+    assert '[rubber] extrapolation = "power-law" or "clamp" adds a decade' in message
+    # and the advice holds
+    followed = re.sub(r"q1_per_m = \S+", f"q1_per_m = {found[1]}", fast)
+    (folder / "scene.toml").write_text(followed)
+    load_scene(folder / "scene.toml").friction()
 
 
 def test_endless_scene() -> None:

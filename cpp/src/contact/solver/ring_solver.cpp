@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "contact/conditions.hpp"
 #include "numerics/gauss_legendre.hpp"
@@ -20,64 +19,125 @@ constexpr double of_changes = 16;
 /// F falls to the root of G that it is beyond G = 1 less 1/2, and below to G: rules with nodes beyond alone miss this.
 constexpr double unresolved = 0.5;
 constexpr double of_points = 3e-9;  // relative error of G by the fine rules of blocks: on sparse rows 2e-9 at most
+/// The parts of the tolerance for the error of G and for all that is of mu_H; the rest is for the shift's.
+/// Panels leave as much to G.
+constexpr double of_g = 0.125, of_hysteresis = 0.85;
 
-/// The most that the polynomial through values at Gauss-Legendre nodes misses: the coefficients beyond the last ones,
-/// and as much again for their effect on the known ones. I1 and I2 of a Prony series have their singularities pi / 2
-/// off the real axis of ln w, so that coefficients fall by `decay` a degree on the whole, if not from each to the next.
-double missed(const LegendreRule& rule, const double* values, double decay) {
-  double total = 0, tail[LegendreRule::kept], last = 0, fading = 1;
-  kernels().add_up(rule, values, &total, tail);
-  for (std::size_t k = 0; k < LegendreRule::tails; ++k, fading *= decay)
-    last = std::fmax(last, std::fabs(tail[k]) * fading);
-  return 2 * last * decay / (1 - decay);
+/// The largest of the last coefficients of the polynomial through values at Gauss-Legendre nodes. Those beyond are no
+/// larger where I1 and I2 are analytic, as of a Prony series, and fall like n^-3.5 where they are not, as at the knots
+/// of a master curve.
+double last_coefficient(const double* values) {
+  double total = 0, tail[LegendreRule::kept], last = 0;
+  kernels().add_up(legendre_rule(nodes), values, &total, tail);
+  for (std::size_t k = 0; k < LegendreRule::tails; ++k) last = std::fmax(last, std::fabs(tail[k]));
+  return last;
 }
+
+/// The error of the integral of such a polynomial over m or u, in units of the last coefficient and of m or u. Beyond
+/// the known coefficients polynomials of high degree meet the roughness of the surface, and the rule's nodes take
+/// those for polynomials of low degree.
+double passed_on(double roughness) { return 2 * roughness + 0.02; }
 
 }  // namespace
 
-RingSolver::RingSolver(const RingSurface& surface, const PronySeries& rubber, double poisson_ratio, double rtol)
+RingSolver::RingSolver(const RingSurface& surface, const Rubber& rubber, double poisson_ratio, double rtol)
     : surface_(surface), rubber_(rubber), stiffening_(1 / (1 - poisson_ratio * poisson_ratio)), rtol_(rtol) {
   g_factor_ = stiffening_ * stiffening_ / 8;
-  moduli_.resize(surface.groups().size());
-  for (std::size_t i = 0; i < moduli_.size(); ++i) parts_.push_back({.tree = &surface.groups()[i].root, .group = i});
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < surface.groups().size(); ++i) {
+    const RingSurface::Group& group = surface.groups()[i];
+    const std::size_t n = group.wavenumber.size();
+    moduli_.push_back({std::vector<double>(n), std::vector<double>(n), {}, std::vector<double>(group.cells.size())});
+    parts_.push_back({.tree = nullptr, .group = i});
+    frequency_.resize(std::max(n, frequency_.size()));
+    cells += group.cells.size();
+  }
+  i1_outside_.resize(frequency_.size());
+  g_at_cells_.resize((cells + lanes - 1) / lanes * lanes);
+  f_at_cells_.resize(g_at_cells_.size());
 }
 
 void RingSolver::fill(Part& part) {
-  Modulus& modulus = moduli_[part.group];
+  const Modulus& modulus = moduli_[part.group];
+  const RingBlock& block = part.block();
   const Kernels& loops = kernels();
   part.started = starts_;
-  modulus.i2[nodes] = part.g_lower;
-  loops.combine(part.block().to_g, nodes + 1, modulus.i2, part.g);
-  loops.combine(part.block().to_slope, nodes, modulus.ratio, part.slope);
+  const std::size_t first = nodes * block.first_cell;
+  loops.combine(block.to_g.data(), block.to_g.size(), &modulus.i2[first], part.g);
+  loops.combine(block.to_slope.data(), block.to_slope.size(), &modulus.ratio[first], part.slope);
+  for (std::size_t i = 0; i < rows; ++i) part.g[i] += part.g_lower * block.of_lower.data[i];
+}
+
+/// I2, R and the part of it from outside at the points of a group.
+void RingSolver::take_modulus(const RingSurface::Group& group, Modulus& at) {
+  const std::size_t n = group.wavenumber.size();
+  for (std::size_t k = 0; k < n; ++k) frequency_[k] = velocity_ * group.wavenumber[k];
+  const bool any_outside = angular_integrals(rubber_, {frequency_.data(), n}, at.ratio, at.i2, {i1_outside_.data(), n});
+  at.outside.clear();
+  for (std::size_t k = 0; k < n; ++k) {
+    at.ratio[k] /= at.i2[k];
+    if (any_outside) at.outside.push_back(i1_outside_[k] / at.i2[k]);
+    at.i2[k] *= g_factor_;
+  }
 }
 
 void RingSolver::start(double velocity) {
   velocity_ = velocity;
   ++starts_;
-  const LegendreRule& rule = legendre_rule(nodes);
   unit_g_ = 0;
-  double unit_error = 0;
+  g_relative_error_ = 0;
+  double error = 0, mu = 0, of_ratio = 0, of_ratio_ahead = 0, mu_ahead = 0;
+  std::size_t index = 0;
   for (std::size_t i = 0; i < moduli_.size(); ++i) {
     const RingSurface::Group& group = surface_.groups()[i];
     Modulus& at = moduli_[i];
-    double w[nodes], i1[nodes];
-    for (std::size_t k = 0; k < nodes; ++k) w[k] = velocity * group.wavenumber[k];
-    (void)rubber_.angular_integrals(w, i1, {at.i2, nodes});
-    for (std::size_t k = 0; k < nodes; ++k) {
-      at.ratio[k] = i1[k] / at.i2[k];
-      at.i2[k] *= g_factor_;
-    }
-    const double decay = std::exp(-std::asinh(std::numbers::pi / (group.upper - group.lower)));
-    at.ratio_error = missed(rule, at.ratio, decay);
+    take_modulus(group, at);
     parts_[i].g_lower = unit_g_;
-    fill(parts_[i]);
-    unit_g_ = parts_[i].g[end];
-    unit_error += missed(rule, at.i2, decay) * group.root.block.m_part;
+    for (std::size_t cell = 0; cell < group.cells.size(); ++cell) {
+      const RingSurface::Cell& is = group.cells[cell];
+      const double *const i2 = &at.i2[nodes * cell], *const to_g = &group.to_g[nodes * cell];
+      double part = 0;
+      for (std::size_t k = 0; k < nodes; ++k) part += to_g[k] * i2[k];
+      const double before = std::sqrt(unit_g_);
+      unit_g_ += part;
+      error += last_coefficient(i2) * is.m_part * passed_on(is.roughness_of_m);
+      if (unit_g_ > 0) g_relative_error_ = std::fmax(g_relative_error_, error / unit_g_);
+      g_at_cells_[index++] = unit_g_;
+      const double* const ratio = &at.ratio[nodes * cell];
+      at.ratio_error[cell] = last_coefficient(ratio) * passed_on(std::fmax(is.roughness_of_m, is.roughness_of_u));
+      const double rise = std::sqrt(unit_g_) - before;
+      of_ratio += at.ratio_error[cell] * part;
+      mu += ratio[nodes / 2] * part;
+      of_ratio_ahead += at.ratio_error[cell] * rise;
+      mu_ahead += ratio[nodes / 2] * rise;
+    }
   }
-  g_relative_error_ = unit_error / unit_g_ + of_points;
+  g_relative_error_ += of_points;
+  // F is between G and its root
+  excess_ = unit_g_ > 0 ? std::fmax(g_relative_error_ / (of_g * rtol_),
+                                    std::fmax(of_ratio / mu, of_ratio_ahead / mu_ahead) / (of_hysteresis / 2 * rtol_))
+                        : 0;
+}
+
+/// Of R in the cells, on int R dF.
+double RingSolver::interpolation_error(const ContactIntegral& contact) {
+  const Kernels& loops = kernels();
+  loops.g_at_nodes(0, g_at_cells_.data(), scale_, g_at_cells_.size(), f_at_cells_.data());
+  loops.contact_integral(contact.table, contact.gamma, f_at_cells_.data(), f_at_cells_.size(), f_at_cells_.data(),
+                         nullptr);
+  double result = 0, before = 0;
+  std::size_t index = 0;
+  for (const Modulus& at : moduli_)
+    for (const double error : at.ratio_error) {
+      result += error * (f_at_cells_[index] - before);
+      before = f_at_cells_[index++];
+    }
+  return result;
 }
 
 void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) const {
-  double g[rows], f[rows];
+  double g[rows];
+  double* const f = part.f;
   const Kernels& loops = kernels();
   const RingBlock& block = part.block();
   loops.g_at_nodes(0, part.g, scale_, rows, g);
@@ -140,22 +200,43 @@ double RingSolver::error(const Part& part) const {
   return of_changes * (part.by_halves + parts_[part.halves].by_nodes + parts_[part.halves + 1].by_nodes);
 }
 
-bool RingSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
-  scale_ = 1 / (pressure * shift) / (pressure * shift);
-  if (unit_g_ == 0) return false;
-  check_g(g(), pressure);
-  if (!(g_relative_error_ <= rtol_ / 8)) return false;
-  if (!contact) return true;
+/// The part of mu_H from frequencies outside of the measured range, over its factor.
+double RingSolver::outside() const {
+  double result = 0;
+  for (const std::size_t whole : whole_)
+    for (const std::size_t half : {parts_[whole].halves, parts_[whole].halves + 1}) result += outside(parts_[half]);
+  return result;
+}
 
-  double f_lower = 0, interpolation = 0;
+double RingSolver::outside(const Part& part) const {
+  const std::vector<double>& ratio = moduli_[part.group].outside;
+  if (ratio.empty()) return 0;
+  const RingBlock& block = part.block();
+  double slope[rows];
+  kernels().combine(block.to_slope.data(), block.to_slope.size(), &ratio[nodes * block.first_cell], slope);
+  double result = slope[end] * (part.f_upper - part.f_lower);
+  for (std::size_t i = 0; i < fine; ++i) result -= slope[i] * (part.f[i] - part.f_lower);
+  return std::fmax(result, 0);
+}
+
+RingSolver::Outcome RingSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
+  scale_ = 1 / (pressure * shift) / (pressure * shift);
+  if (unit_g_ == 0) return Outcome::no_g;
+  check_g(g(), pressure);
+  if (!(g_relative_error_ <= of_g * rtol_)) return Outcome::no_g;
+  if (!contact) return Outcome::solved;
+
+  double f_lower = 0;
   whole_.clear();
   for (std::size_t i = 0; i < moduli_.size(); ++i) {
+    if (!parts_[i].tree) parts_[i].tree = &surface_.root(surface_.groups()[i]);
+    if (parts_[i].started != starts_) fill(parts_[i]);
     evaluate(parts_[i], f_lower, *contact);
-    interpolation += moduli_[i].ratio_error * (parts_[i].f_upper - f_lower);
     f_lower = parts_[i].f_upper;
     evaluate_halves(i, *contact);
     whole_.push_back(i);
   }
+  const double interpolation = interpolation_error(*contact);
   constexpr int most_rounds = 30;
   constexpr std::size_t most_parts = 500;  // where today's panels are no slower
   for (int round = 0; round < most_rounds; ++round) {
@@ -166,10 +247,14 @@ bool RingSolver::solve(double pressure, double shift, const ContactIntegral* con
       sum += part;
       worst = std::fmax(worst, part);
     }
-    const double factor = 4 * pressure / stiffening_, allowed = 0.85 * rtol_ * value - interpolation;
+    const double factor = 4 * pressure / stiffening_, allowed = of_hysteresis * rtol_ * value;
     hysteresis_ = {factor * value, factor * (sum + interpolation), 0};
-    if (sum <= allowed) return true;
-    if (!(allowed > 0) || whole_.size() > most_parts) return false;
+    if (sum + interpolation <= allowed) {
+      hysteresis_.outside = factor * outside();
+      return Outcome::solved;
+    }
+    if (!(interpolation < 0.9 * allowed)) return Outcome::too_coarse;
+    if (whole_.size() > most_parts) break;
     next_.clear();
     for (const std::size_t i : whole_) {
       if (error(parts_[i]) < 0.1 * worst) {
@@ -183,7 +268,7 @@ bool RingSolver::solve(double pressure, double shift, const ContactIntegral* con
     }
     whole_.swap(next_);
   }
-  return false;
+  return Outcome::not_converged;
 }
 
 }  // namespace asperity

@@ -14,19 +14,21 @@ namespace asperity {
 /// Eq. 22 by parts on blocks of rings (spectrum/ring_blocks.hpp), with R = I1 / I2 and F of `ContactIntegral`:
 ///   mu_H = 4 (1 - nu^2) sigma0 sum over blocks of [R at the upper end times the rise of F
 ///                                                  - int (F - F at the lower end) dR].
-/// For rubbers whose I1 and I2 are analytic in ln w, which those of a table are not.
+/// I2 and R are polynomials in ln q on each cell of a grid.
 class RingSolver {
  public:
-  /// Where it holds: for tables of as many rows at least, that are not quicker done one by one, and tolerances no less.
-  static constexpr std::size_t least_rows = 32;
-  static constexpr double least_rtol = 1e-7;
-
-  RingSolver(const RingSurface& surface, const PronySeries& rubber, double poisson_ratio, double rtol);
+  RingSolver(const RingSurface& surface, const Rubber& rubber, double poisson_ratio, double rtol);
 
   /// A velocity, at which any number of points follow.
   void start(double velocity);
-  /// Solves for G, and for mu_H where `contact` is given. False where the tolerance is not reached for certain.
-  [[nodiscard]] bool solve(double pressure, double shift, const ContactIntegral* contact);
+  [[nodiscard]] double velocity() const { return velocity_; }
+  /// How many times larger than allowed the errors of the polynomials are: above 1 a finer grid is wanted.
+  [[nodiscard]] double excess() const { return excess_; }
+
+  /// Whether the tolerance is reached; on a finer grid it may be where G is not or the grid is too coarse for mu_H.
+  enum class Outcome { solved, no_g, too_coarse, not_converged };
+  /// Solves for G, and for mu_H where `contact` is given.
+  [[nodiscard]] Outcome solve(double pressure, double shift, const ContactIntegral* contact);
 
   [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
   /// G at the upper end of the spectrum, and its relative error.
@@ -34,19 +36,21 @@ class RingSolver {
   [[nodiscard]] double relative_error() const { return g_relative_error_; }
 
  private:
-  /// The rubber on a group at the velocity, and by how much the polynomials through the points miss it at most.
+  /// The rubber on a group at the velocity.
   struct Modulus {
-    double i2[RingBlock::nodes + 1], ratio[RingBlock::nodes];  // the last one is for G at the lower end of a part
-    double ratio_error;
+    std::vector<double> i2, ratio;    // at the points of the group's cells
+    std::vector<double> outside;      // part of `ratio` from frequencies outside of the measured range; empty without
+    std::vector<double> ratio_error;  // of the polynomial in each cell
   };
   /// A part of a group's tree: what the velocity makes of it, and then the pressure.
   struct Part {
-    const RingTree* tree;
+    const RingTree* tree;  // null for a group's until it is asked for
     std::size_t group;
     std::size_t halves = 0;   // where the first of two is, 0 if they were not asked for yet
     std::size_t started = 0;  // the velocity that the next three are of
     double g_lower = 0;       // at unit load
     double g[RingBlock::rows] = {}, slope[RingBlock::rows] = {};
+    double f[RingBlock::rows] = {};
     double f_lower = 0, f_upper = 0;
     double value = 0;      // R dF
     double area = 0;       // int (F - F at the lower end) dy
@@ -54,20 +58,26 @@ class RingSolver {
     double by_halves = 0;  // and where the halves stand for the whole
     [[nodiscard]] const RingBlock& block() const { return tree->block; }
   };
+  void take_modulus(const RingSurface::Group& group, Modulus& at);
   void fill(Part& part);
   void evaluate(Part& part, double f_lower, const ContactIntegral& contact) const;
   void evaluate_halves(std::size_t index, const ContactIntegral& contact);
   [[nodiscard]] double error(const Part& part) const;
+  [[nodiscard]] double interpolation_error(const ContactIntegral& contact);
+  [[nodiscard]] double outside() const;
+  [[nodiscard]] double outside(const Part& part) const;
 
   const RingSurface& surface_;
-  const PronySeries& rubber_;
+  const Rubber& rubber_;
   double stiffening_, g_factor_, rtol_;
-  double velocity_ = 0, scale_ = 0, unit_g_ = 0, g_relative_error_ = 0;
+  double velocity_ = 0, scale_ = 0, unit_g_ = 0, g_relative_error_ = 0, excess_ = 0;
   std::size_t starts_ = 0;
   PanelSolver::Hysteresis hysteresis_;
-  std::vector<Modulus> moduli_;            // of each group
-  std::vector<Part> parts_;                // the groups' roots first
-  std::vector<std::size_t> whole_, next_;  // parts whose halves make up the sum
+  std::vector<double> frequency_, i1_outside_;
+  std::vector<Modulus> moduli_;                  // of each group
+  std::vector<double> g_at_cells_, f_at_cells_;  // at the upper end of each cell: at unit load; of the point
+  std::vector<Part> parts_;                      // the groups' roots first
+  std::vector<std::size_t> whole_, next_;        // parts whose halves make up the sum
 };
 
 }  // namespace asperity

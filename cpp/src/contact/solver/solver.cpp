@@ -9,7 +9,6 @@
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "numerics/arguments.hpp"
-#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -55,23 +54,21 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
 // Below the tolerances for which blocks of rings hold, and on few rows, panels are the better way.
 void Solver::use_rings_of(const Spectrum& spectrum) {
   const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
-  const auto* prony = std::get_if<PronySeries>(&rubber_);
-  if (table && prony && table->wavenumber().size() >= RingSolver::least_rows && model_.method == Method::gauss &&
-      model_.form == Form::exact && model_.rtol >= RingSolver::least_rtol)
-    rings_.emplace(table->surface().rings(*table), *prony, model_.poisson_ratio, model_.rtol);
+  if (table && table->wavenumber().size() >= RingSolvers::least_rows && model_.method == Method::gauss &&
+      model_.form == Form::exact && model_.rtol >= RingSolvers::least_rtol)
+    rings_.emplace(*table, rubber_, model_.poisson_ratio, model_.rtol);
 }
 
 void Solver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
-  if (rings_) rings_->start(velocity);
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
   if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
-    by_rings_ = rings_ && rings_->solve(pressure, shift, contact_ ? &*contact_ : nullptr);
+    by_rings_ = rings_ && rings_->solve(pressure, velocity, shift, contact_ ? &*contact_ : nullptr);
     if (by_rings_) return;
     if (panel_velocity_ != velocity) panel_solver_.start(velocity, stop_wavenumbers_);
     panel_velocity_ = velocity;
@@ -88,13 +85,13 @@ void Solver::solve(double pressure, double velocity, double shift) {
 }
 
 double Solver::g(double wavenumber) const {
-  return gsl_solver_ ? gsl_solver_->g(wavenumber) : by_rings_ ? rings_->g() : panel_solver_.g(wavenumber);
+  return gsl_solver_ ? gsl_solver_->g(wavenumber) : g_by_rings() ? rings_->g() : panel_solver_.g(wavenumber);
 }
 
 double Solver::relative_error() const {
-  return gsl_solver_ ? gsl_solver_->relative_error()
-         : by_rings_ ? rings_->relative_error()
-                     : panel_solver_.relative_error();
+  return gsl_solver_    ? gsl_solver_->relative_error()
+         : g_by_rings() ? rings_->relative_error()
+                        : panel_solver_.relative_error();
 }
 
 double Solver::hysteresis_density(double wavenumber) const {

@@ -8,7 +8,7 @@
 
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
-#include "contact/solver/ring_solver.hpp"
+#include "contact/solver/ring_solvers.hpp"
 
 namespace asperity {
 
@@ -38,6 +38,7 @@ class Solver {
 
  private:
   void start(double velocity);
+  [[nodiscard]] bool g_by_rings() const { return rings_ && rings_->has_g(); }
 
   std::span<const Segment> surface_;
   const Rubber& rubber_;
@@ -48,8 +49,8 @@ class Solver {
   PanelSolver panel_solver_;
   std::span<const double> stops_;
   double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
-  std::optional<RingSolver> rings_;
-  bool by_rings_ = false;  // the point
+  std::optional<RingSolvers> rings_;
+  bool by_rings_ = false;  // mu_H of the point
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;

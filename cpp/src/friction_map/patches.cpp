@@ -1,0 +1,250 @@
+// Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points, patch by patch.
+// L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM (2013), chapters 3 and 4.
+#include "friction_map/patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+constexpr double share = 1.0 / 40;             // of rtol
+constexpr double longest = 2;                  // of a patch to begin with, in ln v and in ln p
+constexpr double most_in_a_row = 64;           // to begin with: of a box of hundreds of decades most is smooth
+constexpr std::size_t most_patches = 20'000;   // beyond, what patches are off by is told and not mended
+constexpr std::size_t test_x = 4, test_z = 4;  // random x of a patch, and random z at each
+
+}  // namespace
+
+MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
+                       const std::function<void(double)>& progress)
+    : frame_(frame), tolerance_(std::fmax(share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
+  const auto [x_lo, x_hi] = frame.x();
+  const auto pieces = [](double length) { return std::clamp(std::ceil(length / longest), 1.0, most_in_a_row); };
+  std::vector<std::size_t> in_box;
+  for (std::size_t band = 0; band + 1 < frame.cuts().size(); ++band) {
+    const double bottom = frame.cuts()[band], length = x_hi - x_lo, height = frame.cuts()[band + 1] - bottom;
+    const double columns = pieces(length), rows = pieces(height);
+    strips_.push_back({patches_.size(), static_cast<std::size_t>(columns), static_cast<std::size_t>(rows),
+                       MapPlace{x_lo, bottom}, MapPlace{length / columns, height / rows}});
+    const Strip& strip = strips_.back();
+    const MapPlace half{strip.size.x / 2, strip.size.z / 2};
+    for (std::size_t i = 0; i < strip.columns; ++i)
+      for (std::size_t j = 0; j < strip.rows; ++j) {
+        const MapPlace corner{x_lo + static_cast<double>(i) * strip.size.x,
+                              bottom + static_cast<double>(j) * strip.size.z};
+        if (frame.touches_box(corner, strip.size)) in_box.push_back(patches_.size());
+        patches_.push_back({.middle = {corner.x + half.x, corner.z + half.z}, .half = half});
+      }
+  }
+  make(std::move(in_box), progress);
+}
+
+/// Level by level, so that all points of a level are solved at once.
+void MapPatches::make(std::vector<std::size_t> wanted, const std::function<void(double)>& progress) {
+  const auto area = [&](std::size_t i) { return patches_[i].half.x * patches_[i].half.z; };
+  double whole = 0, done = 0;
+  for (const std::size_t i : wanted) whole += area(i);
+  while (!wanted.empty()) {
+    interpolate(wanted);
+    const bool last = patches_.size() > most_patches;
+    std::vector<std::size_t> tested, next;
+    for (const std::size_t i : wanted)
+      if (last || std::ranges::max(last_coefficients(patches_[i])) <= tolerance_) tested.push_back(i);
+    const std::vector<double> errors = test(tested);
+    for (std::size_t k = 0; k < tested.size(); ++k) {
+      Patch& patch = patches_[tested[k]];
+      const double off = std::fmax(std::ranges::max(last_coefficients(patch)), errors[k]);
+      if (!last && off > tolerance_) continue;
+      patch.error += 2 * off;
+      patch.made = true;
+    }
+    for (const std::size_t i : wanted) {
+      if (patches_[i].made) {
+        done += area(i);
+        continue;
+      }
+      const auto [in_x, in_z] = last_coefficients(patches_[i]);
+      halve(i, in_x >= in_z);
+      const auto child = static_cast<std::size_t>(patches_[i].child);
+      next.insert(next.end(), {child, child + 1});
+    }
+    wanted.swap(next);
+    if (progress) progress(done / whole);
+  }
+}
+
+void MapPatches::interpolate(std::span<const std::size_t> wanted) {
+  static const std::array<Row, n> cosine = [] {  // T_m at the points; rows are orthogonal
+    std::array<Row, n> table{};
+    for (std::size_t m = 0; m < n; ++m)
+      for (std::size_t k = 0; k < n; ++k)
+        table[m][k] = std::cos(std::numbers::pi * static_cast<double>(m) * (static_cast<double>(k) + 0.5) / n);
+    return table;
+  }();
+  std::vector<MapPlace> places;
+  places.reserve(wanted.size() * n * n);
+  for (const std::size_t index : wanted) {
+    const Patch& patch = patches_[index];
+    for (const double x : cosine[1])
+      for (const double z : cosine[1])
+        places.push_back({patch.middle.x + patch.half.x * x, patch.middle.z + patch.half.z * z});
+  }
+  const std::vector<MapSample> found = frame_.sample(places, threads_);
+  for (std::size_t w = 0; w < wanted.size(); ++w) {
+    Patch& patch = patches_[wanted[w]];
+    const MapSample* const sample = &found[w * n * n];
+    patch.error = std::ranges::max_element(sample, sample + n * n, {}, &MapSample::error)->error;
+    for (std::size_t f = 0; f < 2; ++f) {
+      std::array<Row, n> in_z{};  // at each x
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t m = 0; m < n; ++m) {
+          for (std::size_t k = 0; k < n; ++k) in_z[i][m] += cosine[m][k] * sample[i * n + k].f[f];
+          in_z[i][m] *= (m == 0 ? 1.0 : 2.0) / n;
+        }
+      for (std::size_t m = 0; m < n; ++m) {
+        Row& row = patch.coefficient[f][m];
+        row = {};
+        for (std::size_t k = 0; k < n; ++k)
+          for (std::size_t j = 0; j < n; ++j) row[j] += cosine[m][k] * in_z[k][j];
+        for (double& c : row) c *= (m == 0 ? 1.0 : 2.0) / n;
+      }
+    }
+  }
+}
+
+/// The largest error of each at random points.
+std::vector<double> MapPatches::test(std::span<const std::size_t> wanted) {
+  std::vector<MapPlace> places;
+  places.reserve(wanted.size() * test_x * test_z);
+  for (const std::size_t index : wanted) {
+    const Patch& patch = patches_[index];
+    for (std::size_t i = 0; i < test_x; ++i) {
+      const double x = patch.middle.x + patch.half.x * (2 * random_() - 1);
+      for (std::size_t j = 0; j < test_z; ++j)
+        places.push_back({x, patch.middle.z + patch.half.z * (2 * random_() - 1)});
+    }
+  }
+  const std::vector<MapSample> found = frame_.sample(places, threads_);
+  std::vector<double> errors(wanted.size(), 0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t w = i / (test_x * test_z);
+    const std::array<double, 2> f = value(patches_[wanted[w]], places[i]);
+    for (std::size_t k = 0; k < 2; ++k) errors[w] = std::fmax(errors[w], std::fabs(f[k] - found[i].f[k]));
+  }
+  return errors;
+}
+
+void MapPatches::halve(std::size_t index, bool in_x) {
+  Patch& whole = patches_[index];
+  whole.child = static_cast<std::int32_t>(patches_.size());
+  whole.in_x = in_x;
+  whole.made = true;
+  Patch half{.middle = whole.middle, .half = whole.half};
+  double& length = in_x ? half.half.x : half.half.z;
+  double& at = in_x ? half.middle.x : half.middle.z;
+  length /= 2;
+  at -= length;
+  patches_.push_back(half);
+  at += 2 * length;
+  patches_.push_back(half);
+}
+
+/// The largest of the last two coefficients in x, and in z.
+std::array<double, 2> MapPatches::last_coefficients(const Patch& patch) {
+  std::array<double, 2> last{};
+  for (const auto& c : patch.coefficient)
+    for (std::size_t i = 0; i < n; ++i)
+      for (const std::size_t k : {n - 2, n - 1}) {
+        last[0] = std::fmax(last[0], std::fabs(c[k][i]));
+        last[1] = std::fmax(last[1], std::fabs(c[i][k]));
+      }
+  return last;
+}
+
+const MapPatches::Patch& MapPatches::find(std::uint32_t band, const MapPlace& place) {
+  const Strip& strip = strips_[band];
+  const auto piece = [](double at, std::size_t pieces) {
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(pieces - 1)));
+  };
+  std::size_t at = strip.first + piece((place.x - strip.corner.x) / strip.size.x, strip.columns) * strip.rows +
+                   piece((place.z - strip.corner.z) / strip.size.z, strip.rows);
+  if (!patches_[at].made) make({at}, {});
+  while (patches_[at].child >= 0) {
+    const Patch& patch = patches_[at];
+    const bool beyond = patch.in_x ? place.x > patch.middle.x : place.z > patch.middle.z;
+    at = static_cast<std::size_t>(patch.child) + (beyond ? 1 : 0);
+  }
+  return patches_[at];
+}
+
+namespace {
+
+/// T_i at t.
+template <std::size_t n>
+std::array<double, n> chebyshev(double t) {
+  std::array<double, n> value{1, t};
+  for (std::size_t i = 2; i < n; ++i) value[i] = 2 * t * value[i - 1] - value[i - 2];
+  return value;
+}
+
+/// T_i' = i U_(i-1) at t.
+template <std::size_t n>
+std::array<double, n> chebyshev_slopes(double t) {
+  std::array<double, n> slope{0, 1};
+  double last = 1, now = 2 * t;
+  for (std::size_t i = 2; i < n; ++i) {
+    slope[i] = static_cast<double>(i) * now;
+    last = std::exchange(now, 2 * t * now - last);
+  }
+  return slope;
+}
+
+template <std::size_t n>
+double dot(const std::array<double, n>& a, const std::array<double, n>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+template <std::size_t n>
+std::array<double, n> combine(const std::array<std::array<double, n>, n>& c, const std::array<double, n>& weight) {
+  std::array<double, n> result{};
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) result[j] += weight[i] * c[i][j];
+  return result;
+}
+
+}  // namespace
+
+std::array<double, 2> MapPatches::value(const Patch& patch, const MapPlace& place) {
+  const Row x = chebyshev<n>((place.x - patch.middle.x) / patch.half.x);
+  const Row z = chebyshev<n>((place.z - patch.middle.z) / patch.half.z);
+  return {dot(combine(patch.coefficient[0], x), z), dot(combine(patch.coefficient[1], x), z)};
+}
+
+MapSample MapPatches::at(std::uint32_t band, const MapPlace& place) {
+  const Patch& patch = find(band, place);
+  return {value(patch, place), patch.error};
+}
+
+MapSlopes MapPatches::slopes(std::uint32_t band, const MapPlace& place) {
+  const Patch& patch = find(band, place);
+  const double x = (place.x - patch.middle.x) / patch.half.x, z = (place.z - patch.middle.z) / patch.half.z;
+  const Row in_x = chebyshev<n>(x), in_z = chebyshev<n>(z);
+  const Row slope_x = chebyshev_slopes<n>(x), slope_z = chebyshev_slopes<n>(z);
+  MapSlopes at{};
+  for (std::size_t f = 0; f < 2; ++f) {
+    const Row row = combine(patch.coefficient[f], in_x), slope = combine(patch.coefficient[f], slope_x);
+    at.f[f] = dot(row, in_z);
+    at.x[f] = dot(slope, in_z) / patch.half.x;
+    at.z[f] = dot(row, slope_z) / patch.half.z;
+    at.xz[f] = dot(slope, slope_z) / (patch.half.x * patch.half.z);
+  }
+  return at;
+}
+
+}  // namespace asperity

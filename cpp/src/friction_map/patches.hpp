@@ -1,0 +1,67 @@
+// The solver's numbers over the rectangle of a map as polynomials of high degree, from which cells are made.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "friction_map/sampling.hpp"
+#include "numerics/random.hpp"
+
+namespace asperity {
+
+/// The functions of a MapSample with their derivatives.
+struct MapSlopes {
+  std::array<double, 2> f, x, z, xz;
+};
+
+/// Patches of 12 x 12 points with the polynomial through them, halved in x or in z until it keeps a fortieth of rtol,
+/// by its last coefficients and at 16 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
+/// rubber makes them: with a Prony series a few dozen patches stand for a box at any rtol, where the number of cells
+/// grows as rtol^(-1/2).
+class MapPatches {
+ public:
+  /// Makes the patches that the box touches; `progress` hears of the share that is done.
+  MapPatches(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
+
+  /// At a place in a band, on its sides too. The error is twice the largest that was found on the patch, and the
+  /// solver's. A patch outside of the box is made when it is asked for.
+  [[nodiscard]] MapSample at(std::uint32_t band, const MapPlace& place);
+  [[nodiscard]] MapSlopes slopes(std::uint32_t band, const MapPlace& place);
+
+ private:
+  static constexpr std::size_t n = 12;
+  using Row = std::array<double, n>;
+  struct Patch {
+    MapPlace middle, half;  // half its size
+    bool made = false;
+    std::int32_t child = -1;  // the first of two; -1: not halved
+    bool in_x = false;        // which way it was halved
+    double error = 0;
+    std::array<std::array<Row, n>, 2> coefficient{};  // of T_i(x) T_j(z), of each function
+  };
+  struct Strip {  // the patches that a band begins with, by columns
+    std::size_t first, columns, rows;
+    MapPlace corner, size;  // of a patch
+  };
+
+  void make(std::vector<std::size_t> wanted, const std::function<void(double)>& progress);
+  void interpolate(std::span<const std::size_t> wanted);
+  [[nodiscard]] std::vector<double> test(std::span<const std::size_t> wanted);
+  void halve(std::size_t index, bool in_x);
+  [[nodiscard]] static std::array<double, 2> last_coefficients(const Patch& patch);
+  [[nodiscard]] const Patch& find(std::uint32_t band, const MapPlace& place);
+  [[nodiscard]] static std::array<double, 2> value(const Patch& patch, const MapPlace& place);
+
+  const MapFrame& frame_;
+  double tolerance_;
+  unsigned threads_;
+  std::vector<Strip> strips_;
+  std::vector<Patch> patches_;
+  Random random_{20261122};
+};
+
+}  // namespace asperity
