@@ -22,6 +22,11 @@ py::tuple slide_of(const HeightMap& map, const Rubber& rubber, double pressure, 
 
 }  // namespace
 
-void bind_sliding(py::module_& m) { m.def("slide", &slide_of); }
+void bind_sliding(py::module_& m) {
+  m.def("slide", &slide_of);
+  m.def("continued", [](const HeightMap& map, int continuation) {
+    return released([&] { return continued(map, static_cast<Continuation>(continuation)); });
+  });
+}
 
 }  // namespace asperity::python

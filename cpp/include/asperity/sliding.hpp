@@ -16,9 +16,13 @@ namespace asperity {
 /// times the points), or by its own other side, into which the last eighth along either axis is faded.
 enum class Continuation { periodic, mirror, fade };
 
+/// One period of the map, its heights about their mean. Throws InvalidInput for drop-outs, and fewer than 16 points
+/// along a side.
+ASPERITY_EXPORT HeightMap continued(const HeightMap& map, Continuation continuation);
+
 struct SlidingModel {
   double poisson_ratio = 0.5;
-  Continuation continuation = Continuation::mirror;
+  Continuation continuation = Continuation::fade;
   /// Largest complementarity error.
   double rtol = 1e-6;
   /// [s], after which the computation ends with NotConverged.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
@@ -91,6 +92,11 @@ Period one_period(const HeightMap& map, Continuation continuation) {
   if (!(rms > 0) || !std::isfinite(rms))
     throw InvalidInput("height_map has an rms height of " + show(rms, 3) + " m: must have roughness");
   return period;
+}
+
+HeightMap continued(const HeightMap& map, Continuation continuation) {
+  Period period = one_period(map, continuation);
+  return {std::move(period.heights), period.shape, map.pixel_size()};
 }
 
 }  // namespace asperity

@@ -18,8 +18,7 @@ from asperity.rubber import Rubber
 from asperity.scene.scene import Progress
 from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
-from asperity.validation.boundary_elements import mirrored
-from asperity.validation.sliding import slide
+from asperity.validation.sliding import continued, slide
 
 _Array = NDArray[np.float64]
 
@@ -109,9 +108,9 @@ def compare(
     """Solve a map at every pressure and velocity, and predict the same from its own spectrum.
 
     The theory is given the spectrum of the very map that is solved, all its modes, at its rms
-    slope. Arguments and errors as of `slide` and `friction`; `periodic` False mirrors the map.
+    slope. Arguments and errors as of `slide` and `friction`; `periodic` False fades the map.
     """
-    solved = surface if periodic else mirrored(surface)
+    solved = surface if periodic else continued(surface, "fade")
     loads, speeds = np.array(pressure, dtype=float), np.array(velocity, dtype=float)
     points = [(p, v) for p in loads for v in speeds]
     rows = []
@@ -135,7 +134,10 @@ def compare(
             correction=correction,
         )
         predicted[name] = (theory.hysteresis, theory.contact_area)
-    notes = [] if periodic else ["the map was continued by its mirror images"]
+    faded = (
+        "the map was made periodic: the last eighth along either axis is faded into its beginning"
+    )
+    notes = [] if periodic else [faded]
     apart = float(np.abs(slopes / mu - 1).max())
     if apart > _COARSE:
         notes.append(

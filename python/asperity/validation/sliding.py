@@ -11,7 +11,7 @@ from asperity.base.arguments import Array, brief, frozen, number, of_kind
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.rubber import MasterCurve, PronySeries, Rubber
-from asperity.surface import HeightMap, metric_unit
+from asperity.surface import HeightMap, around, metric_unit
 
 __all__ = ["SlidingContact", "slide"]
 
@@ -103,7 +103,7 @@ def slide(
     pressure: float,
     velocity: float,
     poisson_ratio: float = 0.5,
-    periodic: Periodic = "mirror",
+    periodic: Periodic = "fade",
     rtol: float = 1e-6,
     time_limit: float | None = None,
 ) -> SlidingContact:
@@ -129,9 +129,9 @@ def slide(
         In [0, 0.5].
     periodic : True, "mirror" or "fade"
         How the map goes on beyond its sides. True: at its opposite sides, as those of `synthesize`
-        do. "mirror": by its mirror images, which takes four times the points and slides over the
-        slopes in both directions. "fade": the last eighth along either axis is faded into its
-        beginning, which keeps the direction and takes three quarters of the points.
+        do. "fade": the last eighth along either axis is faded into its beginning, which leaves
+        three quarters of the points. "mirror": by its mirror images, which takes four times the
+        points and slides over the slopes in both directions.
     rtol : float
         Largest complementarity error, 1e-12 to 0.1.
     time_limit : float, optional
@@ -152,6 +152,19 @@ def slide(
 
     Notes
     -----
+    Semismooth Newton steps on the set of points in contact, each solved by GMRES in single
+    precision, with a proximal term that keeps lossy rubbers from flipping; coarser grids first.
+    512^2 points take half a second in the median, 95 % of contacts within 5 s, the steepest modulus
+    (a factor of 1000 within the map's waves) up to 80 s; 2048^2 take 12 s and 0.6 GB (one thread).
+
+    Quarters of eight maps of 512^2 points (H 0.8, 8 to 64 waves to a side, three speeds), against
+    the whole map, in the mean: "fade" has mu 0.1, 0.0 and 1.8 % low (standard errors 1 to 2 %) and
+    the area 0.2 to 0.9 %; "mirror" has mu 1.5, 6.2 and 3.9 % low and the area 0.7 to 3.8 % high.
+    Single quarters scatter by 4 to 11 % in mu.
+
+    The pixel's size hardly enters mu: -0.4 to +2.3 % at 4 pixels a shortest wave. Maps of one
+    spectrum scatter by 2.5 % in mu while A/A0 is above 0.02, and by up to 40 % below.
+
     The area is free of the perimeter's excess (Yastrebov, Anciaux and Molinari, Tribology
     International 114 (2017) 161), (pi - 1 + ln 2) / 24 of a pixel a free side.
 
@@ -190,6 +203,11 @@ def slide(
         velocity=speed,
         notes=notes,
     )
+
+
+def continued(height_map: HeightMap, periodic: Periodic) -> HeightMap:
+    """Return the map that `slide` solves, its heights about their mean."""
+    return around(HeightMap, _core.continued(height_map._core, _continuation(periodic)))
 
 
 def _continuation(periodic: object) -> int:
