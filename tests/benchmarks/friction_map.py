@@ -6,6 +6,9 @@ The yardstick of a query in C++ is two logarithms and one exponential of the C l
 loop, that of an array from Python `np.log`, `np.log`, `np.exp` of arrays as long. Beside them
 SciPy's RegularGridInterpolator of ln mu on a regular grid with no fewer nodes than the map's cells
 have corners. All in one process by turns, medians; errors are the largest on 20,000 random points.
+
+Then what builds take, and their check of a million points, on measured inputs too where
+ASPERITY_DATA names their folder.
 """
 
 import importlib.util
@@ -16,6 +19,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import measured
 import numpy as np
 import timing
 from scipy.interpolate import RegularGridInterpolator
@@ -89,6 +93,49 @@ class Scene:
         return rows * columns, RegularGridInterpolator(axes, values, method=method, **inside)
 
 
+def builds() -> timing.Report:
+    """Seconds of one thread for maps at 1e-4, and at 1e-8 over 18 decades of velocity."""
+    road, rubber = Scene(None).parts
+    wide = {"pressure": BOX["pressure"], "velocity": (1e-12, 1e6), "rtol": 1e-8}
+    scenes: dict[str, tuple[Any, Any, dict[str, Any]]] = {
+        "closed form, 20 terms": (road, rubber, BOX),
+        "the same at 1e-8, 18 decades of velocity": (road, rubber, wide),
+    }
+    if measured.folder() is not None:
+        scan = measured.spectra()["opd-1.opd"]
+        curve = measured.rubbers()["epdm_70"].master_curve
+        box = {"pressure": BOX["pressure"], "velocity": measured.velocities(scan, curve)}
+        fit = asperity.fit_prony(curve)
+        name = f"opd-1, {scan.wavenumber.size} rings, epdm_70"
+        scenes |= {f"{name}, fitted": (scan, fit, box), f"{name}, measured": (scan, curve, box)}
+
+    def build(name: str, checked: int) -> Any:
+        *parts, options = scenes[name]
+        return asperity.friction_map(*parts, **options, checked=checked, threads=1)
+
+    quick = {name: lambda name=name: build(name, 0) for name in scenes}
+    times = timing.by_turns(quick, 5, 1.0)
+    plain = times["closed form, 20 terms"]
+    rows = []
+    for name in scenes:
+        spent = timing.median(times[name])
+        whole, made = timing.timed(lambda name=name: build(name, 1_000_000))
+        over = 1 / timing.ratio(plain, times[name])
+        rows.append((name, made.cells, spent, over, whole, made.exceeded))
+    columns = ("scene", "cells", "build_s", "ratio", "checked_s", "exceeded")
+    text = timing.markdown(
+        ["map", "cells", "build [ms]", "over the closed form", "with a million checked [s]"],
+        [
+            [name, f"{cells}", f"{1e3 * spent:.3g}", f"{over:.2g}", f"{whole:.2g}"]
+            for name, cells, spent, over, whole, _ in rows
+        ],
+    )
+    table = timing.table(
+        "benchmark friction_map", dict(zip(columns, zip(*rows, strict=True), strict=True))
+    )
+    return timing.Report(text, {"friction_map_build.csv": table})
+
+
 def points(count: int) -> tuple[Any, Any]:
     draws = np.random.default_rng(20261121)
     sides = BOX["pressure"], BOX["velocity"]
@@ -96,7 +143,7 @@ def points(count: int) -> tuple[Any, Any]:
     return drawn[0], drawn[1]
 
 
-def make() -> timing.Report:
+def look_ups() -> timing.Report:
     compiled = module()
     rows: list[tuple[str, float, float, float, float]] = []
     p, v = points(COUNT)
@@ -150,6 +197,11 @@ def make() -> timing.Report:
         "benchmark friction_map", dict(zip(columns, zip(*rows, strict=True), strict=True))
     )
     return timing.Report(f"{timing.machine()}, one thread:\n\n{text}", {"friction_map.csv": table})
+
+
+def make() -> timing.Report:
+    first, second = look_ups(), builds()
+    return timing.Report(f"{first.text}\n{second.text}", {**first.files, **second.files})
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #!/bin/sh
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
+#   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
@@ -38,6 +39,12 @@ scenes() {
     "$python" tests/stability/random_scenes.py --scenes 1000 --seed 2 --tables 0.5 &&
     "$python" tests/stability/random_scenes.py --scenes 40000 --seed 3 --tables 0.1 --edges 1 &&
     "$python" tests/stability/random_scenes.py --scenes 5000 --seed 4 --tables 0 --rings 1
+}
+
+rings() {
+  "$python" tests/stability/random_scenes.py --scenes 4000 --seed 5 --tables 0 --rings 1 --curves 0.5 &&
+    "$python" tests/stability/random_scenes.py --scenes 3000 --seed 6 --tables 0 --rings 1 --curves 1 &&
+    "$python" tests/stability/random_scenes.py --scenes 3000 --seed 7 --tables 1 --rings 1 --curves 0.3
 }
 
 maps() {
@@ -83,13 +90,13 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes maps tests properties files interrupts fuzz \
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings maps tests properties files interrupts fuzz \
   sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | isotherms | coverage | scenes | maps | tests | properties | files | interrupts | fuzz) ;;
+    catalogue | isotherms | coverage | scenes | rings | maps | tests | properties | files | interrupts | fuzz) ;;
     sanitize | threads | memcheck) ;;
-    *) sed -n '2,15s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,16s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -180,11 +180,12 @@ def draw_curve(rng: Any, slowest: float, fastest: float) -> Any:
     storage = power(rng, 5, 7) * 10 ** (decades * shape.get(kind, 0 * x))
     tangent = power(rng, -2, 0) * (1 + 20 * rng.random() * glass * (1 - glass))
     noise = 0 if rng.random() < 0.3 else power(rng, -4, -0.5)
+    extrapolation = rng.choice([None, "clamp"]) if rng.random() < 0.2 else None
     return asperity.MasterCurve(
         angular_frequency=np.exp(x),
         storage_modulus=storage * np.exp(noise * rng.standard_normal(rows)),
         loss_modulus=storage * tangent * np.exp(noise * rng.standard_normal(rows)),
-        extrapolation=rng.choice([None, "power-law", "clamp"]) if rng.random() < 0.2 else None,
+        extrapolation=extrapolation,
     )
 
 

@@ -59,7 +59,8 @@ std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber
   return friction(spectrum, rubber, model, adhesion, pressure, velocity).notes;
 }
 
-/// The finished map against the solver on random points, 200 pressures a velocity.
+/// The finished map against the solver, whose own error counts too, on random velocities with 200 random pressures
+/// each.
 void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, unsigned threads,
            MapCertificate& certificate) {
   constexpr std::size_t block = 20'000, pressures = 200;
@@ -80,13 +81,15 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
     in_parts(threads, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
       const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
       for (std::size_t i = begin; i < end; ++i) {
-        const auto& [ln_hysteresis, ln_area] = truth[i - begin].f;
+        const auto& [of_solver, error] = truth[i - begin];
+        const auto& [ln_hysteresis, ln_area] = of_solver;
         const double y = places[i].z + frame.log_modulus_offset(places[i].x);
         MapPoint found;
         map.at(std::exp(y), std::exp(places[i].x), found, FrictionMap::Outside::clamp);
         errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);
         if (frame.hysteresis())
           errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
+        errors[i] += error;
       }
     });
     if (request.progress)

@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double share = 1.0 / 40;             // of rtol
+constexpr double share = 1.0 / 20;             // of rtol
 constexpr double longest = 2;                  // of a patch to begin with, in ln v and in ln p
 constexpr double most_in_a_row = 64;           // to begin with: of a box of hundreds of decades most is smooth
 constexpr std::size_t most_patches = 20'000;   // beyond, what patches are off by is told and not mended

@@ -18,7 +18,7 @@ struct MapSlopes {
   std::array<double, 2> f, x, z, xz;
 };
 
-/// Patches of 12 x 12 points with the polynomial through them, halved in x or in z until it keeps a fortieth of rtol,
+/// Patches of 12 x 12 points with the polynomial through them, halved in x or in z until it keeps a twentieth of rtol,
 /// by its last coefficients and at 16 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
 /// rubber makes them: with a Prony series a few dozen patches stand for a box at any rtol, where the number of cells
 /// grows as rtol^(-1/2).

@@ -37,7 +37,7 @@ std::array<double, 5> derivative_weights(std::size_t k) {
 
 MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request)
     : spectrum_(spectrum), rubber_(rubber), model_(std::move(model)), rtol_(request.rtol), velocity_(request.velocity) {
-  model_.rtol = std::clamp(request.rtol * 1e-3, 1e-12, 1e-6);
+  model_.rtol = std::clamp(request.rtol * 1e-2, 1e-12, 1e-6);
   x_lo_ = std::log(velocity_[0]);
   x_hi_ = std::log(velocity_[1]);
   y_lo_ = std::log(request.pressure[0]);
@@ -156,7 +156,7 @@ std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsign
     try {
       return friction(spectrum_, rubber_, model_, {}, pressure, velocity, false, threads);
     } catch (const NotConverged& error) {
-      throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a thousandth of it, found " +
+      throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a hundredth of it, found " +
                          error.what());
     }
   }();

@@ -122,27 +122,33 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   }
 }
 
-/// `panel` is where the frequency before was: neighbours are asked for one after the other.
-AngularTable::Place AngularTable::find(double w, std::size_t& panel) const {
+/// The panel of a frequency, if it is another than that of the one before.
+void AngularTable::step(double at, Panel& panel) const {
   const std::span<const double> edges = sums_.edges();
-  const double at = std::clamp(w, lowest_, highest_);
   constexpr std::size_t near = 4;
-  if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
-    while (at >= edges[panel + 1]) ++panel;
+  std::size_t p = panel.index;
+  if (at >= panel.high && at < edges[std::min(p + near, edges.size() - 1)]) {
+    while (at >= edges[p + 1]) ++p;
   } else {
     const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
     const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
-    panel = static_cast<std::size_t>(above - edges.begin()) - 1;
+    p = static_cast<std::size_t>(above - edges.begin()) - 1;
   }
-  const double low = edges[panel], fraction = (at - low) / (edges[panel + 1] - low);
-  auto part = parts(panel).begin();
+  panel = {p, edges[p], edges[p + 1], parts(p).data()};
+}
+
+AngularTable::Place AngularTable::find(double w, Panel& panel) const {
+  const double at = std::clamp(w, lowest_, highest_);
+  if (!(at >= panel.low && at < panel.high)) step(at, panel);
+  const double fraction = (at - panel.low) / (panel.high - panel.low);
+  const Part* part = panel.parts;
   const double t = part->root ? std::sqrt(fraction) : fraction;
   while (t > part->upper) ++part;
-  return {&*part, part->scale * t + part->shift};
+  return {part, part->scale * t + part->shift};
 }
 
 AngularIntegrals AngularTable::operator()(double w) const {
-  std::size_t panel = 0;
+  Panel panel;
   const auto [part, u] = find(w, panel);
   const Pair all = part->all(u), outside = part->outside(u);
   return {all[0], all[1], std::clamp(outside[0], 0.0, all[0]), std::clamp(outside[1], 0.0, all[1])};
@@ -151,7 +157,7 @@ AngularIntegrals AngularTable::operator()(double w) const {
 bool AngularTable::operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
   constexpr std::size_t together = 8;  // polynomials, whose terms wait for each other
   bool any_outside = false;
-  std::size_t panel = 0;
+  Panel panel;
   for (std::size_t from = 0; from < w.size(); from += together) {
     const std::size_t n = std::min(together, w.size() - from);
     Place at[together];

@@ -36,7 +36,14 @@ class AngularTable {
     double u;
   };
   using Parts = std::vector<Part>;
-  [[nodiscard]] Place find(double w, std::size_t& panel) const;
+  struct Panel {
+    std::size_t index = 0;
+    double low = 0, high = 0;
+    const Part* parts = nullptr;
+  };
+  /// `panel` is that of the frequency before: neighbours are asked for one after the other.
+  [[nodiscard]] Place find(double w, Panel& panel) const;
+  void step(double at, Panel& panel) const;
   [[nodiscard]] const Parts& parts(std::size_t panel) const;
   void append(std::size_t panel, double t0, double t1, Parts& parts) const;
 

@@ -8,7 +8,7 @@ namespace {
 /// On the first one cells are as long as I1 and I2 of a Prony series allow, with their singularities pi / 2 off the
 /// axis of ln q.
 constexpr std::array<RingGrid, TableSurface::grids> grids_of_rings{
-    {{2, 1}, {2, 2}, {1, 2}, {1, 4}, {0.5, 4}, {0.5, 8}}};
+    {{2, 1}, {2, 2}, {1, 2}, {1, 4}, {0.5, 4}, {0.5, 8}, {0.25, 8}}};
 
 }  // namespace
 

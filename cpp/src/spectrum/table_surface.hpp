@@ -22,7 +22,7 @@ class TableSurface {
   double rms_slope(const TabulatedSpectrum& table);
   double nayak_parameter(const TabulatedSpectrum& table);
   /// On one of so many grids, each finer than the one before.
-  static constexpr std::size_t grids = 6;
+  static constexpr std::size_t grids = 7;
   const RingSurface& rings(const TabulatedSpectrum& table, std::size_t grid);
 
  private:

@@ -208,3 +208,31 @@ TEST_CASE("a point on rings has the same bits alone, in a sweep, after others an
   CHECK(fresh() == table);
   CHECK(fresh() != TabulatedSpectrum({1, 2}, {1, 1}));
 }
+
+TEST_CASE("the share from outside of the measured frequencies is told on rings") {
+  std::mt19937_64 dice(2);
+  const TabulatedSpectrum table = random_rings(dice, 90);
+  const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());
+  const PronySeries series = random_rubber(dice, middle);
+  std::vector<double> w, storage, loss;
+  for (int i = 0; i <= 60; ++i) {
+    w.push_back(middle * std::pow(10, 0.1 * i - 3));
+    storage.push_back(series.modulus(w.back()).real());
+    loss.push_back(series.modulus(w.back()).imag());
+  }
+  const std::vector<Rubber> rubbers = {series.fitted_on({w.front(), w.back()}, true),
+                                       MasterCurve(w, storage, loss, Extrapolation::clamp)};
+  const std::vector<double> velocity = {0.2 * w.front() / table.wavenumber().front(), 0.02, 1, 50,
+                                        5 * w.back() / table.wavenumber().back()};
+  for (const Rubber& rubber : rubbers) {
+    ContactModel best;
+    best.rtol = 1e-9;
+    best.method = Method::cquad;
+    const Friction found = at(table, rubber, {}, velocity, 1e5), truth = at(table, rubber, best, velocity, 1e5);
+    CHECK(truth.extrapolated_share.front() > 0.01);
+    CHECK(truth.extrapolated_share.back() > 0.01);
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+      CHECK(found.extrapolated_share[i] == doctest::Approx(truth.extrapolated_share[i]).epsilon(0.01).scale(1e-6));
+    CHECK(!found.notes.empty());
+  }
+}

@@ -1,5 +1,6 @@
 """The two ways to integrate against each other, and what the error estimate promises."""
 
+import contextlib
 import copy
 import dataclasses
 import math
@@ -37,6 +38,15 @@ def test_the_error_estimate_is_kept_on_fronts_of_every_shape():
 
 def test_the_error_estimate_is_kept_on_rings():
     outcomes = [random_scenes.compute(5, scene, tables=0, rings=1) for scene in range(150)]
+    assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
+
+
+def test_the_error_estimate_is_kept_on_rings_with_master_curves():
+    outcomes = []
+    for scene in range(150):
+        with contextlib.suppress(random_scenes.NoTruth):
+            outcomes.append(random_scenes.compute(8, scene, tables=0.2, rings=1, curves=0.8))
+    assert len(outcomes) > 140
     assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
 
 

@@ -16,7 +16,7 @@ RingSolver& RingSolvers::at_velocity(std::size_t grid) {
 
 /// The finest where none will do for certain.
 std::size_t RingSolvers::first_grid() {
-  constexpr double gain = 8;  // of half the length of cells, at the knots of a master curve
+  constexpr double gain = 16;  // by half the length of cells, at the knots of a master curve
   constexpr std::size_t finest = TableSurface::grids - 1;
   std::size_t grid = 0;
   while (grid < finest) {
