@@ -163,7 +163,7 @@ def slide(
     Single quarters scatter by 4 to 11 % in mu.
 
     The pixel's size hardly enters mu: -0.4 to +2.3 % at 4 pixels a shortest wave. Maps of one
-    spectrum scatter by 2.5 % in mu while A/A0 is above 0.02, and by up to 40 % below.
+    spectrum scatter by 2 % in mu while A/A0 is above 0.03, by up to 15 % at 0.02 and 40 % at 0.007.
 
     The area is free of the perimeter's excess (Yastrebov, Anciaux and Molinari, Tribology
     International 114 (2017) 161), (pi - 1 + ln 2) / 24 of a pixel a free side.
