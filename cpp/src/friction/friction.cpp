@@ -122,8 +122,9 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
                        " where rtol = " + show(scene_.model.rtol) + " was asked for");
-  // coefficients do not fall evenly at the knots of a table, and the last one may be small by chance
-  constexpr double least = 1e-3;
+  // coefficients do not fall evenly at the knots of a table, and the last ones may be small by chance: one random
+  // table in a thousand was above its estimate where that was below a hundredth of the tolerance, none elsewhere
+  constexpr double least = 0.01;
   if (tabulated)
     at.error_estimate = std::fmin(at.error_estimate + least * scene_.model.rtol * mu, scene_.model.rtol * mu);
   return at;
