@@ -1,6 +1,6 @@
 """Rubber contact area and friction on rough surfaces, after Persson. SI units throughout."""
 
-from asperity import correction
+from asperity import correction, validation
 from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
 from asperity.asperities import Separation, hertz_penetration, separation
@@ -92,5 +92,6 @@ __all__ = [
     "separation",
     "spectral_density",
     "synthesize",
+    "validation",
 ]
 __all__ += correction.__all__

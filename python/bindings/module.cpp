@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   bind_rubber(m);
   bind_dma(m);
   bind_contact(m);
+  bind_sliding(m);
   bind_friction(m);
   bind_friction_map(m);
 }

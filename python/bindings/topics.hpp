@@ -11,6 +11,7 @@ void bind_spectrum(pybind11::module_& m);
 void bind_rubber(pybind11::module_& m);
 void bind_dma(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
+void bind_sliding(pybind11::module_& m);
 void bind_friction(pybind11::module_& m);
 void bind_friction_map(pybind11::module_& m);
 

@@ -2,17 +2,20 @@
 
     python tests/benchmarks/charts.py
 
-Runs friction, point, scaling, work_precision and models one after the other and writes what they
-find to docs/benchmarks, and the table between its two marks in README.md. ASPERITY_LIBRARY as for
-point.py. pip install asperity[bem] scipy pybind11.
+Runs rings, friction, point, scaling, work_precision and models one after the other and writes what
+they find to docs/benchmarks, and the tables between their two marks in README.md. Needs
+ASPERITY_DATA as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
+pip install asperity[bem] scipy pybind11.
 """
 
 import csv
 import io
 from pathlib import Path
 
+import measured
 import models
 import point
+import rings
 import scaling
 import timing
 import work_precision
@@ -23,7 +26,7 @@ from asperity.io.files import write_files
 ROOT = Path(__file__).parents[2]
 DOCS, README = ROOT / "docs" / "benchmarks", ROOT / "README.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
-PARTS = (friction, point, scaling, work_precision, models)
+PARTS = (rings, friction, point, scaling, work_precision, models)
 
 Rows = list[dict[str, str]]
 
@@ -36,7 +39,11 @@ def rows_of(text: str) -> tuple[Rows, str]:
 
 
 def page(tables: dict[str, str]) -> str:
-    """The README's table from the CSV files by their names."""
+    """The README's tables from the CSV files by their names."""
+    found = [
+        (row["surface"], row["rubber"], *map(float, list(row.values())[2:]))
+        for row in rows_of(tables["rings.csv"])[0]
+    ]
     curve, machine = rows_of(tables["friction.csv"])
     lines = [
         [
@@ -76,7 +83,7 @@ def page(tables: dict[str, str]) -> str:
         ],
     ]
     return (
-        f"{machine}, one thread:\n\n{timing.markdown(header, lines)}\n"
+        f"{machine}, one thread:\n\n{rings.markdown(found)}\n{timing.markdown(header, lines)}\n"
         f"{timing.markdown(['at rtol 1e-6 unless said', 'found'], more)}"
     )
 
@@ -92,6 +99,8 @@ def with_page(readme: str, text: str) -> str:
 
 def main() -> None:
     timing.on_one_thread()
+    if measured.folder() is None:
+        raise SystemExit("ASPERITY_DATA: must name the folder of the measured scans and rubbers")
     with_page(README.read_text(encoding="utf-8"), "")  # has it the marks?
     files: dict[str, bytes] = {}
     for part in PARTS:

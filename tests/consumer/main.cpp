@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <asperity/friction.hpp>
+#include <asperity/sliding.hpp>
 #include <asperity/version.hpp>
 #include <cmath>
 #include <complex>
@@ -41,6 +42,13 @@ int main() {
     fine &= check(std::strstr(error.what(), "pressure = -1") != nullptr, error.what());
   }
   (void)asperity::power_spectrum(asperity::synthesize(road, {64, 64}, {1e-4, 1e-4}, 1));
+
+  const asperity::SelfAffineSpectrum waves{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2000, .q1 = 16000};
+  const asperity::SlidingContact contact =
+      asperity::slide(asperity::synthesize(waves, {32, 32}, {1e-4, 1e-4}, 1), rubber, 1e5, 0.1,
+                      {.continuation = asperity::Continuation::periodic});
+  fine &=
+      check(contact.error < 1e-6 && contact.hysteresis > 0 && contact.contact_area < 1, "sliding contact is solved");
 
   // An integral that cannot converge makes GSL call the handler of this host, and no other.
   gsl_integration_workspace* const workspace = gsl_integration_workspace_alloc(2);

@@ -25,6 +25,10 @@ LISTS = {
     "hystereses",
     "measured",
     "outliers",
+    "kx",
+    "ky",
+    "amplitude",
+    "phase",
 }
 
 

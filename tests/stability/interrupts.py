@@ -52,6 +52,14 @@ def friction() -> Callable[[], object]:
     return lambda: asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=velocity)
 
 
+def sliding() -> Callable[[], object]:
+    box = {"shape": (2048, 2048), "pixel_size": 1e-5}
+    surface = asperity.synthesize(ROAD, **box, seed=1)
+    return lambda: asperity.validation.slide(
+        surface, RUBBER, pressure=1e5, velocity=0.1, periodic=True
+    )
+
+
 def measured(function: Callable[..., object]) -> Callable[[], object]:
     heights = np.random.default_rng(1).normal(size=GRID["shape"])
     surface = asperity.HeightMap(heights=heights, pixel_size=GRID["pixel_size"])
@@ -81,6 +89,7 @@ CALLS: dict[str, Callable[[], Callable[[], object]]] = {
     "spectral_density": lambda: measured(asperity.spectral_density),
     "friction_map": lambda: lambda: asperity.friction_map(ROAD, RUBBER, **BOX, rtol=1e-7),
     "friction_band": band,
+    "slide": sliding,
 }
 
 

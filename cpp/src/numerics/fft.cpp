@@ -1,21 +1,15 @@
-// Fourier transforms by FFTW: its plans under one lock, its memory aligned and kept for the next scan.
+// Fourier transforms by FFTW, its plans under one lock.
 // M. Frigo and S. G. Johnson, Proc. IEEE 93, 216 (2005).
 #include "numerics/fft.hpp"
 
 #include <fftw3.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <new>
 #include <numbers>
 #include <string>
 #include <type_traits>
-#include <utility>
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
@@ -44,7 +38,14 @@ struct Fftw<double> {
   static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
     return fftw_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
   }
+  static Plan real_inverse(int n, Complex* in, double* out, unsigned flags) {
+    return fftw_plan_dft_c2r_1d(n, in, out, flags);
+  }
+  static Plan columns(int n, int width, Complex* columns, int sign, unsigned flags) {
+    return fftw_plan_many_dft(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
+  }
   static void run(Plan p, double* in, Complex* out) { fftw_execute_dft_r2c(p, in, out); }
+  static void run(Plan p, Complex* in, double* out) { fftw_execute_dft_c2r(p, in, out); }
   static void run(Plan p, Complex* in, Complex* out) { fftw_execute_dft(p, in, out); }
   static void destroy(Plan p) { fftw_destroy_plan(p); }
 };
@@ -57,7 +58,14 @@ struct Fftw<float> {
   static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
     return fftwf_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
   }
+  static Plan real_inverse(int n, Complex* in, float* out, unsigned flags) {
+    return fftwf_plan_dft_c2r_1d(n, in, out, flags);
+  }
+  static Plan columns(int n, int width, Complex* columns, int sign, unsigned flags) {
+    return fftwf_plan_many_dft(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
+  }
   static void run(Plan p, float* in, Complex* out) { fftwf_execute_dft_r2c(p, in, out); }
+  static void run(Plan p, Complex* in, float* out) { fftwf_execute_dft_c2r(p, in, out); }
   static void run(Plan p, Complex* in, Complex* out) { fftwf_execute_dft(p, in, out); }
   static void destroy(Plan p) { fftwf_destroy_plan(p); }
 };
@@ -87,84 +95,7 @@ std::shared_ptr<void> planned(Make make) {
           }};
 }
 
-constexpr std::size_t large_page = std::size_t{2} << 20;
-
-struct Block {
-  void* data = nullptr;
-  std::size_t bytes = 0;
-};
-
-/// The last large block that was given back, kept for the next scan of about that size: fresh pages are cleared, which
-/// takes a tenth of a transform's time, and on a virtual machine that has given them back to its host more than the
-/// transform. The system may take pages of a kept block whenever it is short of memory.
-class Reserve {
- public:
-  static Reserve& get() {
-    static Reserve reserve;
-    return reserve;
-  }
-  Reserve() = default;
-  Reserve(const Reserve&) = delete;
-  Reserve& operator=(const Reserve&) = delete;
-  Reserve(Reserve&&) = delete;
-  Reserve& operator=(Reserve&&) = delete;
-  ~Reserve() { std::free(kept_.data); }
-
-  Block take(std::size_t bytes) {
-    const std::scoped_lock lock(mutex_);
-    return kept_.bytes >= bytes && kept_.bytes <= 2 * bytes ? std::exchange(kept_, {}) : Block{};
-  }
-  void give(Block block) {
-    if (block.bytes >= large_page && on_loan(block)) {
-      const std::scoped_lock lock(mutex_);
-      std::swap(block, kept_);
-    }
-    std::free(block.data);
-  }
-
- private:
-  static constexpr std::size_t little = std::size_t{64} << 20;
-
-  /// Whether a block may be kept: a large one where the system can have its pages without asking.
-  static bool on_loan(const Block& block) {
-    if (block.bytes <= little) return true;
-#ifdef MADV_FREE
-    return madvise(block.data, block.bytes, MADV_FREE) == 0;
-#else
-    return false;
-#endif
-  }
-
-  std::mutex mutex_;
-  Block kept_;
-};
-
-Block allocate(std::size_t wanted) {
-  const bool large = wanted >= large_page;
-  const std::size_t bytes = (wanted + 63) / 64 * 64;
-  if (large)
-    if (const Block kept = Reserve::get().take(bytes); kept.data) return kept;
-  Block fresh{nullptr, bytes};
-  if (posix_memalign(&fresh.data, large ? large_page : 64, bytes) != 0) throw std::bad_alloc();
-#ifdef __linux__
-  if (large) madvise(fresh.data, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
-#endif
-  return fresh;
-}
-
 }  // namespace
-
-template <class T>
-Scratch<T>::Scratch(std::size_t size) {
-  const Block block = allocate(size * sizeof(T));
-  data_ = static_cast<T*>(block.data);
-  bytes_ = block.bytes;
-}
-
-template <class T>
-Scratch<T>::~Scratch() {
-  Reserve::get().give({data_, bytes_});
-}
 
 // FFTW's real transforms of floats take three times as long as complex ones of half the length. So even rows z of
 // floats go as x_j = z_2j + i z_2j+1, X being the transform of h = n / 2 numbers, and
@@ -198,16 +129,14 @@ Quad load(const std::complex<float>* from) {
 }
 void store(Quad v, std::complex<float>* to) { std::memcpy(static_cast<void*>(to), &v, sizeof v); }
 
-/// From the transform of h pairs to the h + 1 modes of the 2 h numbers, in place.
-void untangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
-  z[h] = z[0].real() - z[0].imag();
-  z[0] = z[0].real() + z[0].imag();
+/// half (Z_k + conj Z_h-k) + t_k (Z_k - conj Z_h-k) for k from 1 to h - 1, in place.
+void exchange(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle, float half) {
   const Quad conjugate = {1, -1, 1, -1};
   std::size_t k = 1;
   for (; 2 * k + 2 < h; k += 2) {
     const Quad a = load(z + k), mirror = load(z + h - k - 1), t = load(twiddle + k);
     const Quad b = __builtin_shufflevector(mirror, mirror, 2, 3, 0, 1) * conjugate;
-    const Quad mean = 0.5F * (a + b), d = a - b;
+    const Quad mean = half * (a + b), d = a - b;
     const Quad turned = __builtin_shufflevector(t, t, 0, 0, 2, 2) * d - conjugate *
                                                                             __builtin_shufflevector(t, t, 1, 1, 3, 3) *
                                                                             __builtin_shufflevector(d, d, 1, 0, 3, 2);
@@ -217,9 +146,22 @@ void untangle(std::complex<float>* z, std::size_t h, const std::complex<float>* 
   }
   for (; 2 * k <= h; ++k) {
     const std::complex<float> a = z[k], b = std::conj(z[h - k]), turned = twiddle[k] * (a - b);
-    z[h - k] = std::conj(0.5F * (a + b) - turned);
-    z[k] = 0.5F * (a + b) + turned;
+    z[h - k] = std::conj(half * (a + b) - turned);
+    z[k] = half * (a + b) + turned;
   }
+}
+
+/// From the transform of h pairs to the h + 1 modes of the 2 h numbers, in place.
+void untangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
+  z[h] = z[0].real() - z[0].imag();
+  z[0] = z[0].real() + z[0].imag();
+  exchange(z, h, twiddle, 0.5F);
+}
+
+/// The way back, times 2: X_k = (Z_k + conj Z_h-k) + 2 conj t_k (Z_k - conj Z_h-k).
+void tangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
+  z[0] = {z[0].real() + z[h].real(), z[0].real() - z[h].real()};
+  exchange(z, h, twiddle, 1);
 }
 
 }  // namespace
@@ -233,6 +175,50 @@ void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
       return untangle(out, n_ / 2, twiddles_.data());
     }
   Fftw<T>::run(plan, in, raw(out));
+}
+
+template <class T>
+RealInverse<T>::RealInverse(std::size_t n) : n_(n) {
+  const Scratch<std::complex<T>> in(n / 2 + 1);
+  const Scratch<T> out(n);
+  const auto flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
+  if (std::is_same_v<T, float> && n % 2 == 0) {
+    for (std::size_t k = 0; k <= n / 4; ++k)
+      twiddles_.emplace_back(
+          std::polar(1.0, std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
+    auto* const pairs = reinterpret_cast<std::complex<T>*>(out.data());
+    plan_ = planned<Fftw<T>>([&] {
+      const int half = side(n / 2);
+      return Fftw<T>::many(half, 1, half, raw(in.data()), raw(pairs), FFTW_BACKWARD, flags);
+    });
+  } else {
+    plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real_inverse(side(n), raw(in.data()), out.data(), flags); });
+  }
+}
+
+template <class T>
+void RealInverse<T>::operator()(std::complex<T>* in, T* out) const {
+  const auto plan = static_cast<Fftw<T>::Plan>(plan_.get());
+  if constexpr (std::is_same_v<T, float>)
+    if (!twiddles_.empty()) {
+      tangle(in, n_ / 2, twiddles_.data());
+      return Fftw<T>::run(plan, raw(in), raw(reinterpret_cast<std::complex<T>*>(out)));
+    }
+  Fftw<T>::run(plan, raw(in), out);
+}
+
+template <class T>
+ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction) {
+  const Scratch<std::complex<T>> columns(n * width);
+  plan_ = planned<Fftw<T>>([&] {
+    return Fftw<T>::columns(side(n), static_cast<int>(width), raw(columns.data()),
+                            direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
+  });
+}
+
+template <class T>
+void ColumnsTransform<T>::operator()(std::complex<T>* columns) const {
+  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(columns), raw(columns));
 }
 
 template <class T>
@@ -250,12 +236,12 @@ void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) 
   Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
 }
 
-template class Scratch<float>;
-template class Scratch<double>;
-template class Scratch<std::complex<float>>;
-template class Scratch<std::complex<double>>;
 template class RealTransform<float>;
 template class RealTransform<double>;
+template class RealInverse<float>;
+template class RealInverse<double>;
+template class ColumnsTransform<float>;
+template class ColumnsTransform<double>;
 template class ComplexTransform<float>;
 template class ComplexTransform<double>;
 
@@ -291,12 +277,11 @@ std::vector<double> backward_transform(std::vector<std::complex<double>>& modes,
   std::vector<double> heights(ny * nx);
   const Scratch<std::complex<double>> in(half);
   const Scratch<double> out(nx);
-  const auto along_row = planned<Fftw<double>>(
-      [&] { return fftw_plan_dft_c2r_1d(side(nx), raw(in.data()), out.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT); });
+  const RealInverse<double> along_row(nx);
   for (std::size_t y = 0; y < ny; ++y) {
     heed();
     std::copy_n(modes.data() + y * half, half, in.data());
-    fftw_execute(static_cast<fftw_plan>(along_row.get()));
+    along_row(in.data(), out.data());
     std::copy_n(out.data(), nx, heights.data() + y * nx);
   }
   return heights;

@@ -7,29 +7,11 @@
 #include <memory>
 #include <vector>
 
+#include "numerics/scratch.hpp"
+
 namespace asperity {
 
 using Grid = std::array<std::size_t, 2>;  // ny, nx
-
-/// Memory for numbers that are written before they are read: not cleared, on large pages where the system has
-/// them (touching 4 KiB pages for the first time costs as much as a row's transform), aligned for SIMD.
-template <class T>
-class Scratch {
- public:
-  explicit Scratch(std::size_t size);
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  Scratch(Scratch&&) = delete;
-  Scratch& operator=(Scratch&&) = delete;
-  [[nodiscard]] T* data() const { return data_; }
-  /// Rows of this many entries keep the alignment of the first one.
-  static constexpr std::size_t aligned(std::size_t row) { return (row + 7) / 8 * 8; }
-
- private:
-  T* data_;
-  std::size_t bytes_;
-};
 
 /// One-dimensional transforms of length n, planned once (FFTW_ESTIMATE), run from any thread. Every pointer must
 /// be aligned as Scratch is.
@@ -52,6 +34,30 @@ class ComplexTransform {  // `count` transforms at once, `distance` from one to 
  public:
   ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction = Direction::forward);
   void operator()(std::complex<T>* in, std::complex<T>* out) const;
+
+ private:
+  std::shared_ptr<void> plan_;
+};
+
+template <class T>
+class RealInverse {  // n / 2 + 1 modes to the n real numbers sum m exp(i k x 2 pi / n); the input is overwritten
+ public:
+  explicit RealInverse(std::size_t n);
+  void operator()(std::complex<T>* in, T* out) const;
+
+ private:
+  std::size_t n_;
+  std::shared_ptr<void> plan_;
+  std::vector<std::complex<T>> twiddles_;
+};
+
+/// Transforms of `width` columns of n modes that lie side by side, a cache line a row, in place.
+template <class T>
+class ColumnsTransform {
+ public:
+  static constexpr std::size_t width = 64 / sizeof(std::complex<T>);
+  ColumnsTransform(std::size_t n, Direction direction);
+  void operator()(std::complex<T>* columns) const;
 
  private:
   std::shared_ptr<void> plan_;

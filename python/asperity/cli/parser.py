@@ -254,7 +254,7 @@ def parser() -> argparse.ArgumentParser:
     validate.add_argument(
         "--surface",
         metavar="FILE",
-        help="a map of your own, pressed by boundary elements (needs asperity[bem])",
+        help="a map of your own, pressed by boundary elements",
     )
     validate.add_argument(
         "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
@@ -277,6 +277,22 @@ def parser() -> argparse.ArgumentParser:
     )
     validate.add_argument(
         "--periodic", action="store_true", help="the map continues at its opposite sides"
+    )
+    validate.add_argument(
+        "--sliding",
+        action="store_true",
+        help="friction and area against exact sliding contact, of --surface or a shipped map",
+    )
+    validate.add_argument(
+        "--rubber",
+        metavar="SCENE",
+        help="rubber, pressures and velocities of --sliding (default: the shipped scene's)",
+    )
+    validate.add_argument(
+        "--velocities",
+        type=numbers,
+        metavar="V,V,...",
+        help="of --sliding [m/s] (default: SCENE's)",
     )
     remade = verb(
         "article",

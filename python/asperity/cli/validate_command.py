@@ -8,6 +8,7 @@ from typing import Any
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.sliding_command import refuse_alone, validate_sliding
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
@@ -29,6 +30,11 @@ _FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
 
 def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
+    refuse_alone(args)
+    if args.sliding:
+        surface, told, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
+        validate_sliding(args, surface, told)
+        return tell_notes(unusual)
     directory = FilePath(args.output)
     plot.check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
@@ -47,36 +53,15 @@ def validate(args: Namespace) -> None:
 
 def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]]:
     """Contacts from rows or from a run of one's own surface, their origin, and what to know."""
-    surface = {
-        "pixel_size": args.pixel_size,
-        "unit": args.unit,
-        "channel": args.channel,
-        "detrend": args.detrend,
-        "q0": args.q0,
-        "loads": args.loads,
-        "periodic": args.periodic or None,
-    }
-    given = {name: value for name, value in surface.items() if value is not None}
     if args.surface is None:
-        if given:
-            option = next(iter(given)).replace("_", "-")
-            raise InvalidInput(f"--{option}: only goes with --surface")
+        _no_map(args)
         if args.rows is None:
             return shipped(), {"rows": "bem_area.csv, shipped"}, []
         return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
     if args.rows is not None:
         raise InvalidInput("--rows: must be left out where --surface is given")
+    flat, told, unusual = _own_map(args)
     path = FilePath(args.surface)
-    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with plausible.collected() as unusual, rename_in_errors(None, flags):
-        if args.q0 is not None:
-            plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
-        read = {name: given[name] for name in flags if name in given}
-        _, filled = read_filled(path, max_fraction=0.10, **read)
-    if not isinstance(filled, HeightMap):
-        raise InvalidInput(f"{path}: is a line scan: boundary elements need a map")
-    detrend: Any = args.detrend or "plane"
-    flat = filled if detrend == "none" else filled.detrend(detrend)
     with rename_in_errors(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
         contacts, notes = own_contacts(
             flat,
@@ -86,7 +71,41 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             periodic=args.periodic,
             progress=progress(f"{path}"),
         )
-    return contacts, {"surface": args.surface, **given, "detrend": detrend}, [*unusual, *notes]
+    return contacts, told, [*unusual, *notes]
+
+
+def _given(args: Namespace) -> dict[str, Any]:
+    """Options that say something of a map of one's own."""
+    names = ("pixel_size", "unit", "channel", "detrend", "q0", "loads", "periodic")
+    values = {name: getattr(args, name) for name in names}
+    return {
+        name: value for name, value in values.items() if value is not None and value is not False
+    }
+
+
+def _no_map(args: Namespace) -> dict[str, Any]:
+    """Refuse options of a map where there is none."""
+    if given := _given(args):
+        option = next(iter(given)).replace("_", "-")
+        raise InvalidInput(f"--{option}: only goes with --surface")
+    return {}
+
+
+def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[str]]:
+    """A map read from --surface without its trend, what was given, and what to know of it."""
+    given = _given(args)
+    path = FilePath(args.surface)
+    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
+    with plausible.collected() as unusual, rename_in_errors(None, flags):
+        if args.q0 is not None:
+            plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
+        read = {name: given[name] for name in flags if name in given}
+        _, filled = read_filled(path, max_fraction=0.10, **read)
+    if not isinstance(filled, HeightMap):
+        raise InvalidInput(f"{path}: is a line scan: contacts need a map")
+    detrend: Any = args.detrend or "plane"
+    flat = filled if detrend == "none" else filled.detrend(detrend)
+    return flat, {"surface": args.surface, **given, "detrend": detrend}, list(unusual)
 
 
 def _pictures(

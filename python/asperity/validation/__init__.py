@@ -1,1 +1,5 @@
-"""What each correction is worth: areas and elastic energies held against boundary elements."""
+"""What each correction is worth, held against exact contact: elastic and sliding."""
+
+from asperity.validation.sliding import SlidingContact, slide
+
+__all__ = ["SlidingContact", "slide"]

@@ -1,11 +1,12 @@
 """A surface of one's own pressed by boundary elements: the contact that the theory is held against.
 
-The solver is tamaas (AGPL-3.0-or-later), an optional package: it is imported when a contact is
-asked for, and by nothing else in asperity.
+The solver is tamaas (AGPL-3.0-or-later) where this optional package is installed, and otherwise
+`slide` at velocity 0, which finds the same contacts. tamaas is imported when a contact is asked
+for, and by nothing else in asperity.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import Any
@@ -14,10 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.rubber import PronySeries
 from asperity.scene.scene import Progress
 from asperity.surface import HeightMap
+from asperity.validation.sliding import slide
 
 _Array = NDArray[np.float64]
+_Pressed = Callable[[float], tuple[float, float, float, float]]
 
 _FEWEST = 16  # points along a side
 # sum(p gap) / (sum(p) h_rms). Areas of 256^2 and 512^2 points are those of 1e-10 to the last pixel,
@@ -90,8 +94,9 @@ def contact(
     Notes
     -----
     Fourier modes of the points' own grid and Polonsky and Keer's conjugate gradients
-    (Wear 231 (1999) 206), in tamaas. From the load on where the sum of the modes leaves no tension
-    anywhere the contact is full and has a closed form, which is taken.
+    (Wear 231 (1999) 206), in tamaas; without it the Newton steps of `slide`. From the load on where
+    the sum of the modes leaves no tension anywhere the contact is full and has a closed form, which
+    is taken.
 
     Points touch in whole pixels, more of them than the true area has. What stands out over the
     perimeter S is taken off (Yastrebov, Anciaux and Molinari, Tribology International 114 (2017)
@@ -102,17 +107,16 @@ def contact(
     and gaps are right to 0.3 % at 5 pixels, and to 1 % (0.7: 3 %) at 2.5 from 0.1 on.
 
     512^2 points take 1.6 s at p / (E* h') = 0.005 and 12 s at 0.5, 1024^2 points 9 s and 100 s, and
-    120 bytes each. A `mirrored` map has four times the points of its scan.
+    120 bytes each, in tamaas. A `mirrored` map has four times the points of its scan.
 
     Raises
     ------
     InvalidInput
-        Without tamaas; for a map with drop-outs, below 16 points along a side, flat, or periodic of
+        For a map with drop-outs, below 16 points along a side, flat, or periodic of
         an odd number of rows; for loads that are not positive numbers.
     NotConverged
         Names the load and the error that was reached.
     """
-    tamaas = _tamaas()
     loads = _loads(p_over_Eh)
     _check(surface, periodic)
     solved = surface if periodic else mirrored(surface)
@@ -124,45 +128,77 @@ def contact(
     if not 0 < slope < math.inf:
         raise InvalidInput(f"surface has an rms slope of {slope:.3g}: must have roughness")
 
-    # In units of dx along the surface, of h' dx along its heights and of E* h' for pressures, no
-    # number is large or small.
-    height_unit = slope * dx
-    ny, nx = heights.shape
-    model = tamaas.ModelFactory.createModel(
-        tamaas.model_type.basic_2d, [ny * dy / dx, float(nx)], [ny, nx]
-    )
-    model.E, model.nu = 1.0, 0.0
-    scaled = heights / height_unit
-    solver = tamaas.PolonskyKeerRey(model, scaled, _TOLERANCE)
-    solver.max_iter = _CHUNK
+    press = _with_tamaas if (tamaas := _tamaas()) else _with_slide
+    pressed = press(tamaas, HeightMap(heights, pixel_size=(dy, dx)), slope)
     rows = []
-    with _quiet(tamaas), progress([slice(i, i + 1) for i in range(loads.size)]) as shown:
+    with progress([slice(i, i + 1) for i in range(loads.size)]) as shown:
         for chunk in shown:
             (load,) = loads[chunk]
-            if load + lowest / slope >= 0:
-                rows.append((1.0, 1.0, 0.0, energy))
-                continue
-            _solve(solver, float(load))
-            pressure, moved = np.asarray(model.traction), np.asarray(model.displacement)
-            touching = pressure > 0
-            # where points touch, the gap is what the iteration left: none
-            gap = float(np.where(touching, 0.0, moved - scaled).mean()) * height_unit
-            work = float((pressure * (moved - moved.mean())).mean()) / 2 * slope * height_unit
-            raw = float(touching.mean())
-            rows.append((raw, raw - _EXCESS * _edges(touching) / touching.size, gap, work))
+            full = load + lowest / slope >= 0
+            rows.append((1.0, 1.0, 0.0, energy) if full else pressed(float(load)))
     raw, area, gap, work = np.array(rows).T
     return Contacts(loads, raw, area, gap, work, slope)
 
 
+def _with_tamaas(tamaas: Any, surface: HeightMap, slope: float) -> _Pressed:
+    """Return what gives raw area, area, mean gap and energy at a load.
+
+    In units of dx along the surface, of h' dx along its heights and of E* h' for pressures, no
+    number is large or small.
+    """
+    (ny, nx), (dy, dx) = surface.heights.shape, surface.pixel_size
+    height_unit = slope * dx
+    with _quiet(tamaas):
+        model = tamaas.ModelFactory.createModel(
+            tamaas.model_type.basic_2d, [ny * dy / dx, float(nx)], [ny, nx]
+        )
+        model.E, model.nu = 1.0, 0.0
+        scaled = surface.heights / height_unit
+        solver = tamaas.PolonskyKeerRey(model, scaled, _TOLERANCE)
+        solver.max_iter = _CHUNK
+
+    def pressed(load: float) -> tuple[float, float, float, float]:
+        with _quiet(tamaas):
+            _solve(solver, load)
+        pressure, moved = np.asarray(model.traction), np.asarray(model.displacement)
+        touching = pressure > 0
+        # where points touch, the gap is what the iteration left: none
+        gap = float(np.where(touching, 0.0, moved - scaled).mean()) * height_unit
+        work = float((pressure * (moved - moved.mean())).mean()) / 2 * slope * height_unit
+        raw = float(touching.mean())
+        return raw, raw - _EXCESS * _edges(touching) / touching.size, gap, work
+
+    return pressed
+
+
+def _with_slide(_: Any, surface: HeightMap, slope: float) -> _Pressed:
+    """Return the same without tamaas: a velocity of 0 is elastic."""
+    solid = PronySeries(equilibrium_modulus=1.0, moduli=[], relaxation_times=[])
+
+    def pressed(load: float) -> tuple[float, float, float, float]:
+        found = slide(
+            surface,
+            solid,
+            pressure=load * slope,
+            velocity=0.0,
+            poisson_ratio=0.0,
+            periodic=True,
+            rtol=_TOLERANCE,
+        )
+        gap = float(found.gap.mean())
+        return found.contact_area_raw, found.contact_area, gap, found.elastic_energy
+
+    return pressed
+
+
 def _tamaas() -> Any:
+    """Return the package, or None where it is not installed."""
     try:
         import tamaas
     except ModuleNotFoundError as error:
         if error.name != "tamaas":
             raise
-        raise InvalidInput(
-            "boundary elements are solved by tamaas: pip install asperity[bem]"
-        ) from error
+        return None
     return tamaas
 
 

@@ -1,0 +1,52 @@
+// Exact steady sliding of rubber on a rigid map of heights, without adhesion and friction at the interface.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "asperity/errors.hpp"
+#include "asperity/export.hpp"
+#include "asperity/rubber.hpp"
+#include "asperity/surface.hpp"
+
+namespace asperity {
+
+/// How a map is continued beyond its sides: as it stands (its opposite sides fit), by its mirror images (a map of four
+/// times the points), or by its own other side, into which the last eighth along either axis is faded.
+enum class Continuation { periodic, mirror, fade };
+
+/// One period of the map, its heights about their mean. Throws InvalidInput for drop-outs, and fewer than 16 points
+/// along a side.
+ASPERITY_EXPORT HeightMap continued(const HeightMap& map, Continuation continuation);
+
+struct SlidingModel {
+  double poisson_ratio = 0.5;
+  Continuation continuation = Continuation::fade;
+  /// Largest complementarity error.
+  double rtol = 1e-6;
+  /// [s], after which the computation ends with NotConverged.
+  double time_limit = std::numeric_limits<double>::infinity();
+};
+
+struct SlidingContact {
+  HeightMap::Shape shape;           // of the map that was solved, ny x nx
+  HeightMap::PixelSize pixel_size;  // [m]
+  double contact_area;              // A/A0 without the excess of the pixels' perimeter
+  double contact_area_raw;          // share of the points that carry pressure
+  double hysteresis;                // mu_H, energy that the rubber dissipates over load and way
+  double work_of_slopes;            // -<p dh/dx> / sigma0, equal to it but for the mesh and the band of q_x = 0
+  double elastic_energy;            // <p u> / 2 per nominal area [J/m^2]
+  double error;                     // <p (gap - least gap)> / (sigma0 h_rms)
+  std::vector<double> pressure;     // [Pa], row by row
+  std::vector<double> gap;          // [m]
+  std::vector<std::string> notes;
+};
+
+/// Contact and friction of a map that slides steadily along x (the second axis, towards larger x in the frame of the
+/// rubber) at `velocity` [m/s] under the nominal pressure [Pa]. At velocity 0 the rubber is elastic, of its relaxed
+/// modulus. Throws NotConverged with what was reached.
+ASPERITY_EXPORT SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure, double velocity,
+                                     const SlidingModel& model = {});
+
+}  // namespace asperity

@@ -1,0 +1,102 @@
+// A measured map made periodic: by its mirror images, or with its end faded into its beginning. Weights are a sine and
+// a cosine, whose squares add up to 1: waves that do not know of each other keep their variance.
+#include "sliding/continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "asperity/watch.hpp"
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t fewest = 16;  // points along a side
+
+/// The mean taken off, in two passes: the first height may be kilometres above them all.
+void centre(std::vector<double>& heights) {
+  for (int pass = 0; pass < 2; ++pass) {
+    double sum = 0;
+    const double first = pass == 0 ? heights.front() : 0;
+    for (double& h : heights) sum += h -= first;
+    const double mean = sum / static_cast<double>(heights.size());
+    for (double& h : heights) h -= mean;
+  }
+}
+
+/// One axis faded: `lines` of n numbers `step` apart become lines of n - n / 8.
+std::vector<double> faded(const std::vector<double>& heights, HeightMap::Shape shape, bool along_x) {
+  const std::size_t n = shape[along_x ? 1 : 0], margin = n / 8, kept = n - margin;
+  const std::size_t ny = along_x ? shape[0] : kept, nx = along_x ? kept : shape[1];
+  std::vector<double> result(ny * nx);
+  for (std::size_t y = 0; y < ny; ++y) {
+    heed();
+    for (std::size_t x = 0; x < nx; ++x) {
+      const std::size_t i = along_x ? x : y;
+      double h = heights[y * shape[1] + x];
+      if (i < margin) {
+        const double angle = std::numbers::pi / 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(margin);
+        const std::size_t other = along_x ? y * shape[1] + x + kept : (y + kept) * shape[1] + x;
+        h = std::sin(angle) * h + std::cos(angle) * heights[other];
+      }
+      result[y * nx + x] = h;
+    }
+  }
+  return result;
+}
+
+std::vector<double> mirrored(const std::vector<double>& heights, HeightMap::Shape shape) {
+  const auto [ny, nx] = shape;
+  std::vector<double> result(4 * heights.size());
+  for (std::size_t y = 0; y < 2 * ny; ++y) {
+    heed();
+    const std::size_t from = std::min(y, 2 * ny - 1 - y);
+    for (std::size_t x = 0; x < 2 * nx; ++x) result[y * 2 * nx + x] = heights[from * nx + std::min(x, 2 * nx - 1 - x)];
+  }
+  return result;
+}
+
+}  // namespace
+
+Period one_period(const HeightMap& map, Continuation continuation) {
+  Period period{map.shape(), std::vector<double>(map.shape()[0] * map.shape()[1]), 0};
+  auto& [shape, heights, rms] = period;
+  if (shape[0] < fewest || shape[1] < fewest)
+    throw InvalidInput("height_map has " + std::to_string(shape[0]) + " x " + std::to_string(shape[1]) +
+                       " points: must have 16 or more along both sides");
+  if (map.dropout_fraction() > 0)
+    throw InvalidInput("height_map has drop-outs (" + show(100 * map.dropout_fraction(), 3) +
+                       " %); call fill_dropouts() first");
+  for (std::size_t y = 0; y < shape[0]; ++y) {
+    heed();
+    map.read_row(y, heights.data() + y * shape[1]);
+  }
+  centre(heights);
+  if (continuation == Continuation::fade)
+    for (const bool along_x : {true, false}) {
+      heights = faded(heights, shape, along_x);
+      shape[along_x ? 1 : 0] -= shape[along_x ? 1 : 0] / 8;
+    }
+  if (continuation == Continuation::mirror) {
+    heights = mirrored(heights, shape);
+    shape = {2 * shape[0], 2 * shape[1]};
+  }
+  centre(heights);
+  double square = 0;
+  for (const double h : heights) square += h * h;
+  rms = std::sqrt(square / static_cast<double>(heights.size()));
+  if (!(rms > 0) || !std::isfinite(rms))
+    throw InvalidInput("height_map has an rms height of " + show(rms, 3) + " m: must have roughness");
+  return period;
+}
+
+HeightMap continued(const HeightMap& map, Continuation continuation) {
+  Period period = one_period(map, continuation);
+  return {std::move(period.heights), period.shape, map.pixel_size()};
+}
+
+}  // namespace asperity

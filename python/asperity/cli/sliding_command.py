@@ -1,0 +1,84 @@
+"""`validate --sliding`: mu(v) of a map by exact sliding contact, beside the theory's."""
+
+from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.streams import print_stdout, tell_notes
+from asperity.demo import input_files
+from asperity.io.files import check_directory, write_files
+from asperity.io.table import Table
+from asperity.measured_spectrum import synthesize
+from asperity.plot import curves as plot
+from asperity.scene.scene import Scene, load_scene
+from asperity.spectrum import SelfAffineSpectrum
+from asperity.surface import HeightMap
+from asperity.validation.compared import compare
+
+FILES = ("sliding.md", "sliding.csv", "sliding.png")
+_MOST_VELOCITIES = 9  # of a scene; each takes seconds to minutes
+
+
+def own_map() -> HeightMap:
+    """The map where none is given: Table 1's asphalt, four longest waves to a side, q1/q0 = 8."""
+    asphalt = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000.0, q1=16_000.0)
+    side = 4 * 2 * np.pi / asphalt.q0
+    return synthesize(asphalt, shape=(256, 256), pixel_size=side / 256, seed=1)
+
+
+def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, object]) -> None:
+    """Tables, a picture, and the summary on the terminal."""
+    directory = FilePath(args.output)
+    plot.check_plot(directory / FILES[2])
+    check_directory(directory, FILES, force=args.force)
+    scene, notes = _scene(args)
+    inputs = [FilePath(name) for name in (args.surface, args.rubber) if name is not None]
+    refuse_overwrite([directory / name for name in FILES], inputs)
+    velocity = np.array(args.velocities) if args.velocities else scene.velocity
+    if velocity.size > _MOST_VELOCITIES and not args.velocities:
+        kept = np.linspace(0, velocity.size - 1, _MOST_VELOCITIES).round().astype(int)
+        notes.append(f"{kept.size} of the scene's {velocity.size} velocities; see --velocities")
+        velocity = velocity[kept]
+    found = compare(
+        own_map() if given is None else given,
+        scene.rubber,
+        pressure=scene.pressure.tolist(),
+        velocity=velocity.tolist(),
+        poisson_ratio=scene.options.get("poisson_ratio", 0.5),
+        periodic=given is None or args.periodic,
+        progress=progress("sliding contacts"),
+    )
+    notes += found.notes
+    rubber = args.rubber or "scene.toml, shipped"
+    table = Table("validate --sliding", [{"rubber": rubber, **told}], notes, found.columns())
+    contents = (found.summary().encode(), table.csv().encode(), found.figure(Path(FILES[2])))
+    write_files({directory / n: data for n, data in zip(FILES, contents, strict=True)})
+    tell_notes(notes)
+    print_stdout(f"{found.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")
+
+
+def _scene(args: Namespace) -> tuple[Scene, list[str]]:
+    """The scene whose rubber, pressures and velocities are taken; the shipped one unless named."""
+    if args.rubber is not None:
+        scene = load_scene(FilePath(args.rubber))
+        return scene, list(scene.built_rubber.notes)
+    with TemporaryDirectory() as aside:
+        write_files({FilePath(aside) / name: data for name, data in input_files().items()})
+        scene = load_scene(FilePath(aside) / "scene.toml")
+    return replace(scene, path=Path("scene.toml")), []
+
+
+def refuse_alone(args: Namespace) -> None:
+    """Options of --sliding do nothing without it, and others nothing with it."""
+    for name in ("rubber", "velocities"):
+        if not args.sliding and getattr(args, name) is not None:
+            raise InvalidInput(f"--{name}: only goes with --sliding")
+    for name in ("rows", "q0", "loads"):
+        if args.sliding and getattr(args, name) is not None:
+            raise InvalidInput(f"--{name}: must be left out where --sliding is given")

@@ -1,0 +1,158 @@
+"""mu(v) and A(v) of a map by exact sliding contact, beside what the theory says of it."""
+
+import math
+from collections.abc import Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.correction import Correction, NayakSFactor, SFactor
+from asperity.friction import friction
+from asperity.measured_spectrum import power_spectrum
+from asperity.plot.curves import colours, new_figure, picture
+from asperity.rubber import Rubber
+from asperity.scene.scene import Progress
+from asperity.spectrum import Spectrum
+from asperity.surface import HeightMap
+from asperity.validation.sliding import continued, slide
+
+_Array = NDArray[np.float64]
+
+CORRECTIONS: dict[str, Correction | None] = {
+    "none": None,
+    "S in Eq. 22, 0.40": SFactor(gamma=0.4),
+    "S in Eq. 22, 0.50": SFactor(gamma=0.5),
+    "S in G, 5/9": SFactor(gamma=5 / 9, applies_to="area"),
+    "Nayak S": NayakSFactor(),
+}
+_COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Exact and predicted figures, arrays of shape (pressures, velocities)."""
+
+    pressure: _Array
+    velocity: _Array
+    hysteresis: _Array
+    work_of_slopes: _Array
+    area: _Array
+    predicted: dict[str, tuple[_Array, _Array]]  # hysteresis and area by the correction's name
+    notes: list[str]
+
+    def columns(self) -> dict[str, list[float]]:
+        """Columns of a table, a row a pressure and velocity."""
+        p, v = np.meshgrid(self.pressure, self.velocity, indexing="ij")
+        named = {"pressure_pa": p, "velocity_m_s": v, "hysteresis_exact": self.hysteresis}
+        named |= {"work_of_slopes": self.work_of_slopes, "contact_area_exact": self.area}
+        for name, (mu, area) in self.predicted.items():
+            named |= {f"hysteresis, {name}": mu, f"contact_area, {name}": area}
+        return {name: values.ravel().tolist() for name, values in named.items()}
+
+    def summary(self) -> str:
+        """Markdown: errors in % of every correction, root mean square and worst either way."""
+        lines = [
+            "# Exact sliding contact against the theory",
+            "",
+            f"Relative errors in % over {self.hysteresis.size} contacts of this map: hysteresis "
+            "and area, root mean square, lowest and highest.",
+            "",
+            "| correction | mu rms | mu | A rms | A |",
+            "| --- | --- | --- | --- | --- |",
+        ]
+        for name, found in self.predicted.items():
+            cells = []
+            for values, truth in zip(found, (self.hysteresis, self.area), strict=True):
+                error = 100 * (values / truth - 1)
+                rms = math.sqrt(float(np.mean(error**2)))
+                cells += [f"{rms:.1f}", f"{error.min():+.1f} / {error.max():+.1f}"]
+            lines.append(f"| {name} | {' | '.join(cells)} |")
+        return "\n".join([*lines, ""])
+
+    def figure(self, path: Path) -> bytes:
+        """mu and A over velocity: exact as marks, predicted as lines, a colour a pressure."""
+        figure, panels = new_figure(2)
+        dashes = {"none": ":", "S in Eq. 22, 0.40": "--", "Nayak S": "-"}
+        labels = ("Hysteresis $\\mu_H$ [-]", "Contact area $A/A_0$ [-]")
+        exact = (self.hysteresis, self.area)
+        for i, (axes, label) in enumerate(zip(panels, labels, strict=True)):
+            for j, colour in enumerate(colours(self.pressure.size)):
+                title = f"exact, {self.pressure[j]:.4g} Pa"
+                axes.plot(self.velocity, exact[i][j], "o", color=colour, label=title)
+                for name, dash in dashes.items():
+                    axes.plot(self.velocity, self.predicted[name][i][j], dash, color=colour)
+            axes.set_xscale("log")
+            axes.set_ylim(bottom=0)
+            axes.set_xlabel("Sliding velocity $v$ [m/s]")
+            axes.set_ylabel(label)
+        for name, dash in dashes.items():
+            panels[0].plot([], [], dash, color="0.3", label=name)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right upper")
+        return picture(figure, path)
+
+
+def compare(
+    surface: HeightMap,
+    rubber: Rubber,
+    *,
+    pressure: Sequence[float],
+    velocity: Sequence[float],
+    poisson_ratio: float = 0.5,
+    periodic: bool = False,
+    progress: Progress = nullcontext,
+) -> Comparison:
+    """Solve a map at every pressure and velocity, and predict the same from its own spectrum.
+
+    The theory is given the spectrum of the very map that is solved, all its modes, at its rms
+    slope. Arguments and errors as of `slide` and `friction`; `periodic` False fades the map.
+    """
+    solved = surface if periodic else continued(surface, "fade")
+    loads, speeds = np.array(pressure, dtype=float), np.array(velocity, dtype=float)
+    points = [(p, v) for p in loads for v in speeds]
+    rows = []
+    with progress([slice(i, i + 1) for i in range(len(points))]) as shown:
+        for chunk in shown:
+            ((p, v),) = points[chunk]
+            found = slide(
+                solved, rubber, pressure=p, velocity=v, poisson_ratio=poisson_ratio, periodic=True
+            )
+            rows.append((found.hysteresis, found.work_of_slopes, found.contact_area))
+    mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
+    spectrum = _spectrum(solved)
+    predicted = {}
+    for name, correction in CORRECTIONS.items():
+        theory: Any = friction(
+            spectrum,
+            rubber,
+            pressure=loads[:, None],
+            velocity=speeds,
+            poisson_ratio=poisson_ratio,
+            correction=correction,
+        )
+        predicted[name] = (theory.hysteresis, theory.contact_area)
+    faded = (
+        "the map was made periodic: the last eighth along either axis is faded into its beginning"
+    )
+    notes = [] if periodic else [faded]
+    apart = float(np.abs(slopes / mu - 1).max())
+    if apart > _COARSE:
+        notes.append(
+            f"the work of the slopes and the dissipation differ by up to {100 * apart:.0f} %: the "
+            "shortest waves are a few pixels long, or what dissipates are waves across the way"
+        )
+    return Comparison(loads, speeds, mu, slopes, area, predicted, notes)
+
+
+def _spectrum(solved: HeightMap) -> Spectrum:
+    """Rings of all modes of the map, at the rms slope of its modes."""
+    (ny, nx), (dy, dx) = solved.heights.shape, solved.pixel_size
+    q = np.hypot(
+        np.fft.fftfreq(ny, dy / (2 * np.pi))[:, None], np.fft.fftfreq(nx, dx / (2 * np.pi))
+    )
+    power = np.abs(np.fft.fft2(solved.heights.astype(float)) / solved.heights.size) ** 2
+    spectrum = power_spectrum(solved, window="none", detrend=None)
+    return spectrum.scaled(float(np.sum(q**2 * power)) / spectrum.rms_slope**2)

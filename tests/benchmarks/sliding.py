@@ -1,0 +1,87 @@
+"""Exact sliding contact: seconds a point, over the rows that another program solved.
+
+    python tests/benchmarks/sliding.py [--output DIR]
+
+Every second row of 512^2 points of tests/reference/sliding_contacts.csv, maps of seed 1 of
+`synthesize`, rtol 1e-6; processor time of one thread. Also one contact each of 128^2 to 2048^2
+points, with the memory that the process held at most.
+"""
+
+import csv
+import resource
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import timing
+
+import asperity
+
+ROWS = Path(__file__).parents[1] / "reference" / "sliding_contacts.csv"
+
+
+def surface(row: dict[str, str], points: int) -> asperity.HeightMap:
+    spectrum = asperity.SelfAffineSpectrum(
+        rms_height=1,
+        hurst=float(row["hurst"]),
+        q0=2 * np.pi * float(row["k0"]),
+        q1=2 * np.pi * float(row["k1"]),
+    )
+    shape = (points, points)
+    made = asperity.synthesize(spectrum, shape=shape, pixel_size=1 / points, seed=1)
+    scale = float(row["rms_height"]) / made.rms_height
+    return asperity.HeightMap(made.heights * scale, pixel_size=1 / points)
+
+
+def rubber(row: dict[str, str]) -> asperity.PronySeries:
+    return asperity.PronySeries(
+        equilibrium_modulus=float(row["E_inf"]),
+        moduli=[float(x) for x in row["moduli"].split()],
+        relaxation_times=[float(x) for x in row["times"].split()],
+    )
+
+
+def solve(row: dict[str, str], map: asperity.HeightMap) -> Any:
+    load, velocity = float(row["pressure"]), float(row["velocity"])
+    try:
+        return asperity.validation.slide(
+            map, rubber(row), pressure=load, velocity=velocity, periodic=True
+        )
+    except asperity.NotConverged:
+        return None
+
+
+def make() -> timing.Report:
+    with ROWS.open(encoding="utf-8") as file:
+        listed = [*csv.DictReader(line for line in file if line[0] != "#")]
+    columns: dict[str, list[object]] = {
+        name: []
+        for name in ("rubber", "k1", "pressure", "log10_v_q0", "points", "seconds", "error")
+    }
+
+    def add(row: dict[str, str], points: int) -> float:
+        taken, found = timing.timed(partial(solve, row, surface(row, points)))
+        values = (row["material"], row["k1"], row["pressure"], row["log10_v_q0"], points, taken)
+        for name, value in zip(columns, values, strict=False):
+            columns[name].append(value)
+        columns["error"].append(None if found is None else found.error)
+        return taken
+
+    times = np.array([add(row, 512) for row in [r for r in listed if r["N"] == "512"][::2]])
+    failed = sum(error is None for error in columns["error"])
+    text = (
+        f"512^2, {times.size} contacts: median {np.median(times):.2f} s, 95 % within "
+        f"{np.quantile(times, 0.95):.2f} s, longest {times.max():.1f} s, not converged {failed}\n"
+    )
+    one = next(r for r in listed if (r["material"], r["log10_v_q0"]) == ("sbr", "0.0000"))
+    for points in (128, 256, 512, 1024, 2048):
+        taken = add(one, points)
+        held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+        text += f"{points}^2: {taken:.2f} s, {held:.2f} GiB\n"
+    files = {"sliding.csv": timing.table("sliding", columns)}
+    return timing.Report(text, files)
+
+
+if __name__ == "__main__":
+    timing.run(make, __doc__)

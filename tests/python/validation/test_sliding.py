@@ -1,0 +1,334 @@
+"""Exact sliding contact against closed forms, other solvers, and its own symmetries."""
+
+import csv
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.validation import SlidingContact, slide
+from asperity.validation.boundary_elements import contact, mirrored
+from asperity.validation.sliding import continued
+from helpers.cases import case, each
+
+LENGTH = 0.01
+SOLID = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[9e6], relaxation_times=[1e-3])
+BAND = {"hurst": 0.8, "q0": 8 * np.pi / LENGTH, "rms_height": 1e-4}
+
+
+def rough(n: int, last: int, seed: int = 1) -> asperity.HeightMap:
+    """n^2 points, 4 to `last` waves to a side."""
+    spectrum = asperity.SelfAffineSpectrum(q1=last * 2 * np.pi / LENGTH, **BAND)
+    return asperity.synthesize(spectrum, shape=(n, n), pixel_size=LENGTH / n, seed=seed)
+
+
+def pressed(surface: asperity.HeightMap, **changed: Any) -> SlidingContact:
+    given = {"pressure": 2e5, "velocity": 0.3, "periodic": True}
+    return slide(surface, SOLID, **(given | changed))
+
+
+def with_heights(surface: asperity.HeightMap, heights: Any) -> asperity.HeightMap:
+    return asperity.HeightMap(np.ascontiguousarray(heights), pixel_size=surface.pixel_size)
+
+
+def test_reference_table(reference_table: Callable[[str], list[dict[str, Any]]]) -> None:
+    for row in reference_table("sliding"):
+        with case(case=row["case"]):
+            n = int(row["points"])
+            y, x = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+            waves = zip(*(row[name] for name in ("kx", "ky", "amplitude", "phase")), strict=True)
+            h = sum(a * np.cos(2 * np.pi * (i * x + j * y) / n + f) for i, j, a, f in waves)
+            rubber = asperity.PronySeries(
+                equilibrium_modulus=row["equilibrium_modulus"],
+                moduli=row["moduli"],
+                relaxation_times=row["relaxation_times"],
+            )
+            given = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+            surface = asperity.HeightMap(h, pixel_size=row["length"] / n)
+            # the error that is promised, and what is left of it where it is small
+            for rtol, bound in ((1e-6, 1e-5), (1e-11, row["rtol"])):
+                found = slide(surface, rubber, **given, periodic=True, rtol=rtol)
+                assert found.error <= rtol
+                assert found.contact_area_raw == pytest.approx(row["contact_area"], rel=1e-14)
+                for name in ("hysteresis", "work_of_slopes", "elastic_energy"):
+                    assert getattr(found, name) == pytest.approx(row[name], rel=bound)
+
+
+@each("skew", [0, 1, 3])
+def test_complete_contact_of_one_wave(skew: int) -> None:
+    # p_q = h_q |q| conj E / (2 (1 - nu^2)), so mu = q_x a^2 |q| E'' / (4 (1 - nu^2) sigma0)
+    n, k, a, nu, load, v = 64, 3, 2e-5, 0.4, 5e5, 0.7
+    y, x = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+    surface = asperity.HeightMap(
+        a * np.cos(2 * np.pi * (k * x + skew * y) / n + 0.4), pixel_size=LENGTH / n
+    )
+    qx, q = 2 * np.pi * k / LENGTH, 2 * np.pi * np.hypot(k, skew) / LENGTH
+    modulus = SOLID.modulus(v * qx)
+    found = slide(surface, SOLID, pressure=load, velocity=v, poisson_ratio=nu, periodic=True)
+    expected = qx * a**2 * q * modulus.imag / (4 * (1 - nu**2) * load)
+    assert found.hysteresis == pytest.approx(expected, rel=1e-12)
+    assert found.work_of_slopes == pytest.approx(expected, rel=1e-12)
+    assert found.contact_area == found.contact_area_raw == 1
+    amplitude = a * q * abs(modulus) / (2 * (1 - nu**2))
+    assert found.pressure.max() == pytest.approx(load + amplitude, rel=3e-3)  # between points
+    assert found.elastic_energy == pytest.approx(
+        q * a**2 * modulus.real / (8 * (1 - nu**2)), rel=1e-12
+    )
+    assert not found.gap.any()
+
+
+@each(("velocity", "modulus"), [(0.0, 1e6), (1e-12, 1e6), (1e14, 1e7)])
+def test_both_limits_are_elastic(velocity: float, modulus: float) -> None:
+    pytest.importorskip("tamaas")
+    surface = rough(128, 16)
+    effective = modulus / 0.75
+    slope = contact(surface, p_over_Eh=[0.1], periodic=True).rms_slope
+    for load in (0.02, 0.1, 0.4):
+        elastic = contact(surface, p_over_Eh=[load], periodic=True)
+        found = pressed(surface, pressure=load * effective * slope, velocity=velocity, rtol=1e-9)
+        assert found.contact_area_raw == elastic.area_raw[0]
+        assert found.contact_area == pytest.approx(elastic.area[0], rel=1e-12)
+        energy = elastic.elastic_energy[0] * effective
+        assert found.elastic_energy == pytest.approx(energy, rel=1e-6)
+        assert found.gap.mean() == pytest.approx(elastic.mean_gap[0], rel=1e-6)
+        assert abs(found.hysteresis) < 1e-8
+
+
+ROWS = Path(__file__).parents[2] / "reference" / "sliding_contacts.csv"
+
+
+def shipped(kind: Callable[[dict[str, str]], bool]) -> list[tuple[float, float]]:
+    """Relative errors of mu and A against rows of the table."""
+    with ROWS.open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(x for x in file if x[0] != "#") if kind(row)]
+    assert len(rows) > 2
+    errors = []
+    for row in rows:
+        n = int(row["N"])
+        spectrum = asperity.SelfAffineSpectrum(
+            rms_height=1,
+            hurst=float(row["hurst"]),
+            q0=2 * np.pi * float(row["k0"]),
+            q1=2 * np.pi * float(row["k1"]),
+        )
+        made = asperity.synthesize(spectrum, shape=(n, n), pixel_size=1 / n, seed=1)
+        scale = float(row["rms_height"]) / made.rms_height
+        rubber = asperity.PronySeries(
+            equilibrium_modulus=float(row["E_inf"]),
+            moduli=[float(x) for x in row["moduli"].split()],
+            relaxation_times=[float(x) for x in row["times"].split()],
+        )
+        with case(**row):
+            found = slide(
+                with_heights(made, made.heights * scale),
+                rubber,
+                pressure=float(row["pressure"]),
+                velocity=float(row["velocity"]),
+                periodic=True,
+                rtol=1e-5,
+            )
+        mu, area = found.hysteresis / float(row["mu"]) - 1, found.contact_area / float(row["A"]) - 1
+        with case(**row, mu_error=mu, area_error=area):
+            # four times the scatter of maps
+            assert abs(mu) < 0.10
+            assert abs(area) < 0.072
+        errors.append((mu, area))
+    return errors
+
+
+def test_rows_of_another_program() -> None:
+    def few(row: dict[str, str]) -> bool:
+        name = (row["material"], row["pressure"][:4], row["log10_v_q0"])
+        return (row["k1"], row["N"]) == ("64", "512") and name in {
+            ("sls10", "0.66", "-1.5000"),
+            ("sls10", "0.66", "0.0000"),
+            ("sls100", "1.33", "-0.8333"),
+            ("sbr", "0.66", "0.0000"),
+        }
+
+    mu, area = np.array(shipped(few)).T
+    assert np.sqrt(np.mean(mu**2)) < 0.05
+    assert np.sqrt(np.mean(area**2)) < 0.036
+
+
+@pytest.mark.long
+def test_all_rows_of_another_program() -> None:
+    mu, area = np.array(shipped(lambda r: r["N"] == "512" and float(r["A"]) > 0.03)).T
+    assert np.sqrt(np.mean(mu**2)) < 0.025
+    assert np.sqrt(np.mean(area**2)) < 0.018
+
+
+def test_dissipation_is_the_work_of_the_slopes_on_fine_meshes() -> None:
+    fine = rough(256, 16)
+    found = []
+    for step in (4, 2, 1):  # 4, 8, 16 points a shortest wave
+        heights = np.ascontiguousarray(fine.heights[::step, ::step])
+        thinned = asperity.HeightMap(heights, pixel_size=step * LENGTH / 256)
+        found.append(pressed(thinned, velocity=0.03))
+    missing = [abs(c.work_of_slopes / c.hysteresis - 1) for c in found]
+    assert missing[0] > missing[1] > missing[2]
+    assert missing[2] < 0.004
+    assert found[1].hysteresis == pytest.approx(found[2].hysteresis, rel=0.01)
+    assert found[1].contact_area == pytest.approx(found[2].contact_area, rel=0.015)
+
+
+def test_mirrored_and_shifted_maps() -> None:
+    surface = rough(100, 12)  # no power of two; no coarser grid falls on the same points
+    first = pressed(surface, rtol=1e-9)
+    across = pressed(with_heights(surface, surface.heights[::-1]), rtol=1e-9)
+    moved = pressed(with_heights(surface, np.roll(surface.heights, (17, 31), (0, 1))), rtol=1e-9)
+    for other, back in (
+        (across, across.pressure[::-1]),
+        (moved, np.roll(moved.pressure, (-17, -31), (0, 1))),
+    ):
+        assert other.hysteresis == pytest.approx(first.hysteresis, rel=1e-7)
+        assert np.abs(back - first.pressure).max() < 1e-5 * first.pressure.max()
+    backwards = pressed(with_heights(surface, surface.heights[:, ::-1]), rtol=1e-9)
+    assert abs(backwards.hysteresis / first.hysteresis - 1) > 1e-4  # another way, other slopes
+
+
+def test_isotropic_maps_slide_alike_along_both_axes() -> None:
+    maps = [rough(96, 12, seed) for seed in range(1, 9)]
+    along = np.mean([pressed(m).hysteresis for m in maps])
+    across = np.mean([pressed(with_heights(m, m.heights.T)).hysteresis for m in maps])
+    assert along == pytest.approx(across, rel=0.04)
+
+
+@each("scale", [1e-6, 1e5])
+def test_units(scale: float) -> None:
+    surface, first = rough(48, 8), pressed(rough(48, 8), rtol=1e-9)
+    long = asperity.HeightMap(surface.heights * scale, pixel_size=surface.pixel_size[0] * scale)
+    found = pressed(long, velocity=0.3 * scale, rtol=1e-9)
+    assert found.hysteresis == pytest.approx(first.hysteresis, rel=1e-8)
+    assert found.contact_area == pytest.approx(first.contact_area, rel=1e-12)
+    assert found.gap.mean() == pytest.approx(first.gap.mean() * scale, rel=1e-8)
+
+
+def test_pixels_need_not_be_square() -> None:
+    fine = rough(128, 8)
+    wide = asperity.HeightMap(fine.heights[:, ::2], pixel_size=(LENGTH / 128, LENGTH / 64))
+    tall = asperity.HeightMap(fine.heights[::2], pixel_size=(LENGTH / 64, LENGTH / 128))
+    first = pressed(fine)
+    for found in (pressed(wide), pressed(tall)):
+        assert found.hysteresis == pytest.approx(first.hysteresis, rel=0.02)
+        assert found.contact_area == pytest.approx(first.contact_area, rel=0.03)
+
+
+def test_ways_to_make_a_map_periodic() -> None:
+    scan = with_heights(rough(128, 16), rough(128, 16).heights[:80, :64])
+    by_images = pressed(scan, periodic="mirror")
+    as_given = pressed(mirrored(scan))
+    assert by_images.hysteresis == pytest.approx(as_given.hysteresis, rel=1e-9)
+    assert by_images.pressure == pytest.approx(as_given.pressure, abs=1e-3)
+    assert "mirror" in by_images.notes[0]
+    assert as_given.notes == ()
+
+    faded = slide(scan, SOLID, pressure=2e5, velocity=0.3)
+    h = scan.heights - scan.heights.mean()
+    for axis, margin in ((1, 8), (0, 10)):
+        h = np.moveaxis(h, axis, 0)
+        kept = len(h) - margin
+        angle = np.pi / 2 * (np.arange(margin)[:, None] + 0.5) / margin
+        edge = np.sin(angle) * h[:margin] + np.cos(angle) * h[kept:]
+        h = np.moveaxis(np.concatenate([edge, h[margin:kept]]), 0, axis)
+    same = pressed(with_heights(scan, h))
+    assert faded.pressure.shape == (70, 56)
+    assert faded.hysteresis == pytest.approx(same.hysteresis, rel=1e-6)
+    assert "fading" in faded.notes[0]
+    solved = continued(scan, "fade").heights
+    assert solved == pytest.approx(h - h.mean(), abs=1e-18)
+
+
+def test_band_of_waves_across_the_way() -> None:
+    # ridges along the way: the band alone dissipates, v -> inf is glassy and not relaxed
+    n = 64
+    ridges = 1e-4 * np.cos(2 * np.pi * np.arange(n) / n)[:, None] * np.ones(n)
+    surface = asperity.HeightMap(ridges, pixel_size=LENGTH / n)
+    relaxed = pressed(surface, velocity=0.0)
+    fast = pressed(surface, velocity=1e9)
+    assert fast.contact_area < 0.6 * relaxed.contact_area
+    slow = pressed(surface, velocity=1.0)
+    assert slow.hysteresis > 0
+    assert abs(slow.work_of_slopes) < 1e-9
+
+
+def test_master_curve_must_reach_all_waves() -> None:
+    w = np.geomspace(1, 1e5, 60)
+    e = SOLID.modulus(w)
+    curve = asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+    surface = rough(32, 8)
+    found = slide(surface, curve, pressure=2e5, velocity=0.3, periodic=True)
+    series = pressed(surface)
+    assert found.hysteresis == pytest.approx(series.hysteresis, rel=2e-3)
+    with pytest.raises(asperity.OutOfRange, match=r"velocities from 0\.00159.* to 9\.94"):
+        slide(surface, curve, pressure=2e5, velocity=50.0, periodic=True)
+    with pytest.raises(asperity.OutOfRange, match="velocity = 0 m/s"):
+        slide(surface, curve, pressure=2e5, velocity=0.0, periodic=True)
+
+
+HOLED = np.where(np.arange(256).reshape(16, 16) == 7, np.nan, np.arange(256).reshape(16, 16) % 7)
+
+
+@each(
+    ("changed", "message"),
+    [
+        ({"pressure": 0.0}, "pressure = 0: must be positive"),
+        ({"velocity": -1.0}, "velocity = -1: must be finite and not negative"),
+        ({"velocity": float("nan")}, "velocity = nan"),
+        ({"poisson_ratio": 0.7}, "poisson_ratio = 0.7"),
+        ({"periodic": "window"}, """periodic = 'window': must be True, "mirror" or "fade\""""),
+        ({"periodic": False}, "periodic = False"),
+        ({"periodic": 1}, "periodic = 1"),
+        ({"rtol": 0.5}, "rtol = 0.5"),
+        ({"time_limit": -1.0}, "time_limit = -1"),
+    ],
+)
+def test_bad_numbers_are_refused(changed: dict[str, Any], message: str) -> None:
+    with pytest.raises(asperity.InvalidInput) as caught:
+        pressed(rough(32, 8), **changed)
+    assert message in str(caught.value)
+
+
+@each(
+    ("heights", "message"),
+    [
+        (np.ones((16, 16)), "rms height of 0"),
+        (np.arange(64.0).reshape(8, 8), "8 x 8 points"),
+        (HOLED, r"drop-outs \(0.391 %\); call fill_dropouts"),
+    ],
+)
+def test_bad_maps_are_refused(heights: Any, message: str) -> None:
+    with pytest.raises(asperity.InvalidInput, match=message):
+        pressed(asperity.HeightMap(heights, pixel_size=1e-4))
+
+
+def test_kinds_are_refused() -> None:
+    with pytest.raises(asperity.InvalidInput, match="height_map"):
+        slide(np.ones((16, 16)), SOLID, pressure=1.0, velocity=1.0)  # type: ignore[arg-type]
+    with pytest.raises(asperity.InvalidInput, match="rubber"):
+        slide(rough(32, 8), 1e6, pressure=1.0, velocity=1.0)  # type: ignore[arg-type]
+
+
+def test_time_limit_says_what_was_reached() -> None:
+    with pytest.raises(asperity.NotConverged, match=r"error of .* its contact area was .*time_lim"):
+        pressed(rough(256, 32), rtol=1e-12, time_limit=1e-3)
+
+
+def test_result() -> None:
+    found = pressed(rough(48, 8))
+    assert repr(found).startswith("SlidingContact(contact_area=")
+    assert pickle.loads(pickle.dumps(found)) == found
+    assert not found.pressure.flags.writeable
+    table = pytest.importorskip("xarray") and found.to_xarray()
+    assert table.pressure.shape == (48, 48)
+    assert table.attrs["hysteresis"] == found.hysteresis
+    assert table.pressure.attrs["units"] == "Pa"
+    pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+
+    axes = found.plot(Figure().subplots())
+    assert axes.get_xlabel().endswith("along the way")
