@@ -1,4 +1,4 @@
-// Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points, patch by patch.
+// Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points.
 // L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM (2013), chapters 3 and 4.
 #include "friction_map/patches.hpp"
 
@@ -77,20 +77,35 @@ void MapPatches::make(std::vector<std::size_t> wanted, const std::function<void(
   }
 }
 
+namespace {
+
+/// Chebyshev's extreme points, both ends among them: beyond the last of his zeros a kink would not be seen. The
+/// coefficient of T_m is the sum of transform[m][k] f(point[k]).
+template <std::size_t n>
+struct Points {
+  std::array<double, n> point;
+  std::array<std::array<double, n>, n> transform;
+  Points() {
+    const auto end = [](std::size_t k) { return k == 0 || k == n - 1 ? 0.5 : 1.0; };
+    for (std::size_t k = 0; k < n; ++k) {
+      const double angle = std::numbers::pi * static_cast<double>(k) / (n - 1);
+      point[k] = std::cos(angle);
+      for (std::size_t m = 0; m < n; ++m)
+        transform[m][k] = 2.0 / (n - 1) * end(m) * end(k) * std::cos(static_cast<double>(m) * angle);
+    }
+  }
+};
+
+}  // namespace
+
 void MapPatches::interpolate(std::span<const std::size_t> wanted) {
-  static const std::array<Row, n> cosine = [] {  // T_m at the points; rows are orthogonal
-    std::array<Row, n> table{};
-    for (std::size_t m = 0; m < n; ++m)
-      for (std::size_t k = 0; k < n; ++k)
-        table[m][k] = std::cos(std::numbers::pi * static_cast<double>(m) * (static_cast<double>(k) + 0.5) / n);
-    return table;
-  }();
+  static const Points<n> points;
   std::vector<MapPlace> places;
   places.reserve(wanted.size() * n * n);
   for (const std::size_t index : wanted) {
     const Patch& patch = patches_[index];
-    for (const double x : cosine[1])
-      for (const double z : cosine[1])
+    for (const double x : points.point)
+      for (const double z : points.point)
         places.push_back({patch.middle.x + patch.half.x * x, patch.middle.z + patch.half.z * z});
   }
   const std::vector<MapSample> found = frame_.sample(places, threads_);
@@ -101,16 +116,13 @@ void MapPatches::interpolate(std::span<const std::size_t> wanted) {
     for (std::size_t f = 0; f < 2; ++f) {
       std::array<Row, n> in_z{};  // at each x
       for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t m = 0; m < n; ++m) {
-          for (std::size_t k = 0; k < n; ++k) in_z[i][m] += cosine[m][k] * sample[i * n + k].f[f];
-          in_z[i][m] *= (m == 0 ? 1.0 : 2.0) / n;
-        }
+        for (std::size_t m = 0; m < n; ++m)
+          for (std::size_t k = 0; k < n; ++k) in_z[i][m] += points.transform[m][k] * sample[i * n + k].f[f];
       for (std::size_t m = 0; m < n; ++m) {
         Row& row = patch.coefficient[f][m];
         row = {};
         for (std::size_t k = 0; k < n; ++k)
-          for (std::size_t j = 0; j < n; ++j) row[j] += cosine[m][k] * in_z[k][j];
-        for (double& c : row) c *= (m == 0 ? 1.0 : 2.0) / n;
+          for (std::size_t j = 0; j < n; ++j) row[j] += points.transform[m][k] * in_z[k][j];
       }
     }
   }

@@ -148,6 +148,16 @@ def test_a_fine_map_of_many_decades_is_made_from_few_points():
     assert 0.3 * found.max_error < found.largest_checked_error
 
 
+def test_kinks_beside_the_edge_of_a_patch_are_seen():
+    # of the modulus at q0 v, and so of p_T: between the last of Chebyshev's zeros and the edge
+    # one of this box had left neighbours apart, so that no number of cells was enough
+    box = {**BOX, "velocity": (1e-5 * 1.05**3, 3.0)}
+    correction = GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)
+    found = made(correction, rubber=noisy_master_curve(), box=box, checked=20_000)
+    assert found.max_error <= 1e-4
+    assert found.exceeded == 0
+
+
 @pytest.mark.parametrize("name", ["none", "s-factor", "master curve"])
 def test_values_and_slopes_have_no_steps(name):
     found = made(**SCENES[name])
