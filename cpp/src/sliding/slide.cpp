@@ -1,8 +1,7 @@
 // Steady sliding contact and its friction. A rigid periodic map h slides at v along x on a viscoelastic half-space: in
 // the frame of the map u_q = K_q p_q, K_q = 2 (1 - nu^2) / (|q| conj E(v q_x)), and the contact is p >= 0, gap = u - h
-// - delta >= 0, p gap = 0, <p> = sigma0. The rubber dissipates mu_H = sum q_x Im K_q |p_q|^2 / sigma0, which is the
-// work
-// -<p dh/dx> / sigma0 of the slopes. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001), for the modes.
+// - delta >= 0, p gap = 0, <p> = sigma0. The rubber dissipates mu_H = sum q_x Im K_q |p_q|^2 / sigma0, as much as the
+// slopes work, -<p dh/dx> / sigma0. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001), for the modes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
