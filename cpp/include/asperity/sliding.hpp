@@ -1,6 +1,7 @@
 // Exact steady sliding of rubber on a rigid map of heights, without adhesion and friction at the interface.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,6 +21,13 @@ enum class Continuation { periodic, mirror, fade };
 /// along a side.
 ASPERITY_EXPORT HeightMap continued(const HeightMap& map, Continuation continuation);
 
+/// A step of the iteration: its grid, ny x nx, its number there from 1 on, and the complementarity error it reached.
+struct SlidingStep {
+  HeightMap::Shape shape;
+  int step;
+  double error;
+};
+
 struct SlidingModel {
   double poisson_ratio = 0.5;
   Continuation continuation = Continuation::fade;
@@ -27,6 +35,8 @@ struct SlidingModel {
   double rtol = 1e-6;
   /// [s], after which the computation ends with NotConverged.
   double time_limit = std::numeric_limits<double>::infinity();
+  /// Told every step, in the thread that called.
+  std::function<void(const SlidingStep&)> progress = {};
 };
 
 struct SlidingContact {

@@ -74,7 +74,7 @@ class ContactSolver {
       weight_ = std::max(weight_, std::hypot(qy, step * static_cast<double>(k)) / std::abs(problem.column[k]) / 8);
   }
 
-  ContactSolution solve(std::vector<double> start, double rtol, Deadline deadline) {
+  ContactSolution solve(std::vector<double> start, double rtol, const Course& course) {
     state_ = std::move(start);
     if (state_.empty()) state_.assign(size_, problem_.load);
     normalise(state_);
@@ -103,15 +103,13 @@ class ContactSolver {
           best = error;
           best_step = step;
         }
-        if (error <= rtol) {
-          result.converged = true;
-          break;
-        }
+        result.converged = error <= rtol;
       } else {
         beta = std::min(most_beta, 2.5 * beta);
         merit *= worse;
       }
-      if (step - best_step >= patience || std::chrono::steady_clock::now() > deadline) break;
+      if (course.progress) course.progress({problem_.shape, step, result.error});
+      if (result.converged || step - best_step >= patience || std::chrono::steady_clock::now() > course.deadline) break;
     }
     const double least = *std::ranges::min_element(gap_);
     for (double& g : gap_) g -= least;
@@ -248,8 +246,8 @@ class ContactSolver {
 }  // namespace
 
 ContactSolution solve_contact(const ContactProblem& problem, std::vector<double> start, double rtol,
-                              Deadline deadline) {
-  return ContactSolver(problem).solve(std::move(start), rtol, deadline);
+                              const Course& course) {
+  return ContactSolver(problem).solve(std::move(start), rtol, course);
 }
 
 std::vector<double> complete_contact(const ContactProblem& problem) {

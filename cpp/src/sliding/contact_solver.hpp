@@ -4,8 +4,10 @@
 #include <chrono>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
+#include "asperity/sliding.hpp"
 #include "numerics/fft.hpp"
 
 namespace asperity {
@@ -28,10 +30,15 @@ struct ContactSolution {
   bool converged;
 };
 
-using Deadline = std::chrono::steady_clock::time_point;
+/// When an iteration gives up, and who is told its steps.
+struct Course {
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  const std::function<void(const SlidingStep&)>& progress;
+};
 
 /// From the pressure `start`, of any scale; none: equal everywhere.
-ContactSolution solve_contact(const ContactProblem& problem, std::vector<double> start, double rtol, Deadline deadline);
+ContactSolution solve_contact(const ContactProblem& problem, std::vector<double> start, double rtol,
+                              const Course& course);
 
 /// Where the pressure that makes contact everywhere has no tension, this pressure; otherwise empty.
 std::vector<double> complete_contact(const ContactProblem& problem);

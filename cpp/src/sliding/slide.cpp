@@ -140,10 +140,10 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
                      const SlidingModel& model) {
   validate(model, pressure, velocity);
   const auto begin = std::chrono::steady_clock::now();
-  Deadline deadline = Deadline::max();
+  Course course{.progress = model.progress};
   if (model.time_limit < 1e9)
-    deadline = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                           std::chrono::duration<double>(model.time_limit));
+    course.deadline = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                  std::chrono::duration<double>(model.time_limit));
   const Period period = one_period(map, model.continuation);
   const auto [dy, dx] = map.pixel_size();
   const Sliding s{period,
@@ -165,10 +165,10 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
     for (std::size_t level = grids.size(); level-- > 1;) {
       const auto [coarse, _] = problem_on(s, grids[level], compliance(rubber, velocity, grids[level][1], s.length_x));
       start =
-          resampled(solve_contact(coarse, std::move(start), std::max(model.rtol, coarse_tolerance), deadline).pressure,
+          resampled(solve_contact(coarse, std::move(start), std::max(model.rtol, coarse_tolerance), course).pressure,
                     grids[level], grids[level - 1]);
     }
-    solution = solve_contact(problem, std::move(start), model.rtol, deadline);
+    solution = solve_contact(problem, std::move(start), model.rtol, course);
   } else {
     solution.gap.assign(solution.pressure.size(), 0.0);
   }
@@ -180,7 +180,7 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
                        " m/s reached an error of " + show(contact.error, 2) + " in " + std::to_string(steps) +
                        " steps: must be " + show(model.rtol, 2) + "; its contact area was " +
                        show(contact.contact_area, 4) + " and its hysteresis " + show(contact.hysteresis, 4) +
-                       (std::chrono::steady_clock::now() > deadline ? " at the end of time_limit" : ""));
+                       (std::chrono::steady_clock::now() > course.deadline ? " at the end of time_limit" : ""));
   if (model.continuation != Continuation::periodic) contact.notes.push_back(told(model.continuation));
   return contact;
 }

@@ -86,7 +86,7 @@ def number_or_none(found: Any, name: str) -> float | None:
 
 def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> int:
     """Return a whole number of a range."""
-    if (type(found) is int or isinstance(found, int | np.integer)) and lowest <= found <= highest:
+    if isinstance(found, int | np.integer) and lowest <= found <= highest:
         return int(found)
     allowed = f"from {lowest} to {highest}" if highest != 2**62 else f"{lowest} or more"
     raise InvalidInput(f"{name} = {brief(found)}: must be a whole number, {allowed}")

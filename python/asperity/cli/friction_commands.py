@@ -107,7 +107,7 @@ def progress(title: str) -> Progress:
     if not on_terminal or importlib.util.find_spec("tqdm") is None:
         return nullcontext
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
-    shown = "{l_bar}{bar}| {elapsed}<{remaining}"
+    shown = "{l_bar}{bar}| {elapsed}<{remaining}{postfix}"
     return lambda chunks: bar(chunks, desc=title, delay=2, leave=False, bar_format=shown)
 
 

@@ -1,7 +1,8 @@
 """mu(v) and A(v) of a map by exact sliding contact, beside what the theory says of it."""
 
 import math
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +19,7 @@ from asperity.rubber import Rubber
 from asperity.scene.scene import Progress
 from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
-from asperity.validation.sliding import continued, slide
+from asperity.validation.sliding import SlidingStep, continued, slide
 
 _Array = NDArray[np.float64]
 
@@ -29,6 +30,7 @@ CORRECTIONS: dict[str, Correction | None] = {
     "S in G, 5/9": SFactor(gamma=5 / 9, applies_to="area"),
     "Nayak S": NayakSFactor(),
 }
+_PAUSE = 0.2  # s between two looks of a progress line
 _COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
 
 
@@ -118,7 +120,13 @@ def compare(
         for chunk in shown:
             ((p, v),) = points[chunk]
             found = slide(
-                solved, rubber, pressure=p, velocity=v, poisson_ratio=poisson_ratio, periodic=True
+                solved,
+                rubber,
+                pressure=p,
+                velocity=v,
+                poisson_ratio=poisson_ratio,
+                periodic=True,
+                progress=_line_on(shown),
             )
             rows.append((found.hysteresis, found.work_of_slopes, found.contact_area))
     mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
@@ -145,6 +153,23 @@ def compare(
             "shortest waves are a few pixels long, or what dissipates are waves across the way"
         )
     return Comparison(loads, speeds, mu, slopes, area, predicted, notes)
+
+
+def _line_on(bar: Any) -> Callable[[SlidingStep], object] | None:
+    """How a bar shows the steps of the contact in hand, from its delay on; no bar, no line."""
+    if not hasattr(bar, "set_postfix_str"):
+        return None
+    due = bar.start_t + bar.delay
+
+    def tell(at: SlidingStep) -> None:
+        nonlocal due
+        if time.time() < due:
+            return
+        due = time.time() + _PAUSE
+        ny, nx = at.shape
+        bar.set_postfix_str(f"{ny} x {nx} points, step {at.step}, error {at.error:.0e}")
+
+    return tell
 
 
 def _spectrum(solved: HeightMap) -> Spectrum:

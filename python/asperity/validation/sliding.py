@@ -1,7 +1,8 @@
 """Exact steady sliding contact of a map: the friction that the theory is held against."""
 
 import math
-from typing import Any, Literal, get_args
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -13,11 +14,29 @@ from asperity.base.value import value
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.surface import HeightMap, around, metric_unit
 
-__all__ = ["SlidingContact", "slide"]
+__all__ = ["SlidingContact", "SlidingStep", "slide"]
 
 Periodic = Literal[True, "mirror", "fade"]
 _CONTINUATIONS = get_args(Periodic)  # in the order of the core's enumeration
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
+
+
+class SlidingStep(NamedTuple):
+    """A step of the iteration, as `progress` of `slide` is told it.
+
+    Attributes
+    ----------
+    shape : (int, int)
+        (ny, nx) of the grid; coarser ones come first.
+    step : int
+        From 1 on, on every grid.
+    error : float
+        Complementarity error reached, as of `SlidingContact`; at most `rtol` ends the iteration.
+    """
+
+    shape: tuple[int, int]
+    step: int
+    error: float
 
 
 @value
@@ -106,6 +125,7 @@ def slide(
     periodic: Periodic = "fade",
     rtol: float = 1e-6,
     time_limit: float | None = None,
+    progress: Callable[[SlidingStep], object] | None = None,
 ) -> SlidingContact:
     """Return the contact and the friction of a rigid map that slides steadily on rubber.
 
@@ -136,6 +156,8 @@ def slide(
         Largest complementarity error, 1e-12 to 0.1.
     time_limit : float, optional
         [s], after which the computation ends with NotConverged.
+    progress : callable, optional
+        Called with a `SlidingStep` after every step.
 
     Returns
     -------
@@ -192,6 +214,7 @@ def slide(
         _continuation(periodic),
         number(rtol, "rtol"),
         limit,
+        _told(progress),
     )
     names = ("contact_area", "contact_area_raw", "hysteresis", "work_of_slopes")
     return SlidingContact._made(
@@ -203,6 +226,18 @@ def slide(
         velocity=speed,
         notes=notes,
     )
+
+
+def _told(progress: Callable[[SlidingStep], object] | None) -> Callable[..., object] | None:
+    if progress is None:
+        return None
+    if not callable(progress):
+        raise InvalidInput(f"progress = {brief(progress)}: must be callable, or None")
+
+    def tell(ny: int, nx: int, step: int, error: float) -> None:
+        progress(SlidingStep((ny, nx), step, error))
+
+    return tell
 
 
 def continued(height_map: HeightMap, periodic: Periodic) -> HeightMap:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.validation import SlidingContact, slide
+from asperity.validation import SlidingContact, SlidingStep, slide
 from asperity.validation.boundary_elements import contact, mirrored
 from asperity.validation.sliding import continued
 from helpers.cases import case, each
@@ -332,3 +332,23 @@ def test_result() -> None:
 
     axes = found.plot(Figure().subplots())
     assert axes.get_xlabel().endswith("along the way")
+
+
+def test_progress_is_told_every_step_coarse_grids_first() -> None:
+    told: list[SlidingStep] = []
+    found = pressed(rough(256, 32), rtol=1e-6, progress=told.append)
+    first = [at.shape for at in told if at.step == 1]
+    assert first == [(64, 64), (128, 128), (256, 256)]
+    assert told[-1].shape == (256, 256)
+    assert told[-1].error == pytest.approx(found.error, rel=1e-3)
+    assert found == pressed(rough(256, 32), rtol=1e-6)
+
+
+def test_what_progress_raises_ends_the_contact() -> None:
+    def stop(_: SlidingStep) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        pressed(rough(128, 16), progress=stop)
+    with pytest.raises(asperity.InvalidInput, match="progress = 3: must be callable, or None"):
+        pressed(rough(128, 16), progress=3)
