@@ -182,6 +182,7 @@ WAVES = [
 ]
 SOLID = (1e6, [9e6], [1e-3])
 LOSSY = (1e6, [9.9e7], [1e-3])
+LOSSIEST = (1e6, [9.99e8], [1e-3])
 SERIES = (5e5, [1e6, 4e6, 2e7], [1.0, 1e-2, 1e-4])
 
 
@@ -192,6 +193,7 @@ def main():
         row("steepest", 24, WAVES, SOLID, 0.5, 3e4, 1.0),
         row("fast", 24, WAVES, SOLID, 0.5, 3e4, 3e1),
         row("loss tangent of 5", 24, WAVES, LOSSY, 0.5, 1e5, 0.3),
+        row("loss tangent of 16", 24, WAVES, LOSSIEST, 0.5, 3e5, 0.03),
         row("a compressible series", 24, WAVES, SERIES, 0.3, 4e4, 0.1),
         row("an odd number of points", 21, WAVES, SOLID, 0.45, 3e4, 1.0),
     ]
