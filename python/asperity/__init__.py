@@ -12,24 +12,23 @@ from asperity.contact import (
     pressure_distribution,
 )
 from asperity.correction import *  # noqa: F403
-from asperity.dma import MasterCurveBuild, MasterPoints, PronyFit, build_master_curve, fit_prony
+from asperity.dma import MasterCurveBuild, MasterPoints, build_master_curve
 from asperity.friction import Friction, friction
 from asperity.friction_map import FrictionMap, FrictionSlopes, friction_map
 from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import (
     Anisotropy,
-    SelfAffineFit,
     SpectralDensity,
     anisotropy,
-    fit_self_affine,
     line_spectrum,
     merge_spectra,
     power_spectrum,
     spectral_density,
-    synthesize,
 )
+from asperity.prony_fit import PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus
+from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
 from asperity.shift_factors import ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan

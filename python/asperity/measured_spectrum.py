@@ -1,4 +1,4 @@
-"""From scans to spectra and back: measured, merged and fitted spectra, and maps made from them."""
+"""From scans to spectra: of maps, along lines, by direction, and several merged into one."""
 
 from __future__ import annotations
 
@@ -6,17 +6,13 @@ from collections.abc import Iterable
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
-    Array,
-    Given,
     Vector,
     brief,
     choice,
-    covariance_matrix,
     frozen,
     number,
     number_or_none,
@@ -27,15 +23,13 @@ from asperity.base.arguments import (
 )
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, Spectrum, TabulatedSpectrum
-from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, around, pixel_sizes
+from asperity.spectrum import LineSpectrum, TabulatedSpectrum
+from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, around
 
 Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
 Part = Literal["all", "top", "bottom"]
-FitMethod = Literal["least-squares", "slope"]
-Rolloff = Literal["find", "require", "none"]
 # each in the order of the core's enumeration
-WINDOWS, PARTS, METHODS, ROLLOFFS = map(get_args, (Window, Part, FitMethod, Rolloff))
+WINDOWS, PARTS = map(get_args, (Window, Part))
 
 
 def _prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
@@ -326,182 +320,3 @@ def merge_spectra(
     cores = [of_kind(s, f"spectra[{i}]", TabulatedSpectrum)._core for i, s in enumerate(spectra)]
     merged = _core.merge_spectra(cores, number_or_none(per_decade, "per_decade"))
     return around(TabulatedSpectrum, merged)
-
-
-@value
-class SelfAffineFit(Table):
-    """A power law through a measured spectrum (see `fit_self_affine`).
-
-    Attributes
-    ----------
-    spectrum : SelfAffineSpectrum
-        The fit as a spectrum.
-    covariance : ndarray, shape (3, 3)
-        Covariance of rms_height [m], hurst [-] and rolloff [1/m], from the scatter of the rows
-        about the fit and their correlation; zeros where there is no roll-off.
-    residual : float
-        Weighted rms of ln(C / fit) [-].
-    rows : int
-        Number of rows of the measured spectrum that were used.
-    """
-
-    spectrum: SelfAffineSpectrum
-    covariance: Given[ArrayLike, Array]
-    residual: float
-    rows: int
-
-    def __post_init__(self) -> None:
-        of_kind(self.spectrum, "spectrum", SelfAffineSpectrum)
-        self._set(covariance=covariance_matrix(self.covariance))
-        self._set(residual=number(self.residual, "residual"), rows=whole(self.rows, "rows"))
-
-    @property
-    def rms_height(self) -> float:
-        """Root mean square height on [q0, q1] [m]."""
-        return self.spectrum.rms_height
-
-    @property
-    def hurst(self) -> float:
-        """Hurst exponent H [-]."""
-        return self.spectrum.hurst
-
-    @property
-    def q0(self) -> float:
-        """Wavenumber of the first row that was used [1/m]."""
-        return self.spectrum.q0
-
-    @property
-    def q1(self) -> float:
-        """Wavenumber of the last row that was used [1/m]."""
-        return self.spectrum.q1
-
-    @property
-    def rolloff(self) -> float | None:
-        """Wavenumber at which the flat part ends [1/m]; None where there is no flat part."""
-        return self.spectrum.rolloff
-
-    @property
-    def standard_errors(self) -> dict[str, float]:
-        """Standard errors of rms_height [m], hurst [-] and rolloff [1/m] where there is one."""
-        names = ("rms_height", "hurst", "rolloff")[: 2 if self.rolloff is None else 3]
-        return dict(zip(names, np.sqrt(np.diag(self.covariance)).tolist(), strict=False))
-
-    def _summary(self) -> dict[str, Any]:
-        names = ("rms_height", "hurst", "rolloff", "q0", "q1", "residual", "rows")
-        return {name: getattr(self, name) for name in names}
-
-    def _columns(self) -> Columns:
-        units = {"rms_height": "m", "hurst": "1", "rolloff": "1/m", "q0": "1/m", "q1": "1/m"}
-        numbers = self._summary() | {"rolloff": np.nan if self.rolloff is None else self.rolloff}
-        columns = {name: Column((), n, units.get(name, "1")) for name, n in numbers.items()}
-        for name, error in self.standard_errors.items():
-            columns[f"{name}_error"] = Column((), error, units[name], "standard error")
-        return Columns({}, columns)
-
-    def _draw(self, axes: Any) -> None:
-        self.spectrum._draw(axes)
-        label = f"$H$ = {self.hurst:.3f} ± {self.standard_errors['hurst']:.3f}"
-        axes.lines[-1].set_label(label)
-        axes.legend(fontsize="small")
-
-
-def fit_self_affine(
-    spectrum: TabulatedSpectrum,
-    *,
-    q_min: float | None = None,
-    q_max: float | None = None,
-    method: FitMethod = "least-squares",
-    rolloff: Rolloff = "find",
-) -> SelfAffineFit:
-    """Fit a self-affine spectrum: H, the rms height on the band, a roll-off where there is one.
-
-    The fit is least squares in ln C over ln q, each row weighted by its count where it has one.
-    H = |slope| / 2 - 1 (the article's Eq. 28) is held at 1 where it comes out above by less than
-    three of its standard errors.
-
-    Parameters
-    ----------
-    spectrum : TabulatedSpectrum
-        The measured spectrum.
-    q_min, q_max : float, optional
-        Band of the rows that are used [1/m], whatever their flags. Without q_max the band ends
-        with the last reliable row. Without q_min it begins with the first reliable row, and on a
-        scan, whose own band begins there, with the first row that has 0.4 of the highest density.
-    method : {"least-squares", "slope"}
-        "slope" is the article's Eq. 28 alone: a straight line through all rows with equal weights
-        and no roll-off.
-    rolloff : {"find", "require", "none"}
-        "find" takes a flat part below a roll-off where it leaves clearly less than a straight line
-        does (Schwarz's criterion). "require" refuses a spectrum in which none is found, as on a
-        scan smaller than lambda_0.
-
-    Returns
-    -------
-    SelfAffineFit
-        The law, its covariance and its residual.
-
-    Raises
-    ------
-    InvalidInput
-        There are fewer than 3 rows, a density among them is zero, the slope gives no H in (0, 1],
-        or there is no roll-off where one is required.
-    """
-    core = of_kind(spectrum, "spectrum", TabulatedSpectrum)._core
-    band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
-    how = choice(method, "method", METHODS), choice(rolloff, "rolloff", ROLLOFFS)
-    law, covariance, residual, rows = _core.fit_self_affine(core, *band, *how)
-    return SelfAffineFit._made(
-        spectrum=around(SelfAffineSpectrum, law),
-        covariance=frozen(covariance),
-        residual=residual,
-        rows=rows,
-    )
-
-
-def synthesize(
-    spectrum: Spectrum,
-    *,
-    shape: tuple[int, int],
-    pixel_size: float | tuple[float, float],
-    seed: int,
-    skewness: float = 0.0,
-) -> HeightMap:
-    """Return a periodic map whose modes have the densities of a spectrum and random phases.
-
-    Parameters
-    ----------
-    spectrum : SelfAffineSpectrum or TabulatedSpectrum
-        The densities, met exactly. The part of its band that the grid's modes, from 2 pi / side to
-        the Nyquist corner, do not hold is left out.
-    shape : (int, int)
-        Number of points (ny, nx), 2 or more each.
-    pixel_size : float or (float, float)
-        Spacing of the points [m], or (dy, dx).
-    seed : int
-        The same seed gives the same map on every machine (splitmix64), to rounding.
-    skewness : float
-        Skewness of the heights [-], from -2 (worn) to 2, met to 1e-3: random phases are bent so
-        that the heights follow a gamma distribution (after Wilson and Hilferty) as nearly as the
-        densities allow. 0 leaves the phases random, with the skewness that chance gives them.
-
-    Returns
-    -------
-    HeightMap
-        The map, of mean 0.
-
-    Raises
-    ------
-    InvalidInput
-        The band holds no mode of the grid at all.
-    NotConverged
-        The map has too few long waves to reach the skewness.
-    """
-    core = of_kind(spectrum, "spectrum", SelfAffineSpectrum, TabulatedSpectrum)._core
-    try:
-        ny, nx = shape
-    except (TypeError, ValueError):
-        raise InvalidInput(f"shape = {brief(shape)}: must be two whole numbers (ny, nx)") from None
-    grid = whole(ny, "shape"), whole(nx, "shape")
-    start = whole(seed, "seed", highest=2**64 - 1)
-    options = pixel_sizes(pixel_size), start, number(skewness, "skewness")
-    return around(HeightMap, _core.synthesize(core, grid, *options))

@@ -12,8 +12,8 @@ from asperity.article.readings import READINGS, Array, Implied, Reading, implied
 from asperity.article.statement import UNTUNED
 from asperity.contact import contact_area, correction_factor
 from asperity.correction import Correction, GreenwoodWilliamson
-from asperity.measured_spectrum import synthesize
 from asperity.rubber import PronySeries
+from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 from asperity.surface import HeightMap
 

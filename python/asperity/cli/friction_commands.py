@@ -22,12 +22,12 @@ from asperity.io import plausible
 from asperity.io.fields import MOST_ROWS, rename_in_errors
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
-from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
+from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap
 

@@ -9,12 +9,13 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.dma import MasterCurveBuild, PronyFit, build_master_curve
+from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.table import Table
 from asperity.plot import rubber as plot_rubber
+from asperity.prony_fit import PronyFit
 from asperity.scene.rubber import quiet_prony
 from asperity.shift_factors import WlfFit
 

@@ -14,9 +14,9 @@ from asperity.cli.streams import print_stdout, tell_notes
 from asperity.demo import input_files
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
-from asperity.measured_spectrum import synthesize
 from asperity.plot import curves as plot
 from asperity.scene.scene import Scene, load_scene
+from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 from asperity.surface import HeightMap
 from asperity.validation.compared import compare

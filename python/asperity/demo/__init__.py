@@ -6,7 +6,7 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.measured_spectrum import synthesize
+from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 
 FILES = ("scan.npy", "scene.toml", "friction.csv", "friction.png")

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.dma import MasterCurveBuild, PronyFit
+from asperity.dma import MasterCurveBuild
 from asperity.plot.curves import COLOURS, new_figure, picture, shades
+from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
 from asperity.sweeps import Isotherm
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.measured_spectrum import SelfAffineFit
 from asperity.plot.curves import COLOURS, new_figure, picture
 from asperity.scene.scan import Scan, nyquist
+from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
 

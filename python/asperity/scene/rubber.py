@@ -10,13 +10,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, OutOfRange
-from asperity.dma import (
-    MasterCurveBuild,
-    PronyExtrapolation,
-    PronyFit,
-    build_master_curve,
-    fit_prony,
-)
+from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
@@ -36,6 +30,7 @@ from asperity.io.fields import (
 )
 from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.read_master_curve import read_master_curve
+from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.shift_factors import ShiftFactors
 from asperity.uncertainty.draws import Drawn, Generator, draw_build

@@ -22,8 +22,8 @@ from asperity.io.fields import (
     require,
     text,
 )
-from asperity.measured_spectrum import SelfAffineFit, fit_self_affine
 from asperity.scene.scan import Scan, nyquist, read_filled, surface_spectrum
+from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.surface import HeightMap
 from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectrum

@@ -14,10 +14,11 @@ from asperity.base.in_order import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Correction
-from asperity.dma import MasterCurveBuild, PronyFit
+from asperity.dma import MasterCurveBuild
 from asperity.friction import friction
-from asperity.measured_spectrum import SelfAffineFit
+from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.dma import MasterCurveBuild, draw_master_curve
-from asperity.measured_spectrum import SelfAffineFit
 from asperity.rubber import MasterCurve, Rubber
+from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 
 if TYPE_CHECKING:

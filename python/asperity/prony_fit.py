@@ -1,0 +1,158 @@
+"""A Prony series through a master curve."""
+
+import warnings
+from typing import Any, Literal, Self
+
+import numpy as np
+
+from asperity import _core
+from asperity.base.arguments import (
+    Vector,
+    choice,
+    flag,
+    number,
+    number_or_none,
+    of_kind,
+    sentences,
+)
+from asperity.base.table import Columns
+from asperity.base.value import value
+from asperity.dma import MasterCurveBuild
+from asperity.rubber import MasterCurve, PronySeries
+
+PronyExtrapolation = Literal["prony"]
+
+
+def _goes_beyond(extrapolation: Any) -> bool:
+    return choice(extrapolation, "extrapolation", ("prony", None)) == 0
+
+
+@value
+class PronyFit(PronySeries):
+    """A PronySeries [Pa] that was fitted, and how well it follows the measurement (`fit_prony`).
+
+    Parameters
+    ----------
+    equilibrium_modulus, moduli, relaxation_times
+        As in PronySeries.
+    storage_residual, loss_residual : float
+        Relative root mean square of E' and of E'' about the fit [-].
+    causal : bool
+        False where E' and E'' contradict each other (Kramers-Kronig) by more than their noise.
+    lowest_frequency, highest_frequency : float
+        Those that it was fitted on [rad/s]; `shifted` moves them. Beyond them it raises OutOfRange.
+    extrapolation : {None, "prony"}
+        "prony": the series may be asked beyond them. What comes from there is then counted by the
+        `extrapolated_share` of a result, whose notes say so.
+    notes : tuple of str
+        What a reader must know.
+    """
+
+    moduli: Vector
+    relaxation_times: Vector
+    storage_residual: float
+    loss_residual: float
+    causal: bool
+    lowest_frequency: float
+    highest_frequency: float
+    extrapolation: PronyExtrapolation | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lowest = number(self.lowest_frequency, "lowest_frequency")
+        highest = number(self.highest_frequency, "highest_frequency")
+        beyond = _goes_beyond(self.extrapolation)
+        self._set(
+            _core=self._core.fitted_on(lowest, highest, beyond),
+            lowest_frequency=lowest,
+            highest_frequency=highest,
+            storage_residual=number(self.storage_residual, "storage_residual"),
+            loss_residual=number(self.loss_residual, "loss_residual"),
+            causal=flag(self.causal, "causal"),
+            notes=sentences(self.notes, "notes"),
+        )
+
+    @classmethod
+    def _of(cls, core: Any, **others: Any) -> Self:
+        """Make a fit from the core's."""
+        lowest, highest = core.fitted_range()
+        return super()._of(core, lowest_frequency=lowest, highest_frequency=highest, **others)
+
+    def shifted(self, a_T: float) -> "PronyFit":  # noqa: N803
+        """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T."""
+        same = ("storage_residual", "loss_residual", "causal", "extrapolation", "notes")
+        core = self._core.shifted(number(a_T, "a_T"))
+        return PronyFit._of(core, **{name: getattr(self, name) for name in same})
+
+    def _drawn_range(self) -> tuple[float, float]:
+        return self.lowest_frequency, self.highest_frequency
+
+    def _columns(self) -> Columns:
+        columns = super()._columns()
+        facts: dict[str, Any] = {**columns.attributes, **self._arguments()}
+        del facts["moduli"], facts["relaxation_times"]
+        return Columns(columns.coordinates, columns.variables, facts)
+
+
+def fit_prony(
+    master_curve: MasterCurve | MasterCurveBuild,
+    *,
+    modes_per_decade: float | None = None,
+    residual: float | None = None,
+    extrapolation: PronyExtrapolation | None = None,
+) -> PronyFit:
+    """Fit a Prony series to the rows of a master curve.
+
+    Non-negative least squares with relative weights. The relaxation times are equally spaced in the
+    logarithm, from a decade below to a decade above those of the measured frequencies. The series
+    is known on those frequencies only.
+
+    Parameters
+    ----------
+    master_curve : MasterCurve or MasterCurveBuild
+    modes_per_decade : float, optional
+        By default the fewest that reach the noise of the rows.
+    residual : float, optional
+        The fewest that reach this relative root mean square of E' and E'' together instead.
+    extrapolation : {None, "prony"}
+        "prony": the series may be asked beyond the measured frequencies, where nothing holds it.
+
+    Returns
+    -------
+    PronyFit
+        A PronySeries [Pa] with its residuals. Prony series are causal: where none follows the rows,
+        E' and E'' contradict each other; `causal` is then False, and a UserWarning says why that
+        may be.
+
+    Raises
+    ------
+    InvalidInput
+    NotConverged
+        No number of modes reaches `residual`.
+    """
+    measured: Any = ()  # points of a build, which its rows are means of
+    if isinstance(master_curve, MasterCurveBuild):
+        measured = master_curve.points.angular_frequency
+        master_curve = master_curve.master_curve
+    curve = of_kind(master_curve, "master_curve", MasterCurve)
+    beyond = _goes_beyond(extrapolation)
+    core, storage_residual, loss_residual, causal, notes = _core.fit_prony(
+        curve._core,
+        number_or_none(modes_per_decade, "modes_per_decade"),
+        number_or_none(residual, "residual"),
+        beyond,
+    )
+    w = np.append(measured, curve.angular_frequency[[0, -1]])
+    core = core.fitted_on(w.min(), w.max(), beyond)
+    if not causal:
+        for note in notes:
+            warnings.warn(note, UserWarning, stacklevel=2)
+    return PronyFit._of(
+        core,
+        storage_residual=storage_residual,
+        loss_residual=loss_residual,
+        causal=causal,
+        extrapolation=extrapolation,
+        notes=notes,
+    )
