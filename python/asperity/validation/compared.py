@@ -30,6 +30,8 @@ CORRECTIONS: dict[str, Correction | None] = {
     "S in G, 5/9": SFactor(gamma=5 / 9, applies_to="area"),
     "Nayak S": NayakSFactor(),
 }
+_DRAWN = {"none": ":", "S in Eq. 22, 0.50": "--", "Nayak S": "-"}  # the others lie near one of them
+_POINTS = 60  # of a curve
 _PAUSE = 0.2  # s between two looks of a progress line
 _COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
 
@@ -44,6 +46,8 @@ class Comparison:
     work_of_slopes: _Array
     area: _Array
     predicted: dict[str, tuple[_Array, _Array]]  # hysteresis and area by the correction's name
+    between: _Array  # velocities at which curves are drawn
+    curves: dict[str, tuple[_Array, _Array]]  # predictions there
     notes: list[str]
 
     def columns(self) -> dict[str, list[float]]:
@@ -78,20 +82,19 @@ class Comparison:
     def figure(self, path: Path) -> bytes:
         """mu and A over velocity: exact as marks, predicted as lines, a colour a pressure."""
         figure, panels = new_figure(2)
-        dashes = {"none": ":", "S in Eq. 22, 0.40": "--", "Nayak S": "-"}
         labels = ("Hysteresis $\\mu_H$ [-]", "Contact area $A/A_0$ [-]")
         exact = (self.hysteresis, self.area)
         for i, (axes, label) in enumerate(zip(panels, labels, strict=True)):
             for j, colour in enumerate(colours(self.pressure.size)):
-                title = f"exact, {self.pressure[j]:.4g} Pa"
+                title = f"exact, {self.pressure[j] / 1e3:.4g} kPa"
                 axes.plot(self.velocity, exact[i][j], "o", color=colour, label=title)
-                for name, dash in dashes.items():
-                    axes.plot(self.velocity, self.predicted[name][i][j], dash, color=colour)
+                for name, dash in _DRAWN.items():
+                    axes.plot(self.between, self.curves[name][i][j], dash, color=colour)
             axes.set_xscale("log")
             axes.set_ylim(bottom=0)
             axes.set_xlabel("Sliding velocity $v$ [m/s]")
             axes.set_ylabel(label)
-        for name, dash in dashes.items():
+        for name, dash in _DRAWN.items():
             panels[0].plot([], [], dash, color="0.3", label=name)
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right upper")
         return picture(figure, path)
@@ -131,17 +134,20 @@ def compare(
             rows.append((found.hysteresis, found.work_of_slopes, found.contact_area))
     mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
     spectrum = _spectrum(solved)
-    predicted = {}
-    for name, correction in CORRECTIONS.items():
-        theory: Any = friction(
+
+    def theory(name: str, at: _Array) -> tuple[_Array, _Array]:
+        told: Any = friction(
             spectrum,
             rubber,
             pressure=loads[:, None],
-            velocity=speeds,
+            velocity=at,
             poisson_ratio=poisson_ratio,
-            correction=correction,
+            correction=CORRECTIONS[name],
         )
-        predicted[name] = (theory.hysteresis, theory.contact_area)
+        return told.hysteresis, told.contact_area
+
+    between = np.geomspace(speeds.min(), speeds.max(), _POINTS)
+    between = np.clip(between, speeds.min(), speeds.max())  # whatever rounding made of the ends
     faded = (
         "the map was made periodic: the last eighth along either axis is faded into its beginning"
     )
@@ -152,7 +158,13 @@ def compare(
             f"the work of the slopes and the dissipation differ by up to {100 * apart:.0f} %: the "
             "shortest waves are a few pixels long, or what dissipates are waves across the way"
         )
-    return Comparison(loads, speeds, mu, slopes, area, predicted, notes)
+    return Comparison(
+        *(loads, speeds, mu, slopes, area),
+        predicted={name: theory(name, speeds) for name in CORRECTIONS},
+        between=between,
+        curves={name: theory(name, between) for name in _DRAWN},
+        notes=notes,
+    )
 
 
 def _line_on(bar: Any) -> Callable[[SlidingStep], object] | None:
