@@ -28,7 +28,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "command_line",
 ]
-exclude_patterns = ["_build", "examples/README.rst", "examples/*.py", "gallery/*.ipynb"]
+exclude_patterns = ["_build", "examples/README.rst", "examples/*.py", "benchmarks/*.md"]
 suppress_warnings = ["config.cache"]
 
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
@@ -64,3 +64,45 @@ sphinx_gallery_conf = {
     "image_scrapers": ("matplotlib",),
     "image_srcset": ["2x"],
 }
+
+
+def plain_text(app, what, name, obj, options, lines):
+    """Docstrings are plain text, |E| and E* are no markup; `a, b : type` becomes an entry each."""
+    result, held = [], []
+    for line in lines:
+        if not line.lstrip().startswith((">>>", "...")):
+            line = re.sub(r"(?<!\\)([|*])", r"\\\1", line)
+        together = re.match(r"(\w+(?:, \w+)+) : (.*)", line)
+        if held and (together or not line.startswith("    ")):
+            for entry in held[0].split(", "):
+                result += [f"{entry} : {held[1]}", *held[2:]]
+            held = []
+        if together and what == "class":
+            held = [together[1], together[2]]
+        elif held:
+            held.append(line)
+        else:
+            result.append(line)
+    lines[:] = result
+
+
+def short_types(app, what, name, obj, options, signature, returned):
+    """Say ArrayLike and ndarray for what their definitions spell out."""
+
+    def short(text):
+        text = re.sub(
+            r"[\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]", "ArrayLike", text
+        )
+        text = re.sub(
+            r"(?:numpy\.)?ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], [\w.]*dtype\[[\w.]*\]\]",
+            "ndarray",
+            text,
+        )
+        return text
+
+    return (signature and short(signature), returned and short(returned))
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", plain_text, priority=100)  # before napoleon
+    app.connect("autodoc-process-signature", short_types)

@@ -2,8 +2,8 @@
 A first friction curve
 ======================
 
-The surface is a self-affine asphalt that ends where its rms slope reaches 1.3; the rubber is a Prony
-series. Hysteresis, adhesion and their sum over the sliding velocity.
+The surface is a self-affine asphalt that ends where its rms slope reaches 1.3; the rubber is a
+Prony series. Hysteresis, adhesion and their sum are drawn over the sliding velocity.
 """
 
 import matplotlib.pyplot as plt
@@ -34,6 +34,6 @@ axes.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="friction coeffic
 axes.legend()
 
 # %%
-# What the result says of itself: the largest numerical error, and where the theory leaves its range.
+# The result tells its largest numerical error, and where the theory leaves its range.
 
 print(f"{result.error_estimate.max():.0e}", *result.notes, sep="\n")

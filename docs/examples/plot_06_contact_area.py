@@ -2,8 +2,8 @@
 The contact area over magnification
 ===================================
 
-Seen coarsely, contact looks complete; the more closely one looks, the less of it is left. Corrections
-for partial contact make the area larger.
+Seen coarsely, contact looks complete; the more closely one looks, the less of it is left.
+Corrections for partial contact make the area larger.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 Which wavelengths and frequencies make the friction
 ===================================================
 
-``contributions=True`` tells how much of the hysteresis each wavenumber makes, and how much each decade
-of frequency.
+``contributions=True`` tells how much of the hysteresis each wavenumber makes, and how much each
+decade of frequency.
 """
 
 import matplotlib.pyplot as plt
