@@ -45,3 +45,10 @@ def test_what_strangers_ask_for_is_the_series_of_this_version():
     for name in strangers:
         asked = re.findall(r"find_package\(asperity ([0-9.]+)", (ROOT / name).read_text())
         assert set(asked) == {SERIES}, name
+
+
+def test_the_pages_that_tell_the_version_tell_this_one():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (\S+)$", citation, re.M)[1] == VERSION
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert re.search(r"^## (\S+)", changes, re.M)[1] == VERSION
