@@ -1,5 +1,5 @@
-"""All charts of speed and exactness, and the tables of them in docs/explanation/speed.md. Takes about
-three minutes:
+"""All charts of speed and exactness, and the tables of them in docs/explanation/speed.md.
+Takes about three minutes:
 
     python tests/benchmarks/charts.py
 
