@@ -89,16 +89,11 @@ def plain_text(app, what, name, obj, options, lines):
 def short_types(app, what, name, obj, options, signature, returned):
     """Say ArrayLike and ndarray for what their definitions spell out."""
 
+    array_like = r"[\w.~]*_Buffer \| [^,()]*_NestedSequence\[complex \| bytes \| str\]"
+    array = r"[\w.~]*ndarray\[tuple\[[\w.~]*Any, \.\.\.\], [\w.~]*dtype\[[\w.~]*\]\]"
+
     def short(text):
-        text = re.sub(
-            r"[\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]", "ArrayLike", text
-        )
-        text = re.sub(
-            r"(?:numpy\.)?ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], [\w.]*dtype\[[\w.]*\]\]",
-            "ndarray",
-            text,
-        )
-        return text
+        return re.sub(array, "ndarray", re.sub(array_like, "ArrayLike", text))
 
     return (signature and short(signature), returned and short(returned))
 
