@@ -24,6 +24,7 @@ from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
+from asperity.plot.style import STYLES, drawn_in
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
@@ -263,6 +264,8 @@ def check_outputs(args: Namespace) -> list[Path]:
     """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
         plot.check_plot(FilePath(args.plot))
+    elif args.style is not None:
+        raise InvalidInput("--style: goes with --plot")
     outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
     for path in outputs:
         check_output(path)
@@ -287,9 +290,10 @@ def write_outputs(
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
-    files: dict[Path, bytes] = (
-        {} if args.plot is None else {FilePath(args.plot): draw(FilePath(args.plot))}
-    )
+    files: dict[Path, bytes] = {}
+    if args.plot is not None:
+        with drawn_in(args.style or STYLES[0]):
+            files[FilePath(args.plot)] = draw(FilePath(args.plot))
     if args.output is not None:
         files[FilePath(args.output)] = _bytes(text)
     write_files(files)
