@@ -1,9 +1,10 @@
-"""All charts of speed and exactness, and the README's table of them. Takes about three minutes:
+"""All charts of speed and exactness, and the tables of them in docs/explanation/speed.md.
+Takes about three minutes:
 
     python tests/benchmarks/charts.py
 
 Runs rings, friction, point, scaling, work_precision and models one after the other and writes what
-they find to docs/benchmarks, and the tables between their two marks in README.md. Needs
+they find to docs/benchmarks, and the tables between their two marks in that page. Needs
 ASPERITY_DATA as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
 pip install asperity[bem] scipy pybind11.
 """
@@ -24,7 +25,7 @@ import friction
 from asperity.io.files import write_files
 
 ROOT = Path(__file__).parents[2]
-DOCS, README = ROOT / "docs" / "benchmarks", ROOT / "README.md"
+DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "explanation" / "speed.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
 PARTS = (rings, friction, point, scaling, work_precision, models)
 
@@ -39,7 +40,7 @@ def rows_of(text: str) -> tuple[Rows, str]:
 
 
 def page(tables: dict[str, str]) -> str:
-    """The README's tables from the CSV files by their names."""
+    """The page's tables from the CSV files by their names."""
     found = [
         (row["surface"], row["rubber"], *map(float, list(row.values())[2:]))
         for row in rows_of(tables["rings.csv"])[0]
@@ -88,12 +89,12 @@ def page(tables: dict[str, str]) -> str:
     )
 
 
-def with_page(readme: str, text: str) -> str:
-    """The README with `text` between its marks."""
-    before, begin, rest = readme.partition(BEGIN)
+def with_page(given: str, text: str) -> str:
+    """The page with `text` between its marks."""
+    before, begin, rest = given.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
-        raise SystemExit(f"{README}: must have the lines {BEGIN!r} and {END!r}")
+        raise SystemExit(f"{PAGE}: must have the lines {BEGIN!r} and {END!r}")
     return before + begin + text + end + after
 
 
@@ -101,16 +102,16 @@ def main() -> None:
     timing.on_one_thread()
     if measured.folder() is None:
         raise SystemExit("ASPERITY_DATA: must name the folder of the measured scans and rubbers")
-    with_page(README.read_text(encoding="utf-8"), "")  # has it the marks?
+    with_page(PAGE.read_text(encoding="utf-8"), "")  # has it the marks?
     files: dict[str, bytes] = {}
     for part in PARTS:
         elapsed, report = timing.timed(part.make)
         files |= report.files
         print(f"{report.text}\n{part.__name__}: {elapsed:.0f} s\n", flush=True)
     tables = {name: data.decode() for name, data in files.items() if name.endswith(".csv")}
-    readme = with_page(README.read_text(encoding="utf-8"), page(tables))
+    written = with_page(PAGE.read_text(encoding="utf-8"), page(tables))
     contents = {DOCS / name: data for name, data in files.items()}
-    write_files({**contents, README: readme.encode()})
+    write_files({**contents, PAGE: written.encode()})
 
 
 if __name__ == "__main__":

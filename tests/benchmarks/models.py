@@ -21,7 +21,8 @@ from curves import Curve, curves
 
 import asperity
 from asperity.correction import Correction
-from asperity.plot.curves import COLOURS, picture
+from asperity.plot.curves import picture
+from asperity.plot.style import COLOURS
 from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped
 from asperity.validation.predictions import MODELS, Model, predict

@@ -30,7 +30,8 @@ from asperity.article.readings import Array
 from asperity.article.separation import shifts
 from asperity.article.statement import Finding, Findings
 from asperity.correction import AffineShift, Correction, SFactor
-from asperity.plot.curves import COLOURS, new_figure
+from asperity.plot.curves import new_figure
+from asperity.plot.style import COLOURS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

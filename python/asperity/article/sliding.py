@@ -21,7 +21,8 @@ from asperity.article.statement import Finding, Findings
 from asperity.article.surfaces import printed_eq12
 from asperity.correction import Correction, GreenwoodWilliamson, SFactor
 from asperity.friction import Friction, friction
-from asperity.plot.curves import COLOURS, new_figure
+from asperity.plot.curves import new_figure
+from asperity.plot.style import COLOURS
 
 # The article's q1, and that of the rule it cites.
 _CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")

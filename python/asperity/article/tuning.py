@@ -8,7 +8,8 @@ from asperity.article import compounds
 from asperity.article.inputs import Inputs, effective_modulus
 from asperity.article.page import LOG, page, panel, stacked
 from asperity.article.statement import Finding, Findings
-from asperity.plot.curves import COLOURS, new_figure
+from asperity.plot.curves import new_figure
+from asperity.plot.style import COLOURS
 
 
 def findings(inputs: Inputs) -> Findings:

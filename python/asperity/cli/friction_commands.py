@@ -24,6 +24,7 @@ from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
+from asperity.plot.style import STYLES, drawn_in
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
@@ -85,13 +86,19 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
             values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
-    several = len(scenes) > 1
-    notes = [
-        f"{scene.path}: {note}" if several else note
-        for scene, result in zip(scenes, curves, strict=True)
-        for note in result.notes
-    ]
+    notes = _notes_of_all(scenes, curves)
     return Table("friction", [_inputs(scene) for scene in scenes], notes, columns), curves
+
+
+def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
+    """Every note once; of several scenes with the names of those that it is about."""
+    about: dict[str, list[str]] = {}
+    for scene, result in zip(scenes, curves, strict=True):
+        for note in dict.fromkeys(result.notes):
+            about.setdefault(note, []).append(f"{scene.path}")
+    if len(scenes) == 1:
+        return list(about)
+    return [f"{', '.join(names)}: {note}" for note, names in about.items()]
 
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
@@ -237,12 +244,16 @@ def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | 
     """The self-affine fit, or a note that says why there is none."""
     q_min, q_max = args.q_min, args.q_max
     if q_min is not None and q_max is not None and q_min >= q_max:
-        raise InvalidInput(f"--q-max = {q_max:g}: must be above --q-min = {q_min:g}")
+        raise InvalidInput(f"--q-max {q_max}: must be above --q-min {q_min}")
     try:
         with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
     except (InvalidInput, NotConverged) as error:
-        return None, [f"no self-affine fit: {error}"]
+        typed = [f"--q-min {q_min}"] * (q_min is not None) + [f"--q-max {q_max}"] * (
+            q_max is not None
+        )
+        problem = str(error).replace("--q-min, --q-max: ", f"{' '.join(typed)}: ")
+        return None, [f"no self-affine fit: {problem}"]
 
 
 def _inputs(scene: Scene) -> dict[str, Any]:
@@ -253,6 +264,8 @@ def check_outputs(args: Namespace) -> list[Path]:
     """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
         plot.check_plot(FilePath(args.plot))
+    elif args.style is not None:
+        raise InvalidInput("--style: goes with --plot")
     outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
     for path in outputs:
         check_output(path)
@@ -277,9 +290,10 @@ def write_outputs(
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
-    files: dict[Path, bytes] = (
-        {} if args.plot is None else {FilePath(args.plot): draw(FilePath(args.plot))}
-    )
+    files: dict[Path, bytes] = {}
+    if args.plot is not None:
+        with drawn_in(args.style or STYLES[0]):
+            files[FilePath(args.plot)] = draw(FilePath(args.plot))
     if args.output is not None:
         files[FilePath(args.output)] = _bytes(text)
     write_files(files)

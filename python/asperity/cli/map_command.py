@@ -20,6 +20,7 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
+from asperity.plot.style import STYLES, drawn_in
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Scene, load_scene
 
@@ -32,7 +33,9 @@ def friction_map_of(args: Namespace) -> None:
     if (args.scene is None) == (args.info is None):
         raise InvalidInput("map: must be given a SCENE.toml, or --info FILE")
     asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
-    given = [name for name in (*asked, "output", "plot") if getattr(args, name) is not None]
+    given = [
+        name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
+    ]
     if args.info is not None:
         if given:
             raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
@@ -72,7 +75,8 @@ def friction_map_of(args: Namespace) -> None:
         files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
         path = FilePath(args.plot)
-        files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
+        with drawn_in(args.style or STYLES[0]):
+            files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
 

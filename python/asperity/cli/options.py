@@ -52,6 +52,15 @@ def pairs(text: str) -> dict[str, str]:
     return result
 
 
+class Typed(float):
+    """A number that shows as it was typed."""
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
 def number(text: str) -> float:
     """A positive number: all that the options ask for are."""
     try:
@@ -60,7 +69,9 @@ def number(text: str) -> float:
         number = math.nan
     if not 0 < number < math.inf:
         raise ArgumentTypeError(f"{text!r}: must be a positive number")
-    return number
+    typed = Typed(number)
+    typed.text = text
+    return typed
 
 
 def pixel_size(text: str) -> float | tuple[float, float]:

@@ -19,6 +19,7 @@ from asperity.cli.options import (
     whole,
 )
 from asperity.measured_spectrum import WINDOWS
+from asperity.plot.style import STYLES
 
 
 def parser() -> argparse.ArgumentParser:
@@ -44,9 +45,15 @@ def parser() -> argparse.ArgumentParser:
         added.set_defaults(run=run)
         return added
 
+    def pictures(to: argparse.ArgumentParser) -> None:
+        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+        to.add_argument(
+            "--style", choices=STYLES, help="of the picture (default: print; dark: for screens)"
+        )
+
     def outputs(to: argparse.ArgumentParser) -> None:
         to.add_argument("--output", metavar="FILE", help="where to write (default: the terminal)")
-        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+        pictures(to)
         to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
 
     def directory(to: argparse.ArgumentParser, default: str) -> None:
@@ -238,7 +245,7 @@ def parser() -> argparse.ArgumentParser:
         help="random points that the map is checked on (default: 1000000)",
     )
     mapped.add_argument("--output", metavar="FILE", help="where to write the map")
-    mapped.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+    pictures(mapped)
     mapped.add_argument("--json", action="store_true", help="tell it as JSON")
 
     validate = verb(

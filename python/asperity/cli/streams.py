@@ -51,8 +51,8 @@ def print_stderr(text: str) -> None:
 
 
 def tell_notes(notes: Sequence[str]) -> None:
-    """Write notes to standard error, a line each."""
-    for note in notes:
+    """Write notes to standard error, a line each and each once."""
+    for note in dict.fromkeys(notes):
         print_stderr(f"note: {printable(note)}\n")
 
 

@@ -59,7 +59,7 @@ def check_output(path: Path) -> None:
     with _refused(path):
         target = FilePath(os.path.realpath(path))
         if not target.parent.is_dir():
-            raise NotADirectoryError(0, f"there is no directory {FilePath(target.parent.name)}")
+            raise NotADirectoryError(0, f"the directory {FilePath(target.parent)} does not exist")
         mode = _mode(target)
         if mode is not None and stat.S_ISDIR(mode):
             raise IsADirectoryError(0, "it is a directory")

@@ -30,6 +30,7 @@ _UNITS = {
 _KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
 _CELSIUS = 273.15
 _STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
+_MOST_HEADER_LINES = 50  # in which the names of the columns are looked for, to show them
 _MOST_UNIT_LINES = 2  # between the names of the columns and the first numbers
 
 
@@ -293,7 +294,22 @@ def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
             return _numbers(path, numbered[at + 1 :], places, separator)
     missing = [c for c in columns.values() if not any(c in line for _, line in numbered)]
     named = ", ".join(map(repr, missing or columns.values()))
-    raise InvalidInput(f"{path}: no line names the columns {named}")
+    raise InvalidInput(f"{path}: no line names the columns {named}{_names_there(numbered)}")
+
+
+def _names_there(numbered: list[tuple[int, str]]) -> str:
+    """The columns that a file has: its last line with a word in most cells before the numbers."""
+    last = ""
+    for number, line in numbered[:_MOST_HEADER_LINES]:
+        separator = next((mark for mark in ";\t," if mark in line), None)
+        cells = [cell.strip().strip('"') for cell in line.split(separator)]
+        words = [cell for cell in cells if any(one.isalpha() for one in cell)]
+        if 2 * len(words) <= len(cells) or len(cells) < 2:
+            continue
+        if last:  # units stand below the names
+            break
+        last = f"; line {number} has {brief(', '.join(map(repr, words)))}"
+    return last
 
 
 def _numbers(

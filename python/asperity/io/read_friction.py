@@ -38,8 +38,8 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
 
     Columns, in any order and among others: ``mu``; ``velocity_m_s``, ``velocity_mm_s`` or
     ``velocity_km_h``; and, where pressures differ, ``pressure_pa``, ``pressure_kpa`` or
-    ``pressure_mpa``. Lines beginning with ``#`` are passed over, cells are parted by commas,
-    semicolons, tabs or blanks.
+    ``pressure_mpa``. Lines beginning with ``#`` are passed over. Cells are parted by semicolons,
+    tabs, commas or blanks; where they are not parted by commas, a comma is a decimal one.
 
     Returns
     -------

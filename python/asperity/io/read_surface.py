@@ -43,11 +43,11 @@ def read_surface(
     are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to HeightMap,
     which shares it; nobody may then write to the file.
 
-    Text has one line per y, cells parted by commas, semicolons, tabs or blanks; NaN and empty
-    cells are drop-outs (a separator that ends every line is no cell), blank lines and those that
-    begin with ``#`` are passed over. A text that is no matrix but begins with a header, and one
-    for which neither `pixel_size` nor `unit` is given, is taken where SurfaceTopography knows it
-    and finds its unit stated.
+    Text has one line per y, cells parted by semicolons, tabs, commas or blanks; where they are not
+    parted by commas, a comma is a decimal one. NaN and empty cells are drop-outs (a separator that
+    ends every line is no cell), blank lines and those that begin with ``#`` are passed over. A text
+    that is no matrix but begins with a header, and one for which neither `pixel_size` nor `unit` is
+    given, is taken where SurfaceTopography knows it and finds its unit stated.
 
     Any other format is read through SurfaceTopography (``pip install asperity[io]``). Of a line
     scan with positions they must be equally spaced, to within their last printed digit.
@@ -235,8 +235,17 @@ def lines(path: Path) -> Iterator[tuple[int, list[str]]]:
                 yield number, []
                 continue
             if separator == "":
-                separator = next((mark for mark in ";,\t" if mark in text), None)
+                separator = _separator(text)
+            if separator != "," and "," in text:
+                text = re.sub(r",(?=\d)", ".", text)  # decimal commas
             yield number, text.split(separator)
+
+
+def _separator(line: str) -> str | None:
+    """What parts the cells of a line; None of blanks, between which a comma is a decimal one."""
+    if re.search(r"\d +[-+.]?\d", line):
+        return next((mark for mark in ";\t" if mark in line), None)
+    return next((mark for mark in ";\t," if mark in line), None)
 
 
 def filled_lines(path: Path) -> list[tuple[int, list[str]]]:
@@ -260,6 +269,4 @@ def cell(text: str) -> float:
             raise ValueError
         return float(text)
     except ValueError:
-        comma = re.fullmatch(r"[-+]?\d*,\d+([eE][-+]?\d+)?", text)
-        hint = ": its decimal comma must be a point" if comma else ""
-        raise ValueError(f"{brief(text)!r} is not a number{hint}") from None
+        raise ValueError(f"{brief(text)!r} is not a number") from None

@@ -42,7 +42,7 @@ class Table:
         for inputs in self.inputs:
             for line in input_lines(inputs):
                 out.write(f"# {line}\n")
-        for note in self.notes:
+        for note in dict.fromkeys(self.notes):
             out.write(f"# note: {note}\n")
         units = ", ".join(f"{name} [{unit(name)}]" for name in self.columns)
         out.write(f"# columns: {units}\n")
@@ -59,7 +59,7 @@ class Table:
             "asperity": __version__,
             "command": self.command,
             "inputs": [dict(inputs) for inputs in self.inputs],
-            "notes": list(self.notes),
+            "notes": list(dict.fromkeys(self.notes)),
             "units": {name: unit(name) for name in self.columns},
             "columns": {
                 name: [_plain(cell) for cell in column] for name, column in self.columns.items()
@@ -104,7 +104,8 @@ def _flat(inputs: Mapping[str, Any]) -> list[tuple[str, Any]]:
 
 
 def _digits(cell: Any) -> str:
-    return f"{cell:.17g}" if isinstance(cell, float) else str(cell)
+    """The shortest digits that read back as the same number."""
+    return float.__repr__(cell).removesuffix(".0") if isinstance(cell, float) else str(cell)
 
 
 def _plain(cell: Any) -> Any:

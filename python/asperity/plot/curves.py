@@ -3,7 +3,6 @@
 import io
 import warnings
 from collections.abc import Sequence
-from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.plot.style import colours, grey, palette, shades
 from asperity.scene.scene import Curves, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.colors import Colormap
+    from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
 FORMATS = (".png", ".svg", ".pdf")
-# Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
+_MOST_LABELS = 24  # names beside a colour bar
+_DASHES = ("-", "--", ":", "-.")
+_PRESSURE, _VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
 
 
 def check_plot(path: Path) -> None:
@@ -56,7 +58,13 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
             x = scene.pressure if over_pressure else scene.velocity
             lines = [array[row] for array in values]
             curves.append((label, x, lines[:3], lines[3:]))
-    for (label, x, lines, band), colour in zip(curves, colours(len(curves)), strict=True):
+    many = len(curves) > MOST_ENTRIES
+    tints: Sequence[Any] = colours(len(curves))
+    if many and len(scenes) == 1:
+        tints = list(shaded(axes, scenes[0].pressure, _PRESSURE))
+    elif many:
+        named(axes, [label for label, *_ in curves])
+    for (label, x, lines, band), colour in zip(curves, tints, strict=True):
         order = np.argsort(x)
         if band:
             low, high = (bound[order] for bound in band)
@@ -69,22 +77,21 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
                 color=colour,
                 linewidth=1.8 if kind == "total" else 1.2,
                 marker="o" if x.size == 1 else None,
-                label=label if kind == "total" else None,
+                label=label if kind == "total" and not many else None,
             )
     if adhesive:
         for kind, dashes in kinds.items():
-            axes.plot([], [], dashes, color="0.3", label=kind)
+            axes.plot([], [], dashes, color=grey(0.3), label=kind)
     drawn = zip(scenes, results, strict=True)
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
         label = band_text(level)
-        axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
+        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
-    axes.set_xlabel(
-        "Nominal pressure $\\sigma_0$ [Pa]" if over_pressure else "Sliding velocity $v$ [m/s]"
-    )
+    axes.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
-    figure.legend(loc="outside right upper")
+    if axes.get_legend_handles_labels()[1]:
+        figure.legend(loc="outside right upper")
     return picture(figure, path)
 
 
@@ -93,29 +100,32 @@ def area_figure(
 ) -> bytes:
     """A/A0 over magnification, colours for the velocities and line styles for the pressures, or the
     other way where there are more pressures; beside it the distribution of the pressure at three
-    magnifications, as in the article's Fig. 1."""
+    magnifications, as in the article's Fig. 1. Of more than four line styles four are drawn."""
     figure, (axes, right) = new_figure(2)
-    sweeps = [(scene.velocity, "{:.3g} m/s".format), (scene.pressure, pressure_text)]
-    title = "Sliding velocity $v$ [m/s]"
+    sweeps = [
+        (scene.velocity, _VELOCITY, "{:.3g} m/s".format),
+        (scene.pressure, _PRESSURE, pressure_text),
+    ]
     if scene.pressure.size > scene.velocity.size:
         sweeps.reverse()
         area = area.swapaxes(0, 1)
-        title = "Nominal pressure $\\sigma_0$ [Pa]"
-    (coloured, colour_name), (dashed, dash_name) = sweeps
-    many = coloured.size > len(COLOURS)
-    colours = _shaded(figure, axes, coloured, title) if many else COLOURS
-    dashes = dict(zip(dashed, cycle(("-", "--", ":", "-.")), strict=False))
-    for dash, rows in zip(dashes.values(), area, strict=True):
-        for colour, row in zip(colours, rows, strict=False):
+    (coloured, title, colour_name), (dashed, _, dash_name) = sweeps
+    drawn = np.unique(np.linspace(0, dashed.size - 1, len(_DASHES)).round().astype(int))
+    entries = coloured.size + (drawn.size if dashed.size > 1 else 0)
+    many = coloured.size > len(palette()) or entries > MOST_ENTRIES
+    tints = shaded(axes, coloured, title) if many else palette()
+    for dash, row_of in zip(_DASHES, drawn, strict=False):
+        for colour, row in zip(tints, area[row_of], strict=False):
             axes.plot(wavenumber / wavenumber[0], row, dash, color=colour)
     if not many:
-        for value, colour in zip(coloured, colours, strict=False):
+        for value, colour in zip(coloured, tints, strict=False):
             axes.plot([], [], color=colour, label=colour_name(float(value)))
     if dashed.size > 1:
-        for value, dash in dashes.items():
-            axes.plot([], [], dash, color="0.3", label=dash_name(float(value)))
+        for value, dash in zip(dashed[drawn], _DASHES, strict=False):
+            axes.plot([], [], dash, color=grey(0.3), label=dash_name(float(value)))
     if not many or dashed.size > 1:
-        axes.legend(loc="upper right", fontsize="small")
+        some = f"{drawn.size} of {dashed.size}" if drawn.size < dashed.size else None
+        axes.legend(loc="best", fontsize="small", title=some, title_fontsize="small")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("Magnification $q / q_0$ [-]")
@@ -124,16 +134,33 @@ def area_figure(
     return picture(figure, path)
 
 
-def _shaded(
-    figure: "Figure", axes: "Axes", values: NDArray[np.float64], title: str
-) -> NDArray[np.float64]:
+def shaded(axes: "Axes", values: NDArray[np.float64], title: str) -> NDArray[np.float64]:
     """A colour a value, with a bar that tells them."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LogNorm
 
     norm = LogNorm(float(values.min()), float(values.max()))
-    figure.colorbar(ScalarMappable(norm, shades()), ax=axes, label=title)
+    _bar(axes, ScalarMappable(norm, shades()), label=title)
     return np.asarray(shades()(norm(values)))
+
+
+def named(axes: "Axes", names: Sequence[str]) -> None:
+    """A bar with a field a curve, in the order of `colours`, and their names beside it."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    count = len(names)
+    norm = BoundaryNorm(np.arange(count + 1) - 0.5, count)
+    bar = _bar(axes, ScalarMappable(norm, ListedColormap(colours(count))))
+    shown = range(0, count, -(-count // _MOST_LABELS))
+    bar.set_ticks(list(shown), labels=[names[i] for i in shown], fontsize="small")
+    bar.ax.minorticks_off()
+
+
+def _bar(axes: "Axes", colours_of: "ScalarMappable", **how: Any) -> Any:
+    figure = axes.get_figure()
+    assert figure is not None
+    return figure.colorbar(colours_of, ax=axes, **how)
 
 
 def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> None:
@@ -142,11 +169,11 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
     nominal = float(scene.pressure[0])
     highest = 10 / max(smallest_area, 1e-12)  # mean pressure is 1 / area
     stress = np.geomspace(1e-2, highest, 900) * nominal
-    for share, colour in zip((1 / 3, 2 / 3, 1.0), COLOURS, strict=False):
+    for share, colour in zip((1 / 3, 2 / 3, 1.0), palette(), strict=False):
         q = q0 * (q1 / q0) ** share if share < 1 else q1
         density = scene.pressure_distribution(stress, q) * stress
         axes.plot(stress / nominal, density, color=colour, label=f"$q/q_0$ = {q / q0:.3g}")
-    axes.axvline(1, color="0.4", linestyle="--", linewidth=1, label="$q/q_0$ = 1")
+    axes.axvline(1, color=grey(0.4), linestyle="--", linewidth=1, label="$q/q_0$ = 1")
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
@@ -198,21 +225,6 @@ def _plain(name: str) -> str:
 def band_text(level: float) -> str:
     """What a band is, for a legend."""
     return f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
-
-
-def colours(count: int) -> Sequence[Any]:
-    """As many as are asked for, told apart as well as can be."""
-    if count <= len(COLOURS):
-        return COLOURS[:count]
-    return list(shades()(np.linspace(0, 1, count)))
-
-
-def shades() -> "Colormap":
-    """Colours from dark to light, the lightest left out: it would not show on white."""
-    from matplotlib import colormaps
-    from matplotlib.colors import ListedColormap
-
-    return ListedColormap(colormaps["cividis"](np.linspace(0, 0.92, 256)))
 
 
 def pressure_text(value: float) -> str:

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.adhesion import AdhesionFit
-from asperity.plot.curves import band_text, colours, new_figure, picture, pressure_text
+from asperity.plot.curves import (
+    MOST_ENTRIES,
+    band_text,
+    new_figure,
+    picture,
+    pressure_text,
+    shaded,
+)
+from asperity.plot.style import colours, grey, paper
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 
 if TYPE_CHECKING:
@@ -52,11 +60,13 @@ def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
     nearest = nearest_pressure(scene, experiment.pressure)
     order = np.argsort(scene.velocity)
     v = scene.velocity[order]
-    for i, (load, colour) in enumerate(
-        zip(scene.pressure, colours(scene.pressure.size), strict=True)
-    ):
+    many = scene.pressure.size > MOST_ENTRIES
+    tints: Sequence[Any] = colours(scene.pressure.size)
+    if many:
+        tints = list(shaded(axes, scene.pressure, "Nominal pressure $\\sigma_0$ [Pa]"))
+    for i, (load, colour) in enumerate(zip(scene.pressure, tints, strict=True)):
         of_load = nearest == i
-        label = f"measured, {pressure_text(float(load))}"
+        label = None if many else f"measured, {pressure_text(float(load))}"
         kept = of_load & ~aside
         axes.plot(x[kept], y[kept], "o", color=colour, markersize=3.5, label=label)
         axes.plot(x[of_load & aside], y[of_load & aside], "x", color=colour, markersize=4.5)
@@ -67,17 +77,19 @@ def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
         axes.plot(v, curves.hysteresis[i, order], "--", color=colour, linewidth=1.2)
         axes.plot(v, curves.adhesion[i, order], ":", color=colour, linewidth=1.2)
     for dashes, name in (("-", "total"), ("--", "hysteresis"), (":", "adhesion")):
-        axes.plot([], [], dashes, color="0.3", label=name)
+        axes.plot([], [], dashes, color=grey(0.3), label=name)
+    if many:
+        axes.plot([], [], "o", color=grey(0.3), markersize=3.5, label="measured")
     if aside.any():
-        axes.plot([], [], "x", color="0.3", markersize=4.5, label="put aside")
+        axes.plot([], [], "x", color=grey(0.3), markersize=4.5, label="put aside")
     if curves.band is not None:
         label = band_text(scene.sampling["level"])
-        axes.fill_between([], [], color="0.3", alpha=0.2, linewidth=0, label=label)
+        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
 
 
 def _write(axes: "Axes", text: str) -> None:
-    paper = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5}
-    axes.text(0.03, 0.97, text, transform=axes.transAxes, va="top", fontsize="small", bbox=paper)
+    box = {"facecolor": paper(), "alpha": 0.8, "edgecolor": "none", "pad": 1.5}
+    axes.text(0.03, 0.97, text, transform=axes.transAxes, va="top", fontsize="small", bbox=box)
 
 
 def _parameters(fit: AdhesionFit) -> str:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.friction_map import FrictionMap
-from asperity.plot.curves import new_figure, picture, shades
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.style import shades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +34,11 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     filled.set_edgecolor("face")  # no hairlines between the fills of a vector picture
     label = "Friction coefficient $\\mu$ [-]"
     figure.colorbar(filled, ax=left, label=label, ticks=ticks, format="%.3g")
-    left.contour(velocity[0], pressure[:, 0], mu, ticks, colors="white", linewidths=0.7)
+    # light lines where the fill is dark, and the other way
+    middle = (float(mu.min()) + float(mu.max())) / 2
+    inks = ["white" if level < middle else "black" for level in ticks]
+    lines = left.contour(velocity[0], pressure[:, 0], mu, ticks, colors=inks, linewidths=0.7)
+    left.clabel(lines, fmt="%.3g", fontsize="x-small")
     off = np.broadcast_to(errors(pressure, velocity), mu.shape)
     worst = max(made.max_error, 1e-15)
     norm = LogNorm(worst * 1e-4, worst)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.dma import MasterCurveBuild
-from asperity.plot.curves import COLOURS, new_figure, picture, shades
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.style import grey, palette, shades
 from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
 from asperity.sweeps import Isotherm
@@ -15,7 +16,7 @@ from asperity.sweeps import Isotherm
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_STORAGE, _LOSS, _TAN = COLOURS[0], COLOURS[1], COLOURS[2]
+_STORAGE, _LOSS, _TAN = 0, 1, 2  # of the palette
 
 
 def rubber_figure(
@@ -50,29 +51,31 @@ def _draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
     for extreme in (temperatures.min(), temperatures.max()):
         colour = shades()((extreme - temperatures.min()) / span)
         axes.plot([], [], color=colour, label=f"{extreme:.4g} K")
-    axes.plot([], [], "o-", color="0.4", markersize=2.5, label="$E'$")
-    axes.plot([], [], "^:", color="0.4", markersize=2.5, label="$E''$")
+    axes.plot([], [], "o-", color=grey(0.4), markersize=2.5, label="$E'$")
+    axes.plot([], [], "^:", color=grey(0.4), markersize=2.5, label="$E''$")
     _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
 
 
 def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
     points = build.points
     w = points.angular_frequency
-    axes.plot(w, points.storage_modulus, "o", markersize=2.5, color=_STORAGE, label="$E'$")
-    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=_LOSS, label="$E''$")
+    axes.plot(
+        w, points.storage_modulus, "o", markersize=2.5, color=palette()[_STORAGE], label="$E'$"
+    )
+    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=palette()[_LOSS], label="$E''$")
     if prony is not None:
         dense = np.geomspace(w[0], w[-1], 300)
         fitted = prony.modulus(dense)
-        axes.plot(dense, fitted.real, color="black", linewidth=0.9, label="Prony fit")
-        axes.plot(dense, fitted.imag, color="black", linewidth=0.9)
+        axes.plot(dense, fitted.real, color=grey(0), linewidth=0.9, label="Prony fit")
+        axes.plot(dense, fitted.imag, color=grey(0), linewidth=0.9)
     _logarithmic(axes, "Reduced frequency $a_T\\, \\omega$ [rad/s]", "Modulus [Pa]")
     right = axes.twinx()
     tan = points.loss_modulus / points.storage_modulus
-    right.plot(w, tan, ".", markersize=2.5, color=_TAN)
-    axes.plot([], [], ".", color=_TAN, label="$\\tan\\delta$")
-    right.set_ylabel("$\\tan\\delta$ [-]", color=_TAN)
+    right.plot(w, tan, ".", markersize=2.5, color=palette()[_TAN])
+    axes.plot([], [], ".", color=palette()[_TAN], label="$\\tan\\delta$")
+    right.set_ylabel("$\\tan\\delta$ [-]", color=palette()[_TAN])
     right.set_ylim(0, 1.6 * float(tan.max()))
-    right.tick_params(direction="in", colors=_TAN)
+    right.tick_params(direction="in", colors=palette()[_TAN])
     axes.legend(loc="best", fontsize="small")
 
 
@@ -84,21 +87,21 @@ def _draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> N
         fmt="o",
         markersize=4,
         capsize=3,
-        color=_STORAGE,
+        color=palette()[_STORAGE],
         label="measured, ± 2 standard deviations",
     )
     if wlf is not None:
         t = np.linspace(build.temperature[0], build.temperature[-1], 200)
         d = t - wlf.reference_temperature
         label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\nresidual {wlf.residual:.2g}"
-        axes.plot(t, -wlf.c1 * d / (wlf.c2 + d), color=_LOSS, label=label)
+        axes.plot(t, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
     axes.set_xlabel("Temperature $T$ [K]")
     axes.set_ylabel("$\\log_{10} a_T$ [-]")
     axes.legend(loc="best", fontsize="small")
 
 
 def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
-    axes.axhline(0, color="0.4", linewidth=0.8)
+    axes.axhline(0, color=grey(0.4), linewidth=0.8)
     axes.set_xlabel("Reduced frequency $a_T\\, \\omega$ [rad/s]")
     axes.set_ylabel("Measured / fit - 1 [%]")
     axes.set_xscale("log")
@@ -107,8 +110,8 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
     points = build.points
     fitted = prony.modulus(points.angular_frequency)
     for measured, fit, mark, colour, name in (
-        (points.storage_modulus, fitted.real, "o", _STORAGE, "$E'$"),
-        (points.loss_modulus, fitted.imag, "^", _LOSS, "$E''$"),
+        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E'$"),
+        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E''$"),
     ):
         miss = 100 * (measured / fit - 1)
         label = f"{name}, rms {np.sqrt(np.mean(miss**2)):.2g} %"  # of the points drawn

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.plot.curves import COLOURS, new_figure, picture
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.style import grey, palette
 from asperity.scene.scan import Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
@@ -51,7 +52,7 @@ def _draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
     length, length_unit = _unit(float(size.max()))
     height, height_unit = _unit(float(np.nanmax(np.abs(shown))))
     low, high = np.nanpercentile(shown / height, [0.2, 99.8])
-    axes.set_facecolor("0.6")  # drop-outs
+    axes.set_facecolor(grey(0.6))  # drop-outs
     image = axes.imshow(
         shown / height,
         extent=(0, size[1] / length, size[0] / length, 0),
@@ -69,7 +70,7 @@ def _draw_line(axes: "Axes", scan: LineScan) -> None:
     x = np.arange(scan.heights.size) * scan.spacing
     length, length_unit = _unit(float(x[-1]))
     height, height_unit = _unit(float(np.nanmax(np.abs(scan.heights))))
-    axes.plot(x / length, scan.heights / height, color=COLOURS[0], linewidth=0.7)
+    axes.plot(x / length, scan.heights / height, color=palette()[0], linewidth=0.7)
     axes.set_xlim(0, float(x[-1]) / length)
     axes.set_xlabel(f"$x$ [{length_unit}]")
     axes.set_ylabel(f"height [{height_unit}]")
@@ -82,8 +83,8 @@ def _draw_spectrum(
     shown = density > 0
     _draw_band(axes, spectrum)
     for rows, colour, label in (
-        (good & shown, COLOURS[0], "measured"),
-        (~good & shown, "0.65", "flagged: do not trust"),
+        (good & shown, palette()[0], "measured"),
+        (~good & shown, grey(0.65), "flagged: do not trust"),
     ):
         if rows.any():
             axes.plot(q[rows], density[rows], ".", markersize=3, color=colour, label=label)
@@ -92,9 +93,9 @@ def _draw_spectrum(
         label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
         if fit.rolloff is not None:
             label += f"\nroll-off {fit.rolloff:.3g}/m"
-        axes.plot(fitted, fit.spectrum.at(fitted), color=COLOURS[1], linewidth=1.5, label=label)
+        axes.plot(fitted, fit.spectrum.at(fitted), color=palette()[1], linewidth=1.5, label=label)
     if cutoff is not None:
-        axes.axvline(cutoff, color="0.4", linestyle="--", label="rms slope 1.3")
+        axes.axvline(cutoff, color=grey(0.4), linestyle="--", label="rms slope 1.3")
     axes.set_xscale("log")
     if shown.any():
         axes.set_yscale("log")
@@ -114,7 +115,7 @@ def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:
         q[where],
         lower[where],
         (density + error)[where],
-        color=COLOURS[0],
+        color=palette()[0],
         alpha=0.2,
         linewidth=0,
         label="± standard error",

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from asperity.correction import Correction, NayakSFactor, SFactor
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
-from asperity.plot.curves import colours, new_figure, picture
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.style import colours
 from asperity.rubber import Rubber
 from asperity.scene.scene import Progress
 from asperity.spectrum import Spectrum

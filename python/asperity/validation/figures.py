@@ -7,8 +7,9 @@ from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING
 
-from asperity.plot.curves import COLOURS, new_figure, picture
-from asperity.plot.curves import colours as colours_for
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.style import COLOURS
+from asperity.plot.style import colours as colours_for
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,

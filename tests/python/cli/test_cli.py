@@ -173,7 +173,7 @@ def test_without_tqdm_there_is_no_bar(
 def test_extras_are_those_of_the_readme() -> None:
     text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
     extras = tomllib.loads(text)["project"]["optional-dependencies"]
-    assert set(extras) == {"plot", "io", "tables", "bem", "all", "test"}
+    assert set(extras) == {"plot", "io", "tables", "bem", "all", "docs", "test"}
     assert [name.partition(">")[0] for name in extras["all"]] == [
         "asperity[plot,tables,io]",
         "tqdm",
@@ -207,7 +207,11 @@ FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
         (FLAT, [], "spectrum: 0 reliable rows, must be 3 or more for a fit"),
         (FLAT, ["--q-min", "1"], "density[0] = 0: must be positive for a fit"),
         (NOISE, ["--q-min", "5e5"], "spectrum: falls as q^"),
-        (NOISE, ["--q-min", "1e9"], "--q-min, --q-max: 0 rows of the spectrum in [1000000000, "),
+        (
+            NOISE,
+            ["--q-min", "1e9"],
+            "--q-min 1e9: 0 rows of the spectrum in [1000000000, ",
+        ),
     ],
 )
 def test_spectrum_without_a_fit(
@@ -245,6 +249,36 @@ def test_names_that_the_terminal_cannot_show(folder: Path, form: list[str]) -> N
     else:
         name = json.loads(text.splitlines()[1].removeprefix("# scene = "))
     assert name == "größe日.toml"
+
+
+def test_numbers_have_the_shortest_digits_that_read_back() -> None:
+    values = [0.1, 81e3, 1e-6, 1 / 3, 5e-324, 1.7976931348623157e308, 0.1 + 0.2]
+    text = Table("t", [], [], {"x": values}).csv().splitlines()
+    cells = text[text.index("x") + 1 :]
+    assert cells[:5] == ["0.1", "81000", "1e-06", "0.3333333333333333", "5e-324"]
+    assert [float(cell) for cell in cells] == values
+
+
+def test_a_note_stands_once_and_names_the_scenes_that_it_is_about(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "other.toml").write_bytes((folder / "scene.toml").read_bytes())
+    assert main(["friction", "scene.toml", "other.toml"]) == 0
+    out, err = capsys.readouterr()
+    notes = [line for line in err.splitlines() if line.startswith("note: ")]
+    assert notes
+    assert len(set(notes)) == len(notes)
+    assert all(note.startswith("note: scene.toml, other.toml: ") for note in notes)
+    assert [line[2:] for line in out.splitlines() if line.startswith("# note: ")] == notes
+
+
+def test_an_output_in_no_directory_is_refused_in_words(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["friction", "scene.toml", "--output", "such/mu.csv"]) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("asperity: such/mu.csv: cannot be written: the directory ")
+    assert err.endswith("such does not exist\n")
 
 
 def test_infinite_numbers_survive_both_forms() -> None:

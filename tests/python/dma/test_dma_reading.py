@@ -121,7 +121,7 @@ def test_shear_moduli_become_youngs(tmp_path, poisson_ratio, factor):
         ({"units": UNITS | {"storage": "Pa"}}, "units: 'storage' is unknown"),
         ({"columns": COLUMNS | {"strain": "e"}}, "columns: 'strain' is unknown"),
         ({"columns": {"frequency": "f"}}, "columns: 'loss' is missing"),
-        ({"columns": COLUMNS | {"loss": "G2"}}, ": no line names the columns 'G2'"),
+        ({"columns": COLUMNS | {"loss": "G2"}}, ": no line names the columns 'G2'; line "),
         ({"modulus": "K"}, 'modulus = "K": must be one of'),
         ({"modulus": "G", "poisson_ratio": 0.6}, r"poisson_ratio = 0\.6: must be in \[0, 0\.5\]"),
     ],

@@ -80,6 +80,22 @@ def test_text_matrices(tmp_path: Path, name: str, text: str) -> None:
     np.testing.assert_array_equal(surface.heights, [[1, 2, np.nan], [3, np.nan, 5]])
 
 
+@each(
+    "text",
+    [
+        "1,5;-2,25e1;\n,5;nan;5\n",
+        "1,5\t-2,25e1\n0,5\tnan\n",
+        "1,5 -2,25e1\n0,5 nan\n",
+        "1.5 ,-22.5\n0.5 ,\n",
+    ],
+)
+def test_a_comma_that_parts_no_cells_is_a_decimal_one(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "scan.csv"
+    path.write_text(text, encoding="utf-8")
+    heights = read_surface(path, pixel_size=1.0, unit="m").heights[:, :2]
+    np.testing.assert_array_equal(heights, [[1.5, -22.5], [0.5, np.nan]])
+
+
 def test_npz_channel_is_an_index(tmp_path: Path) -> None:
     path = tmp_path / "scan.npz"
     np.savez(path, first=HEIGHTS, second=-HEIGHTS)
@@ -188,7 +204,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
         ("a.csv", b"1,2\n3\n", {}, "line 2 has 1 cells; it must have 2"),
         ("a.csv", b"1,2\n3,high\n", {}, "line 2: 'high' is not a number"),
         ("a.csv", b"1_0,2\n3,4\n", {}, "line 1: '1_0' is not a number"),
-        ("a.csv", b"1,5;2,5\n", {}, "line 1: '1,5' is not a number"),
+        ("a.csv", b"1,5,;2,5\n", {}, "line 1: '1.5,' is not a number"),
     ],
 )
 def test_refusals_name_the_file(

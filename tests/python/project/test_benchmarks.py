@@ -1,4 +1,4 @@
-"""The benchmarks' own methods are right, and README says what docs/benchmarks has."""
+"""The benchmarks' own methods are right, and the pages say what docs/benchmarks has."""
 
 import re
 import sys
@@ -18,7 +18,8 @@ from curves import curves, measured_curves
 ROOT = Path(__file__).parents[3]
 CURVES = {name: curve.thinned() for name, curve in curves().items()}
 TERMS = [name for name in CURVES if name != "tabulated modulus"]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+SPEED = (ROOT / "docs/explanation/speed.md").read_text(encoding="utf-8")
+WORTH = (ROOT / "docs/explanation/corrections.md").read_text(encoding="utf-8")
 DOCS = ROOT / "docs/benchmarks"
 TABLES = {path.name: path.read_text(encoding="utf-8") for path in DOCS.glob("*.csv")}
 
@@ -89,13 +90,13 @@ def test_the_single_scale_is_light_contact():
     assert models.single_scale(curve.road, 1e9, 1e3) == pytest.approx(area, rel=1e-6)
 
 
-def test_readme_has_the_table_of_the_benchmarks():
-    assert charts.with_page(README, charts.page(TABLES)) == README
+def test_the_page_of_speed_has_the_table_of_the_benchmarks():
+    assert charts.with_page(SPEED, charts.page(TABLES)) == SPEED
 
 
 @pytest.mark.parametrize("name", ["work_precision", "models", "scaling"])
-def test_readme_shows_the_pictures(name):
-    assert f"(docs/benchmarks/{name}.png)" in README
+def test_the_page_of_speed_shows_the_pictures(name):
+    assert f"(../benchmarks/{name}.png)" in SPEED
     assert (DOCS / f"{name}.png").stat().st_size > 10_000
     assert (DOCS / f"{name}.svg").stat().st_size > 10_000
 
@@ -110,20 +111,21 @@ def test_ours_and_gsls_kept_what_they_promised_in_the_diagrams():
     assert all(error <= max(rtol, 1e-14) for error, rtol in kept)
 
 
-def test_readme_says_where_other_methods_end():
-    grid = re.search(r"grid of 1e5 points is still wrong by (\d+) %", README)
-    quad = re.search(r"nested `quad` asked for (\S+) by (\S+)\.\s", README)
+def test_the_page_of_speed_says_where_other_methods_end():
+    text = " ".join(SPEED.split())
+    grid = re.search(r"grid of 1e5 points is still wrong by (\d+) %", text)
+    quad = re.search(r"nested `quad` asked for (\S+) by (\S+)\.\s", text)
     error = found("steep front", "logarithmic trapezoid", "100000")
     assert f"{100 * error:.0f}" == grid[1]
     asked, error = float(quad[1]), float(quad[2])
     assert f"{found('steep front', 'nested quad', f'{asked:.0e}'):.1e}" == f"{error:.1e}"
-    said = re.search(r"by parts with (\d+) nodes", README)
+    said = re.search(r"by parts with (\d+) nodes", text)
     assert all(found(name, "by parts, fixed nodes", said[1]) < 1e-10 for name in TERMS)
 
 
 def test_errors_of_the_models_are_those_of_the_validation():
     errors = {row["model"]: row for row in rows("models")}
-    table = README.partition("| correction | area, mean")[2]
+    table = WORTH.partition("| correction | area, mean")[2]
     for name, line in (
         ("Persson, exact", "none"),
         ("p_T from IGW, added", "IGW, added"),

@@ -39,8 +39,16 @@ def test_no_other_source_says_it():
 
 
 def test_what_strangers_ask_for_is_the_series_of_this_version():
-    strangers = ["README.md", "docs/embedding/embedding.md", "tests/consumer/CMakeLists.txt"]
+    strangers = ["README.md", "docs/embedding/embedding.md", "docs/reference/cpp/index.md"]
     strangers += [f"cpp/examples/{name}/CMakeLists.txt" for name in ("brush_map", "brush_full")]
-    for name in [*strangers, "tests/c_host/CMakeLists.txt"]:
+    strangers += [f"tests/{name}/CMakeLists.txt" for name in ("consumer", "c_host")]
+    for name in strangers:
         asked = re.findall(r"find_package\(asperity ([0-9.]+)", (ROOT / name).read_text())
         assert set(asked) == {SERIES}, name
+
+
+def test_the_pages_that_tell_the_version_tell_this_one():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (\S+)$", citation, re.M)[1] == VERSION
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert re.search(r"^## (\S+)", changes, re.M)[1] == VERSION

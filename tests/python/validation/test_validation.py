@@ -122,7 +122,7 @@ def test_area_errors_are_those_of_an_analysis_made_before(load):
         assert 100 * errors("area", name)[here].mean() == pytest.approx(expected, abs=1.6), name
 
 
-# mean and worst |error| in %, what docstrings and the README state
+# mean and worst |error| in %, what docstrings and the page of corrections state
 STATED = {
     "area": {
         "none": (17.1, 37.0),
@@ -160,7 +160,7 @@ def test_errors_are_those_that_are_stated(quantity):
         assert (found.mean(), found.max()) == pytest.approx((mean, worst), abs=0.06), name
 
 
-README = {
+PAGE = {
     "none": ("none", "none"),
     "S on the integrand, gamma = 0.40": (None, "S in Eq. 22, 0.40"),
     "S on the integrand, 0.50": (None, "S in Eq. 22, 0.50"),
@@ -177,14 +177,15 @@ README = {
 }
 
 
-@each("name", README)
-def test_the_readme_has_these_errors(name):
-    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+@each("name", PAGE)
+def test_the_page_of_corrections_has_these_errors(name):
+    page = Path(__file__).parents[3] / "docs/explanation/corrections.md"
+    text = page.read_text(encoding="utf-8")
     table = text.partition("| correction | area, mean")[2]
     line = next(line for line in table.splitlines() if line.startswith(f"| {name} |"))
     cells = [cell.strip() for cell in line.strip("|").split("|")][1:]
     for quantity, model, (mean, worst) in zip(
-        ("area", "energy"), README[name], (cells[:2], cells[2:]), strict=True
+        ("area", "energy"), PAGE[name], (cells[:2], cells[2:]), strict=True
     ):
         if model is None:
             assert (mean, worst) == ("as none", "")

@@ -1,0 +1,38 @@
+"""
+Which wavelengths and frequencies make the friction
+===================================================
+
+``contributions=True`` tells how much of the hysteresis each wavenumber makes, and how much each
+decade of frequency.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import asperity
+
+road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
+road = road.truncated(q1=road.cutoff_for_slope(1.3))
+rubber = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=10 ** np.linspace(6, 9, 16),
+    relaxation_times=10 ** np.linspace(2, -8, 16),
+)
+result = asperity.friction(
+    road,
+    rubber,
+    pressure=300e3,
+    velocity=[1e-5, 1e-3, 1e-1],
+    correction=asperity.NayakSFactor(),
+    contributions=True,
+)
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+for velocity, density, share in zip(
+    result.velocity, result.dmu_dlnq, result.decade_share, strict=True
+):
+    left.plot(result.wavenumber, density, label=f"{velocity:.0e} m/s")
+    right.stairs(100 * share, np.log10(result.decade_edges), label=f"{velocity:.0e} m/s")
+left.set(xscale="log", xlabel="wavenumber [1/m]", ylabel="d mu / d ln q [-]")
+left.legend()
+right.set(xlabel="log10 of angular frequency [rad/s]", ylabel="share of the hysteresis [%]")

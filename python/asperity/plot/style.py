@@ -1,0 +1,70 @@
+"""Styles of pictures: colours on paper, and on dark screens."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.colors import Colormap
+
+STYLES = ("print", "dark")
+
+# Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+# the same where black was white, bright ones first
+_ON_DARK = ("#56B4E9", "#E69F00", "#2FC7A0", "#E29BC4", "#F0E442", "#E8703A", "#FFFFFF")
+_DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
+_style: ContextVar[str] = ContextVar("style", default="print")
+
+
+@contextmanager
+def drawn_in(style: str) -> Iterator[None]:
+    """Let the pictures that are drawn meanwhile have a style."""
+    from matplotlib import rc_context
+
+    token = _style.set(style)
+    paper, ink = _DARK["paper"], _DARK["ink"]
+    dark = dict.fromkeys(
+        ("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), paper
+    ) | dict.fromkeys(
+        ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), ink
+    )
+    try:
+        with rc_context(dark if style == "dark" else {}):  # type: ignore[arg-type]
+            yield
+    finally:
+        _style.reset(token)
+
+
+def palette() -> Sequence[str]:
+    """Colours of single curves, the most different first."""
+    return _ON_DARK if _style.get() == "dark" else COLOURS
+
+
+def colours(count: int) -> Sequence[Any]:
+    """As many as are asked for, told apart as well as can be."""
+    if count <= len(palette()):
+        return palette()[:count]
+    return list(shades()(np.linspace(0, 1, count)))
+
+
+def shades() -> "Colormap":
+    """Colours from dark to light, without the end that would not show on the paper."""
+    from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
+
+    first, last = (0.15, 1.0) if _style.get() == "dark" else (0.0, 0.92)
+    return ListedColormap(colormaps["cividis"](np.linspace(first, last, 256)))
+
+
+def grey(level: float) -> str:
+    """A grey as it is on paper, 0 is ink; on a dark screen as far from the paper."""
+    return f"{1 - level if _style.get() == 'dark' else level:.3g}"
+
+
+def paper() -> str:
+    """The colour of what is drawn on."""
+    return _DARK["paper"] if _style.get() == "dark" else "white"

@@ -1,0 +1,227 @@
+"""What the README and the pages of docs show works as it stands there."""
+
+import contextlib
+import io
+import re
+import shlex
+import textwrap
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.main import main
+from asperity.cli.parser import parser
+from asperity.scene import parts, rubber, scene, surface
+from asperity.scene.scene import load_scene
+
+ROOT = Path(__file__).parents[3]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+# docs/gallery and what else Sphinx writes is no page of ours
+PAGES = {
+    path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
+    for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    if "gallery" not in path.parts
+}
+
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=10 ** np.linspace(6, 9, 16),
+    relaxation_times=10 ** np.linspace(2, -8, 16),
+)
+ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
+ROAD = ROAD.truncated(q1=ROAD.cutoff_for_slope(1.3))
+
+
+def blocks(page: str, language: str) -> list[str]:
+    found = re.findall(rf"^ *```{language}\n(.*?)```", PAGES[page], re.DOTALL | re.MULTILINE)
+    return [textwrap.dedent(block) for block in found]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The files that the pages speak of: a scan 0.64 mm wide in micrometres, DMA sweeps, a test."""
+    monkeypatch.chdir(tmp_path)
+    spectrum = asperity.SelfAffineSpectrum(rms_height=20e-6, hurst=0.8, q0=1e4, q1=1e6)
+    scan = asperity.synthesize(spectrum, shape=(128, 128), pixel_size=5e-6, seed=1)
+    np.save("scan.npy", scan.heights * 1e6)
+    lines = ["f,T,G1,G2"]
+    for celsius in range(0, 61, 10):
+        for hertz in np.geomspace(0.1, 30, 12):
+            e = RUBBER.modulus(2 * np.pi * hertz * 10 ** (-0.1 * (celsius - 20)))
+            lines.append(f"{hertz},{celsius},{e.real / 3e6},{e.imag / 3e6}")
+    (tmp_path / "dma.csv").write_text("\n".join(lines))
+    test = asperity.friction(
+        ROAD,
+        RUBBER,
+        pressure=81e3,
+        velocity=np.geomspace(1e-6, 1e-2, 20),
+        correction=asperity.NayakSFactor(),
+        adhesion=asperity.Adhesion(shear_stress=8.3e6),
+    )
+    columns = np.column_stack([test.velocity, test.mu])
+    np.savetxt("test.csv", columns, delimiter=",", header="velocity,mu")
+    (tmp_path / "scene.toml").write_text(blocks("docs/reference/scene.md", "toml")[0])
+    assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 0
+    return tmp_path
+
+
+def names_before() -> dict[str, object]:
+    """What a reader of a how-to has by then."""
+    sweeps = asperity.read_isotherms(
+        "dma.csv",
+        columns={"frequency": "f", "temperature": "T", "storage": "G1", "loss": "G2"},
+        units={"frequency": "Hz", "temperature": "C", "modulus": "MPa"},
+        modulus="G",
+    )
+    build = asperity.build_master_curve(sweeps, reference_temperature=293.15)
+    return {
+        "asperity": asperity,
+        "np": np,
+        "road": ROAD,
+        "rubber": asperity.fit_prony(build),
+        "build": build,
+        "adhesion": asperity.Adhesion(shear_stress=8.3e6),
+    }
+
+
+SHOWN = [name for name in PAGES if blocks(name, "python") and name != "docs/tutorial.md"]
+
+
+@pytest.mark.parametrize("page", SHOWN)
+def test_python_runs(page: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    names = {} if page == "README.md" else names_before()
+    for block in blocks(page, "python"):
+        exec(block, names)
+    if page == "README.md":
+        result = names["result"]
+        assert isinstance(result, asperity.Friction)
+        assert np.all(result.error_estimate < 1e-6 * result.mu)
+    elif page.endswith("read_your_instrument.md"):
+        fit = names["fit"]
+        assert isinstance(fit, asperity.SelfAffineFit)
+        assert 0.6 < fit.hurst < 1
+    elif page.endswith("temperature.md"):
+        warm = names["warm"]
+        assert isinstance(warm, asperity.PronySeries)
+        exact = RUBBER.modulus(10 ** (-0.1 * 20) * 10.0)
+        assert warm.modulus(10.0) == pytest.approx(exact, rel=0.02)
+    elif page.endswith("adhesion.md"):
+        adhesion = names["adhesion"]
+        assert isinstance(adhesion, asperity.AdhesionFit)
+        # by the hysteresis of the modulus that came out of the sweeps
+        assert adhesion.shear_stress == pytest.approx(8.3e6, rel=0.02)
+
+
+def test_the_pages_that_run_are_these() -> None:
+    assert len(SHOWN) >= 8
+
+
+def test_the_tutorial_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    shown = re.findall(
+        r"```python\n(.*?)```(?:\n\n```text\n(.*?)```)?", PAGES["docs/tutorial.md"], re.DOTALL
+    )
+    assert sum(bool(text) for _, text in shown) > 8
+    for code, text in shown:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(code, names)
+        assert printed.getvalue() == text, code
+    (tutorial,) = blocks("docs/tutorial.md", "toml")
+    (tmp_path / "tutorial.toml").write_text(tutorial, encoding="utf-8")
+    mu = load_scene(tmp_path / "tutorial.toml").friction().mu
+    result = names["result"]
+    assert isinstance(result, asperity.Friction)
+    # both end at the same velocities; the scene's rubber has its shifts smoothed
+    assert mu[0, [0, -1]] == pytest.approx(result.mu[[0, -1]], rel=0.02)
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/reference/scene.md"])
+def test_scene(page: str, folder: Path) -> None:
+    (shown,) = blocks(page, "toml")
+    (folder / "shown.toml").write_text(shown, encoding="utf-8")
+    curves = load_scene(folder / "shown.toml").friction()
+    assert curves.mu.shape == (2, 60)
+    assert np.all(curves.mu > curves.hysteresis)
+
+
+def commands(text: str) -> list[str]:
+    joined = text.replace("\\\n", " ")
+    return [line.partition(" #")[0] for line in re.findall(r"^ {4}(asperity .*)$", joined, re.M)]
+
+
+COMMANDS = sorted({line for text in PAGES.values() for line in commands(text)})
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_commands_are_taken_by_the_parser(line: str) -> None:
+    parser().parse_args(shlex.split(line)[1:])
+
+
+def test_every_verb_is_shown_and_has_an_example() -> None:
+    (verbs,) = (action for action in parser()._actions if action.choices is not None)
+    for verb, its in verbs.choices.items():
+        assert f"`{verb}`" in README or f"asperity {verb}" in README
+        assert f"asperity {verb}" in its.format_help()
+    # the page has their help from the parser itself
+    assert "{command-line}" in PAGES["docs/reference/command_line.md"]
+
+
+def test_the_page_of_scenes_has_every_key() -> None:
+    page = PAGES["docs/reference/scene.md"]
+    tables = [surface._SURFACE, rubber._RUBBER, parts._ADHESION, *parts._CORRECTIONS.values()]
+    tables += [scene._CONDITIONS, scene._SOLVER, scene._UNCERTAINTY]
+    missing = {key for table in tables for key in table if f"`{key}`" not in page}
+    # told of in words: reference_temperature_k or `_c`
+    assert missing <= {"reference_temperature_c"}
+    kinds = PAGES["docs/howto/which_correction.md"]
+    assert [kind for kind in parts._CORRECTIONS if f"`{kind}`" not in kinds] == []
+
+
+def test_the_reference_of_python_has_every_name() -> None:
+    pages = " ".join(text for name, text in PAGES.items() if "reference/python" in name)
+    named = set(re.findall(r":: ([\w.]+)", pages))
+    public = set(asperity.__all__) - {"__version__", "validation"}
+    assert public - named == set()
+    inside = {f"asperity.validation.{name}" for name in asperity.validation.__all__}
+    assert inside - named == set()
+
+
+def test_the_reference_of_cpp_has_every_header() -> None:
+    headers = {path.stem for path in (ROOT / "cpp/include/asperity").glob("*.hpp")}
+    # what the others include, with nothing to call
+    assert headers - {Path(n).stem for n in PAGES if "reference/cpp" in n} == {"export"}
+    assert all(
+        f"`asperity/{name}.hpp`" in PAGES["docs/reference/cpp/index.md"]
+        for name in headers - {"export"}
+    )
+
+
+def test_the_page_of_tables_has_the_columns() -> None:
+    page = PAGES["docs/reference/csv.md"]
+    for name in (*scene.COLUMNS, "pressure_pa", "velocity_m_s", "mu_low", "mu_high"):
+        assert f"`{name}`" in page, name
+
+
+def test_the_readme_is_a_door() -> None:
+    assert len(README.splitlines()) <= 150
+
+
+LINKS = [
+    (name, link)
+    for name, text in PAGES.items()
+    for link in re.findall(
+        r"\]\(([^)#:]+)(?:#[^)]*)?\)", re.sub(r"```.*?```", "", text, flags=re.S)
+    )
+]
+
+
+def test_links_lead_somewhere() -> None:
+    assert len(LINKS) > 40
+    lost = [
+        (name, link) for name, link in LINKS if not (ROOT / name).parent.joinpath(link).exists()
+    ]
+    assert lost == []
