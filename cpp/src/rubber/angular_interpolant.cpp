@@ -8,27 +8,30 @@
 #include <numbers>
 
 #include "numerics/arguments.hpp"
+#include "numerics/kernels.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t order = 12;
+constexpr std::size_t order = AngularSums::together;
 
 /// From values at the Chebyshev nodes of [-1, 1] to the polynomial through them.
 struct Basis {
   double node[order];
-  double chebyshev[order][order];              // [degree][node]
-  double power[order][order] = {{1}, {0, 1}};  // [degree][power]
+  RowsOf24 of_node[order] = {};    // what the value at each adds to Chebyshev coefficients
+  RowsOf24 of_degree[order] = {};  // powers of each Chebyshev polynomial
   Basis() {
     for (std::size_t i = 0; i < order; ++i) {
       const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / order;
       node[i] = std::cos(angle);
       for (std::size_t j = 0; j < order; ++j)
-        chebyshev[j][i] = (j == 0 ? 1.0 : 2.0) / order * std::cos(static_cast<double>(j) * angle);
+        of_node[i].data[j] = (j == 0 ? 1.0 : 2.0) / order * std::cos(static_cast<double>(j) * angle);
     }
+    of_degree[0].data[0] = of_degree[1].data[1] = 1;
     for (std::size_t j = 2; j < order; ++j)
-      for (std::size_t k = 0; k < order; ++k) power[j][k] = (k > 0 ? 2 * power[j - 1][k - 1] : 0) - power[j - 2][k];
+      for (std::size_t k = 0; k < order; ++k)
+        of_degree[j].data[k] = (k > 0 ? 2 * of_degree[j - 1].data[k - 1] : 0) - of_degree[j - 2].data[k];
   }
 };
 const Basis& basis() {
@@ -41,15 +44,15 @@ struct Polynomials {
   Pair coefficient[order] = {};
 
   /// Through the values at the nodes. Returns the last two Chebyshev coefficients in units of `tolerance`.
-  double fit(const Pair (&value)[order], Pair tolerance) {
-    double tail = 0;
-    for (std::size_t j = 0; j < order; ++j) {
-      Pair chebyshev{};  // one by one: a matrix straight to the powers would lose digits
-      for (std::size_t i = 0; i < order; ++i) chebyshev += basis().chebyshev[j][i] * value[i];
-      for (std::size_t k = 0; k <= j; ++k) coefficient[k] += basis().power[j][k] * chebyshev;
-      if (j + 2 >= order) tail += std::fabs(chebyshev[0] / tolerance[0]) + std::fabs(chebyshev[1] / tolerance[1]);
-    }
-    return tail;
+  double fit(const AngularSums::Values& value, Pair tolerance) {
+    return fit(value.i1, 0, tolerance[0]) + fit(value.i2, 1, tolerance[1]);
+  }
+  double fit(const double (&value)[order], std::size_t which, double tolerance) {
+    RowsOf24 chebyshev, power;  // one by one: a matrix straight to the powers would lose digits
+    kernels().combine(basis().of_node, order, value, chebyshev.data);
+    kernels().combine(basis().of_degree, order, chebyshev.data, power.data);
+    for (std::size_t k = 0; k < order; ++k) coefficient[k][which] = power.data[k];
+    return (std::fabs(chebyshev.data[order - 1]) + std::fabs(chebyshev.data[order - 2])) / tolerance;
   }
   Pair operator()(double u) const {
     Pair sum = coefficient[order - 1];
@@ -99,23 +102,23 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   const double low = sums_.edges()[panel], high = sums_.edges()[panel + 1];
   constexpr double tolerance = 1e-12, of_outside = 1e-10, least_outside = 1e-7;
   Part part{sums_.at_branch(panel), t1, 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), false, {}, {}};
-  Pair all[order], outside[order];
+  double w[order];
   for (std::size_t i = 0; i < order; ++i) {
     const double t = (t0 + t1 + basis().node[i] * (t1 - t0)) / 2;
-    const AngularIntegrals at = sums_.at(low + (high - low) * (part.root ? t * t : t), panel);
-    all[i] = Pair{at.i1, at.i2};
-    outside[i] = Pair{at.i1_outside, at.i2_outside};
-    part.has_outside |= at.i1_outside > least_outside * at.i1;
+    w[i] = low + (high - low) * (part.root ? t * t : t);
   }
-  const Pair size = all[order - 1];
-  const double tail = part.all.fit(all, tolerance * size) + part.outside.fit(outside, of_outside * size);
+  const AngularSums::WithOutside at = sums_.at(w, panel);
+  for (std::size_t i = 0; i < order; ++i) part.has_outside |= at.outside.i1[i] > least_outside * at.all.i1[i];
+  const Pair size{at.all.i1[order - 1], at.all.i2[order - 1]};
+  const double tail = part.all.fit(at.all, tolerance * size) + part.outside.fit(at.outside, of_outside * size);
   constexpr std::size_t most = 64;
-  constexpr double shortest = 1e-12, rounding = 100;  // of the tail, which halving no longer mends
+  constexpr double shortest = 1e-12, rounding = 100;  // of the tail, which shorter parts no longer mend
   if (tail <= 1 || ((parts.size() >= most || t1 - t0 < shortest) && tail <= rounding)) {
     parts.push_back(part);
   } else if (parts.size() < most && t1 - t0 >= shortest) {
-    append(panel, t0, (t0 + t1) / 2, parts);
-    append(panel, (t0 + t1) / 2, t1, parts);
+    constexpr double gain = 9;  // the tail falls like this power of the length, as measured
+    const double pieces = std::clamp(std::ceil(std::pow(tail, 1 / gain)), 2.0, 8.0), step = (t1 - t0) / pieces;
+    for (double i = 0; i < pieces; ++i) append(panel, t0 + i * step, i + 1 < pieces ? t0 + (i + 1) * step : t1, parts);
   } else {
     throw NotConverged("angular integrals between w = " + show(low) + " and " + show(high) + " rad/s: " + show(tail) +
                        " times the tolerance");

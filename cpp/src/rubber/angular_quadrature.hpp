@@ -12,14 +12,27 @@
 
 namespace asperity {
 
+/// A stretch of w', on which E' and E'' change by less than e.
+struct AngularPanel {
+  static constexpr std::size_t terms = 48;  // far^(2 terms) b_terms = 1e-16
+  const ModulusPiece* piece;
+  double unit;                   // a power of 2 near its frequencies: |E|^2 times one could over- or underflow
+  double middle;                 // of w'
+  LogCubic storage, loss;        // in ln(w' / middle)
+  double node[GaussRule::size];  // w'
+  Pair weight[GaussRule::size];  // of the kernel in I1 and in I2, over unit
+  Pair moment[terms];            // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
+};
+
 /// With w' = w cos(phi) and u = w' / w
 ///   I1 = 4 int u E''(w') dw' / sqrt(w^2 - w'^2),   I2 = 4 int |E(w')|^2 dw' / sqrt(w^2 - w'^2),   0 < w' < w.
-/// The pieces are cut into panels short enough for one Gauss rule: in phi, where the kernel is 1, for a panel nearer to
-/// w than it is long; in w', of nodes that serve every w, for one further off. All below u = `far` enters at once by
-/// 1 / sqrt(1 - u^2) = sum_m b_m u^2m, whose moments are carried from panel to panel.
+/// The pieces are cut into panels short enough for one Gauss rule: in sin(phi / 2), where the kernel is smooth, for a
+/// panel nearer to w than it is long; in w', of nodes that serve every w, for one further off. All below u = `far`
+/// enters at once by 1 / sqrt(1 - u^2) = sum_m b_m u^2m, whose moments are carried from panel to panel.
 class AngularSums {
  public:
   static constexpr double far = 0.7;
+  static constexpr std::size_t together = 12;  // frequencies
 
   /// `pieces` adjoin each other and outlive the sums. The first is the end of the tail, in which E' is constant and E''
   /// proportional to w: it begins at `far` times the lowest frequency that can be asked for.
@@ -29,24 +42,23 @@ class AngularSums {
   [[nodiscard]] std::span<const double> edges() const { return edges_; }
   /// Whether a panel begins where a piece does, which is a branch point of the kind (w - low)^(n/2) for all above it.
   [[nodiscard]] bool at_branch(std::size_t panel) const { return edges_[panel] == panels_[panel].piece->low; }
-  /// At `w` in `panel`.
-  [[nodiscard]] AngularIntegrals at(double w, std::size_t panel) const;
+
+  struct Values {
+    double i1[together] = {}, i2[together] = {};
+  };
+  struct WithOutside {
+    Values all, outside;  // the latter of all: from frequencies outside of the measured range
+  };
+  /// At frequencies in one panel.
+  [[nodiscard]] WithOutside at(const double (&w)[together], std::size_t panel) const;
 
  private:
-  static constexpr std::size_t terms = 48;  // far^(2 terms) b_terms = 1e-16
-  struct Panel {
-    const ModulusPiece* piece;
-    double unit;                   // a power of 2 near its frequencies: |E|^2 times one could over- or underflow
-    double node[GaussRule::size];  // w'
-    Pair weight[GaussRule::size];  // of the kernel in I1 and in I2, over unit
-    Pair moment[terms];            // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
-  };
   void add_up();
-  [[nodiscard]] Pair in_phi(double w, std::size_t panel) const;
-  [[nodiscard]] Pair below(double w, std::size_t panel) const;
+  void add_below(const double (&w)[together], std::size_t panel, Values& sum) const;
+  void add_near(const double (&w)[together], std::size_t panel, Values& sum) const;
 
   std::vector<double> edges_;
-  std::vector<Panel> panels_;
+  std::vector<AngularPanel> panels_;
   std::size_t first_measured_ = 0, end_measured_ = 0;  // panels
 };
 

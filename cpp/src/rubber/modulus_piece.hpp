@@ -10,6 +10,10 @@ namespace asperity {
 struct LogCubic {
   double value, slope, square = 0, cubic = 0;
   [[nodiscard]] double operator()(double x) const { return value * std::exp(x * (slope + x * (square + x * cubic))); }
+  /// The same in x - x0.
+  [[nodiscard]] LogCubic about(double x0) const {
+    return {(*this)(x0), slope + x0 * (2 * square + 3 * x0 * cubic), square + 3 * x0 * cubic, cubic};
+  }
 };
 
 /// E' and E'' on [low, high] [rad/s].
