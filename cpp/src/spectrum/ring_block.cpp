@@ -73,7 +73,6 @@ struct Weighted {
 /// The sums over the points of a cell, on as many at a time as stay in the cache. The weights are roots by now.
 void add_points(const Weighted& on, std::size_t begin, std::size_t end, double per_y, OfCell& result) {
   const FineRule& fine = on.fine;
-  const PieceRule& rule = piece_rule();
   const Kernels& loops = kernels();
   for (std::size_t from = begin; from < end; from += chunk) {
     const std::size_t size = std::min(chunk, end - from);
@@ -84,6 +83,7 @@ void add_points(const Weighted& on, std::size_t begin, std::size_t end, double p
     for (std::size_t k = 0; k < nodes; ++k) {
       double sum = result.to_m[k];
       for (std::size_t i = 0; i < size; i += points) {
+        const PieceRule& rule = fine.rule(from + i);
         double c[points];
         for (std::size_t l = 0; l < points; ++l) c[l] = rate_at[i + l] * now[i + l];
         for (std::size_t l = 0; l < points; ++l)
@@ -108,12 +108,12 @@ void add_points(const Weighted& on, std::size_t begin, std::size_t end, double p
   }
 }
 
-/// p_j at the upper end of the piece whose points begin at `first`.
+/// p_j at the upper end of the pieces whose points begin at `first`.
 std::array<double, degrees> at_end(const Weighted& on, std::size_t first) {
   std::array<double, degrees> result{};
   for (std::size_t j = 0; j < on.degrees; ++j)
     for (std::size_t l = 0; l < points; ++l)
-      result[j] += piece_rule().to_end[l] * on.rows[j * on.fine.size() + first + l] / on.fine.weight[first + l];
+      result[j] += on.fine.rule(first).to_end[l] * on.rows[j * on.fine.size() + first + l] / on.fine.weight[first + l];
   return result;
 }
 

@@ -91,7 +91,8 @@ class RingSurface {
   /// Sets what is known of the cells of a group. Returns the growth of m.
   double measure_cells(Group& group) const;
   [[nodiscard]] FineRule points_of(const Group& group, double lower, double upper, double m_lower) const;
-  void add_points(const Piece& piece, double begin, double end, FineRule& fine) const;
+  void add_points(const Piece& piece, const PieceRule& rule, std::size_t first, std::size_t last, double begin,
+                  double end, FineRule& fine) const;
   /// Appends the pieces from `lower` to `upper`, none longer than `longest`. Returns m at the upper end.
   double cut(double lower, double upper, double m_lower, double longest, std::vector<Piece>& pieces) const;
   static void cut(const Segment& segment, double begin, double end, double m, double longest,

@@ -51,7 +51,6 @@ struct Moments {
 
 Moments moments(const FineRule& fine, std::size_t cell, double m_lower) {
   constexpr std::size_t chunk = 64;
-  const PieceRule& rule = piece_rule();
   Moments result;
   for (std::size_t from = fine.begin(cell); from < fine.ends[cell]; from += chunk) {
     const std::size_t n = std::min(chunk, fine.ends[cell] - from);
@@ -60,7 +59,7 @@ Moments moments(const FineRule& fine, std::size_t cell, double m_lower) {
     for (std::size_t i = 0; i < n; ++i) {
       p[0][i] = 1;
       p[1][i] = z[i];
-      dm[i] = rule.weight[i % PieceRule::points] * fine.rate[from + i];
+      dm[i] = fine.rule(from + i).weight[i % PieceRule::points] * fine.rate[from + i];
       du[i] = dm[i] > 0 ? dm[i] / std::sqrt(m_lower + std::fmax(fine.m[from + i], 0)) : 0;
     }
     for (std::size_t k = 1; k + 1 < nodes; ++k) {

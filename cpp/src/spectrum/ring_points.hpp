@@ -8,7 +8,8 @@
 
 namespace asperity {
 
-/// The Gauss-Legendre rule of a piece, and the integrals of the polynomial through its values up to each node.
+/// Gauss-Legendre rules at as many points as are taken at a time, and the integrals of the polynomials through their
+/// values up to each node: one rule on one piece, or two of half as many nodes on two pieces that follow each other.
 struct PieceRule {
   static constexpr std::size_t points = 4;
   static_assert(points == lanes);
@@ -17,8 +18,6 @@ struct PieceRule {
   double to_end[points];           // the polynomial through the values at the upper end
 };
 
-const PieceRule& piece_rule();
-
 /// z, from -1 to 1 over the point's cell; dy and dm, the latter without the rule's weight; m from the lower end on, and
 /// at the upper one; where the points of each cell end.
 struct FineRule {
@@ -26,12 +25,14 @@ struct FineRule {
   double m_part = 0;
   std::size_t first_cell = 0;
   std::vector<std::size_t> ends;
+  std::vector<const PieceRule*> rules;  // of the points that are taken at a time
 
+  [[nodiscard]] const PieceRule& rule(std::size_t point) const { return *rules[point / PieceRule::points]; }
   [[nodiscard]] std::size_t size() const { return z.size(); }
   [[nodiscard]] std::size_t begin(std::size_t cell) const { return cell == 0 ? 0 : ends[cell - 1]; }
 
-  /// m at the points of a piece, whose rates are known.
-  void add_up(std::size_t first);
+  /// m at the last points taken, whose rates are known.
+  void add_up();
 };
 
 }  // namespace asperity
