@@ -9,10 +9,10 @@ most of them absurd. A share of `edges` has a few rows and a front of any shape:
 falling to a row of zero or rising from one, 25 decades steep, with notches and jumps, on bands from
 a millionth to nine decades, some with relaxation times that differ in the twelfth digit; half of
 these take the interpolated form, and their densities make G at the upper end about 1e-8 to 1e12.
-A share of `rings` has 32 to 300 rows at equal steps of q, as of a scan, smooth or with scatter,
-steps, lines, empty rows or traces before the roughness. A share of `curves` of the rubbers is a
-master curve of 4 to 1000 rows, smooth or with noise, plateaus and rows beside each other; with any,
-tolerances are those for which rings are taken together.
+A share of `rings` has 16 to 300 rows at equal steps of q, as of a scan, smooth or with scatter,
+steep, steps, lines, empty rows or traces before the roughness. A share of `curves` of the rubbers
+is a master curve of 4 to 1000 rows, smooth or with noise, plateaus and rows beside each other; with
+any, tolerances are those for which rings are taken together.
 The truth is GSL's adaptive integration at rtol = 1e-11, method="qag" and, where that disagrees or
 does not converge, method="cquad". Printed: scenes whose estimate, with that
 of the truth, was exceeded, or whose area is off by more than the tolerance, what did not converge,
@@ -122,16 +122,20 @@ def draw_edges(rng: Any) -> tuple[Any, float, float]:
 
 def draw_rings(rng: Any) -> tuple[Any, float, float]:
     """A surface of many rows, as of a scan, and its band."""
-    rows, first, step = int(power(rng, 1.51, 2.48)), int(power(rng, 0, 1.5)), power(rng, 0, 5)
+    rows, first, step = int(power(rng, 1.21, 2.48)), int(power(rng, 0, 1.5)), power(rng, 0, 5)
     k = np.arange(first, first + rows)
     q, c = step * k, (k / first) ** -rng.uniform(2.1, 4)
     level = power(rng, 0.5, 4)
-    kind = rng.choice(["scatter", "roll-off", "steps", "lines", "empty", "any level", "traces"])
+    kind = rng.choice(
+        ["scatter", "roll-off", "steep", "steps", "lines", "empty", "any level", "traces"]
+    )
     if kind == "scatter":
         c *= np.exp(power(rng, -1.5, 0.3) * rng.standard_normal(rows) / np.sqrt(k / first))
     elif kind == "roll-off":
         end = k[int(rng.integers(rows))]
         c = np.maximum(k / end, 1) ** -rng.uniform(2.1, 4)
+    elif kind == "steep":
+        c = (k / first) ** -rng.uniform(4, 30)
     elif kind == "steps":
         c[(np.arange(rows) // int(rng.integers(2, 60))) % 2 == 1] *= level
     elif kind == "lines":
@@ -143,7 +147,8 @@ def draw_rings(rng: Any) -> tuple[Any, float, float]:
     else:
         before = int(rng.integers(1, rows // 2))
         c[:before] *= np.where(rng.random(before) < 0.4, 0, power(rng, -12, 0, before))
-    c[-1] = max(c[-1], (k[-1] / first) ** -4.0)
+    if kind != "steep":
+        c[-1] = max(c[-1], (k[-1] / first) ** -4.0)
     c *= power(rng, -3, 1) ** 2 / q[0] ** 4
     return asperity.TabulatedSpectrum(wavenumber=q, density=c), q[0], q[-1]
 

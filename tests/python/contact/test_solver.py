@@ -51,6 +51,28 @@ def test_the_error_estimate_is_kept_on_rings_with_master_curves():
 
 
 @pytest.mark.parametrize(
+    ("rows", "octaves", "power", "pressure", "velocity", "rtol"),
+    [
+        # the change by halves in ln q tells a sixth of the error
+        (64, 1, 12, 559288, 3, 1e-6),
+        (33, 1, 16, 2467283, 30, 1e-6),
+        (33, 1, 7, 1243710, 3, 1e-4),
+        (20, 1, 12, 559288, 3, 1e-6),
+    ],
+)
+def test_the_error_estimate_is_kept_on_steep_rings(rows, octaves, power, pressure, velocity, rtol):
+    """Nearly all roughness is in the first rows, and a split in the middle leaves it as it is."""
+    wavenumber = 1e3 * np.geomspace(1, 2**octaves, rows)
+    steep = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=wavenumber**-power)
+    steep = steep.scaled((0.5 / steep.rms_slope) ** 2)
+    rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
+    scene = {"pressure": pressure, "velocity": velocity}
+    found = asperity.friction(steep, rubber, **scene, rtol=rtol)
+    truth = asperity.friction(steep, rubber, **scene, rtol=1e-11, method="cquad")
+    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+
+
+@pytest.mark.parametrize(
     "again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))]
 )
 def test_a_copy_of_used_rings_gives_the_same_friction(again):

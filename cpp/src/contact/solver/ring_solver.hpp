@@ -47,6 +47,7 @@ class RingSolver {
     const RingTree* tree;  // null for a group's until it is asked for
     std::size_t group;
     std::size_t halves = 0;   // where the first of two is, 0 if they were not asked for yet
+    bool uneven = false;      // one of them has most of the growth of u
     std::size_t started = 0;  // the velocity that the next three are of
     double g_lower = 0;       // at unit load
     double g[RingBlock::rows] = {}, slope[RingBlock::rows] = {};

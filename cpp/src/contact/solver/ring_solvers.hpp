@@ -12,7 +12,7 @@ namespace asperity {
 class RingSolvers {
  public:
   /// Tables of fewer rows are quicker done one by one, and lesser tolerances not reached.
-  static constexpr std::size_t least_rows = 32;
+  static constexpr std::size_t least_rows = 16;
   static constexpr double least_rtol = 1e-7;
 
   RingSolvers(const TabulatedSpectrum& table, const Rubber& rubber, double poisson_ratio, double rtol)
