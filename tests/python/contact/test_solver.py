@@ -72,6 +72,21 @@ def test_the_error_estimate_is_kept_on_steep_rings(rows, octaves, power, pressur
     assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
 
 
+def test_a_polynomial_below_zero_is_not_taken_for_g():
+    """Through an E that grows by e^1.5 from row to row, where only the first rings are rough."""
+    wavenumber = 1e3 * np.geomspace(1, 4, 120)
+    steep = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=1e70 * wavenumber**-30.0)
+    frequency = 1e3 * np.geomspace(0.5, 8, 16)
+    storage = 1e6 * np.exp(1.5 * np.arange(frequency.size))
+    rubber = asperity.MasterCurve(
+        angular_frequency=frequency, storage_modulus=storage, loss_modulus=0.2 * storage
+    )
+    scene = {"pressure": 1e3, "velocity": 1}
+    found = asperity.friction(steep, rubber, **scene, rtol=1e-3)
+    truth = asperity.friction(steep, rubber, **scene, rtol=1e-9, method="cquad")
+    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+
+
 @pytest.mark.parametrize(
     "again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))]
 )

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/conditions.hpp"
 #include "numerics/gauss_legendre.hpp"
@@ -26,6 +27,7 @@ constexpr double of_points = 3e-9;  // relative error of G by the fine rules of 
 /// The parts of the tolerance for the error of G and for all that is of mu_H; the rest is for the shift's.
 /// Panels leave as much to G.
 constexpr double of_g = 0.125, of_hysteresis = 0.85;
+constexpr double unknown = std::numeric_limits<double>::infinity();
 
 /// The largest of the last coefficients of the polynomial through values at Gauss-Legendre nodes. Those beyond are no
 /// larger where I1 and I2 are analytic, as of a Prony series, and fall like n^-3.5 where they are not, as at the knots
@@ -113,15 +115,16 @@ void RingSolver::start(double velocity) {
       const auto next = std::upper_bound(passed, knots.end(), frequency_[nodes * (cell + 1) - 1]);
       const auto between = static_cast<std::size_t>(next - passed);
       passed = next;
-      const double before = std::sqrt(unit_g_);
+      const double before = std::sqrt(std::fmax(0, unit_g_));
       unit_g_ += part;
       error += last_coefficient(i2) * is.m_part * passed_on(is.roughness_of_m, between);
-      if (unit_g_ > 0) g_relative_error_ = std::fmax(g_relative_error_, error / unit_g_);
+      // where I2 spans decades polynomials through it may come out below zero, and so may G at the front
+      if (part != 0) g_relative_error_ = std::fmax(g_relative_error_, unit_g_ > 0 ? error / unit_g_ : unknown);
       g_at_cells_[index++] = unit_g_;
       const double* const ratio = &at.ratio[nodes * cell];
       at.ratio_error[cell] =
           last_coefficient(ratio) * passed_on(std::fmax(is.roughness_of_m, is.roughness_of_u), between);
-      const double rise = std::sqrt(unit_g_) - before;
+      const double rise = std::sqrt(std::fmax(0, unit_g_)) - before;
       of_ratio += at.ratio_error[cell] * part;
       mu += ratio[nodes / 2] * part;
       of_ratio_ahead += at.ratio_error[cell] * rise;
@@ -130,9 +133,9 @@ void RingSolver::start(double velocity) {
   }
   g_relative_error_ += of_points;
   // F is between G and its root
-  excess_ = unit_g_ > 0 ? std::fmax(g_relative_error_ / (of_g * rtol_),
-                                    std::fmax(of_ratio / mu, of_ratio_ahead / mu_ahead) / (of_hysteresis / 2 * rtol_))
-                        : 0;
+  excess_ = unit_g_ == 0 ? 0
+                         : std::fmax(g_relative_error_ / (of_g * rtol_),
+                                     std::fmax(of_ratio / mu, of_ratio_ahead / mu_ahead) / (of_hysteresis / 2 * rtol_));
 }
 
 /// Of R in the cells, on int R dF.
@@ -252,7 +255,7 @@ double RingSolver::outside(const Part& part) const {
 
 RingSolver::Outcome RingSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
   scale_ = 1 / (pressure * shift) / (pressure * shift);
-  if (unit_g_ == 0) return Outcome::no_g;
+  if (!(unit_g_ > 0)) return Outcome::no_g;
   check_g(g(), pressure);
   if (!(g_relative_error_ <= of_g * rtol_)) return Outcome::no_g;
   if (!contact) return Outcome::solved;
