@@ -11,7 +11,7 @@ namespace asperity {
 /// F and F2 for P of one form and S of Eq. 8 or none, good to 1e-15.
 struct ContactIntegral {
   ContactIntegral(Form form, const std::optional<SFunction>& factor);
-  const ContactTable& table;
+  ContactTable table;
   double gamma;     // of S, 1 without
   double whole;     // G below which P S is 1 to rounding
   bool has_second;  // F2 of the interpolated P has a logarithm in it
