@@ -135,9 +135,8 @@ class Builder {
   /// Largest fourth difference of the functions on the lattice, in x and in z.
   [[nodiscard]] std::array<double, 2> bending(const MapTree::Leaf& leaf) {
     std::array<std::array<std::array<double, 2>, 5>, 5> f;
-    each_lattice_place(leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) {
-      f[i][j] = patches_.at(leaf.z / MapTree::unit, place).f;
-    });
+    each_lattice_place(
+        leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) { f[i][j] = patches_.at(place).f; });
     std::array<double, 2> most{};
     for (std::size_t i = 0; i < 5; ++i)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -149,7 +148,7 @@ class Builder {
   }
 
   double error_at(const MapTree::Leaf& leaf, const MapPlace& place) {
-    const MapSample truth = patches_.at(leaf.z / MapTree::unit, place);
+    const MapSample truth = patches_.at(place);
     if (truth.error > lattice_share * rtol_)  // no number of cells would help
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * truth.error, 3) +
                          " was reached, twice the error of what the solver and 20,000 polynomials through its points "
