@@ -14,7 +14,6 @@ namespace {
 constexpr double share = 1.0 / 20;             // of rtol
 constexpr double longest = 2;                  // of a patch to begin with, in ln v and in ln p
 constexpr double most_in_a_row = 64;           // to begin with: of a box of hundreds of decades most is smooth
-constexpr std::size_t most_patches = 20'000;   // beyond, what patches are off by is told and not mended
 constexpr std::size_t test_x = 4, test_z = 4;  // random x of a patch, and random z at each
 
 }  // namespace
@@ -63,7 +62,7 @@ void MapPatches::make(std::vector<std::size_t> wanted, const std::function<void(
   for (const std::size_t i : wanted) whole += area(i);
   while (!wanted.empty()) {
     interpolate(wanted);
-    const bool last = patches_.size() > most_patches;
+    const bool last = patches_.size() > most;
     std::vector<std::size_t> tested, next;
     for (const std::size_t i : wanted)
       if (last || std::ranges::max(last_coefficients(patches_[i])) <= tolerance_) tested.push_back(i);

@@ -26,6 +26,10 @@ struct MapSlopes {
 /// grows as rtol^(-1/2).
 class MapPatches {
  public:
+  /// Beyond, what patches are off by is told and not mended: a map at 1e-4 takes a few hundred, at 1e-7 a few thousand,
+  /// and each of them 160 points of the solver.
+  static constexpr std::size_t most = 5000;
+
   /// Makes the patches that the box touches; `progress` hears of the share that is done.
   MapPatches(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
 

@@ -71,6 +71,25 @@ ValueAndSlope MapFrame::spline(double x) const {
   return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i));
 }
 
+std::optional<double> MapFrame::least_smooth(double from, double to) const {
+  if (offset_.empty()) return {};
+  const double h = (x_hi_ - x_lo_) / (static_cast<double>(offset_.size()) / 2 - 1);
+  const ValueAndSlope a = spline(from), b = spline(to);
+  std::optional<double> result;
+  double most = 0;
+  for (auto i = static_cast<std::size_t>((from - x_lo_) / h) + 1; 2 * i < offset_.size(); ++i) {
+    const double x = x_lo_ + static_cast<double>(i) * h;
+    if (x >= to) break;
+    const double cubic = hermite(a.value, a.slope, b.value, b.slope, to - from, (x - from) / (to - from)).value;
+    const double off = std::fabs(offset_[2 * i] - cubic);
+    if (off > most) {
+      most = off;
+      result = x;
+    }
+  }
+  return result;
+}
+
 double MapFrame::log_modulus(double x) const {
   const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
   const auto found = macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio);

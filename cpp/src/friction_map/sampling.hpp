@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,8 @@ class MapFrame {
   [[nodiscard]] double log_modulus(double x) const;
   /// ln p_T of the Greenwood-Williamson correction over ln(p / E*); 0 for the others.
   [[nodiscard]] const LoadShift& load_shift() const { return load_shift_; }
+  /// The node of s between two places that the cubic through their values and slopes leaves most, if there is one.
+  [[nodiscard]] std::optional<double> least_smooth(double from, double to) const;
   /// s and s' at nodes, for the file; empty where s is 0.
   [[nodiscard]] const std::vector<double>& log_modulus_nodes() const { return offset_; }
   [[nodiscard]] bool hysteresis() const { return hysteresis_; }
