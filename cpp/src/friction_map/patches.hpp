@@ -21,13 +21,13 @@ struct MapSlopes {
 /// Patches of 12 x 12 points with the polynomial through them over ln v and the load ln(p p_T), p_T being that of a
 /// Greenwood-Williamson correction: without it there are no kinks, and of the modulus at a single frequency none is
 /// passed on. They are halved in either until they keep a twentieth of rtol,
-/// by its last coefficients and at 16 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
+/// by its last coefficients and at 22 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
 /// rubber makes them: with a Prony series a few dozen patches stand for a box at any rtol, where the number of cells
 /// grows as rtol^(-1/2).
 class MapPatches {
  public:
   /// Beyond, what patches are off by is told and not mended: a map at 1e-4 takes a few hundred, at 1e-7 a few thousand,
-  /// and each of them 160 points of the solver.
+  /// and each of them 166 points of the solver.
   static constexpr std::size_t most = 5000;
 
   /// Makes the patches that the box touches; `progress` hears of the share that is done.
