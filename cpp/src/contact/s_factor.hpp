@@ -1,6 +1,8 @@
 // The S factor of partial contact: which one a correction puts inside G, and which one on the friction integrand.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,20 +24,26 @@ struct SFunction {
   [[nodiscard]] double operator()(double share) const;
 };
 
-/// G with S inside it: int_0^G dg / S(P(g)) = G without, solved to rounding. The integral is kept on steps of ln G, as
-/// far as the points so far needed it.
+/// G with S inside it: int_0^G dg / S(P(g)) = G without, solved to rounding. The integral is kept as polynomials on
+/// steps of ln G, as far as the points so far needed it.
 class SInside {
  public:
   SInside(const SFunction& s, Form form);
   [[nodiscard]] double operator()(double uncorrected);
 
  private:
-  [[nodiscard]] double part(std::size_t index, double x) const;
+  static constexpr std::size_t nodes = 20;
+  struct Step {
+    double before;                        // the integral up to the lower edge
+    std::array<double, nodes + 1> power;  // of t, -1 to 1 over the step: what is added up to there
+  };
+  void add_step();
 
   SFunction s_;
   Form form_;
-  double start_;             // ln G below which S is 1
-  std::vector<double> phi_;  // the integral up to each edge
+  double start_;  // ln G below which S is 1
+  std::vector<Step> steps_;
+  double end_;  // the integral up to the last edge
 };
 
 /// The S inside G of NayakSFactor.

@@ -11,11 +11,10 @@ namespace asperity {
 
 namespace {
 
-constexpr double share = 1.0 / 20;             // of rtol
-constexpr double longest = 2;                  // of a patch to begin with, in ln v and in ln p
-constexpr double most_in_a_row = 64;           // to begin with: of a box of hundreds of decades most is smooth
-constexpr std::size_t most_patches = 20'000;   // beyond, what patches are off by is told and not mended
-constexpr std::size_t test_x = 4, test_z = 4;  // random x of a patch, and random z at each
+constexpr double share = 1.0 / 20;    // of rtol
+constexpr double longest = 2;         // of a patch to begin with, in ln v and in ln p
+constexpr double most_in_a_row = 64;  // to begin with: of a box of hundreds of decades most is smooth
+constexpr std::size_t test_z = 2;     // random z at a random x between every two points
 
 }  // namespace
 
@@ -24,22 +23,35 @@ MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
     : frame_(frame), tolerance_(std::fmax(share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
   const auto [x_lo, x_hi] = frame.x();
   const auto pieces = [](double length) { return std::clamp(std::ceil(length / longest), 1.0, most_in_a_row); };
-  std::vector<std::size_t> in_box;
-  for (std::size_t band = 0; band + 1 < frame.cuts().size(); ++band) {
-    const double bottom = frame.cuts()[band], length = x_hi - x_lo, height = frame.cuts()[band + 1] - bottom;
-    const double columns = pieces(length), rows = pieces(height);
-    strips_.push_back({patches_.size(), static_cast<std::size_t>(columns), static_cast<std::size_t>(rows),
-                       MapPlace{x_lo, bottom}, MapPlace{length / columns, height / rows}});
-    const Strip& strip = strips_.back();
-    const MapPlace half{strip.size.x / 2, strip.size.z / 2};
-    for (std::size_t i = 0; i < strip.columns; ++i)
-      for (std::size_t j = 0; j < strip.rows; ++j) {
-        const MapPlace corner{x_lo + static_cast<double>(i) * strip.size.x,
-                              bottom + static_cast<double>(j) * strip.size.z};
-        if (frame.touches_box(corner, strip.size)) in_box.push_back(patches_.size());
-        patches_.push_back({.middle = {corner.x + half.x, corner.z + half.z}, .half = half});
-      }
+  // loads of the box, and of cells that stand out of it
+  double bottom = frame.cuts().front(), top = frame.cuts().back();
+  if (frame.load_shift().any()) {
+    const auto [least, most] = frame.load_shift().range();
+    const auto [lowest, highest] = frame.offsets();
+    bottom = least + lowest;
+    top = most + highest;
   }
+  const double columns = pieces(x_hi - x_lo), rows = pieces(top - bottom);
+  strip_ = {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), MapPlace{x_lo, bottom},
+            MapPlace{(x_hi - x_lo) / columns, (top - bottom) / rows}};
+  const MapPlace half{strip_.size.x / 2, strip_.size.z / 2};
+  for (std::size_t i = 0; i < strip_.columns; ++i)
+    for (std::size_t j = 0; j < strip_.rows; ++j)
+      patches_.push_back({.middle = {x_lo + (2 * static_cast<double>(i) + 1) * half.x,
+                                     bottom + (2 * static_cast<double>(j) + 1) * half.z},
+                          .half = half});
+  // of those that the box touches, all that is worth a look ahead
+  constexpr int steps = 256;
+  std::vector<bool> touched(patches_.size());
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const double x = x_lo + (x_hi - x_lo) * i / steps;
+      const double y = frame.ln_pressure(0) + (frame.ln_pressure(1) - frame.ln_pressure(0)) * j / steps;
+      touched[first_at({x, y + frame.load_shift()(y - frame.log_modulus_offset(x)).value})] = true;
+    }
+  std::vector<std::size_t> in_box;
+  for (std::size_t i = 0; i < patches_.size(); ++i)
+    if (touched[i]) in_box.push_back(i);
   make(std::move(in_box), progress);
 }
 
@@ -50,7 +62,7 @@ void MapPatches::make(std::vector<std::size_t> wanted, const std::function<void(
   for (const std::size_t i : wanted) whole += area(i);
   while (!wanted.empty()) {
     interpolate(wanted);
-    const bool last = patches_.size() > most_patches;
+    const bool last = patches_.size() > most;
     std::vector<std::size_t> tested, next;
     for (const std::size_t i : wanted)
       if (last || std::ranges::max(last_coefficients(patches_[i])) <= tolerance_) tested.push_back(i);
@@ -96,10 +108,16 @@ struct Points {
   }
 };
 
+template <std::size_t n>
+const Points<n>& points_of() {
+  static const Points<n> points;
+  return points;
+}
+
 }  // namespace
 
 void MapPatches::interpolate(std::span<const std::size_t> wanted) {
-  static const Points<n> points;
+  const Points<n>& points = points_of<n>();
   std::vector<MapPlace> places;
   places.reserve(wanted.size() * n * n);
   for (const std::size_t index : wanted) {
@@ -108,7 +126,7 @@ void MapPatches::interpolate(std::span<const std::size_t> wanted) {
       for (const double z : points.point)
         places.push_back({patch.middle.x + patch.half.x * x, patch.middle.z + patch.half.z * z});
   }
-  const std::vector<MapSample> found = frame_.sample(places, threads_);
+  const std::vector<MapSample> found = frame_.sample_unshifted(places, threads_);
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     Patch& patch = patches_[wanted[w]];
     const MapSample* const sample = &found[w * n * n];
@@ -128,22 +146,25 @@ void MapPatches::interpolate(std::span<const std::size_t> wanted) {
   }
 }
 
-/// The largest error of each at random points.
+/// The largest error of each at random points, beside every x: where the rubber has a kink or a narrow step,
+/// polynomials are off near it alone.
 std::vector<double> MapPatches::test(std::span<const std::size_t> wanted) {
+  constexpr std::size_t tested = (n - 1) * test_z;
+  const Points<n>& points = points_of<n>();
   std::vector<MapPlace> places;
-  places.reserve(wanted.size() * test_x * test_z);
+  places.reserve(wanted.size() * tested);
   for (const std::size_t index : wanted) {
     const Patch& patch = patches_[index];
-    for (std::size_t i = 0; i < test_x; ++i) {
-      const double x = patch.middle.x + patch.half.x * (2 * random_() - 1);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const double at = points.point[i] + random_() * (points.point[i + 1] - points.point[i]);
       for (std::size_t j = 0; j < test_z; ++j)
-        places.push_back({x, patch.middle.z + patch.half.z * (2 * random_() - 1)});
+        places.push_back({patch.middle.x + patch.half.x * at, patch.middle.z + patch.half.z * (2 * random_() - 1)});
     }
   }
-  const std::vector<MapSample> found = frame_.sample(places, threads_);
+  const std::vector<MapSample> found = frame_.sample_unshifted(places, threads_);
   std::vector<double> errors(wanted.size(), 0);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::size_t w = i / (test_x * test_z);
+    const std::size_t w = i / tested;
     const std::array<double, 2> f = value(patches_[wanted[w]], places[i]);
     for (std::size_t k = 0; k < 2; ++k) errors[w] = std::fmax(errors[w], std::fabs(f[k] - found[i].f[k]));
   }
@@ -177,13 +198,17 @@ std::array<double, 2> MapPatches::last_coefficients(const Patch& patch) {
   return last;
 }
 
-const MapPatches::Patch& MapPatches::find(std::uint32_t band, const MapPlace& place) {
-  const Strip& strip = strips_[band];
+/// The patch of the first ones that holds a place.
+std::size_t MapPatches::first_at(const MapPlace& place) const {
   const auto piece = [](double at, std::size_t pieces) {
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(pieces - 1)));
   };
-  std::size_t at = strip.first + piece((place.x - strip.corner.x) / strip.size.x, strip.columns) * strip.rows +
-                   piece((place.z - strip.corner.z) / strip.size.z, strip.rows);
+  return piece((place.x - strip_.corner.x) / strip_.size.x, strip_.columns) * strip_.rows +
+         piece((place.z - strip_.corner.z) / strip_.size.z, strip_.rows);
+}
+
+const MapPatches::Patch& MapPatches::find(const MapPlace& place) {
+  std::size_t at = first_at(place);
   if (!patches_[at].made) make({at}, {});
   while (patches_[at].child >= 0) {
     const Patch& patch = patches_[at];
@@ -203,16 +228,16 @@ std::array<double, n> chebyshev(double t) {
   return value;
 }
 
-/// T_i' = i U_(i-1) at t.
+/// T_i' and T_i'' at t.
 template <std::size_t n>
-std::array<double, n> chebyshev_slopes(double t) {
-  std::array<double, n> slope{0, 1};
-  double last = 1, now = 2 * t;
+std::array<std::array<double, n>, 2> chebyshev_slopes(double t) {
+  const std::array<double, n> value = chebyshev<n>(t);
+  std::array<double, n> slope{0, 1}, bend{};
   for (std::size_t i = 2; i < n; ++i) {
-    slope[i] = static_cast<double>(i) * now;
-    last = std::exchange(now, 2 * t * now - last);
+    slope[i] = 2 * value[i - 1] + 2 * t * slope[i - 1] - slope[i - 2];
+    bend[i] = 4 * slope[i - 1] + 2 * t * bend[i - 1] - bend[i - 2];
   }
-  return slope;
+  return {slope, bend};
 }
 
 template <std::size_t n>
@@ -238,23 +263,37 @@ std::array<double, 2> MapPatches::value(const Patch& patch, const MapPlace& plac
   return {dot(combine(patch.coefficient[0], x), z), dot(combine(patch.coefficient[1], x), z)};
 }
 
-MapSample MapPatches::at(std::uint32_t band, const MapPlace& place) {
-  const Patch& patch = find(band, place);
-  return {value(patch, place), patch.error};
+// With y = ln p, f = m(x, y + tau) less tau for mu_H, tau = ln p_T at z = y - ln E*.
+MapSample MapPatches::at(const MapPlace& place) {
+  const LoadShift& shift = frame_.load_shift();
+  const double y = place.z + frame_.log_modulus_offset(place.x);
+  const double tau = shift.any() ? shift(y - frame_.log_modulus(place.x)).value : 0;
+  const MapPlace load{place.x, y + tau};
+  const Patch& patch = find(load);
+  std::array<double, 2> f = value(patch, load);
+  if (frame_.hysteresis()) f[0] -= tau;
+  return {f, patch.error + 2 * shift.error()};
 }
 
 MapSlopes MapPatches::slopes(std::uint32_t band, const MapPlace& place) {
-  const Patch& patch = find(band, place);
-  const double x = (place.x - patch.middle.x) / patch.half.x, z = (place.z - patch.middle.z) / patch.half.z;
+  const ValueAndSlope offset = frame_.spline(place.x), tau = frame_.load_shift()(place.z, band);
+  const MapPlace load{place.x, place.z + offset.value + tau.value};
+  const Patch& patch = find(load);
+  const double x = (place.x - patch.middle.x) / patch.half.x, z = (load.z - patch.middle.z) / patch.half.z;
   const Row in_x = chebyshev<n>(x), in_z = chebyshev<n>(z);
-  const Row slope_x = chebyshev_slopes<n>(x), slope_z = chebyshev_slopes<n>(z);
+  const auto [slope_x, bend_x] = chebyshev_slopes<n>(x);
+  const auto [slope_z, bend_z] = chebyshev_slopes<n>(z);
   MapSlopes at{};
   for (std::size_t f = 0; f < 2; ++f) {
     const Row row = combine(patch.coefficient[f], in_x), slope = combine(patch.coefficient[f], slope_x);
-    at.f[f] = dot(row, in_z);
-    at.x[f] = dot(slope, in_z) / patch.half.x;
-    at.z[f] = dot(row, slope_z) / patch.half.z;
-    at.xz[f] = dot(slope, slope_z) / (patch.half.x * patch.half.z);
+    const double by_x = dot(slope, in_z) / patch.half.x, by_load = dot(row, slope_z) / patch.half.z;
+    const double by_both = dot(slope, slope_z) / (patch.half.x * patch.half.z);
+    const double by_load_twice = dot(row, bend_z) / (patch.half.z * patch.half.z);
+    const double divided = f == 0 && frame_.hysteresis() ? 1 : 0;  // by p_T
+    at.f[f] = dot(row, in_z) - divided * tau.value;
+    at.x[f] = by_x + by_load * offset.slope;
+    at.z[f] = by_load * (1 + tau.slope) - divided * tau.slope;
+    at.xz[f] = (by_both + by_load_twice * offset.slope) * (1 + tau.slope);
   }
   return at;
 }

@@ -18,18 +18,25 @@ struct MapSlopes {
   std::array<double, 2> f, x, z, xz;
 };
 
-/// Patches of 12 x 12 points with the polynomial through them, halved in x or in z until it keeps a twentieth of rtol,
-/// by its last coefficients and at 16 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
+/// Patches of 12 x 12 points with the polynomial through them over ln v and the load ln(p p_T), p_T being that of a
+/// Greenwood-Williamson correction: without it there are no kinks, and of the modulus at a single frequency none is
+/// passed on. They are halved in either until they keep a twentieth of rtol,
+/// by its last coefficients and at 22 random points. ln mu_H and ln A are smooth in ln p, and in ln v as smooth as the
 /// rubber makes them: with a Prony series a few dozen patches stand for a box at any rtol, where the number of cells
 /// grows as rtol^(-1/2).
 class MapPatches {
  public:
+  /// Beyond, what patches are off by is told and not mended: a map at 1e-4 takes a few hundred, at 1e-7 a few thousand,
+  /// and each of them 166 points of the solver.
+  static constexpr std::size_t most = 5000;
+
   /// Makes the patches that the box touches; `progress` hears of the share that is done.
   MapPatches(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
 
-  /// At a place in a band, on its sides too. The error is twice the largest that was found on the patch, and the
-  /// solver's. A patch outside of the box is made when it is asked for.
-  [[nodiscard]] MapSample at(std::uint32_t band, const MapPlace& place);
+  /// The error is twice the largest that was found on the patch, and the solver's. A patch outside of the box is made
+  /// when it is asked for.
+  [[nodiscard]] MapSample at(const MapPlace& place);
+  /// On the side of a cut that the band is on.
   [[nodiscard]] MapSlopes slopes(std::uint32_t band, const MapPlace& place);
 
  private:
@@ -43,8 +50,8 @@ class MapPatches {
     double error = 0;
     std::array<std::array<Row, n>, 2> coefficient{};  // of T_i(x) T_j(z), of each function
   };
-  struct Strip {  // the patches that a band begins with, by columns
-    std::size_t first, columns, rows;
+  struct Strip {  // the patches that all begins with, by columns
+    std::size_t columns, rows;
     MapPlace corner, size;  // of a patch
   };
 
@@ -53,13 +60,14 @@ class MapPatches {
   [[nodiscard]] std::vector<double> test(std::span<const std::size_t> wanted);
   void halve(std::size_t index, bool in_x);
   [[nodiscard]] static std::array<double, 2> last_coefficients(const Patch& patch);
-  [[nodiscard]] const Patch& find(std::uint32_t band, const MapPlace& place);
+  [[nodiscard]] std::size_t first_at(const MapPlace& place) const;
+  [[nodiscard]] const Patch& find(const MapPlace& place);
   [[nodiscard]] static std::array<double, 2> value(const Patch& patch, const MapPlace& place);
 
   const MapFrame& frame_;
   double tolerance_;
   unsigned threads_;
-  std::vector<Strip> strips_;
+  Strip strip_;
   std::vector<Patch> patches_;
   Random random_{20261122};
 };

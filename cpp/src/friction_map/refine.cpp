@@ -135,9 +135,8 @@ class Builder {
   /// Largest fourth difference of the functions on the lattice, in x and in z.
   [[nodiscard]] std::array<double, 2> bending(const MapTree::Leaf& leaf) {
     std::array<std::array<std::array<double, 2>, 5>, 5> f;
-    each_lattice_place(leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) {
-      f[i][j] = patches_.at(leaf.z / MapTree::unit, place).f;
-    });
+    each_lattice_place(
+        leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) { f[i][j] = patches_.at(place).f; });
     std::array<double, 2> most{};
     for (std::size_t i = 0; i < 5; ++i)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -149,25 +148,29 @@ class Builder {
   }
 
   double error_at(const MapTree::Leaf& leaf, const MapPlace& place) {
-    const MapSample truth = patches_.at(leaf.z / MapTree::unit, place);
+    const MapSample truth = patches_.at(place);
     if (truth.error > lattice_share * rtol_)  // no number of cells would help
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * truth.error, 3) +
-                         " was reached, twice the error of what the solver and 20,000 polynomials through its points "
-                         "tell");
+                         " was reached, twice the error of what the solver and " + std::to_string(MapPatches::most) +
+                         " polynomials through its points tell");
     const auto found = MapTree::value(leaf, place.x - tree_.x(leaf.x), place.z - tree_.z(leaf.z));
     double error = 0;
     for (std::size_t k = 0; k < 2; ++k) error = std::fmax(error, std::fabs(std::expm1(found[k] - truth.f[k])));
     return error + truth.error;
   }
 
-  /// The largest error of a cell on its lattice, where that is in the box.
+  /// The largest error of a cell on its lattice, where that is in the box; and where a step of the modulus that the
+  /// lattice passes over would show.
   double lattice_error(std::size_t node) {
     const MapTree::Leaf& leaf = tree_.nodes()[node];
     double largest = 0;
-    each_lattice_place(leaf, [&](std::uint32_t, std::uint32_t, const MapPlace& place) {
+    const auto visit = [&](const MapPlace& place) {
       const double y = place.z + frame_.log_modulus_offset(place.x);
       if (y >= frame_.ln_pressure(0) && y <= frame_.ln_pressure(1)) largest = std::fmax(largest, error_at(leaf, place));
-    });
+    };
+    each_lattice_place(leaf, [&](std::uint32_t, std::uint32_t, const MapPlace& place) { visit(place); });
+    if (const auto x = frame_.least_smooth(tree_.x(leaf.x), tree_.x(leaf.x + leaf.wide)))
+      for (std::uint32_t j = 0; j <= 4; ++j) visit({*x, tree_.z(leaf.z + leaf.high / 4 * j)});
     return largest;
   }
 

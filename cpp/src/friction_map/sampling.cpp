@@ -26,14 +26,15 @@ int state_of(const Shift& shift) {
   return shift.separation_over_rms > 3 ? 1 : 2;
 }
 
-}  // namespace
-
+/// Weights of the derivative at point k of five points a unit apart (exact for polynomials of degree 4).
 std::array<double, 5> derivative_weights(std::size_t k) {
   constexpr double w[3][5] = {{-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}};
   std::array<double, 5> result;
   for (std::size_t i = 0; i < 5; ++i) result[i] = k <= 2 ? w[k][i] / 12 : -w[4 - k][4 - i] / 12;
   return result;
 }
+
+}  // namespace
 
 MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request)
     : spectrum_(spectrum), rubber_(rubber), model_(std::move(model)), rtol_(request.rtol), velocity_(request.velocity) {
@@ -42,9 +43,18 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   x_hi_ = std::log(velocity_[1]);
   y_lo_ = std::log(request.pressure[0]);
   y_hi_ = std::log(request.pressure[1]);
+  unshifted_ = model_;
   if (macro_modulus(model_.correction, spectrum_, rubber_, velocity_[0], model_.poisson_ratio)) {
     make_log_modulus_offset(offset_share * request.rtol);
     cut_bands();
+    unshifted_.correction = NoCorrection{};
+    const double s = log_modulus(x_lo_);
+    const auto exact = [&](double z) {
+      const Shift found =
+          affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + s), velocity_[0], model_.poisson_ratio);
+      return LoadShift::Sample{std::log(found.p), found.relative_error};
+    };
+    load_shift_ = LoadShift(exact, cuts_, model_.rtol / 10);
   } else {
     cuts_ = {y_lo_, y_hi_};
   }
@@ -52,13 +62,38 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
 }
 
-double MapFrame::log_modulus_offset(double x) const {
-  if (offset_.empty()) return 0;
+ValueAndSlope MapFrame::spline(double x) const {
+  if (offset_.empty()) return {0, 0};
   const std::size_t intervals = offset_.size() / 2 - 1;
   const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), at = (x - x_lo_) / h;
   const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(intervals - 1)));
   const double* const s = &offset_[2 * i];
-  return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i)).value;
+  return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i));
+}
+
+std::optional<double> MapFrame::least_smooth(double from, double to) const {
+  if (offset_.empty()) return {};
+  const double h = (x_hi_ - x_lo_) / (static_cast<double>(offset_.size()) / 2 - 1);
+  const ValueAndSlope a = spline(from), b = spline(to);
+  std::optional<double> result;
+  double most = 0;
+  for (auto i = static_cast<std::size_t>((from - x_lo_) / h) + 1; 2 * i < offset_.size(); ++i) {
+    const double x = x_lo_ + static_cast<double>(i) * h;
+    if (x >= to) break;
+    const double cubic = hermite(a.value, a.slope, b.value, b.slope, to - from, (x - from) / (to - from)).value;
+    const double off = std::fabs(offset_[2 * i] - cubic);
+    if (off > most) {
+      most = off;
+      result = x;
+    }
+  }
+  return result;
+}
+
+double MapFrame::log_modulus(double x) const {
+  const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
+  const auto found = macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio);
+  return found ? std::log(*found) : 0;
 }
 
 bool MapFrame::touches_box(const MapPlace& corner, const MapPlace& size) const {
@@ -76,10 +111,7 @@ bool MapFrame::touches_box(const MapPlace& corner, const MapPlace& size) const {
 }
 
 void MapFrame::make_log_modulus_offset(double tolerance) {
-  const auto exact = [&](double x) {
-    const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
-    return std::log(*macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio));
-  };
+  const auto exact = [&](double x) { return log_modulus(x); };
   for (std::size_t intervals = 16;; intervals *= 2) {
     const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), step = h / 8;
     offset_.clear();
@@ -101,12 +133,15 @@ void MapFrame::make_log_modulus_offset(double tolerance) {
   }
 }
 
+std::array<double, 2> MapFrame::offsets() const {
+  std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < offset_.size(); i += 2)
+    range = {std::fmin(range[0], offset_[i]), std::fmax(range[1], offset_[i])};
+  return range;
+}
+
 void MapFrame::cut_bands() {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (std::size_t i = 0; i < offset_.size(); i += 2) {
-    lowest = std::fmin(lowest, offset_[i]);
-    highest = std::fmax(highest, offset_[i]);
-  }
+  const auto [lowest, highest] = offsets();
   const double bottom = y_lo_ - highest, top = y_hi_ - lowest;
   const auto state = [&](double z) {
     return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + log_modulus_offset(x_lo_)),
@@ -146,15 +181,25 @@ void MapFrame::cut_bands() {
 }
 
 std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsigned threads) const {
+  std::vector<double> pressure;
+  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z + log_modulus_offset(place.x)));
+  return sample(model_, pressure, places, threads);
+}
+
+std::vector<MapSample> MapFrame::sample_unshifted(std::span<const MapPlace> places, unsigned threads) const {
+  std::vector<double> pressure;
+  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z));
+  return sample(unshifted_, pressure, places, threads);
+}
+
+std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::vector<double>& pressure,
+                                        std::span<const MapPlace> places, unsigned threads) const {
   if (places.empty()) return {};
-  std::vector<double> pressure, velocity;
-  for (const MapPlace& place : places) {
-    pressure.push_back(std::exp(place.z + log_modulus_offset(place.x)));
-    velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
-  }
+  std::vector<double> velocity;
+  for (const MapPlace& place : places) velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
   const Friction f = [&] {
     try {
-      return friction(spectrum_, rubber_, model_, {}, pressure, velocity, false, threads);
+      return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads);
     } catch (const NotConverged& error) {
       throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a hundredth of it, found " +
                          error.what());

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
+#include "friction_map/load_shift.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
@@ -28,7 +31,16 @@ class MapFrame {
   /// Where bands of one state begin and end, in z, rising: all of the box lies between the first and the last.
   [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }
   /// s(x): 0, or ln E* of the Greenwood-Williamson correction as a cubic spline.
-  [[nodiscard]] double log_modulus_offset(double x) const;
+  [[nodiscard]] double log_modulus_offset(double x) const { return spline(x).value; }
+  [[nodiscard]] ValueAndSlope spline(double x) const;
+  /// Its smallest and largest value at the nodes.
+  [[nodiscard]] std::array<double, 2> offsets() const;
+  /// ln E* itself, or 0.
+  [[nodiscard]] double log_modulus(double x) const;
+  /// ln p_T of the Greenwood-Williamson correction over ln(p / E*); 0 for the others.
+  [[nodiscard]] const LoadShift& load_shift() const { return load_shift_; }
+  /// The node of s between two places that the cubic through their values and slopes leaves most, if there is one.
+  [[nodiscard]] std::optional<double> least_smooth(double from, double to) const;
   /// s and s' at nodes, for the file; empty where s is 0.
   [[nodiscard]] const std::vector<double>& log_modulus_nodes() const { return offset_; }
   [[nodiscard]] bool hysteresis() const { return hysteresis_; }
@@ -38,22 +50,25 @@ class MapFrame {
   [[nodiscard]] double solver_rtol() const { return model_.rtol; }
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
+  /// At a place (ln v, ln p) without the shift of a Greenwood-Williamson correction. With it mu_H and A are those at
+  /// p p_T, and mu_H is divided by p_T.
+  [[nodiscard]] std::vector<MapSample> sample_unshifted(std::span<const MapPlace> places, unsigned threads) const;
 
  private:
+  [[nodiscard]] std::vector<MapSample> sample(const ContactModel& model, const std::vector<double>& pressure,
+                                              std::span<const MapPlace> places, unsigned threads) const;
   void make_log_modulus_offset(double tolerance);
   void cut_bands();
 
   const Spectrum& spectrum_;
   const Rubber& rubber_;
-  ContactModel model_;
+  ContactModel model_, unshifted_;
   double rtol_;  // of the map
   std::array<double, 2> velocity_;
   double x_lo_, x_hi_, y_lo_, y_hi_;
   std::vector<double> offset_, cuts_;
+  LoadShift load_shift_;
   bool hysteresis_ = true;
 };
-
-/// Weights of the derivative at point k of five points a unit apart (exact for polynomials of degree 4).
-std::array<double, 5> derivative_weights(std::size_t k);
 
 }  // namespace asperity

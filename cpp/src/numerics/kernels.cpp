@@ -1,6 +1,8 @@
 // The solver's loops (kernel_loops.inc), compiled once for each vector unit, and the choice between them at run time.
 #include "numerics/kernels.hpp"
 
+#include <cstdint>
+
 #include "numerics/simd.hpp"
 
 namespace asperity {

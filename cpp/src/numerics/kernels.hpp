@@ -18,14 +18,13 @@ struct PronyTerms {
   double equilibrium;
 };
 
-/// With z = sqrt(G), y = z / (1 + z), rest = 1 / (1 + z):
-///   F  = z y (gamma U1 + (1 - gamma) rest U3)          F = int P S dG
-///   F2 = z^3 y (gamma V1 + (1 - gamma) rest V3)        F2 = int F dG
-/// U1, U3, V1, V3, those of P and of P^3, are smooth in y on [0, 1]: polynomials on equal steps of it, side by side,
-/// in u from -1 to 1. Step `steps` is y = 1 alone.
+/// With z = sqrt(G), rest = 1 / (1 + z):
+///   F  = z^2 rest U, F = int P S dG,    F2 = z^4 rest V, F2 = int F dG
+/// U and V are smooth in rest on [0, 1]: polynomials in u = `steps` rest - i about each i = 0 ... steps.
 struct ContactTable {
-  static constexpr std::size_t steps = 128, terms = 8, functions = 4;
-  double power[steps + 1][terms][functions];
+  static constexpr std::size_t steps = 128, terms = 8;
+  using Powers = double[steps + 1][terms];
+  Powers first, second;  // U and V
 };
 
 /// The contribution of a panel: sum of `slope` f, and the last coefficients of f.
@@ -57,8 +56,7 @@ struct Kernels {
   void (*g_at_nodes)(double lower, const double* cumulative, double scale, std::size_t n, double* g);
   /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`. Below 0 they go on as they begin,
   /// with F = G and F2 = G^2 / 2.
-  void (*contact_integral)(const ContactTable& table, double gamma, const double* g, std::size_t n, double* f,
-                           double* f2);
+  void (*contact_integral)(const ContactTable& table, const double* g, std::size_t n, double* f, double* f2);
   /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
   /// How much the last coefficients of dG and of R matter, F / G being a bound of P S. Takes f_lower from f: a constant

@@ -13,6 +13,7 @@ from asperity import (
     GreenwoodWilliamson,
     InvalidInput,
     LocalPeaks,
+    MasterCurve,
     NayakSFactor,
     NotConverged,
     OutOfRange,
@@ -332,6 +333,36 @@ def test_the_map_is_split_where_contact_becomes_full():
             slope = found.derivatives(edge, velocity).dmu_dlnp
             assert slope == pytest.approx(exact, abs=2e-3 * values[0])
     assert crossed > 5
+
+
+@pytest.mark.parametrize("width", [0.02, 0.01, 0.002])
+def test_steps_of_the_modulus_are_seen_by_greenwood_williamson(width):
+    """E* of the macro-asperities is the modulus at a single frequency, as steep as it is there."""
+    steps = np.log([0.3, 7.0, 2e3])  # at q0 v
+    beside = np.exp(np.add.outer(steps, width * np.linspace(-10, 10, 41))).ravel()
+    w = np.unique(np.r_[np.geomspace(1e-3, 1e8, 300), beside])
+    x = np.log(w)
+    storage = 1e6 * np.exp(sum((1 + np.tanh((x - at) / (2 * width))) / 2 for at in steps))
+    rubber = MasterCurve(angular_frequency=w, storage_modulus=storage, loss_modulus=0.1 * storage)
+    correction = GreenwoodWilliamson(z_max=1.5e-3, z_min=-3e-4)
+    made = friction_map(
+        ROAD,
+        rubber,
+        pressure=(5e4, 5e6),
+        velocity=(1e-5, 10.0),
+        rtol=1e-3,
+        correction=correction,
+        checked=0,
+    )
+    draws = np.random.default_rng(4)
+    p = np.exp(draws.uniform(*np.log(made.pressure), 3000))
+    v = np.exp(draws.choice(steps, 3000) + width * draws.uniform(-10, 10, 3000)) / ROAD.q0
+    exact = friction(ROAD, rubber, pressure=p, velocity=v, rtol=1e-6, correction=correction)
+    for found, truth in (
+        (made.hysteresis(p, v), exact.hysteresis),
+        (made.contact_area(p, v), exact.contact_area),
+    ):
+        assert np.abs(found / truth - 1).max() <= made.max_error <= 1e-3
 
 
 @pytest.mark.parametrize("reading", ["implicit", "added"])

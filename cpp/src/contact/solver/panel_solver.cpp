@@ -49,7 +49,7 @@ void PanelSolver::add_hysteresis(std::size_t index, double scale, const ContactI
   at.f2_upper = ends_.f2[index];
   at.rise = at.f_upper - f_lower;
   loops.g_at_nodes(active.g_lower, panels_.row(p, Panel::cumulative), scale, n, at.g);
-  loops.contact_integral(contact.table, contact.gamma, at.g, n, at.f, at.by_parts_twice ? at.f2 : nullptr);
+  loops.contact_integral(contact.table, at.g, n, at.f, at.by_parts_twice ? at.f2 : nullptr);
   loops.error_projection(rule, slope, at.g, f_lower, at.f, at.by_g, at.by_r);
   if (at.by_parts_twice) {
     // by parts once more: int F dR = F2 dR/dG at the upper end - int F2 d(dR/dG)
@@ -89,7 +89,7 @@ void PanelSolver::evaluate(double scale, const ContactIntegral* contact) {
   }
   if (!contact) return;
   std::fill(ends_.g.begin() + static_cast<std::ptrdiff_t>(n), ends_.g.end(), 1.0);
-  kernels().contact_integral(contact->table, contact->gamma, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
+  kernels().contact_integral(contact->table, ends_.g.data(), room, ends_.f.data(), ends_.f2.data());
   for (std::size_t i = 0; i < n; ++i)
     if (ends_.g[i] < contact->whole) ends_.f[i] = ends_.g[i];
   for (std::size_t i = 0; i < n; ++i) {

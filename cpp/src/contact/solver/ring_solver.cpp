@@ -76,6 +76,9 @@ void RingSolver::fill(Part& part) {
   loops.combine(block.to_g.data(), block.to_g.size(), &modulus.i2[first], part.g);
   loops.combine(block.to_slope.data(), block.to_slope.size(), &modulus.ratio[first], part.slope);
   for (std::size_t i = 0; i < rows; ++i) part.g[i] += part.g_lower * block.of_lower.data[i];
+  double slopes = 0;
+  for (std::size_t i = 0; i < fine; ++i) slopes += std::fabs(part.slope[i]);
+  part.mean_slope = slopes / (block.upper - block.lower);
 }
 
 /// I2, R and the part of it from outside at the points of a group.
@@ -142,8 +145,7 @@ void RingSolver::start(double velocity) {
 double RingSolver::interpolation_error(const ContactIntegral& contact) {
   const Kernels& loops = kernels();
   loops.g_at_nodes(0, g_at_cells_.data(), scale_, g_at_cells_.size(), f_at_cells_.data());
-  loops.contact_integral(contact.table, contact.gamma, f_at_cells_.data(), f_at_cells_.size(), f_at_cells_.data(),
-                         nullptr);
+  loops.contact_integral(contact.table, f_at_cells_.data(), f_at_cells_.size(), f_at_cells_.data(), nullptr);
   double result = 0, before = 0;
   std::size_t index = 0;
   for (const Modulus& at : moduli_)
@@ -154,34 +156,52 @@ double RingSolver::interpolation_error(const ContactIntegral& contact) {
   return result;
 }
 
-void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) const {
+/// F at the first rows of a part.
+void RingSolver::take_f(Part& part, double f_lower, std::size_t count, const ContactIntegral& contact) const {
   double g[rows];
-  double* const f = part.f;
   const Kernels& loops = kernels();
-  const RingBlock& block = part.block();
-  loops.g_at_nodes(0, part.g, scale_, rows, g);
-  loops.contact_integral(contact.table, contact.gamma, g, rows, f, nullptr);
+  loops.g_at_nodes(0, part.g, scale_, count, g);
+  loops.contact_integral(contact.table, g, count, part.f, nullptr);
   part.f_lower = f_lower;
-  part.f_upper = f[end];
-  double value = 0, area = 0, fewer_value = 0, fewer_area = 0, slopes = 0;
-  for (std::size_t i = 0; i < fine; ++i) {
-    value += part.slope[i] * (f[i] - f_lower);
-    area += block.measure[i] * (f[i] - f_lower);
-    slopes += std::fabs(part.slope[i]);
+}
+
+namespace {
+
+/// Sums of (F - F at the lower end) times dR and dy.
+struct Sums {
+  double of_slope = 0, of_measure = 0;
+};
+
+template <class Part>
+Sums sums_of(const Part& part, std::size_t begin, std::size_t stop) {
+  const double* const measure = part.block().measure.data();
+  double of_slope = 0, of_measure = 0;
+#pragma omp simd reduction(+ : of_slope, of_measure)
+  for (std::size_t i = begin; i < stop; ++i) {
+    const double f = part.f[i] - part.f_lower;
+    of_slope += part.slope[i] * f;
+    of_measure += measure[i] * f;
   }
-  for (std::size_t i = fine; i < end; ++i) {
-    fewer_value += part.slope[i] * (f[i] - f_lower);
-    fewer_area += block.measure[i] * (f[i] - f_lower);
-  }
-  const double slope = slopes / (block.upper - block.lower);
-  part.value = part.slope[end] * (part.f_upper - f_lower) - value;
-  part.area = area;
-  part.by_nodes = std::fmax(std::fabs(value - fewer_value), slope * std::fabs(area - fewer_area));
-  if (part.g_lower * scale_ < 1 && g[end] > 100) {
-    const double decades = std::log10(g[end] / 4);  // down to where G is 4
+  return {of_slope, of_measure};
+}
+
+}  // namespace
+
+void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) const {
+  take_f(part, f_lower, rows, contact);
+  part.f_upper = part.f[end];
+  const Sums all = sums_of(part, 0, fine), fewer = sums_of(part, fine, end);
+  part.value = part.slope[end] * (part.f_upper - f_lower) - all.of_slope;
+  part.area = all.of_measure;
+  part.by_nodes = std::fmax(std::fabs(all.of_slope - fewer.of_slope),
+                            part.mean_slope * std::fabs(all.of_measure - fewer.of_measure));
+  const double g_upper = part.g[end] * scale_;
+  if (part.g_lower * scale_ < 1 && g_upper > 100) {
+    const RingBlock& block = part.block();
+    const double decades = std::log10(g_upper / 4);  // down to where G is 4
     const auto last = static_cast<double>(block.foot.size()) - 1;
     const auto below = static_cast<std::size_t>(std::clamp(decades - 1, 0.0, last));
-    part.by_nodes += unresolved / of_changes * slope * block.foot[below];
+    part.by_nodes += unresolved / of_changes * part.mean_slope * block.foot[below];
   }
 }
 
@@ -196,15 +216,18 @@ bool is_uneven(const RingBlock& whole, const RingBlock& first) {
 
 }  // namespace
 
-/// Evaluates the halves of a part that has been evaluated itself.
+void RingSolver::halve(std::size_t index) {
+  if (parts_[index].halves != 0) return;
+  const std::size_t group = parts_[index].group;
+  const auto& halves = surface_.halves(surface_.groups()[group], *parts_[index].tree);
+  parts_[index].halves = parts_.size();
+  for (const RingTree& half : halves) parts_.push_back({.tree = &half, .group = group});
+  parts_[index].uneven = is_uneven(parts_[index].block(), halves[0].block);
+}
+
+/// Evaluates the halves of a part, of which F is known at the first rows, and `by_nodes` where it is uneven.
 void RingSolver::evaluate_halves(std::size_t index, const ContactIntegral& contact) {
-  if (parts_[index].halves == 0) {
-    const std::size_t group = parts_[index].group;
-    const auto& halves = surface_.halves(surface_.groups()[group], *parts_[index].tree);
-    parts_[index].halves = parts_.size();
-    for (const RingTree& half : halves) parts_.push_back({.tree = &half, .group = group});
-    parts_[index].uneven = is_uneven(parts_[index].block(), halves[0].block);
-  }
+  halve(index);
   Part& whole = parts_[index];
   Part &first = parts_[whole.halves], &second = parts_[whole.halves + 1];
   double g = whole.g_lower, f = whole.f_lower;
@@ -217,13 +240,13 @@ void RingSolver::evaluate_halves(std::size_t index, const ContactIntegral& conta
     evaluate(*half, f, contact);
     f = half->f_upper;
   }
+  whole.f_upper = f;
+  const Sums sums = sums_of(whole, 0, fine);
+  const double value = whole.slope[end] * (whole.f_upper - whole.f_lower) - sums.of_slope;
   const RingBlock& behind = second.block();
   const double area = first.area + second.area + (first.f_upper - first.f_lower) * (behind.upper - behind.lower);
-  double slopes = 0;
-  for (std::size_t i = 0; i < fine; ++i) slopes += std::fabs(whole.slope[i]);
-  const double slope = slopes / (whole.block().upper - whole.block().lower);
   whole.by_halves =
-      std::fmax(std::fabs(whole.value - (first.value + second.value)), slope * std::fabs(whole.area - area));
+      std::fmax(std::fabs(value - (first.value + second.value)), whole.mean_slope * std::fabs(sums.of_measure - area));
 }
 
 /// That of the sum of both halves.
@@ -265,9 +288,13 @@ RingSolver::Outcome RingSolver::solve(double pressure, double shift, const Conta
   for (std::size_t i = 0; i < moduli_.size(); ++i) {
     if (!parts_[i].tree) parts_[i].tree = &surface_.root(surface_.groups()[i]);
     if (parts_[i].started != starts_) fill(parts_[i]);
-    evaluate(parts_[i], f_lower, *contact);
-    f_lower = parts_[i].f_upper;
+    halve(i);
+    if (parts_[i].uneven)
+      evaluate(parts_[i], f_lower, *contact);
+    else
+      take_f(parts_[i], f_lower, fine, *contact);
     evaluate_halves(i, *contact);
+    f_lower = parts_[i].f_upper;
     whole_.push_back(i);
   }
   const double interpolation = interpolation_error(*contact);

@@ -48,9 +48,10 @@ class RingSolver {
     std::size_t group;
     std::size_t halves = 0;   // where the first of two is, 0 if they were not asked for yet
     bool uneven = false;      // one of them has most of the growth of u
-    std::size_t started = 0;  // the velocity that the next three are of
+    std::size_t started = 0;  // the velocity that the next four are of
     double g_lower = 0;       // at unit load
     double g[RingBlock::rows] = {}, slope[RingBlock::rows] = {};
+    double mean_slope = 0;  // of R over y, by size
     double f[RingBlock::rows] = {};
     double f_lower = 0, f_upper = 0;
     double value = 0;      // R dF
@@ -61,7 +62,9 @@ class RingSolver {
   };
   void take_modulus(const RingSurface::Group& group, Modulus& at);
   void fill(Part& part);
+  void take_f(Part& part, double f_lower, std::size_t count, const ContactIntegral& contact) const;
   void evaluate(Part& part, double f_lower, const ContactIntegral& contact) const;
+  void halve(std::size_t index);
   void evaluate_halves(std::size_t index, const ContactIntegral& contact);
   [[nodiscard]] double error(const Part& part) const;
   [[nodiscard]] double interpolation_error(const ContactIntegral& contact);

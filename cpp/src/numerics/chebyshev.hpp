@@ -1,0 +1,66 @@
+// Polynomials through values at Chebyshev's points. L. N. Trefethen, Approximation Theory and Approximation Practice,
+// SIAM (2013), chapters 2 and 3.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace asperity {
+
+/// The zeros of T_n on [-1, 1].
+template <std::size_t n>
+struct ChebyshevZeros {
+  std::array<double, n> point;
+  std::array<std::array<double, n>, n> transform;  // a value at point k adds transform[m][k] to the coefficient of T_m
+
+  ChebyshevZeros() {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / n;
+      point[k] = std::cos(angle);
+      for (std::size_t m = 0; m < n; ++m)
+        transform[m][k] = (m == 0 ? 1.0 : 2.0) / n * std::cos(static_cast<double>(m) * angle);
+    }
+  }
+
+  /// Coefficients of T_0, T_1 ... of the polynomial through values at the points.
+  [[nodiscard]] std::array<double, n> series(const std::array<double, n>& value) const {
+    std::array<double, n> result{};
+    for (std::size_t m = 0; m < n; ++m)
+      for (std::size_t k = 0; k < n; ++k) result[m] += transform[m][k] * value[k];
+    return result;
+  }
+};
+
+/// Coefficients of 1, t, t^2 ... of a Chebyshev series. Those of T_m grow as 2.4^m, so that the digits are kept where
+/// the series falls faster.
+template <std::size_t n>
+std::array<double, n> powers_of(const std::array<double, n>& series) {
+  std::array<double, n> power{}, last{1}, now{0, 1};
+  for (std::size_t m = 0; m < n; ++m) {
+    for (std::size_t i = 0; i < n; ++i) power[i] += series[m] * last[i];
+    std::array<double, n> next{};  // T_m+2 = 2 t T_m+1 - T_m
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i + 1 < n) next[i + 1] += 2 * now[i];
+      next[i] -= last[i];
+    }
+    last = now;
+    now = next;
+  }
+  return power;
+}
+
+/// The integral of a Chebyshev series, 0 at -1.
+template <std::size_t n>
+std::array<double, n + 1> integral_of(const std::array<double, n>& series) {
+  std::array<double, n + 1> result{};
+  for (std::size_t m = 1; m <= n; ++m) {
+    const double below = m == 1 ? 2 * series[0] : series[m - 1], above = m + 1 < n ? series[m + 1] : 0;
+    result[m] = (below - above) / (2 * static_cast<double>(m));
+    result[0] += m % 2 == 0 ? -result[m] : result[m];
+  }
+  return result;
+}
+
+}  // namespace asperity
