@@ -26,10 +26,10 @@ MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
   // loads of the box, and of cells that stand out of it
   double bottom = frame.cuts().front(), top = frame.cuts().back();
   if (frame.load_shift().any()) {
-    const auto [least, most] = frame.load_shift().range();
+    const auto [smallest, largest] = frame.load_shift().range();
     const auto [lowest, highest] = frame.offsets();
-    bottom = least + lowest;
-    top = most + highest;
+    bottom = smallest + lowest;
+    top = largest + highest;
   }
   const double columns = pieces(x_hi - x_lo), rows = pieces(top - bottom);
   strip_ = {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), MapPlace{x_lo, bottom},
