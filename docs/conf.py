@@ -60,6 +60,7 @@ sphinx_gallery_conf = {
     "show_signature": False,
     "remove_config_comments": True,
     "abort_on_example_error": True,
+    "capture_repr": (),
     "min_reported_time": 5,
     "image_scrapers": ("matplotlib",),
     "image_srcset": ["2x"],
