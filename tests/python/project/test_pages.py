@@ -175,8 +175,7 @@ def test_the_page_of_scenes_has_every_key() -> None:
     tables = [surface._SURFACE, rubber._RUBBER, parts._ADHESION, *parts._CORRECTIONS.values()]
     tables += [scene._CONDITIONS, scene._SOLVER, scene._UNCERTAINTY]
     missing = {key for table in tables for key in table if f"`{key}`" not in page}
-    # told of in words: reference_temperature_k or `_c`
-    assert missing <= {"reference_temperature_c"}
+    assert missing == set()
     kinds = PAGES["docs/howto/which_correction.md"]
     assert [kind for kind in parts._CORRECTIONS if f"`{kind}`" not in kinds] == []
 
