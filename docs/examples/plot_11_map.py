@@ -29,12 +29,12 @@ pressure = np.geomspace(1.01e4, 0.99e6, 80)[:, None]
 velocity = np.geomspace(1.01e-6, 0.99, 120)
 
 figure, axes = plt.subplots(layout="constrained")
+axes.set(xscale="log", yscale="log", xlabel="sliding velocity [m/s]", ylabel="pressure [Pa]")
 mu = made.mu(pressure, velocity)
 filled = axes.contourf(velocity, pressure[:, 0], mu, 12, cmap="cividis")
 lines = axes.contour(velocity, pressure[:, 0], mu, filled.levels[1:-1:2], colors="white")
 axes.clabel(lines, fmt="%.2g")
 figure.colorbar(filled, label="friction coefficient [-]")
-axes.set(xscale="log", yscale="log", xlabel="sliding velocity [m/s]", ylabel="pressure [Pa]")
 
 # %%
 # Cells, certified relative error, and how many of the random points were beyond it.

@@ -28,6 +28,10 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     pressure = _inside(made.pressure, _PRESSURES)[:, None]
     velocity = _inside(made.velocity, _VELOCITIES)[None, :]
     figure, (left, right) = new_figure(2)
+    for axes in (left, right):  # before the levels are labelled, which need to know the scales
+        _label(axes)
+        axes.set_xlim(made.velocity)
+        axes.set_ylim(made.pressure)
     mu = made.mu(pressure, velocity)
     ticks = MaxNLocator(8).tick_values(float(mu.min()), float(mu.max()))
     filled = left.contourf(velocity[0], pressure[:, 0], mu, 200, cmap=shades())
@@ -49,10 +53,6 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     figure.colorbar(drawn, ax=right, label="Relative error of $\\mu$ [-]", extend="both")
     beyond = f"{made.exceeded} of {made.checked:,} random points beyond"
     right.set_title(f"{made.cells} cells, certified: {worst:.2g}; {beyond}", fontsize="small")
-    for axes in (left, right):
-        _label(axes)
-        axes.set_xlim(made.velocity)
-        axes.set_ylim(made.pressure)
     return picture(figure, path)
 
 
