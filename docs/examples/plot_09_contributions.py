@@ -3,7 +3,7 @@ Which wavelengths and frequencies make the friction
 ===================================================
 
 ``contributions=True`` tells how much of the hysteresis each wavenumber makes, and how much each
-decade of frequency.
+decade of frequency. Here the spectrum is not cut at a slope, so that many decades take part.
 """
 
 import matplotlib.pyplot as plt
@@ -12,7 +12,6 @@ import numpy as np
 import asperity
 
 road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-road = road.truncated(q1=road.cutoff_for_slope(1.3))
 rubber = asperity.PronySeries(
     equilibrium_modulus=3e6,
     moduli=10 ** np.linspace(6, 9, 16),
@@ -33,6 +32,6 @@ for velocity, density, share in zip(
 ):
     left.plot(result.wavenumber, density, label=f"{velocity:.0e} m/s")
     right.stairs(100 * share, np.log10(result.decade_edges), label=f"{velocity:.0e} m/s")
-left.set(xscale="log", xlabel="wavenumber [1/m]", ylabel="d mu / d ln q [-]")
+left.set(xscale="log", yscale="log", xlabel="wavenumber [1/m]", ylabel="d mu / d ln q [-]")
 left.legend()
 right.set(xlabel="log10 of angular frequency [rad/s]", ylabel="share of the hysteresis [%]")
