@@ -48,7 +48,9 @@ def parser() -> argparse.ArgumentParser:
     def pictures(to: argparse.ArgumentParser) -> None:
         to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
         to.add_argument(
-            "--style", choices=STYLES, help="of the picture (default: print; dark: for screens)"
+            "--style",
+            choices=STYLES,
+            help="of the picture: print (default), single for one of two columns, dark for screens",
         )
 
     def outputs(to: argparse.ArgumentParser) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.plot.style import colours, grey, palette, shades
+from asperity.plot.style import colours, grey, narrow, palette, shades
 from asperity.scene.scene import Curves, Scene
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 FORMATS = (".png", ".svg", ".pdf")
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
+_COLUMN = 3.4  # inches, of a journal of two columns
 _DASHES = ("-", "--", ":", "-.")
 _PRESSURE, _VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
 
@@ -91,8 +92,16 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     axes.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
     if axes.get_legend_handles_labels()[1]:
-        figure.legend(loc="outside right upper")
+        legend_beside(figure)
     return picture(figure, path)
+
+
+def legend_beside(figure: "Figure", *entries: Any) -> None:
+    """A legend to the right of the panels, or above those of a single column."""
+    if narrow():
+        figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small")
+    else:
+        figure.legend(*entries, loc="outside right upper")
 
 
 def area_figure(
@@ -188,13 +197,17 @@ def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> Non
 
 
 def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
-    """A figure of one to three panels in a row, or of two rows of two to four."""
+    """A figure of one to three panels in a row, or of two rows of two to four; in a single column
+    all of them under one another."""
     from matplotlib.figure import Figure
 
     rows = 1 if panels < 4 else 2
     columns = panels // rows
     width = {1: 6.6, 2: 9.0, 3: 13.0, 4: 10.0, 6: 13.0, 8: 16.0}[panels]
-    figure = Figure(figsize=(width, 3.5 if rows == 1 else 7.2), layout="constrained")
+    size = (width, 3.5 if rows == 1 else 7.2)
+    if narrow():
+        rows, columns, size = panels, 1, (_COLUMN, 2.6 * panels)
+    figure = Figure(figsize=size, layout="constrained")
     drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
     for axes in drawn:
         axes.tick_params(which="both", direction="in", top=True, right=True)

@@ -11,12 +11,13 @@ from asperity.adhesion import AdhesionFit
 from asperity.plot.curves import (
     MOST_ENTRIES,
     band_text,
+    legend_beside,
     new_figure,
     picture,
     pressure_text,
     shaded,
 )
-from asperity.plot.style import colours, grey, paper
+from asperity.plot.style import colours, grey, narrow, paper
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 
 if TYPE_CHECKING:
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> bytes:
     """Points, total, hysteresis and adhesion: the original theory, and beside it the modified."""
     figure, panels = new_figure(len(fits))
-    figure.set_size_inches(4.6 * len(fits) + 2.2, 3.9)
+    if not narrow():
+        figure.set_size_inches(4.6 * len(fits) + 2.2, 3.9)
     titles = ["(a) original", "(b) modified"] if len(fits) == 2 else ["original"]
     if len(fits) == 1 and fits[0].scene.correction is not None:
         titles = ["modified"]
@@ -44,7 +46,7 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    figure.legend(list(entries.values()), list(entries), loc="outside right upper")
+    legend_beside(figure, list(entries.values()), list(entries))
     return picture(figure, path)
 
 

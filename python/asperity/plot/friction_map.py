@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from asperity.friction_map import FrictionMap
 from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import shades
+from asperity.plot.style import narrow, shades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,8 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     drawn.set_rasterized(True)
     figure.colorbar(drawn, ax=right, label="Relative error of $\\mu$ [-]", extend="both")
     beyond = f"{made.exceeded} of {made.checked:,} random points beyond"
-    right.set_title(f"{made.cells} cells, certified: {worst:.2g}; {beyond}", fontsize="small")
+    gap = "\n" if narrow() else " "
+    right.set_title(f"{made.cells} cells, certified: {worst:.2g};{gap}{beyond}", fontsize="small")
     return picture(figure, path)
 
 

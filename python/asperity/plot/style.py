@@ -1,4 +1,4 @@
-"""Styles of pictures: colours on paper, and on dark screens."""
+"""Styles of pictures: the width of a page or of one column on paper, and dark screens."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -10,13 +10,14 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
 
-STYLES = ("print", "dark")
+STYLES = ("print", "single", "dark")
 
 # Okabe and Ito's palette, told apart by colour-blind readers; more curves than it has take cividis.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 # the same where black was white, bright ones first
 _ON_DARK = ("#56B4E9", "#E69F00", "#2FC7A0", "#E29BC4", "#F0E442", "#E8703A", "#FFFFFF")
 _DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
+_NARROW = {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4}
 _style: ContextVar[str] = ContextVar("style", default="print")
 
 
@@ -32,11 +33,17 @@ def drawn_in(style: str) -> Iterator[None]:
     ) | dict.fromkeys(
         ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), ink
     )
+    settings: dict[str, dict[str, Any]] = {"dark": dark, "single": _NARROW}
     try:
-        with rc_context(dark if style == "dark" else {}):  # type: ignore[arg-type]
+        with rc_context(settings.get(style, {})):  # type: ignore[arg-type]
             yield
     finally:
         _style.reset(token)
+
+
+def narrow() -> bool:
+    """Whether the picture is as wide as one of two columns: its panels stand under one another."""
+    return _style.get() == "single"
 
 
 def palette() -> Sequence[str]:

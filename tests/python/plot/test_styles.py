@@ -112,6 +112,23 @@ def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str)
         assert low <= corner.min() <= corner.max() <= high
 
 
+@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
+def test_a_picture_of_a_single_column_is_as_wide_as_one(
+    folder: Path, figures: list[Any], verb: str
+) -> None:
+    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
+    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
+    assert main([*arguments, "--plot", "a.png", "--style", "single"]) == 0
+    (figure,) = figures
+    assert figure.get_size_inches()[0] == pytest.approx(3.4)
+    panels = [axes for axes in figure.axes if axes not in bars(figure)]
+    lefts = [axes.get_position().x0 for axes in panels]
+    assert max(lefts) - min(lefts) < 0.2
+    for text in figure.findobj(lambda one: hasattr(one, "get_fontsize")):
+        assert not text.get_text() or 4 <= text.get_fontsize() <= 10
+
+
 def test_a_style_goes_with_a_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["friction", "scene.toml", "--style", "dark"]) == 2
     assert "--style: goes with --plot" in capsys.readouterr().err
