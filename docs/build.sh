@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
-"$python" -c 'import asperity, furo, myst_parser, sphinx_copybutton, sphinx_gallery' || {
+"$python" -c 'import asperity, furo, myst_parser, sphinx_copybutton, sphinx_gallery' 2>/dev/null || {
   echo "docs/build.sh: $python lacks what the documentation is built with: pip install '.[docs]'" >&2
   exit 3
 }
