@@ -17,6 +17,7 @@ __all__ = [
     "GreenwoodWilliamson",
     "LocalPeaks",
     "NayakSFactor",
+    "PartialContact",
     "PeaksThenGreenwoodWilliamson",
     "SFactor",
 ]
@@ -92,6 +93,40 @@ class NayakSFactor(Value):
     def __post_init__(self) -> None:
         self._set(friction_gamma=number(self.friction_gamma, "friction_gamma"))
         self._set(_core=_core.NayakSFactor(self.friction_gamma))
+
+
+@value
+class PartialContact(Value):
+    """Area and friction from one sum rule over the stress of all waves, made on exact contacts.
+
+    The source is this project's own work: exact steady sliding contact of viscoelastic half-spaces
+    (`asperity.validation.slide`). With G, I1, I2 of Persson's theory, A(q) = erf(1 / (2 sqrt(kappa
+    G(q)))), A1 = A(q1) and g' = dG / d ln q with q^4 C as its mean over a unit of ln q,
+
+    R = A / (1 + 0.57 sqrt(1 - A1) A^2 g')^2 stands in the integrand of Eq. 22 where A S stands, and
+
+    T = 0.80 A1 (1 - A1)^1.5 g'(q1) (I2(v q) / I2(v q1)) (q1 / q)^3 is what the edges of contacts
+    carry beyond q1, up to 33 q1.
+
+    kappa makes the stress as uneven as Persson's pressure: 2 (int R dG + int T d ln q) is the
+    variance of the distribution that `pressure_distribution` gives, over sigma0^2. The area is A1,
+    the hysteresis 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln q). In complete
+    contact all of it is Persson's theory as it stands.
+
+    Notes
+    -----
+    It needs the rubber up to 33 v q1. Where a measured modulus ends before, I1 and I2 beyond q1
+    keep their last values; the share of the hysteresis from there counts as extrapolated. Only with
+    the exact form of A/A0.
+
+    On the exact contacts that its two numbers were fitted to (168, q1/q0 = 16 to 32, H = 0.8, A/A0
+    from 0.02 to 0.95), mu is off by 3.5 % rms and 9 % at worst, the area by 3.8 and 18 %; on maps
+    unknown to the fit by 3.9 and 9, and 3.8 and 8 %. SFactor and NayakSFactor are off by 25 % rms
+    in mu there. `friction(...).model_error` has the error by speed and load.
+    """
+
+    def __post_init__(self) -> None:
+        self._set(_core=_core.PartialContact())
 
 
 @value
@@ -283,6 +318,7 @@ class PeaksThenGreenwoodWilliamson(Value):
 Correction = (
     SFactor
     | NayakSFactor
+    | PartialContact
     | AffineShift
     | LocalPeaks
     | GreenwoodWilliamson

@@ -10,6 +10,8 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/partial_contact_rule.hpp"
+#include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
@@ -78,6 +80,8 @@ class PointSolver {
         validity_(scene.surface, scene.model.form, q1_),
         solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
     if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
+    if (std::holds_alternative<PartialContact>(scene.model.correction))
+      partial_ = partial_solver(scene.surface, scene.rubber, scene.model, scene.stops);
   }
 
   Point operator()(double pressure, double velocity, const Shift& shift);
@@ -90,17 +94,21 @@ class PointSolver {
   AreaG area_g_;
   ValidityRange validity_;
   Solver solver_;
+  std::unique_ptr<PartialSolver> partial_;  // instead of it
 };
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
   Point at;
-  solver_.solve(pressure, velocity, shift.p);
-  const Solver::Hysteresis& hysteresis = solver_.hysteresis();
+  if (partial_)
+    partial_->solve(pressure, velocity);
+  else
+    solver_.solve(pressure, velocity, shift.p);
+  const Solver::Hysteresis& hysteresis = partial_ ? partial_->hysteresis() : solver_.hysteresis();
   at.hysteresis = hysteresis.value;
   if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
 
-  const double g = solver_.g(q1_);
-  at.contact_area = contact_share(area_g_(g), scene_.model.form);
+  const double g = partial_ ? partial_->g() : solver_.g(q1_);
+  at.contact_area = partial_ ? partial_->area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
   if (scene_.adhesion) {
     at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
@@ -113,11 +121,12 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const bool tabulated = std::holds_alternative<MasterCurve>(scene_.rubber);
   const double angular_error = tabulated ? 3e-13 : 1e-15;
-  const double g_error = solver_.relative_error() + 2 * shift.relative_error + angular_error;
-  const double area_error = sensitivity(false) * g_error;
+  // hysteresis.error of PartialContact has the error of G in it
+  const double g_error = (partial_ ? 0 : solver_.relative_error()) + 2 * shift.relative_error + angular_error;
+  const double area_error = partial_ ? partial_->area_error() + angular_error : sensitivity(false) * g_error;
   at.error_estimate =
       hysteresis.error +
-      at.hysteresis * (sensitivity(scene_.factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
+      at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error + 2 * shift.relative_error + angular_error) +
       at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
@@ -132,10 +141,12 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
 
 void PointSolver::add_contributions(Contributions& c, std::size_t i, double velocity) const {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver_.hysteresis_density(c.wavenumber[j]);
-  const double whole = solver_.hysteresis().value;
+  for (std::size_t j = 0; j < n; ++j)
+    c.dmu_dlnq[i * n + j] =
+        partial_ ? partial_->hysteresis_density(c.wavenumber[j]) : solver_.hysteresis_density(c.wavenumber[j]);
+  const double whole = (partial_ ? partial_->hysteresis() : solver_.hysteresis()).value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver_.shares()) {
+  for (const auto& [lower, upper, hysteresis] : partial_ ? partial_->shares() : solver_.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
@@ -154,7 +165,14 @@ Contributions empty_contributions(const Scene& scene, std::span<const double> pr
     front = std::fmin(
         front, front_width(scene.surface, scene.rubber, {scene.model.poisson_ratio, pressure[i], velocity[i], 1}));
   }
-  Contributions c{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
+  double end = q1;
+  std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
+  if (std::holds_alternative<PartialContact>(scene.model.correction)) {
+    end = q1 * partial_contact::tail_end;
+    const double first = std::nextafter(q1, end);  // the density jumps at q1
+    for (const double q : contribution_wavenumbers(first, end, 1)) wavenumber.push_back(q);
+  }
+  Contributions c{std::move(wavenumber), {}, decades(slowest * q0, fastest * end), {}};
   c.dmu_dlnq.assign(velocity.size() * c.wavenumber.size(), 0.0);
   c.decade_share.assign(velocity.size() * (c.decade_edges.size() - 1), 0.0);
   return c;
