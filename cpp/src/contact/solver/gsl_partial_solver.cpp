@@ -14,8 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double reach = 1.6487212707001281468;  // of the window, exp(1/2)
-static_assert(partial_contact::half_window == 0.5);
+const double reach = std::exp(partial_contact::half_window);
 constexpr std::size_t most_met = 40;
 
 }  // namespace
@@ -26,6 +25,14 @@ GslPartialSolver::GslPartialSolver(std::span<const Segment> surface, const Rubbe
 
 Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const {
   Integral sum{};
+  const auto ratio = [&](double q) {
+    const AngularIntegrals at = angular_integrals(rubber_, velocity_ * q);
+    return at.i1 / at.i2;
+  };
+  // of the whole integral, about: where hardly any stress is, digits may be lost
+  const double size =
+      root.variance *
+      (of == Of::variance ? 1 : std::fmin(ratio(surface_.front().a), ratio(surface_.back().b)));
   for (const auto& [lower, upper] : g_->panels()) {
     const double length = std::log1p((upper - lower) / lower), q0 = lower;
     const auto f = [&](double s) {
@@ -39,7 +46,7 @@ Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector
       return g_factor_ * square * square * c * integral * r;
     };
     const double rtol = of == Of::outside ? 1e-4 : model_.rtol / 10;
-    const Integral part = integrate(f, 0, length, rtol, rtol / 10 * sum.value, rule_);
+    const Integral part = integrate(f, 0, length, rtol, rtol / 100 * std::fmax(sum.value, size), rule_);
     sum.value += part.value;
     sum.error += part.error;
     if (by_panel) by_panel->push_back(part.value);
@@ -53,6 +60,7 @@ Integral GslPartialSolver::beyond(double lower, double upper, Of of) const {
   std::vector<double> edges{std::log(lower), std::log(upper)};
   const std::optional<FrequencyRange> known = known_range(rubber_);
   const double held = known ? known->highest : std::numeric_limits<double>::infinity();
+  const AngularIntegrals at_end = angular_integrals(rubber_, std::fmin(frequency, held));
   const auto cut = [&](double z) {
     if (z > std::log(lower) && z < std::log(upper)) edges.push_back(z);
   };
@@ -65,8 +73,9 @@ Integral GslPartialSolver::beyond(double lower, double upper, Of of) const {
     const auto f = [&](double z) {
       const double w = frequency * std::exp(z);
       const AngularIntegrals at = angular_integrals(rubber_, std::fmin(w, held));
+      const double excess = std::pow(at.i2 / at_end.i2, partial_contact::tail_excess);
       const double value = of == Of::variance ? at.i2 : of == Of::friction || w > held ? at.i1 : at.i1_outside;
-      return value * std::exp(-partial_contact::tail_power * z);
+      return value * excess * std::exp(-partial_contact::tail_power * z);
     };
     const double rtol = of == Of::outside ? 1e-4 : model_.rtol / 10;
     const Integral part = integrate(f, edges[i], edges[i + 1], rtol, rtol / 10 * sum.value, rule_);
@@ -97,18 +106,22 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   check_g(g1_, pressure);
 
   const double window_at_end = g_factor_ * window_(surface_.back().b);
+  const double full_g =
+      g_factor_ * window_.total() * angular_integrals(rubber_, velocity * surface_.back().b).i2;
+  const partial_contact::Band band{partial_contact::end_factor(window_.share_of_end()), 1 - g1_ / full_g};
   const Integral tail = beyond(1, partial_contact::tail_end, Of::variance);
   Integral variance{};
   const auto at_root = [&](double x) {
-    const partial_contact::End end(std::exp(x) * g1_);
     root_.kappa = std::exp(x);
-    root_.share = end.share;
-    root_.share_slope = end.share_slope / end.share;
-    root_.edges = partial_contact::edges(end).value;
-    root_.obstacle = partial_contact::obstacle(end).value;
+    const partial_contact::AtEnd rule(root_.kappa * g1_, root_.kappa, band);
+    root_.share = rule.share;
+    root_.share_slope = rule.share_slope / rule.share;
+    root_.edges = rule.edges.value;
+    root_.obstacle = rule.obstacle.value;
+    root_.variance = rule.integral * rule.spread.value;  // as it will be at the root
     variance = over_band(root_, Of::variance, nullptr);
     root_.variance = variance.value + root_.edges * window_at_end * tail.value;
-    return std::log(end.integral / root_.variance);
+    return std::log(rule.integral * rule.spread.value / root_.variance);
   };
   double lower = -0.3, upper = -0.3, step = 0.1;
   if (at_root(lower) < 0) {

@@ -24,7 +24,7 @@ class PartialPanelSolver : public PartialSolver {
   struct ActivePanel {
     std::size_t panel;
     double g_lower = 0, g_error = 0;  // G at its lower end, at unit load; the relative error of it at its upper end
-    double error = 0;                 // its part of the relative error of mu_H
+    double error = 0;                 // its part of the relative error of mu_H or the area
   };
   void start(double velocity);
   void gather();
@@ -39,8 +39,8 @@ class PartialPanelSolver : public PartialSolver {
   double stiffening_, rtol_, velocity_ = 0;
   std::span<const double> stops_;
   std::vector<double> stop_wavenumbers_;
-  TailIntegrals tail_;
-  double scale_ = 0, mu_factor_ = 0, unit_g_ = 0;
+  PartialEnd end_;  // at unit load
+  double scale_ = 0, mu_factor_ = 0;
   std::vector<ActivePanel> active_, next_;
   std::vector<double> g_, steepness_, weight_, ratio_, stress_;
 };

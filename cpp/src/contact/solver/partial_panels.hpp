@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/rubber.hpp"
+#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_window.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/segments.hpp"
@@ -56,8 +57,9 @@ class PartialPanels {
   [[nodiscard]] Place at(double wavenumber) const;
   /// int dG from the panel's lower end to a wavenumber in it.
   [[nodiscard]] double g_to(const PartialPanel& panel, double wavenumber) const;
-  /// g' / I2 at the end of the spectrum.
+  /// The end of the spectrum at the velocity, where G is `g` at unit load; without what lies beyond.
   [[nodiscard]] double window_at_end() const { return window_at_end_; }
+  [[nodiscard]] partial_contact::Band band(double g) const;
   [[nodiscard]] double y_of(double wavenumber) const;
 
  private:
@@ -69,7 +71,7 @@ class PartialPanels {
   std::span<const Segment> surface_;
   const Rubber& rubber_;
   RoughnessWindow window_;
-  double g_factor_, window_at_end_, velocity_ = 0;
+  double g_factor_, window_at_end_, end_power_, full_g_, velocity_ = 0, i2_at_end_ = 0;
   std::size_t nodes_;
   double foot_ = 0;            // qf [1/m]
   std::vector<double> start_;  // of each segment, in y

@@ -34,9 +34,14 @@ double partial_stress(const PartialRoot& root, double g, double steepness) {
 }
 
 double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x) {
-  double w = frequency * x;
-  if (const auto known = known_range(rubber)) w = std::fmin(w, known->highest);
-  return root.edges * angular_integrals(rubber, w).i1 * std::pow(x, -partial_contact::tail_power);
+  double w = frequency * x, end = frequency;
+  if (const auto known = known_range(rubber)) {
+    w = std::fmin(w, known->highest);
+    end = std::fmin(end, known->highest);
+  }
+  const AngularIntegrals here = angular_integrals(rubber, w);
+  return root.edges * here.i1 * std::pow(here.i2 / angular_integrals(rubber, end).i2, partial_contact::tail_excess) *
+         std::pow(x, -partial_contact::tail_power);
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/contact.hpp"
+#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/panel_solver.hpp"
 #include "contact/solver/partial_loops.hpp"
 #include "contact/solver/partial_tail.hpp"
@@ -19,16 +20,20 @@ struct PartialRoot {
   double kappa = 1;
   double share = 1;                    // A1
   double variance = 0, friction = 0;   // int R dG + int T d ln x, and with I1 / I2 in them; over those of unit load
-  double tail_friction = 0;            // of it
-  double edges = 0, obstacle = 0;      // the factors of T and Z
+  double edges = 0, obstacle = 0;              // the factors of T and Z
   double share_slope = 0, friction_slope = 0;  // of ln A1 and ln friction over ln kappa
   double slope = 0;                    // of ln F - ln variance, which is 0 at the root
 };
 
-/// The root for G1 at the end of the spectrum at unit load. NotConverged where there is none. `stress` has room for R
-/// at each node.
-PartialRoot partial_root(const PartialNodes& nodes, double g1, double scale, const TailIntegrals& tail, double tail_rate,
-                         double rtol, double* stress);
+/// The end of a band at a velocity, at unit load: G1, the window's g' / I2, and what lies beyond.
+struct PartialEnd {
+  double g = 0, window = 0;
+  partial_contact::Band band;
+  TailIntegrals tail;
+};
+
+/// NotConverged where there is no root. `stress` has room for R at each node.
+PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double* stress);
 
 /// Solves points of one surface and rubber.
 class PartialSolver {
@@ -71,7 +76,7 @@ std::unique_ptr<PartialSolver> partial_solver(std::span<const Segment> surface, 
 double partial_stress(const PartialRoot& root, double g, double steepness);
 /// What lies beyond the end q1 of a band, cut at those of the rising `stops` that lie there [1/m].
 std::vector<std::array<double, 2>> tail_stretches(double q1, std::span<const double> stops);
-/// d mu_H / dln q at unit load and window roughness 1 beyond the end, at x = q / q1.
+/// d mu_H / dln q at unit load and window roughness 1 beyond the end, at x = q / q1; `frequency` is v q1.
 double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x);
 
 }  // namespace asperity

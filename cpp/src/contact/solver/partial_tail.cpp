@@ -1,8 +1,11 @@
-// int I x^-3 d ln x, x = q / q1, on Gauss-Legendre panels of ln x that are halved until I1 and I2 are known well enough.
+// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q1, on Gauss-Legendre panels of ln x that are halved
+// until both are known well enough.
 #include "contact/solver/partial_tail.hpp"
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "contact/partial_contact_rule.hpp"
@@ -20,17 +23,19 @@ struct Piece {
   double lower, upper;  // in ln x
 };
 
-TailIntegrals on_piece(const Rubber& rubber, double frequency, const Piece& piece) {
+/// (I2 / I2(v q1))^(1/4) x^-3
+double factor(double of_i2, double x) {
+  static_assert(power == 3 && partial_contact::tail_excess == 0.25);
+  return std::sqrt(std::sqrt(of_i2)) / (x * x * x);
+}
+
+TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
   std::array<double, nodes> w, i1, i2, outside{}, weight;
-  for (std::size_t k = 0; k < nodes; ++k) {
-    const double z = middle + half * rule.node[k], x = std::exp(z);
-    w[k] = frequency * x;
-    weight[k] = half / (x * x * x);
-    static_assert(power == 3);
-  }
+  for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
   const bool any_outside = angular_integrals(rubber, w, i1, i2, outside);
+  for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / i2_at_end, w[k] / frequency);
   TailIntegrals result;
   double tail[LegendreRule::kept];
   if (any_outside)
@@ -59,18 +64,21 @@ void add(TailIntegrals& to, const TailIntegrals& part) {
 
 TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lower, double upper, double rtol) {
   double from = std::log(lower), to = std::log(upper);
+  const std::optional<FrequencyRange> known = known_range(rubber);
+  const double highest = known ? known->highest : std::numeric_limits<double>::infinity();
+  const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest)).i2;
   TailIntegrals held;
-  if (const auto known = known_range(rubber); known && known->highest < frequency * upper) {
-    const double at = std::fmax(lower, known->highest / frequency);
-    const AngularIntegrals last = angular_integrals(rubber, known->highest);
-    const double integral = (std::pow(at, -power) - std::pow(upper, -power)) / power;
+  if (highest < frequency * upper) {
+    const double at = std::fmax(lower, highest / frequency);
+    const AngularIntegrals last = angular_integrals(rubber, highest);
+    const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
     held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0};
     to = std::log(at);
   }
   if (!(to > from)) return held;
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   std::vector<Piece> pieces{{from, to}};
-  std::vector<TailIntegrals> values{on_piece(rubber, frequency, pieces.front())};
+  std::vector<TailIntegrals> values{on_piece(rubber, frequency, i2_at_end, pieces.front())};
   constexpr std::size_t most_pieces = 1000;
   for (;;) {
     TailIntegrals sum = held;
@@ -84,9 +92,9 @@ TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lowe
       const Piece whole = pieces[i];
       const double middle = (whole.lower + whole.upper) / 2;
       pieces[i] = {whole.lower, middle};
-      values[i] = on_piece(rubber, frequency, pieces[i]);
+      values[i] = on_piece(rubber, frequency, i2_at_end, pieces[i]);
       pieces.push_back({middle, whole.upper});
-      values.push_back(on_piece(rubber, frequency, pieces.back()));
+      values.push_back(on_piece(rubber, frequency, i2_at_end, pieces.back()));
     }
   }
 }

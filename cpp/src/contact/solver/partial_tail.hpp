@@ -5,7 +5,7 @@
 
 namespace asperity {
 
-/// int I x^-3 d ln x for I1 and I2 from x = q / q1 = 1 to the rule's end, and the errors of them.
+/// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I1 and I2, x = q / q1, and the errors of them.
 struct TailIntegrals {
   double i1 = 0, i2 = 0;
   double i1_outside = 0;  // part of i1 from frequencies outside of the measured range

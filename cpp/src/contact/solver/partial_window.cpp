@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "contact/partial_contact_rule.hpp"
 
@@ -31,15 +32,26 @@ double RoughnessWindow::between(double lower, double upper) const {
   return (from.moment(3, from.b) - head) + whole + to.moment(3, upper);
 }
 
+namespace {
+
+const double reach = std::exp(partial_contact::half_window);
+
+}  // namespace
+
 double RoughnessWindow::operator()(double wavenumber) const {
-  static const double reach = std::exp(partial_contact::half_window);
   const double lower = std::fmax(wavenumber / reach, surface_.front().a);
   const double upper = std::fmin(wavenumber * reach, surface_.back().b);
-  return std::fmax(0, between(lower, upper)) / std::log1p((upper - lower) / lower);
+  return std::fmax(0, between(lower, upper)) / (2 * partial_contact::half_window);
+}
+
+double RoughnessWindow::total() const { return before_.back() + surface_.back().moment(3, surface_.back().b); }
+
+double RoughnessWindow::share_of_end() const {
+  const double end = surface_.back().b;
+  return between(std::fmax(end / std::numbers::e, surface_.front().a), end) / total();
 }
 
 std::vector<double> RoughnessWindow::ends() const {
-  static const double reach = std::exp(partial_contact::half_window);
   return {surface_.front().a * reach, surface_.back().b / reach};
 }
 

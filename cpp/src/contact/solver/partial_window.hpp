@@ -1,4 +1,4 @@
-// The roughness of a unit of ln q about a wavenumber, which PartialContact compares with the local pressure.
+// The roughness about a wavenumber, which PartialContact compares with the local pressure.
 #pragma once
 
 #include <span>
@@ -8,12 +8,15 @@
 
 namespace asperity {
 
-/// The mean of c = q^4 C over the part of [ln q - 1/2, ln q + 1/2] that lies on the band: it depends on the surface
-/// alone, and single rows of a measured spectrum have a small part in it.
+/// The mean of c = q^4 C over a window of ln q about the wavenumber, c being 0 off the band: it depends on the surface alone, and
+/// single rows of a measured spectrum have a small part in it.
 class RoughnessWindow {
  public:
   explicit RoughnessWindow(std::span<const Segment> surface);
   [[nodiscard]] double operator()(double wavenumber) const;
+  /// int c d ln q over the band, and the share of the last unit of ln q in it.
+  [[nodiscard]] double total() const;
+  [[nodiscard]] double share_of_end() const;
   /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
   [[nodiscard]] std::vector<double> ends() const;
 
