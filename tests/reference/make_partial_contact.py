@@ -206,7 +206,15 @@ def band(scene, integrals, between, rule, first, growth, longest):
     end = np.array([end])
     last, whole = (between(end - back, end)[0] for back in (1, 2 * (end - start)))
     at_end = stiff**2 / 8 * whole * integrals(scene["velocity"] * np.exp(end))[1][0]
-    return g, rate * weights, steepness, i1 / i2, before[-1], 2 * last / whole, 1 - before[-1] / at_end
+    return (
+        g,
+        rate * weights,
+        steepness,
+        i1 / i2,
+        before[-1],
+        2 * last / whole,
+        1 - before[-1] / at_end,
+    )
 
 
 def tail_in_logarithm(scene, integrals, between):

@@ -41,7 +41,8 @@ struct NayakSFactor {
 /// A(q) = erf(1 / (2 sqrt(kappa G))) and A1 that at q1: the integrand of Eq. 22 is multiplied by R = A / (1 + Z)^2,
 /// Z = 0.57 sqrt(1 - A1) A^2 g', g' = dG / d ln q with q^4 C as its mean over a unit of ln q, and edges of contacts
 /// carry stress beyond q1, T = 0.80 A1 (1 - A1)^1.5 g'(q1) (I2(v q) / I2(v q1)) (q1 / q)^3 up to 33 q1. kappa is such
-/// that 2 (int R dG + int T d ln q) is the variance of Persson's pressure over sigma0^2. The area is A1. Exact form only.
+/// that 2 (int R dG + int T d ln q) is the variance of Persson's pressure over sigma0^2. The area is A1. Exact form
+/// only.
 struct PartialContact {
   bool operator==(const PartialContact&) const = default;
 };

@@ -85,7 +85,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
 }
 
 /// The same by the rule of PartialContact, on the surface that ends at each wavenumber: visit(index of point, index of
-/// wavenumber, G there times kappa).
+/// wavenumber, G there times kappa, A / A0).
 template <class Visit>
 void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                    std::span<const double> pressure, std::span<const double> velocity,
@@ -97,7 +97,7 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   for (std::size_t j = 0; j < wavenumber.size(); ++j) {
     heed();
     if (wavenumber[j] <= q0) {
-      for (const std::size_t i : order) visit(i, j, 0.0);
+      for (const std::size_t i : order) visit(i, j, 0.0, 1.0);
       continue;
     }
     const std::vector<Segment> surface = surface_up_to(spectrum, wavenumber.subspan(j, 1));
@@ -105,7 +105,7 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
     for (const std::size_t i : order) {
       heed();
       at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
-      visit(i, j, solver->kappa() * solver->g());
+      visit(i, j, solver->kappa() * solver->g(), solver->area());
     }
   }
 }
@@ -120,9 +120,8 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   std::vector<double> result(pressure.size() * q.size());
   if (by_partial_contact(model)) {
-    visit_partial(spectrum, rubber, model, pressure, velocity, q, [&](std::size_t i, std::size_t j, double g) {
-      result[i * q.size() + j] = contact_share(g, Form::exact);
-    });
+    visit_partial(spectrum, rubber, model, pressure, velocity, q,
+                  [&](std::size_t i, std::size_t j, double, double area) { result[i * q.size() + j] = area; });
     return result;
   }
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
@@ -218,7 +217,7 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   };
   if (by_partial_contact(model)) {
     visit_partial(spectrum, rubber, model, pressure, velocity, q,
-                  [&](std::size_t i, std::size_t, double g) { at_g(i, g); });
+                  [&](std::size_t i, std::size_t, double g, double) { at_g(i, g); });
     return result;
   }
   const std::vector<Segment> surface = surface_up_to(spectrum, q);

@@ -1,12 +1,12 @@
 // The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond its end.
-// With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M(q1) = int c d ln q over the band, e1 the share of its last unit of
-// ln q in M, rho = K I2(v q1) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
+// With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M(q1) = int c d ln q over the band, e1 the share of its last unit
+// of ln q in M, rho = K I2(v q1) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
 //   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
 //     Z = obstacle (2 e1)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
 //     g' = K I2(v q) (int c d ln q from q / e to e q) / 2, c being 0 off the band;
 //   T(x) = edges A1 (1 - A1^(1/4)) g'(q1) (I2(v q) / I2(v q1))^1.25 x^-3 beyond it, x = q / q1 from 1 to tail_end.
-// kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but for
-// a factor near 1:
+// kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
+// for a factor near 1:
 //   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8)).
 // In complete contact R = 1, T = 0 and kappa = 1. The form came from the stress spectra of exact sliding contacts, the
 // numbers were fitted to their area and friction. F and G as in B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).

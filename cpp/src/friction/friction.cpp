@@ -124,10 +124,10 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   // hysteresis.error of PartialContact has the error of G in it
   const double g_error = (partial_ ? 0 : solver_.relative_error()) + 2 * shift.relative_error + angular_error;
   const double area_error = partial_ ? partial_->area_error() + angular_error : sensitivity(false) * g_error;
-  at.error_estimate =
-      hysteresis.error +
-      at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error + 2 * shift.relative_error + angular_error) +
-      at.adhesion * area_error;
+  at.error_estimate = hysteresis.error +
+                      at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error +
+                                       2 * shift.relative_error + angular_error) +
+                      at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
                        " where rtol = " + show(scene_.model.rtol) + " was asked for");

@@ -8,8 +8,8 @@
 
 namespace asperity {
 
-/// Root of f between `a` and `b`, whose signs there differ, to rounding or `tolerance`: the Illinois form of the false position,
-/// with a bisection wherever it fails to halve the bracket. (M. Dowell, P. Jarratt, BIT 11, 168 (1971).)
+/// Root of f between `a` and `b`, whose signs there differ, to rounding or `tolerance`: the Illinois form of the false
+/// position, with a bisection wherever it fails to halve the bracket. (M. Dowell, P. Jarratt, BIT 11, 168 (1971).)
 template <class F>
 double bracketed_root(F&& f, double a, double b, double tolerance = 0) {
   double fa = f(a), fb = f(b);

@@ -21,7 +21,12 @@ constexpr std::size_t most_met = 40;
 
 GslPartialSolver::GslPartialSolver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
                                    std::span<const double> stops)
-    : surface_(surface), rubber_(rubber), model_(model), stops_(stops), window_(surface), rule_(adaptive_rule(model.method)) {}
+    : surface_(surface),
+      rubber_(rubber),
+      model_(model),
+      stops_(stops),
+      window_(surface),
+      rule_(adaptive_rule(model.method)) {}
 
 Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const {
   Integral sum{};
@@ -31,8 +36,7 @@ Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector
   };
   // of the whole integral, about: where hardly any stress is, digits may be lost
   const double size =
-      root.variance *
-      (of == Of::variance ? 1 : std::fmin(ratio(surface_.front().a), ratio(surface_.back().b)));
+      root.variance * (of == Of::variance ? 1 : std::fmin(ratio(surface_.front().a), ratio(surface_.back().b)));
   for (const auto& [lower, upper] : g_->panels()) {
     const double length = std::log1p((upper - lower) / lower), q0 = lower;
     const auto f = [&](double s) {
@@ -106,8 +110,7 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   check_g(g1_, pressure);
 
   const double window_at_end = g_factor_ * window_(surface_.back().b);
-  const double full_g =
-      g_factor_ * window_.total() * angular_integrals(rubber_, velocity * surface_.back().b).i2;
+  const double full_g = g_factor_ * window_.total() * angular_integrals(rubber_, velocity * surface_.back().b).i2;
   const partial_contact::Band band{partial_contact::end_factor(window_.share_of_end()), 1 - g1_ / full_g};
   const Integral tail = beyond(1, partial_contact::tail_end, Of::variance);
   Integral variance{};
@@ -153,9 +156,10 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   if (series == nullptr || series->fitted_range())
     outside = over_band(root_, Of::outside, nullptr).value +
               root_.edges * window_at_end * beyond(1, partial_contact::tail_end, Of::outside).value;
-  hysteresis_ = {mu_factor_ * friction.value,
-                 mu_factor_ * (friction.error + friction.value * (friction_slope * of_kappa + 2 * g_->relative_error())),
-                 mu_factor_ * outside};
+  hysteresis_ = {
+      mu_factor_ * friction.value,
+      mu_factor_ * (friction.error + friction.value * (friction_slope * of_kappa + 2 * g_->relative_error())),
+      mu_factor_ * outside};
   area_error_ = std::fabs(root_.share_slope) * of_kappa + g_->relative_error() / 2;
 }
 
@@ -183,8 +187,9 @@ std::vector<PanelSolver::PanelShare> GslPartialSolver::shares() const {
   if (g1_ == 0) return result;
   const double q1 = surface_.back().b;
   for (const auto& [lower, upper] : tail_stretches(q1, stop_wavenumbers_))
-    result.push_back({lower, upper,
-                      mu_factor_ * root_.edges * g_factor_ * window_(q1) * beyond(lower / q1, upper / q1, Of::friction).value});
+    result.push_back(
+        {lower, upper,
+         mu_factor_ * root_.edges * g_factor_ * window_(q1) * beyond(lower / q1, upper / q1, Of::friction).value});
   return result;
 }
 

@@ -21,8 +21,8 @@ constexpr double passed_on = 2;
 constexpr double for_tail = 0.02;  // of the tolerance
 
 /// What a rule in sqrt(G) misses of int R dG beside G = 0, where A leaves 1 / sqrt(pi G), and where R leaves A, at G of
-/// about s = Z / A^2. It depends on G at the first node, whatever the number of nodes. Measured at n = 12 and 16, G from
-/// 1e-6 to 1e12 and s from 0 to 1e8.
+/// about s = Z / A^2. It depends on G at the first node, whatever the number of nodes. Measured at n = 12 and 16, G
+/// from 1e-6 to 1e12 and s from 0 to 1e8.
 double foot_error(double g, double s) {
   const double z = std::sqrt(g), root = 1 / std::cbrt(z);
   const double exponent = std::min({0.45 / z, 0.92 * root * root, 3.1 * root});
@@ -62,7 +62,8 @@ void PartialPanelSolver::gather() {
   for (ActivePanel& active : active_) {
     const PartialPanel& p = panels_[active.panel];
     const std::size_t n = p.rule->n;
-    const double *const cumulative = panels_.row(p, PartialPanel::cumulative), *const rate = panels_.row(p, PartialPanel::rate),
+    const double *const cumulative = panels_.row(p, PartialPanel::cumulative),
+                        *const rate = panels_.row(p, PartialPanel::rate),
                         *const steepness = panels_.row(p, PartialPanel::steepness),
                         *const ratio = panels_.row(p, PartialPanel::ratio);
     active.g_lower = g;
@@ -95,10 +96,9 @@ double PartialPanelSolver::judge() {
     const std::size_t n = p.rule->n;
     const double *const rate = panels_.row(p, PartialPanel::rate), *const ratio = panels_.row(p, PartialPanel::ratio);
     const double per_scale = 1 / (root_.kappa * scale_);
-    const double at_foot =
-        p.root && p.lower == 0
-            ? per_scale * foot_error(root_.kappa * scale_ * g_[0], root_.obstacle * scale_ * steepness_[0])
-            : 0;
+    const double at_foot = p.root && p.lower == 0 ? per_scale * foot_error(root_.kappa * scale_ * g_[0],
+                                                                           root_.obstacle * scale_ * steepness_[0])
+                                                  : 0;
     for (std::size_t i = 0; i < n; ++i) f[i] = rate[i] * stress_[first + i];
     loops.add_up(*p.rule, f, &total, tail);
     const double variance = (rule_error(tail) + at_foot + passed_on * active.g_error * total) * variance_share;
@@ -118,7 +118,8 @@ double PartialPanelSolver::judge() {
   // F at the end of the spectrum has the error of G there
   const double of_f = active_.empty() ? 0 : active_.back().g_error;
   const double in_tail = root_.edges * end_.window;
-  const double tail_variance = in_tail * end_.tail.i2_error * variance_share, tail_friction = in_tail * end_.tail.i1_error * friction_share;
+  const double tail_variance = in_tail * end_.tail.i2_error * variance_share,
+               tail_friction = in_tail * end_.tail.i1_error * friction_share;
   of_mu += tail_friction + kappa_on_mu * (tail_variance + of_f);
   of_area += kappa_on_area * (tail_variance + of_f) + of_f / 2;
   hysteresis_ = {mu_factor_ * root_.friction, mu_factor_ * root_.friction * of_mu,
@@ -197,8 +198,7 @@ double PartialPanelSolver::stress(double wavenumber) const {
 double PartialPanelSolver::hysteresis_density(double wavenumber) const {
   if (active_.empty()) return 0;
   const double q1 = surface_.back().b;
-  if (wavenumber > q1)
-    return mu_factor_ * end_.window * partial_edges(root_, rubber_, velocity_ * q1, wavenumber / q1);
+  if (wavenumber > q1) return mu_factor_ * end_.window * partial_edges(root_, rubber_, velocity_ * q1, wavenumber / q1);
   const PartialPanels::Place here = panels_.at(wavenumber);
   return mu_factor_ * here.rate * here.ratio * stress(wavenumber);
 }

@@ -15,8 +15,8 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t most = LegendreRule::most;
-constexpr double longest = 2;      // in y: I1 and I2 of a Prony series have singularities pi / 2 off the axis
-constexpr double root_reach = 1;   // panels that begin before have t as their variable
+constexpr double longest = 2;     // in y: I1 and I2 of a Prony series have singularities pi / 2 off the axis
+constexpr double root_reach = 1;  // panels that begin before have t as their variable
 constexpr double rounding = 4e-16;
 /// Tables of more rows have too many for panels of their own where the window meets each of them.
 constexpr std::size_t most_met = 40;
@@ -51,7 +51,8 @@ void PartialPanels::nodes_of(const PartialPanel& p, double upper, double* wavenu
     const double t = middle + half * p.rule->node[i], y = p.root ? t * t : t;
     const double q = foot_ * std::exp(y), square = q * q;
     wavenumber[i] = q;
-    roughness[i] = g_factor_ * square * square * segment.density_at(y - start_[p.segment]) * half * (p.root ? 2 * t : 1);
+    roughness[i] =
+        g_factor_ * square * square * segment.density_at(y - start_[p.segment]) * half * (p.root ? 2 * t : 1);
   }
 }
 
@@ -84,9 +85,9 @@ void PartialPanels::fill(PartialPanel& p) {
   }
   // dG begins as t at the foot, and as t^3 on a ramp from zero
   const bool at_foot = p.root && p.lower == 0;
-  const auto& columns = !at_foot                          ? p.rule->cumulative
+  const auto& columns = !at_foot                       ? p.rule->cumulative
                         : surface_[p.segment].at_a > 0 ? p.rule->cumulative_linear
-                                                          : p.rule->cumulative_cubic;
+                                                       : p.rule->cumulative_cubic;
   kernels().integrate(*p.rule, columns, rows + PartialPanel::rate * n, rows + PartialPanel::cumulative * n, &p.g_total,
                       tail);
   p.g_error = rule_error(tail) + rounding * p.g_total;
@@ -139,8 +140,8 @@ void PartialPanels::lay_out(std::span<const double> stops) {
         panel.lower = j == 0 ? edges[k] : edges[k] + length * (j / pieces);
         panel.upper = j + 1 == pieces ? edges[k + 1] : edges[k] + length * ((j + 1) / pieces);
         panel.root = panel.lower < root_reach;
-        panel.rule = &legendre_rule(panel.upper - panel.lower < 0.05 && panel.lower > panel.upper - panel.lower ? 8
-                                                                                                                 : nodes_);
+        panel.rule =
+            &legendre_rule(panel.upper - panel.lower < 0.05 && panel.lower > panel.upper - panel.lower ? 8 : nodes_);
         roots_.push_back(add(panel));
       }
     }

@@ -62,12 +62,13 @@ PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, doubl
       return at;
     }
     double next = x + step;
-    if (!(next > below && next < above)) next = std::isfinite(below) && std::isfinite(above) ? (below + above) / 2 : next;
+    if (!(next > below && next < above))
+      next = std::isfinite(below) && std::isfinite(above) ? (below + above) / 2 : next;
     if (next == x) break;
     x = next;
   }
-  throw NotConverged("the root of PartialContact's rule: at kappa = " + show(std::exp(x)) + " for G = " +
-                     show(end.g * scale));
+  throw NotConverged("the root of PartialContact's rule: at kappa = " + show(std::exp(x)) +
+                     " for G = " + show(end.g * scale));
 }
 
 }  // namespace asperity

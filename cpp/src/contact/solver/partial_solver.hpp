@@ -18,11 +18,11 @@ namespace asperity {
 /// kappa, with the areas and sums that belong to it (contact/partial_contact_rule.hpp).
 struct PartialRoot {
   double kappa = 1;
-  double share = 1;                    // A1
-  double variance = 0, friction = 0;   // int R dG + int T d ln x, and with I1 / I2 in them; over those of unit load
-  double edges = 0, obstacle = 0;              // the factors of T and Z
+  double share = 1;                   // A1
+  double variance = 0, friction = 0;  // int R dG + int T d ln x, and with I1 / I2 in them; over those of unit load
+  double edges = 0, obstacle = 0;     // the factors of T and Z
   double share_slope = 0, friction_slope = 0;  // of ln A1 and ln friction over ln kappa
-  double slope = 0;                    // of ln F - ln variance, which is 0 at the root
+  double slope = 0;                            // of ln F - ln variance, which is 0 at the root
 };
 
 /// The end of a band at a velocity, at unit load: G1, the window's g' / I2, and what lies beyond.

@@ -1,5 +1,5 @@
-// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q1, on Gauss-Legendre panels of ln x that are halved
-// until both are known well enough.
+// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q1, on Gauss-Legendre panels of ln x that are
+// halved until both are known well enough.
 #include "contact/solver/partial_tail.hpp"
 
 #include <array>

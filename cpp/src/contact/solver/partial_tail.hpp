@@ -12,8 +12,8 @@ struct TailIntegrals {
   double i1_error = 0, i2_error = 0;
 };
 
-/// From x = `lower` to `upper`, for the frequency v q1. Beyond the frequencies that are known, I1 and I2 keep the values
-/// that they have at the last of them.
+/// From x = `lower` to `upper`, for the frequency v q1. Beyond the frequencies that are known, I1 and I2 keep the
+/// values that they have at the last of them.
 TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lower, double upper, double rtol);
 
 }  // namespace asperity

@@ -51,8 +51,6 @@ double RoughnessWindow::share_of_end() const {
   return between(std::fmax(end / std::numbers::e, surface_.front().a), end) / total();
 }
 
-std::vector<double> RoughnessWindow::ends() const {
-  return {surface_.front().a * reach, surface_.back().b / reach};
-}
+std::vector<double> RoughnessWindow::ends() const { return {surface_.front().a * reach, surface_.back().b / reach}; }
 
 }  // namespace asperity

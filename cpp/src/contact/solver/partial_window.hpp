@@ -8,8 +8,8 @@
 
 namespace asperity {
 
-/// The mean of c = q^4 C over a window of ln q about the wavenumber, c being 0 off the band: it depends on the surface alone, and
-/// single rows of a measured spectrum have a small part in it.
+/// The mean of c = q^4 C over a window of ln q about the wavenumber, c being 0 off the band: it depends on the surface
+/// alone, and single rows of a measured spectrum have a small part in it.
 class RoughnessWindow {
  public:
   explicit RoughnessWindow(std::span<const Segment> surface);
