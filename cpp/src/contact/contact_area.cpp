@@ -9,6 +9,7 @@
 #include "asperity/contact.hpp"
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/model_error.hpp"
 #include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
@@ -144,9 +145,14 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
   ValidityRange validity(surface, model.form, q1);
+  ModelError model_error(model.correction, spectrum, rubber);
+  double last = 0;
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
+            ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
+            if (velocity[i] != last) model_error.start(last = velocity[i]);
+            if (!std::isnan(model_error(g))) flags.regime = model_error.regime();
+            notes.add(shift, velocity[i], 0, flags);
           });
   return notes.texts();
 }

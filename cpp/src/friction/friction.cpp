@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/model_error.hpp"
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
@@ -53,6 +55,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 /// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
   double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
+  double model_error = std::numeric_limits<double>::quiet_NaN();
   ValidityFlags validity;
 };
 
@@ -78,6 +81,7 @@ class PointSolver {
         q1_(band(scene.spectrum)[1]),
         area_g_(scene.model, scene.spectrum, scene.surface, q1_),
         validity_(scene.surface, scene.model.form, q1_),
+        model_error_(scene.model.correction, scene.spectrum, scene.rubber),
         solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
     if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
     if (std::holds_alternative<PartialContact>(scene.model.correction))
@@ -93,6 +97,8 @@ class PointSolver {
   double q1_;
   AreaG area_g_;
   ValidityRange validity_;
+  ModelError model_error_;
+  double velocity_ = 0;  // of the point before
   Solver solver_;
   std::unique_ptr<PartialSolver> partial_;  // instead of it
 };
@@ -110,6 +116,9 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   const double g = partial_ ? partial_->g() : solver_.g(q1_);
   at.contact_area = partial_ ? partial_->area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
+  if (velocity != velocity_) model_error_.start(velocity_ = velocity);
+  at.model_error = model_error_(g);
+  if (partial_ && !std::isnan(at.model_error)) at.validity.regime = model_error_.regime();
   if (scene_.adhesion) {
     at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
     if (!std::isfinite(at.adhesion))
@@ -200,6 +209,7 @@ void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::s
     f.shift_factor[i] = shift.p;
     f.error_estimate[i] = at.error_estimate;
     f.extrapolated_share[i] = at.extrapolated_share;
+    f.model_error[i] = at.model_error;
   }
 }
 
@@ -234,7 +244,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
   for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
-                       &f.extrapolated_share}) {
+                       &f.extrapolated_share, &f.model_error}) {
     heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
   }

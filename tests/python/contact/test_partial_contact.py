@@ -178,6 +178,28 @@ def test_the_modulus_is_held_where_a_table_ends_in_the_tail():
         assert any("extrapolated_share" in note for note in cut.notes)
 
 
+def test_model_error_is_known_where_exact_contacts_were_solved():
+    scene = {"pressure": 2e5, "velocity": [1e-4, 1e-2, 1.0]}
+    light = asperity.friction(ROAD, RUBBER, **scene | {"pressure": 1.0}, correction=RULE)
+    assert np.all(np.isnan(light.model_error))
+    assert any("model_error is NaN" in note for note in light.notes)
+    found = asperity.friction(ROAD, RUBBER, **scene, correction=RULE)
+    plain = asperity.friction(ROAD, RUBBER, **scene)
+    assert np.all((found.model_error > 0.01) & (found.model_error < 0.12))
+    assert np.all(plain.model_error > 2 * found.model_error)
+    assert any("exact sliding contacts of Gaussian surfaces" in note for note in found.notes)
+    of_area = asperity.contact_notes(ROAD, RUBBER, **scene, correction=RULE)
+    assert set(of_area) == set(found.notes)
+    for unknown in (asperity.AffineShift(2), asperity.SFactor(gamma=0.3)):
+        other = asperity.friction(ROAD, RUBBER, **scene, correction=unknown)
+        assert np.all(np.isnan(other.model_error))
+    narrow = asperity.friction(ROAD.truncated(q1=4e3), RUBBER, **scene, correction=RULE)
+    assert np.all(np.isnan(narrow.model_error))
+    nayak = asperity.friction(ROAD, RUBBER, **scene, correction=asperity.NayakSFactor())
+    factor = asperity.friction(ROAD, RUBBER, **scene, correction=asperity.SFactor(gamma=0.4))
+    np.testing.assert_array_equal(nayak.model_error, factor.model_error)
+
+
 def test_interpolated_form_is_refused():
     scene = {"pressure": 1e5, "velocity": 0.1, "correction": RULE, "form": "interpolated"}
     for function in (asperity.friction, asperity.contact_area):
