@@ -7,6 +7,13 @@
 
 namespace asperity {
 
+/// A / rest and (d A / d ln G) / rest, rest = 1 / (1 + sqrt(G)), as polynomials in u = `steps` rest - i about each i.
+struct ShareTable {
+  static constexpr std::size_t steps = 128, terms = 8;
+  using Powers = double[steps + 1][terms];
+  Powers share, slope;
+};
+
 /// Rows of n numbers, n a multiple of `lanes`: G at unit load, g' likewise, the weight times dG, and I1 / I2.
 struct PartialNodes {
   const double *g, *steepness, *weight, *ratio;
