@@ -52,6 +52,11 @@ class Friction(Table):
     extrapolated_share : float or ndarray
         Share of the hysteresis, as it is weighted, whose modulus lies outside of the measured
         frequencies [-], to 1e-4.
+    model_error : float or ndarray
+        Relative rms error of mu_H that this correction had on exact sliding contacts of Gaussian
+        surfaces at such speeds and loads [-]; NaN where nothing is known: for other corrections
+        than None, SFactor with gamma 0.4 or 0.5, NayakSFactor and PartialContact, for q1/q0 outside
+        of 8 to 128, for loads sigma0 / (E* h') outside of 0.0015 to 0.6.
     notes : tuple of str
         Where the theory or its input leaves its range.
     wavenumber : ndarray, shape (n,), or None
@@ -75,6 +80,7 @@ class Friction(Table):
     velocity: Any = column("m/s", "sliding velocity")
     error_estimate: Any = column("1", "error estimate of mu")
     extrapolated_share: Any = column("1", "share of the hysteresis beyond the measured frequencies")
+    model_error: Any = column("1", "relative error of mu seen in exact sliding contacts")
     notes: tuple[str, ...] = ()
     wavenumber: Array | None = None
     dmu_dlnq: Array | None = None
@@ -183,8 +189,8 @@ def friction(
         sigma0 [Pa] and v [m/s], positive; they broadcast.
     poisson_ratio : float
         In [0, 0.5].
-    correction : SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson, \
-PeaksThenGreenwoodWilliamson or None
+    correction : SFactor, NayakSFactor, PartialContact, AffineShift, LocalPeaks, \
+GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
         None is plain Persson.
     adhesion : Adhesion, optional
         Without it the adhesion is 0.

@@ -52,6 +52,7 @@ void bind_corrections(py::module_& m) {
     return valid(SFactor{gamma, static_cast<SFactor::AppliesTo>(applies_to)});
   }));
   py::classh<NayakSFactor>(m, "NayakSFactor").def(py::init([](double gamma) { return valid(NayakSFactor{gamma}); }));
+  py::classh<PartialContact>(m, "PartialContact").def(py::init<>());
   py::classh<AffineShift>(m, "AffineShift").def(py::init([](double p) { return valid(AffineShift{p}); }));
   py::classh<LocalPeaks>(m, "LocalPeaks")
       .def(py::init([](const Array& heights, Optional z_max) {

@@ -39,6 +39,7 @@ struct Friction {
   std::vector<double> shift_factor;          // p_T, 1 where nothing is shifted, infinite without contact
   std::vector<double> error_estimate;        // absolute, of mu
   std::vector<double> extrapolated_share;    // of mu_H, from frequencies outside of the measured range
+  std::vector<double> model_error;           // relative, of mu_H on exact sliding contacts; NaN where nothing is known
   std::vector<std::string> notes;            // where the theory or its input leaves its range
   std::optional<Contributions> contributions;
 };
@@ -47,7 +48,8 @@ struct Friction {
 inline constexpr std::vector<double> Friction::*friction_columns[] = {
     &Friction::mu,           &Friction::hysteresis,     &Friction::adhesion,
     &Friction::contact_area, &Friction::shift_factor,   &Friction::pressure,
-    &Friction::velocity,     &Friction::error_estimate, &Friction::extrapolated_share};
+    &Friction::velocity,     &Friction::error_estimate, &Friction::extrapolated_share,
+    &Friction::model_error};
 
 /// Everything a friction curve needs beside the surface, the rubber and the velocities.
 struct Conditions {

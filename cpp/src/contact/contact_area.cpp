@@ -9,9 +9,12 @@
 #include "asperity/contact.hpp"
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/model_error.hpp"
+#include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -82,14 +85,47 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   }
 }
 
+/// The same by the rule of PartialContact, on the surface that ends at each wavenumber: visit(index of point, index of
+/// wavenumber, G there times kappa, A / A0).
+template <class Visit>
+void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                   std::span<const double> pressure, std::span<const double> velocity,
+                   std::span<const double> wavenumber, Visit visit) {
+  check_contact(model, pressure, velocity);
+  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  const std::vector<std::size_t> order = by_velocity(velocity);
+  const double q0 = band(spectrum)[0];
+  for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+    heed();
+    if (wavenumber[j] <= q0) {
+      for (const std::size_t i : order) visit(i, j, 0.0, 1.0);
+      continue;
+    }
+    const std::vector<Segment> surface = surface_up_to(spectrum, wavenumber.subspan(j, 1));
+    const auto solver = partial_solver(surface, rubber, model);
+    for (const std::size_t i : order) {
+      heed();
+      at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
+      visit(i, j, solver->kappa() * solver->g(), solver->area());
+    }
+  }
+}
+
+bool by_partial_contact(const ContactModel& model) { return std::holds_alternative<PartialContact>(model.correction); }
+
 }  // namespace
 
 std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
-  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
+  if (by_partial_contact(model)) {
+    visit_partial(spectrum, rubber, model, pressure, velocity, q,
+                  [&](std::size_t i, std::size_t j, double, double area) { result[i * q.size() + j] = area; });
+    return result;
+  }
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
           [&](std::size_t i, std::size_t j, double g, const Shift&) {
@@ -109,9 +145,14 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   const std::vector<Segment> surface = segments(spectrum);
   const double q1 = band(spectrum)[1];
   ValidityRange validity(surface, model.form, q1);
+  ModelError model_error(model.correction, spectrum, rubber);
+  double last = 0;
   visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            notes.add(shift, velocity[i], 0, g < 0 ? ValidityFlags{} : validity(g, shift.p));
+            ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
+            if (velocity[i] != last) model_error.start(last = velocity[i]);
+            if (!std::isnan(model_error(g))) flags.regime = model_error.regime();
+            notes.add(shift, velocity[i], 0, flags);
           });
   return notes.texts();
 }
@@ -132,6 +173,20 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
+  if (by_partial_contact(model)) {
+    check_contact(model, pressure, velocity);
+    for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+    const SurfaceSegments whole(spectrum);
+    const auto solver = partial_solver(whole.get(), rubber, model);
+    for (const std::size_t i : by_velocity(velocity)) {
+      at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        heed();
+        result[i * q.size() + j] = solver->stress(q[j]);
+      }
+    }
+    return result;
+  }
   const std::optional<SFunction> s = s_in_integrand(model.correction);
   std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
@@ -156,20 +211,26 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
   if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
   for (const double sigma : stress) require_not_negative("stress", sigma);
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
-  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size());
+  const auto at_g = [&](std::size_t i, double g) {
+    const double x = stress[i] / pressure[i], from_nominal = (stress[i] - pressure[i]) / pressure[i];
+    if (g == 0)
+      throw InvalidInput("wavenumber = " + show(wavenumber) +
+                         ": must be above q0, where the pressure is a delta at its nominal value");
+    // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
+    const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
+    result[i] = -bell * std::expm1(-x / g) / pressure[i];
+  };
+  if (by_partial_contact(model)) {
+    visit_partial(spectrum, rubber, model, pressure, velocity, q,
+                  [&](std::size_t i, std::size_t, double g, double) { at_g(i, g); });
+    return result;
+  }
+  const std::vector<Segment> surface = surface_up_to(spectrum, q);
   AreaG area_g(model, spectrum, surface, wavenumber);
   visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
-          [&](std::size_t i, std::size_t, double uncorrected, const Shift&) {
-            if (uncorrected < 0) return;
-            const double g = area_g(uncorrected), x = stress[i] / pressure[i];
-            const double from_nominal = (stress[i] - pressure[i]) / pressure[i];
-            if (g == 0)
-              throw InvalidInput("wavenumber = " + show(wavenumber) +
-                                 ": must be above q0, where the pressure is a delta at its nominal value");
-            // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
-            const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
-            result[i] = -bell * std::expm1(-x / g) / pressure[i];
+          [&](std::size_t i, std::size_t, double g, const Shift&) {
+            if (g >= 0) at_g(i, area_g(g));
           });
   return result;
 }

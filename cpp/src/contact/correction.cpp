@@ -101,6 +101,7 @@ void validate(const Correction& correction) {
             if (!(s.friction_gamma >= 0 && s.friction_gamma <= 1))
               refuse("friction_gamma", s.friction_gamma, "in [0, 1]");
           },
+          [](const PartialContact&) {},
           [](const AffineShift& s) {
             if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
           },
@@ -146,6 +147,7 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
                         [](const NoCorrection&) { return Shift{}; },
                         [](const SFactor&) { return Shift{}; },
                         [](const NayakSFactor&) { return Shift{}; },
+                        [](const PartialContact&) { return Shift{}; },
                         [](const AffineShift& s) { return Shift{.p = s.p}; },
                         [](const LocalPeaks& s) { return Shift{.p = shift_factor(s)}; },
                         [&](const GreenwoodWilliamson& s) { return gw(s, 1, s.peaks); },

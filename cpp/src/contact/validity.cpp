@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "numerics/arguments.hpp"
 
@@ -42,7 +43,7 @@ std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
 }
 
 std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correction& correction) {
-  if (std::holds_alternative<NoCorrection>(correction)) return {};
+  if (std::holds_alternative<NoCorrection>(correction) || std::holds_alternative<PartialContact>(correction)) return {};
   const double alpha = nayak_parameter(spectrum);
   if (alpha >= lowest_measured_nayak && alpha <= highest_measured_nayak) return {};
   return alpha;
@@ -79,6 +80,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
       fitted_(fitted_velocities(spectrum, rubber)),
+      by_sliding_(std::holds_alternative<PartialContact>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
@@ -92,13 +94,19 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
   beyond_fit_ |=
       fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
   worse_ |= flags.worse;
-  light_ |= corrected_ && flags.light;
+  light_ |= corrected_ && !by_sliding_ && flags.light;
+  if (!by_sliding_) return;
+  slow_ |= flags.regime == SpeedRegime::slow;
+  constant_ |= flags.regime == SpeedRegime::constant;
+  fast_regime_ |= flags.regime == SpeedRegime::fast;
+  unmeasured_ |= !flags.regime;
 }
 
 void Notes::add(const Notes& others) {
   for (bool Notes::*const flag :
        {&Notes::beyond_fit_, &Notes::lowest_bin_, &Notes::fast_, &Notes::full_, &Notes::no_contact_, &Notes::far_,
-        &Notes::extrapolated_, &Notes::worse_, &Notes::light_})
+        &Notes::extrapolated_, &Notes::worse_, &Notes::light_, &Notes::slow_, &Notes::constant_, &Notes::fast_regime_,
+        &Notes::unmeasured_})
     this->*flag |= others.*flag;
 }
 
@@ -138,6 +146,17 @@ std::vector<std::string> Notes::texts() const {
   if (light_)
     result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
                      show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
+  for (const auto& [flag, regime, error] : {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5"},
+                                            {constant_, "about constant loss tangents", "3 to 7"},
+                                            {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 11"}})
+    if (flag)
+      result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
+                       ": mu +-" + error + " % rms, the more the lighter the load: see model_error");
+  if (unmeasured_)
+    result.emplace_back(
+        "the model error of PartialContact is not known where model_error is NaN: exact sliding contacts were solved "
+        "for "
+        "q1/q0 from 8 to 128 and sigma0 / (E* h') from 0.0015 to 0.6");
   if (worse_)
     result.emplace_back(
         "the affine shift takes the contact area further from that of boundary elements than no correction would at "

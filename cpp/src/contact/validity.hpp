@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/correction.hpp"
+#include "contact/model_error.hpp"
 #include "contact/s_factor.hpp"
 
 namespace asperity {
@@ -21,6 +22,7 @@ struct ValidityFlags {
   bool light = false;  // the load is below theirs
   // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
   bool worse = false;
+  std::optional<SpeedRegime> regime;  // of PartialContact, where exact contacts are known
 };
 
 /// The flags at one wavenumber.
@@ -51,6 +53,8 @@ class Notes {
   std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
   std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
   std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
+  bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
+  bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,
        worse_ = false, light_ = false;

@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/model_error.hpp"
+#include "contact/partial_contact_rule.hpp"
+#include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
@@ -51,6 +55,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 /// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
   double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
+  double model_error = std::numeric_limits<double>::quiet_NaN();
   ValidityFlags validity;
 };
 
@@ -76,8 +81,11 @@ class PointSolver {
         q1_(band(scene.spectrum)[1]),
         area_g_(scene.model, scene.spectrum, scene.surface, q1_),
         validity_(scene.surface, scene.model.form, q1_),
+        model_error_(scene.model.correction, scene.spectrum, scene.rubber),
         solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
     if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
+    if (std::holds_alternative<PartialContact>(scene.model.correction))
+      partial_ = partial_solver(scene.surface, scene.rubber, scene.model, scene.stops);
   }
 
   Point operator()(double pressure, double velocity, const Shift& shift);
@@ -89,19 +97,28 @@ class PointSolver {
   double q1_;
   AreaG area_g_;
   ValidityRange validity_;
+  ModelError model_error_;
+  double velocity_ = 0;  // of the point before
   Solver solver_;
+  std::unique_ptr<PartialSolver> partial_;  // instead of it
 };
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
   Point at;
-  solver_.solve(pressure, velocity, shift.p);
-  const Solver::Hysteresis& hysteresis = solver_.hysteresis();
+  if (partial_)
+    partial_->solve(pressure, velocity);
+  else
+    solver_.solve(pressure, velocity, shift.p);
+  const Solver::Hysteresis& hysteresis = partial_ ? partial_->hysteresis() : solver_.hysteresis();
   at.hysteresis = hysteresis.value;
   if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
 
-  const double g = solver_.g(q1_);
-  at.contact_area = contact_share(area_g_(g), scene_.model.form);
+  const double g = partial_ ? partial_->g() : solver_.g(q1_);
+  at.contact_area = partial_ ? partial_->area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
+  if (velocity != velocity_) model_error_.start(velocity_ = velocity);
+  at.model_error = model_error_(g);
+  if (partial_ && !std::isnan(at.model_error)) at.validity.regime = model_error_.regime();
   if (scene_.adhesion) {
     at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
     if (!std::isfinite(at.adhesion))
@@ -113,12 +130,13 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const bool tabulated = std::holds_alternative<MasterCurve>(scene_.rubber);
   const double angular_error = tabulated ? 3e-13 : 1e-15;
-  const double g_error = solver_.relative_error() + 2 * shift.relative_error + angular_error;
-  const double area_error = sensitivity(false) * g_error;
-  at.error_estimate =
-      hysteresis.error +
-      at.hysteresis * (sensitivity(scene_.factor.has_value()) * g_error + 2 * shift.relative_error + angular_error) +
-      at.adhesion * area_error;
+  // hysteresis.error of PartialContact has the error of G in it
+  const double g_error = (partial_ ? 0 : solver_.relative_error()) + 2 * shift.relative_error + angular_error;
+  const double area_error = partial_ ? partial_->area_error() + angular_error : sensitivity(false) * g_error;
+  at.error_estimate = hysteresis.error +
+                      at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error +
+                                       2 * shift.relative_error + angular_error) +
+                      at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
                        " where rtol = " + show(scene_.model.rtol) + " was asked for");
@@ -132,10 +150,12 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
 
 void PointSolver::add_contributions(Contributions& c, std::size_t i, double velocity) const {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver_.hysteresis_density(c.wavenumber[j]);
-  const double whole = solver_.hysteresis().value;
+  for (std::size_t j = 0; j < n; ++j)
+    c.dmu_dlnq[i * n + j] =
+        partial_ ? partial_->hysteresis_density(c.wavenumber[j]) : solver_.hysteresis_density(c.wavenumber[j]);
+  const double whole = (partial_ ? partial_->hysteresis() : solver_.hysteresis()).value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver_.shares()) {
+  for (const auto& [lower, upper, hysteresis] : partial_ ? partial_->shares() : solver_.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
@@ -154,7 +174,14 @@ Contributions empty_contributions(const Scene& scene, std::span<const double> pr
     front = std::fmin(
         front, front_width(scene.surface, scene.rubber, {scene.model.poisson_ratio, pressure[i], velocity[i], 1}));
   }
-  Contributions c{contribution_wavenumbers(q0, q1, front), {}, decades(slowest * q0, fastest * q1), {}};
+  double end = q1;
+  std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
+  if (std::holds_alternative<PartialContact>(scene.model.correction)) {
+    end = q1 * partial_contact::tail_end;
+    const double first = std::nextafter(q1, end);  // the density jumps at q1
+    for (const double q : contribution_wavenumbers(first, end, 1)) wavenumber.push_back(q);
+  }
+  Contributions c{std::move(wavenumber), {}, decades(slowest * q0, fastest * end), {}};
   c.dmu_dlnq.assign(velocity.size() * c.wavenumber.size(), 0.0);
   c.decade_share.assign(velocity.size() * (c.decade_edges.size() - 1), 0.0);
   return c;
@@ -182,6 +209,7 @@ void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::s
     f.shift_factor[i] = shift.p;
     f.error_estimate[i] = at.error_estimate;
     f.extrapolated_share[i] = at.extrapolated_share;
+    f.model_error[i] = at.model_error;
   }
 }
 
@@ -216,7 +244,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
   for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
-                       &f.extrapolated_share}) {
+                       &f.extrapolated_share, &f.model_error}) {
     heed();  // a gigabyte each where there are many points
     column->assign(n, 0.0);
   }

@@ -8,10 +8,10 @@
 
 namespace asperity {
 
-/// Root of f between `a` and `b`, whose signs there differ, to rounding: the Illinois form of the false position,
-/// with a bisection wherever it fails to halve the bracket. (M. Dowell, P. Jarratt, BIT 11, 168 (1971).)
+/// Root of f between `a` and `b`, whose signs there differ, to rounding or `tolerance`: the Illinois form of the false
+/// position, with a bisection wherever it fails to halve the bracket. (M. Dowell, P. Jarratt, BIT 11, 168 (1971).)
 template <class F>
-double bracketed_root(F&& f, double a, double b) {
+double bracketed_root(F&& f, double a, double b, double tolerance = 0) {
   double fa = f(a), fb = f(b);
   if (fa == 0) return a;
   if (fb == 0) return b;
@@ -20,7 +20,7 @@ double bracketed_root(F&& f, double a, double b) {
                        " and " + show(fb));
   for (int i = 0; i < 200; ++i) {
     const double width = std::fabs(b - a);
-    if (width <= 4e-16 * std::fmax(std::fabs(a), std::fabs(b))) break;
+    if (width <= std::fmax(tolerance, 4e-16 * std::fmax(std::fabs(a), std::fabs(b)))) break;
     double c = b - fb * (b - a) / (fb - fa);
     if (i % 3 == 2 || !(std::fmin(a, b) < c && c < std::fmax(a, b))) c = a + (b - a) / 2;
     const double fc = f(c);

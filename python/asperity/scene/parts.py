@@ -11,6 +11,7 @@ from asperity.correction import (
     GreenwoodWilliamson,
     LocalPeaks,
     NayakSFactor,
+    PartialContact,
     PeaksThenGreenwoodWilliamson,
     SFactor,
 )
@@ -50,6 +51,7 @@ _ASPERITIES = {
 _CORRECTIONS = {
     "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
     "nayak-s-factor": {**_KIND, "friction_gamma": Field(number, "friction_gamma")},
+    "partial-contact": _KIND,
     "affine-shift": {**_KIND, "p": Field(number, "p")},
     "local-peaks": _PEAKS,
     "greenwood-williamson": _ASPERITIES,
@@ -99,6 +101,8 @@ def build_correction(
             correction = SFactor(**settings)
         elif kind == "nayak-s-factor":
             correction = NayakSFactor(**settings)
+        elif kind == "partial-contact":
+            correction = PartialContact()
         elif kind == "affine-shift":
             require(path, "correction", values, ("p",))
             correction = AffineShift(settings["p"])

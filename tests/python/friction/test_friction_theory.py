@@ -13,6 +13,7 @@ from asperity import (
     LocalPeaks,
     MasterCurve,
     NayakSFactor,
+    PartialContact,
     PeaksThenGreenwoodWilliamson,
     PronySeries,
     SelfAffineSpectrum,
@@ -52,6 +53,7 @@ ALL = [
     None,
     SFactor(applies_to="both"),
     NayakSFactor(),
+    PartialContact(),
     AffineShift(2),
     LocalPeaks(PEAKS),
     GreenwoodWilliamson(**PROFILE),
@@ -189,7 +191,7 @@ def test_correction_factors_are_those_of_section_6_1():
     np.testing.assert_allclose(factor(inside), area(inside), rtol=1e-12)
     nayak = NayakSFactor(friction_gamma=0.4)
     np.testing.assert_allclose(factor(nayak), s, rtol=1e-12)
-    for correction in ALL[3:]:
+    for correction in ALL[4:]:
         p_t = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction).shift_factor
         assert 1 < p_t < math.inf
         np.testing.assert_allclose(factor(correction), area(correction) / p_t**2, rtol=1e-12)

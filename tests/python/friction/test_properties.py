@@ -72,6 +72,7 @@ CORRECTIONS = st.one_of(
         applies_to=st.sampled_from(["friction", "area", "both"]),
     ),
     st.builds(asperity.NayakSFactor),
+    st.builds(asperity.PartialContact),
     st.builds(asperity.AffineShift, st.floats(1, 4)),
 )
 SCENES = st.tuples(surfaces(), rubbers(), conditions())
@@ -130,10 +131,16 @@ def test_area_of_igw_rises_with_pressure_in_its_range(scene, top, bottom, readin
     assert np.all(np.diff(area) >= -1e-11 * area[:-1])  # the separations' own rounding
 
 
+def corrected(options, correction, **more):
+    """The options with a correction, in the form that it has."""
+    exact = {"form": "exact"} if isinstance(correction, asperity.PartialContact) else {}
+    return options | exact | {"correction": correction} | more
+
+
 @given(SCENES, CORRECTIONS, st.floats(1, 100))
 def test_area_falls_with_roughness(scene, correction, factor):
     surface, rubber, options = scene
-    options |= {"correction": correction, "rtol": 1e-10}
+    options = corrected(options, correction, rtol=1e-10)
     smooth = asperity.contact_area(surface, rubber, **options)
     rougher = asperity.contact_area(surface.scaled(factor), rubber, **options)
     assert rougher <= smooth * (1 + ROUNDING)
@@ -143,11 +150,12 @@ def test_area_falls_with_roughness(scene, correction, factor):
 def test_eq_1_holds_at_every_magnification(scene, correction):
     surface, rubber, options = scene
     q = np.geomspace(surface.q0, surface.q1, 9).clip(surface.q0, surface.q1)
-    options |= {"correction": correction, "wavenumber": q}
+    options = corrected(options, correction, wavenumber=q)
     area = asperity.contact_area(surface, rubber, **options)
     stress = asperity.mean_pressure(surface, rubber, **options)
     np.testing.assert_allclose(area * stress, options["pressure"], rtol=4e-16)
-    if not isinstance(correction, asperity.NayakSFactor):  # its S depends on the magnification
+    # their rules depend on the magnification
+    if not isinstance(correction, asperity.NayakSFactor | asperity.PartialContact):
         assert np.all(np.diff(area) <= ROUNDING * area[:-1])
     assert area[0] == pytest.approx(1, rel=1e-12)
 
@@ -176,7 +184,7 @@ def in_units(surface, rubber, length, pressure, time):
 @given(SCENES, CORRECTIONS, power(-6, 6), power(-6, 6), power(-6, 6))
 def test_units_do_not_matter(scene, correction, length, pressure, time):
     surface, rubber, options = scene
-    options |= {"correction": correction, "rtol": 1e-11}
+    options = corrected(options, correction, rtol=1e-11)
     try:
         here = asperity.friction(surface, rubber, **options)
     except asperity.NotConverged:  # S with a gamma of 0 in weak contact, at the edge of a double

@@ -32,6 +32,8 @@ STICKY = asperity.Adhesion(shear_stress=5e6)
     [
         (ROAD, RUBBER, {"correction": asperity.NayakSFactor(), "adhesion": STICKY}),
         (ROAD, RUBBER, {"contributions": True, "pressure": 1e5}),
+        (SCAN, RUBBER, {"correction": asperity.PartialContact(), "adhesion": STICKY}),
+        (ROAD, MEASURED, {"correction": asperity.PartialContact()}),
         (SCAN, RUBBER, {"correction": asperity.SFactor(), "form": "interpolated"}),
         (SCAN, MEASURED, {"adhesion": STICKY}),
         (ROAD, MEASURED, {"correction": PEAKS}),

@@ -132,6 +132,7 @@ MADE = [
     ("Adhesion", {"shear_stress": 8e6}, {"width": 0.2}),
     ("AdhesionFit", STICKING, {"residual": 0.06}),
     ("AdhesionFit", STICKING, {"outliers": [[True, False]]}),
+    ("PartialContact", {}, None),
 ]
 IDS = [f"{name}{i}" for i, (name, _, _) in enumerate(MADE)]
 RESULTS = {

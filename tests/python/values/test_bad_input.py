@@ -90,6 +90,7 @@ CALLS = {
     ),
     "SFactor": (asperity.SFactor, {}),
     "NayakSFactor": (asperity.NayakSFactor, {}),
+    "PartialContact": (asperity.PartialContact, {}),
     "AffineShift": (asperity.AffineShift, {"p": 2}),
     "LocalPeaks": (asperity.LocalPeaks, {"heights_or_map": PEAKS}),
     "GreenwoodWilliamson": (asperity.GreenwoodWilliamson, PROFILE),
@@ -123,7 +124,7 @@ SPECTRUM = ([None, RUBBER, "x", MAP], "SelfAffineSpectrum or a TabulatedSpectrum
 SOLID = ([None, SURFACE, 5.0], "PronySeries or a MasterCurve")
 CORRECTION = (
     ["s-factor", 5, SURFACE],
-    "None or one of SFactor, NayakSFactor, AffineShift, LocalPeaks",
+    "None or one of SFactor, NayakSFactor, PartialContact, AffineShift, LocalPeaks",
 )
 FEW_PEAKS = ([[], [1, 2]], r"\b[02]\b.*3 or more")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): .*finite")
@@ -219,6 +220,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     },
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
     "NayakSFactor": {"friction_gamma": [SHARE]},
+    "PartialContact": {},
     "AffineShift": {"p": [AT_LEAST_ONE]},
     "LocalPeaks": {
         "heights_or_map": [VECTOR, REAL],

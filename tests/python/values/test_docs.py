@@ -71,7 +71,14 @@ def test_methods_and_properties_say_what_they_return_and_take():
                     assert name in fields
 
 
-UNITLESS = {"SFactor", "NayakSFactor", "fit_self_affine", "FrictionMap", "contact_notes"}
+UNITLESS = {
+    "SFactor",
+    "NayakSFactor",
+    "PartialContact",
+    "fit_self_affine",
+    "FrictionMap",
+    "contact_notes",
+}
 
 
 def test_docstrings_have_units():

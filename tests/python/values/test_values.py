@@ -77,7 +77,8 @@ def test_notebooks_show_the_same_as_a_table():
     for name, value in ALL.items():
         page = value._repr_html_()
         with case(name=name):
-            assert page.startswith(f"<table><caption>{type(value).__name__}</caption><tr><th>")
+            row = "<tr><th>" if value._summary() else "</table>"
+            assert page.startswith(f"<table><caption>{type(value).__name__}</caption>{row}")
             assert page.count("<tr>") == len(value._summary())
             assert len(page) < 1500
     noted = asperity.Adhesion(shear_stress=8e6)
@@ -88,7 +89,7 @@ def test_notebooks_show_the_same_as_a_table():
 def test_fields_match_patterns_and_cannot_be_written():
     for name, value in ALL.items():
         fields = type(value).__match_args__
-        assert fields
+        assert fields or isinstance(value, asperity.PartialContact)  # which has nothing to set
         for field in fields:
             with case(name=name, field=field), pytest.raises(AttributeError):
                 setattr(value, field, getattr(value, field))
@@ -96,7 +97,7 @@ def test_fields_match_patterns_and_cannot_be_written():
             with pytest.raises(AttributeError):
                 value.something_new = 1
             with pytest.raises(AttributeError):
-                delattr(value, fields[0])
+                delattr(value, fields[0] if fields else "_core")
             with pytest.raises(TypeError, match="unhashable"):
                 hash(value)
 

@@ -25,7 +25,9 @@ void check_scales(std::span<const Segment> surface) {
     }
 }
 
-Adaptive rule(Method method) {
+}  // namespace
+
+Adaptive adaptive_rule(Method method) {
   switch (method) {
     case Method::qags:
       return Adaptive::qags;
@@ -35,8 +37,6 @@ Adaptive rule(Method method) {
       return Adaptive::qag;
   }
 }
-
-}  // namespace
 
 Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
                const std::optional<SFunction>& factor, std::span<const double> stops)
@@ -76,7 +76,7 @@ void Solver::solve(double pressure, double velocity, double shift) {
     return;
   }
   gsl_solver_.emplace(surface_, rubber_, GslSolver::Point{model_.poisson_ratio, pressure, velocity, shift},
-                      stop_wavenumbers_, with_hysteresis_, model_.rtol, rule(model_.method));
+                      stop_wavenumbers_, with_hysteresis_, model_.rtol, adaptive_rule(model_.method));
   if (const double g = gsl_solver_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;
   const GslSolver::Hysteresis found = gsl_solver_->hysteresis(model_.form, factor_);

@@ -57,6 +57,9 @@ class Solver {
   std::vector<double> by_panel_;
 };
 
+/// GSL's rule of that name.
+Adaptive adaptive_rule(Method method);
+
 /// The order in which points of one velocity follow each other.
 std::vector<std::size_t> by_velocity(std::span<const double> velocity);
 

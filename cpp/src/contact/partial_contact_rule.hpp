@@ -1,0 +1,78 @@
+// The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond its end.
+// With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M(q1) = int c d ln q over the band, e1 the share of its last unit
+// of ln q in M, rho = K I2(v q1) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
+//   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
+//     Z = obstacle (2 e1)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
+//     g' = K I2(v q) (int c d ln q from q / e to e q) / 2, c being 0 off the band;
+//   T(x) = edges A1 (1 - A1^(1/4)) g'(q1) (I2(v q) / I2(v q1))^1.25 x^-3 beyond it, x = q / q1 from 1 to tail_end.
+// kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
+// for a factor near 1:
+//   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8)).
+// In complete contact R = 1, T = 0 and kappa = 1. The form came from the stress spectra of exact sliding contacts, the
+// numbers were fitted to their area and friction. F and G as in B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
+#pragma once
+
+#include <cmath>
+
+namespace asperity::partial_contact {
+
+inline constexpr double obstacle = 0.67, light = 6.3, edges = 3.55, spread = 0.105, stiff = 0.45;
+/// Half the length in ln q of the window about q.
+inline constexpr double half_window = 1;
+/// Beyond the band: its end, the power of x, and that of I2 beside the one in G.
+inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
+
+/// R of A and Z; partial_loops.inc has the same for many nodes.
+inline double stress(double share, double of_waves) { return share / ((1 + of_waves) * (1 + of_waves)); }
+
+/// What the surface and the rubber have beside G: (2 e1)^0.2, and 1 - 1 / rho.
+struct Band {
+  double end_factor = 1, excess = 0;
+};
+
+/// (2 e1)^0.2
+inline double end_factor(double share_of_end) { return std::pow(2 * share_of_end, 0.2); }
+
+/// A factor, and the slope of its logarithm over ln kappa.
+struct Factor {
+  double value, log_slope;
+};
+
+/// All that depends on g = kappa G(q1) and kappa.
+struct AtEnd {
+  double share, share_slope;  // A1, and d A1 / d ln kappa
+  double integral;            // F(g)
+  Factor obstacle;            // Z / (A^2 g')
+  Factor edges;               // T x^3 / g'(q1) where I2 is that at q1
+  Factor spread;              // beside F
+
+  AtEnd(double g, double kappa, const Band& band);
+};
+
+inline AtEnd::AtEnd(double g, double kappa, const Band& band) {
+  const double s = 0.5 / std::sqrt(g), bell = std::exp(-s * s), root_pi = 1.7724538509055160273;
+  const double rest = std::erfc(s);  // 1 - A1 in its own digits
+  share = s < 0.5 ? std::erf(s) : 1 - rest;
+  share_slope = -s * bell / root_pi;
+  integral = s < 1 ? g * share + std::sqrt(g) * bell / root_pi - rest / 2
+                   : g + (std::sqrt(g) * bell / root_pi - (0.5 + g) * rest);
+
+  // 1 - A1^p without cancellation, and its slope
+  const double log_share = rest < 0.5 ? std::log1p(-rest) : std::log(share), log_slope = share_slope / share;
+  const auto below_one = [&](double p) {
+    const double power = std::expm1(p * log_share);
+    return Factor{-power, -p * (1 + power) * log_slope};
+  };
+  const auto [tenth, tenth_slope] = below_one(0.1);
+  const double far = 1 + light * tenth * tenth * tenth;
+  obstacle = {partial_contact::obstacle * band.end_factor * std::pow(kappa, 0.25) * std::pow(rest, 0.125) * far,
+              0.25 + (rest > 0 ? -0.125 * share_slope / rest : 0) + 3 * light * tenth * tenth * tenth_slope / far};
+  const auto [fourth, fourth_slope] = below_one(0.25);
+  edges = {partial_contact::edges * share * fourth, log_slope + (fourth > 0 ? fourth_slope / fourth : 0)};
+  const auto [eighth, eighth_slope] = below_one(8);
+  const double square = band.excess * band.excess, part = partial_contact::spread * share + stiff * square * square;
+  const double value = 1 + part * eighth;
+  spread = {value, (partial_contact::spread * share_slope * eighth + part * eighth_slope) / value};
+}
+
+}  // namespace asperity::partial_contact

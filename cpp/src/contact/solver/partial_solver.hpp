@@ -1,0 +1,82 @@
+// The root of PartialContact's rule, and the area and hysteresis that follow from it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "contact/partial_contact_rule.hpp"
+#include "contact/solver/panel_solver.hpp"
+#include "contact/solver/partial_loops.hpp"
+#include "contact/solver/partial_tail.hpp"
+
+namespace asperity {
+
+/// kappa, with the areas and sums that belong to it (contact/partial_contact_rule.hpp).
+struct PartialRoot {
+  double kappa = 1;
+  double share = 1;                   // A1
+  double variance = 0, friction = 0;  // int R dG + int T d ln x, and with I1 / I2 in them; over those of unit load
+  double edges = 0, obstacle = 0;     // the factors of T and Z
+  double share_slope = 0, friction_slope = 0;  // of ln A1 and ln friction over ln kappa
+  double slope = 0;                            // of ln F - ln variance, which is 0 at the root
+};
+
+/// The end of a band at a velocity, at unit load: G1, the window's g' / I2, and what lies beyond.
+struct PartialEnd {
+  double g = 0, window = 0;
+  partial_contact::Band band;
+  TailIntegrals tail;
+};
+
+/// NotConverged where there is no root. `stress` has room for R at each node.
+PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double* stress);
+
+/// Solves points of one surface and rubber.
+class PartialSolver {
+ public:
+  PartialSolver() = default;
+  PartialSolver(const PartialSolver&) = delete;
+  PartialSolver(PartialSolver&&) = delete;
+  PartialSolver& operator=(const PartialSolver&) = delete;
+  PartialSolver& operator=(PartialSolver&&) = delete;
+  virtual ~PartialSolver() = default;
+
+  /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
+  virtual void solve(double pressure, double velocity) = 0;
+
+  [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
+  [[nodiscard]] double kappa() const { return root_.kappa; }
+  /// A / A0 at the end of the spectrum, and its relative error.
+  [[nodiscard]] double area() const { return root_.share; }
+  [[nodiscard]] double area_error() const { return area_error_; }
+  /// G at the end of the spectrum, before kappa.
+  [[nodiscard]] double g() const { return g1_; }
+  /// R at a wavenumber of the band.
+  [[nodiscard]] virtual double stress(double wavenumber) const = 0;
+  /// dmu_H / dln q, beyond the end of the spectrum too.
+  [[nodiscard]] virtual double hysteresis_density(double wavenumber) const = 0;
+  /// Stretches of ln q in order, those beyond the spectrum too; their hysteresis sums to the whole.
+  [[nodiscard]] virtual std::vector<PanelSolver::PanelShare> shares() const = 0;
+
+ protected:
+  PartialRoot root_;
+  PanelSolver::Hysteresis hysteresis_;
+  double g1_ = 0, area_error_ = 0;
+};
+
+/// By the method of the model. Panels end at the frequencies `stops` [rad/s], which must outlive it, too.
+std::unique_ptr<PartialSolver> partial_solver(std::span<const Segment> surface, const Rubber& rubber,
+                                              const ContactModel& model, std::span<const double> stops = {});
+
+/// R at a place of a band, and T beyond it: what the solvers share.
+double partial_stress(const PartialRoot& root, double g, double steepness);
+/// What lies beyond the end q1 of a band, cut at those of the rising `stops` that lie there [1/m].
+std::vector<std::array<double, 2>> tail_stretches(double q1, std::span<const double> stops);
+/// d mu_H / dln q at unit load and window roughness 1 beyond the end, at x = q / q1; `frequency` is v q1.
+double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x);
+
+}  // namespace asperity

@@ -1,0 +1,102 @@
+// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q1, on Gauss-Legendre panels of ln x that are
+// halved until both are known well enough.
+#include "contact/solver/partial_tail.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "contact/partial_contact_rule.hpp"
+#include "contact/solver/partial_error.hpp"
+#include "numerics/kernels.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t nodes = 16;
+constexpr double power = partial_contact::tail_power;
+
+struct Piece {
+  double lower, upper;  // in ln x
+};
+
+/// (I2 / I2(v q1))^(1/4) x^-3
+double factor(double of_i2, double x) {
+  static_assert(power == 3 && partial_contact::tail_excess == 0.25);
+  return std::sqrt(std::sqrt(of_i2)) / (x * x * x);
+}
+
+TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
+  const LegendreRule& rule = legendre_rule(nodes);
+  const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
+  std::array<double, nodes> w, i1, i2, outside{}, weight;
+  for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
+  const bool any_outside = angular_integrals(rubber, w, i1, i2, outside);
+  for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / i2_at_end, w[k] / frequency);
+  TailIntegrals result;
+  double tail[LegendreRule::kept];
+  if (any_outside)
+    for (std::size_t k = 0; k < nodes; ++k) result.i1_outside += rule.weight[k] * weight[k] * outside[k];
+  for (std::size_t k = 0; k < nodes; ++k) {
+    i1[k] *= weight[k];
+    i2[k] *= weight[k];
+  }
+  const Kernels& loops = kernels();
+  loops.add_up(rule, i1.data(), &result.i1, tail);
+  result.i1_error = rule_error(tail);
+  loops.add_up(rule, i2.data(), &result.i2, tail);
+  result.i2_error = rule_error(tail);
+  return result;
+}
+
+void add(TailIntegrals& to, const TailIntegrals& part) {
+  to.i1 += part.i1;
+  to.i2 += part.i2;
+  to.i1_outside += part.i1_outside;
+  to.i1_error += part.i1_error;
+  to.i2_error += part.i2_error;
+}
+
+}  // namespace
+
+TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lower, double upper, double rtol) {
+  double from = std::log(lower), to = std::log(upper);
+  const std::optional<FrequencyRange> known = known_range(rubber);
+  const double highest = known ? known->highest : std::numeric_limits<double>::infinity();
+  const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest)).i2;
+  TailIntegrals held;
+  if (highest < frequency * upper) {
+    const double at = std::fmax(lower, highest / frequency);
+    const AngularIntegrals last = angular_integrals(rubber, highest);
+    const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
+    held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0};
+    to = std::log(at);
+  }
+  if (!(to > from)) return held;
+  // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
+  std::vector<Piece> pieces{{from, to}};
+  std::vector<TailIntegrals> values{on_piece(rubber, frequency, i2_at_end, pieces.front())};
+  constexpr std::size_t most_pieces = 1000;
+  for (;;) {
+    TailIntegrals sum = held;
+    for (const TailIntegrals& value : values) add(sum, value);
+    const double allowed1 = rtol * sum.i1, allowed2 = rtol * sum.i2;
+    if ((sum.i1_error <= allowed1 && sum.i2_error <= allowed2) || pieces.size() > most_pieces) return sum;
+    const auto share = 0.5 / static_cast<double>(pieces.size());
+    const std::size_t count = pieces.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (values[i].i1_error <= share * allowed1 && values[i].i2_error <= share * allowed2) continue;
+      const Piece whole = pieces[i];
+      const double middle = (whole.lower + whole.upper) / 2;
+      pieces[i] = {whole.lower, middle};
+      values[i] = on_piece(rubber, frequency, i2_at_end, pieces[i]);
+      pieces.push_back({middle, whole.upper});
+      values.push_back(on_piece(rubber, frequency, i2_at_end, pieces.back()));
+    }
+  }
+}
+
+}  // namespace asperity

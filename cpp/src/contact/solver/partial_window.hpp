@@ -1,0 +1,32 @@
+// The roughness about a wavenumber, which PartialContact compares with the local pressure.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+/// The mean of c = q^4 C over a window of ln q about the wavenumber, c being 0 off the band: it depends on the surface
+/// alone, and single rows of a measured spectrum have a small part in it.
+class RoughnessWindow {
+ public:
+  explicit RoughnessWindow(std::span<const Segment> surface);
+  [[nodiscard]] double operator()(double wavenumber) const;
+  /// int c d ln q over the band, and the share of the last unit of ln q in it.
+  [[nodiscard]] double total() const;
+  [[nodiscard]] double share_of_end() const;
+  /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
+  [[nodiscard]] std::vector<double> ends() const;
+
+ private:
+  /// int q^3 C dq from one wavenumber to another.
+  [[nodiscard]] double between(double lower, double upper) const;
+  [[nodiscard]] std::size_t segment_at(double wavenumber) const;
+
+  std::span<const Segment> surface_;
+  std::vector<double> before_;  // the integral up to each segment
+};
+
+}  // namespace asperity

@@ -1,0 +1,289 @@
+"""The rule of PartialContact: its reference table, what it promises, one root, random scenes."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import InvalidInput, MasterCurve, PartialContact, PronySeries, SelfAffineSpectrum
+from helpers import table_rows
+from helpers.cases import case, each, long
+
+CONTACTS = Path(__file__).parents[2] / "reference" / "sliding_contacts.csv"
+TEXTS = ("material", "moduli", "times")
+RULE = PartialContact()
+ROAD = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
+MODES = {
+    "equilibrium_modulus": 3e6,
+    "moduli": np.array([1e9, 3e8, 1e8, 1e7]),
+    "relaxation_times": np.array([1e-8, 1e-6, 1e-4, 1e-2]),
+}
+RUBBER = PronySeries(**MODES)
+Q = 2e3 * np.arange(1, 50)
+NOISE = 1 + 0.3 * np.sin(7.0 * np.arange(49) ** 1.5)
+SCAN = asperity.TabulatedSpectrum(wavenumber=Q, density=ROAD.at(Q) * NOISE)
+
+
+def parts(row):
+    spectrum = table_rows.tabulated if row["rms_height"] is None else table_rows.self_affine
+    rubber = table_rows.prony if row["table_frequency"].size == 0 else table_rows.master_curve
+    conditions = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+    return spectrum(row), rubber(row), conditions
+
+
+@each("rtol", [1e-3, 1e-6, 1e-9])
+def test_reference(reference_table, rtol):
+    for row in reference_table("partial_contact"):
+        with case(case=row["case"], rtol=rtol):
+            spectrum, rubber, conditions = parts(row)
+            found = asperity.friction(
+                spectrum, rubber, **conditions, correction=RULE, rtol=rtol, adhesion=None
+            )
+            off = abs(found.hysteresis - row["hysteresis"])
+            assert off <= found.error_estimate + row["rtol"] * row["hysteresis"]
+            assert found.error_estimate <= rtol * found.mu
+            assert found.contact_area == pytest.approx(row["contact_area"], rel=rtol)
+            area = asperity.contact_area(spectrum, rubber, **conditions, correction=RULE, rtol=rtol)
+            assert area == found.contact_area
+
+
+@pytest.mark.parametrize("method", ["qag", long("qags"), long("cquad")])
+def test_gsl_meets_the_reference(reference_table, method):
+    for row in reference_table("partial_contact"):
+        with case(case=row["case"]):
+            spectrum, rubber, conditions = parts(row)
+            found = asperity.friction(
+                spectrum, rubber, **conditions, correction=RULE, method=method
+            )
+            assert found.hysteresis == pytest.approx(row["hysteresis"], rel=1e-6)
+            assert found.contact_area == pytest.approx(row["contact_area"], rel=1e-6)
+
+
+def test_complete_contact_is_that_of_the_theory():
+    for spectrum in (ROAD, SCAN):
+        exact = asperity.friction(spectrum, RUBBER, pressure=1e11, velocity=[1e-4, 1], rtol=1e-11)
+        found = asperity.friction(
+            spectrum, RUBBER, pressure=1e11, velocity=[1e-4, 1], correction=RULE, rtol=1e-11
+        )
+        np.testing.assert_allclose(found.mu, exact.mu, rtol=1e-11)
+        assert np.all(found.contact_area == 1)
+
+
+def test_light_loads_have_an_area_in_proportion_to_them():
+    # (1 - A1^(1/10))^3 goes to 1 slowly: the exponent comes to 1 from above
+    pressure = 10.0 ** np.arange(-24, 2, 5.0)
+    found = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=0.1, correction=RULE)
+    exponent = np.diff(np.log(found.contact_area)) / np.diff(np.log(pressure))
+    assert np.all(np.abs(exponent - 1) < 0.01)
+    assert exponent[0] == pytest.approx(1, abs=2e-3)
+
+
+def test_units_do_not_matter():
+    length, stress = 1e6, 1e-3
+    found = asperity.friction(ROAD, RUBBER, pressure=2e5, velocity=0.1, correction=RULE)
+    other = asperity.friction(
+        SelfAffineSpectrum(rms_height=1e-4 * length, hurst=0.8, q0=2e3 / length, q1=2e5 / length),
+        PronySeries(
+            equilibrium_modulus=3e6 * stress,
+            moduli=MODES["moduli"] * stress,
+            relaxation_times=MODES["relaxation_times"],
+        ),
+        pressure=2e5 * stress,
+        velocity=0.1 * length,
+        correction=RULE,
+    )
+    assert other.mu == pytest.approx(found.mu, rel=1e-12)
+    assert other.contact_area == pytest.approx(found.contact_area, rel=1e-12)
+
+
+@each("spectrum", [ROAD, SCAN])
+def test_stress_is_at_most_that_of_complete_contact(spectrum):
+    q = np.geomspace(spectrum.q0, spectrum.q1, 60)
+    scene = {"pressure": [1e3, 1e6, 1e8], "velocity": 0.01, "correction": RULE}
+    stress = asperity.correction_factor(spectrum, RUBBER, **scene, wavenumber=q)
+    assert np.all((stress > 0) & (stress <= 1))
+
+
+@each("spectrum", [ROAD, SCAN])
+def test_area_at_a_wavenumber_is_that_of_the_surface_cut_there(spectrum):
+    scene = {"pressure": 2e5, "velocity": 0.01, "correction": RULE, "rtol": 1e-9}
+    q = [spectrum.q0, 5e3, 4e4, spectrum.q1]
+    found = asperity.contact_area(spectrum, RUBBER, **scene, wavenumber=q)
+    cut = [asperity.contact_area(spectrum.truncated(q1=one), RUBBER, **scene) for one in q[1:]]
+    assert found[0] == 1
+    np.testing.assert_allclose(found[1:], cut, rtol=1e-9)
+    pressure = asperity.mean_pressure(spectrum, RUBBER, **scene, wavenumber=q)
+    np.testing.assert_allclose(pressure, 2e5 / found, rtol=1e-14)
+
+
+def test_pressure_distribution_has_the_area_and_the_load():
+    scene = {"pressure": 2e6, "velocity": 0.01, "correction": RULE}
+    area = asperity.contact_area(ROAD, RUBBER, **scene)
+    stress = np.linspace(0, 40, 400001) * 2e6 / area
+    density = asperity.pressure_distribution(stress, ROAD, RUBBER, **scene)
+    step = stress[1]
+    assert density.sum() * step == pytest.approx(area, rel=1e-6)
+    assert (density * stress).sum() * step == pytest.approx(2e6, rel=1e-6)
+
+
+@each("spectrum", [ROAD, SCAN])
+def test_contributions_add_up_beyond_the_spectrum_too(spectrum):
+    found = asperity.friction(
+        spectrum,
+        RUBBER,
+        pressure=2e5,
+        velocity=[1e-3, 1.0],
+        correction=RULE,
+        contributions=True,
+    )
+    plain = asperity.friction(spectrum, RUBBER, pressure=2e5, velocity=[1e-3, 1.0], correction=RULE)
+    np.testing.assert_allclose(found.mu, plain.mu, rtol=2e-6)
+    np.testing.assert_allclose(found.decade_share.sum(axis=1), 1, rtol=1e-6)
+    y = np.log(found.wavenumber)
+    assert found.wavenumber[-1] == pytest.approx(33 * spectrum.q1)
+    middle = (found.dmu_dlnq[:, 1:] + found.dmu_dlnq[:, :-1]) / 2
+    rel = 5e-3 if spectrum is ROAD else 5e-2  # rows between the wavenumbers
+    np.testing.assert_allclose((middle * np.diff(y)).sum(axis=1), found.hysteresis, rtol=rel)
+
+
+def test_order_and_neighbours_do_not_matter():
+    rng = np.random.default_rng(3)
+    velocity, pressure = 10 ** rng.uniform(-5, 1, 50), 10 ** rng.uniform(2, 8, 50)
+    velocity[::3] = velocity[0]
+    for spectrum in (ROAD, SCAN):
+        scene = {"correction": RULE, "rtol": 1e-5}
+        many = asperity.friction(spectrum, RUBBER, pressure=pressure, velocity=velocity, **scene)
+        for i in range(0, 50, 7):
+            one = asperity.friction(
+                spectrum, RUBBER, pressure=pressure[i], velocity=velocity[i], **scene
+            )
+            assert (one.mu, one.contact_area) == (many.mu[i], many.contact_area[i])
+
+
+def test_the_modulus_is_held_where_a_table_ends_in_the_tail():
+    w = np.geomspace(1e-3, 1e9, 121)
+    e = RUBBER.modulus(w)
+    tables = [
+        MasterCurve(angular_frequency=w[:n], storage_modulus=e.real[:n], loss_modulus=e.imag[:n])
+        for n in (121, 101)
+    ]
+    scene = {"pressure": 1e6, "velocity": w[100] / 2e5 * 0.999, "correction": RULE}
+    whole, cut = (asperity.friction(ROAD, table, **scene) for table in tables)
+    assert whole.extrapolated_share < 1e-3
+    assert 0.01 < cut.extrapolated_share < 0.5
+    assert cut.mu == pytest.approx(whole.mu, rel=0.3)
+    if cut.extrapolated_share > 0.05:
+        assert any("extrapolated_share" in note for note in cut.notes)
+
+
+def test_model_error_is_known_where_exact_contacts_were_solved():
+    scene = {"pressure": 2e5, "velocity": [1e-4, 1e-2, 1.0]}
+    light = asperity.friction(ROAD, RUBBER, **scene | {"pressure": 1.0}, correction=RULE)
+    assert np.all(np.isnan(light.model_error))
+    assert any("model_error is NaN" in note for note in light.notes)
+    found = asperity.friction(ROAD, RUBBER, **scene, correction=RULE)
+    plain = asperity.friction(ROAD, RUBBER, **scene)
+    assert np.all((found.model_error > 0.01) & (found.model_error < 0.12))
+    assert np.all(plain.model_error > 2 * found.model_error)
+    assert any("exact sliding contacts of Gaussian surfaces" in note for note in found.notes)
+    of_area = asperity.contact_notes(ROAD, RUBBER, **scene, correction=RULE)
+    assert set(of_area) == set(found.notes)
+    for unknown in (asperity.AffineShift(2), asperity.SFactor(gamma=0.3)):
+        other = asperity.friction(ROAD, RUBBER, **scene, correction=unknown)
+        assert np.all(np.isnan(other.model_error))
+    narrow = asperity.friction(ROAD.truncated(q1=4e3), RUBBER, **scene, correction=RULE)
+    assert np.all(np.isnan(narrow.model_error))
+    nayak = asperity.friction(ROAD, RUBBER, **scene, correction=asperity.NayakSFactor())
+    factor = asperity.friction(ROAD, RUBBER, **scene, correction=asperity.SFactor(gamma=0.4))
+    np.testing.assert_array_equal(nayak.model_error, factor.model_error)
+
+
+def test_interpolated_form_is_refused():
+    scene = {"pressure": 1e5, "velocity": 0.1, "correction": RULE, "form": "interpolated"}
+    for function in (asperity.friction, asperity.contact_area):
+        with pytest.raises(InvalidInput, match="form = interpolated: must be exact"):
+            function(ROAD, RUBBER, **scene)
+
+
+def random_scene(rng):
+    """A scene of the random ones: surfaces of all kinds, rubbers from elastic to steep."""
+    q0, octaves, hurst = 10 ** rng.uniform(1, 5), rng.uniform(0.05, 9), rng.uniform(0.05, 1)
+    q1 = q0 * 2**octaves
+    rms = 10 ** rng.uniform(-2, 0.5) / q0
+    kind = rng.integers(4)
+    if kind == 0:
+        spectrum = SelfAffineSpectrum(rms_height=rms, hurst=hurst, q0=q0, q1=q1)
+    elif kind == 1:
+        knee = q0 * (q1 / q0) ** rng.uniform(0.1, 0.9)
+        spectrum = SelfAffineSpectrum(rms_height=rms, hurst=hurst, q0=q0, q1=q1, rolloff=knee)
+    else:
+        n = rng.integers(2, 60)
+        q = np.sort(q0 * (q1 / q0) ** rng.random(n)) if kind == 2 else np.geomspace(q0, q1, n)
+        q = np.unique(q)
+        n = len(q)
+        c = (q / q0) ** (-2 * hurst - 2) * 10 ** (
+            rng.choice([0.1, 1.0, 2.0]) * rng.standard_normal(n)
+        )
+        if rng.random() < 0.3 and n > 4:
+            c[rng.integers(n)] = 0
+        spectrum = asperity.TabulatedSpectrum(wavenumber=q, density=c * rms**2 / q0**2)
+    terms = rng.integers(0, 8)
+    moduli = 10 ** rng.uniform(5, 9.5, terms)
+    times = 10 ** rng.uniform(-9, 1, terms)
+    rubber = PronySeries(
+        equilibrium_modulus=10 ** rng.uniform(5.5, 7), moduli=moduli, relaxation_times=times
+    )
+    velocity = 10 ** rng.uniform(-6, 2)
+    softest = abs(rubber.modulus(velocity * q0))
+    load = softest * spectrum.rms_slope * 10 ** rng.uniform(-5, 1.5)
+    return spectrum, rubber, {"pressure": load, "velocity": velocity}
+
+
+@pytest.mark.parametrize("count", [60, long(3000)])
+def test_random_scenes_keep_their_estimates(count):
+    rng = np.random.default_rng(20)
+    for i in range(count):
+        spectrum, rubber, conditions = random_scene(rng)
+        with case(number=i):
+            best = asperity.friction(spectrum, rubber, **conditions, correction=RULE, rtol=1e-10)
+            for rtol in (1e-3, 1e-6):
+                found = asperity.friction(
+                    spectrum, rubber, **conditions, correction=RULE, rtol=rtol
+                )
+                off = abs(found.mu - best.mu)
+                assert off <= found.error_estimate + best.error_estimate
+                assert found.contact_area == pytest.approx(best.contact_area, rel=rtol)
+                assert 0 < found.contact_area <= 1
+
+
+def test_exact_sliding_contacts():
+    lines = (line for line in CONTACTS.read_text().splitlines() if line[0] != "#")
+    off, area = [], []
+    for row in csv.DictReader(lines):
+        one = {name: float(cell) for name, cell in row.items() if name not in TEXTS}
+        if not (0.02 < one["A"] < 0.95 and one["error"] <= 1e-4):
+            continue
+        spectrum = SelfAffineSpectrum(
+            rms_height=one["rms_height"],
+            hurst=one["hurst"],
+            q0=2 * np.pi * one["k0"],
+            q1=2 * np.pi * one["k1"],
+        )
+        rubber = PronySeries(
+            equilibrium_modulus=one["E_inf"],
+            moduli=[float(x) for x in row["moduli"].split()],
+            relaxation_times=[float(x) for x in row["times"].split()],
+        )
+        found = asperity.friction(
+            spectrum, rubber, pressure=one["pressure"], velocity=one["velocity"], correction=RULE
+        )
+        off.append(found.mu / one["mu"] - 1)
+        area.append(found.contact_area / one["A"] - 1)
+    assert len(off) == 80
+    rms_of_mu, rms_of_area = (np.sqrt(np.mean(np.square(one))) for one in (off, area))
+    assert rms_of_mu < 0.06  # 0.052
+    assert np.abs(off).max() < 0.12  # 0.100
+    assert rms_of_area < 0.045  # 0.040
+    assert np.abs(area).max() < 0.12  # 0.098

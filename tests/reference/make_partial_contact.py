@@ -1,0 +1,388 @@
+"""Area and friction by the rule of PartialContact, from its definition.
+
+With y = ln q, c = q^4 C, K = 1 / (8 ((1 - nu^2) sigma0)^2), G = K int c I2 dy, M = int c dy, c_w
+half of the integral of c over [y - 1, y + 1] (c is 0 off the band), e1 the share of the last unit
+of y in M(q1) and rho = K I2(v q1) M(q1) / G(q1):
+  A = erf(1 / (2 sqrt(kappa G))), A1 = A(q1), R = A / (1 + Z)^2,
+  Z = OBSTACLE (2 e1)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3) A^2 K I2 c_w,
+  T = EDGES A1 (1 - A1^(1/4)) K c_w(q1) I2(v q1) (I2(v q) / I2(v q1))^1.25 x^-3,
+  x = q / q1 from 1 to 33,
+  2 (int R dG + int T dln x) = m (1 + (SPREAD A1 + STIFF (1 - 1 / rho)^4) (1 - A1^8)) with
+  m = (1 + 2 g) erf(s) + 2 sqrt(g / pi) exp(-s^2) - 1, g = kappa G(q1), s = 1 / (2 sqrt g): the
+  variance of Persson's pressure over sigma0^2. This fixes kappa, and
+  mu_H = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T dln x).
+Above the last frequency of a table I1 and I2 keep their last values.
+Method one: Gauss panels of 20 nodes that end at every row, a unit of ln q beside every row and
+at every frequency of the table, and grow from the front on; windows from closed moments; closed I1
+and I2 (a table's by Gauss rules in z); the root in ln kappa.
+Method two: 28 nodes on other panels, windows by Gauss rules, I1 and I2 by their definition (a
+table's by Gauss rules in phi), the tail in 1 / x^3, the root in 1 / (2 sqrt(kappa G1)).
+"""
+
+from functools import cache
+
+import numpy as np
+import tables
+from make_friction_tabulated import angular_integrals, sampled
+from scipy.optimize import brentq
+from scipy.special import erf, erfc
+
+OBSTACLE, LIGHT, EDGES, SPREAD, STIFF = 0.67, 6.3, 3.55, 0.105, 0.45
+TAIL_END = 33.0
+SBR = {
+    "equilibrium_modulus": 1e6,
+    "moduli": [1e6, 1e6, 1e6, 1e7, 1e7, 1e7, 3e8, 3e8],
+    "relaxation_times": [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8],
+}
+SOLID = {"equilibrium_modulus": 3e6, "moduli": [3e9], "relaxation_times": [1e-5]}
+ELASTIC = {"equilibrium_modulus": 1e7, "moduli": [], "relaxation_times": []}
+ROAD = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 1e6, "rolloff": None}
+
+
+def rings(count, seed, levels=lambda k: 1.0):
+    """Return wavenumbers and densities of rings whose means scatter, times `levels` of them."""
+    k = np.arange(4, 4 + count)
+    scatter = 1 + np.random.default_rng(seed).standard_normal(count) / np.sqrt(np.pi * k)
+    density = 1.4e-16 * (k / 4) ** -3.7 * scatter * levels(k)
+    return [[float(f"{v:.6g}") for v in column] for column in (500.0 * k, density)]
+
+
+LINES = np.array([11, 23, 24, 40])
+SCENES = {
+    "light": {"pressure": 1e3},
+    "very light": {"pressure": 1e-2, "velocity": 1e-5},
+    "front as wide as the band": {"pressure": 5e5},
+    "heavy": {"pressure": 2e7},
+    "complete": {"pressure": 1e9},
+    "slow": {"velocity": 1e-7, "pressure": 3e5},
+    "fast": {"velocity": 10.0, "pressure": 3e5},
+    "one relaxation": {"rubber": SOLID, "pressure": 1e5, "velocity": 1e-2},
+    "one relaxation, steep": {"rubber": SOLID, "pressure": 1e6, "velocity": 1e-1},
+    "elastic": {"rubber": ELASTIC},
+    "roll-off": {"surface": {**ROAD, "rolloff": 9e3}, "poisson_ratio": 0.3},
+    "steep spectrum": {"surface": {**ROAD, "hurst": 1.0, "q1": 1e5}, "pressure": 1e4},
+    "rough spectrum": {"surface": {**ROAD, "hurst": 0.3, "q1": 1e5, "rms_height": 1e-5}},
+    "band of half a unit": {"surface": {**ROAD, "q1": 3.2e3}, "pressure": 1e4},
+    "band of one and a half": {"surface": {**ROAD, "q1": 9e3}, "pressure": 2e4},
+    "rings": {"surface": rings(60, 1), "pressure": 5e4, "velocity": 1e-2},
+    "rings, light": {"surface": rings(60, 1), "pressure": 10.0, "velocity": 1e-4},
+    "rings, heavy": {"surface": rings(60, 1), "pressure": 1e6, "velocity": 1e-3},
+    "levels": {"surface": rings(48, 2, lambda k: 1000.0 ** (k // 8 % 2)), "pressure": 1e5},
+    "lines": {"surface": rings(48, 3, lambda k: np.where(np.isin(k, LINES), 1e3, 1.0))},
+    "zero rows": {"surface": rings(40, 4, lambda k: (k > 6) & ((k < 15) | (k > 19)))},
+    "two rows": {"surface": [[1e3, 4e4], [1e-15, 1e-21]], "pressure": 3e4},
+    "table": {"table": sampled(-4, 10, 5), "velocity": 1e-3},
+    "table, light": {"table": sampled(-4, 10, 5), "velocity": 1e-3, "pressure": 1e3},
+    "table on rings": {
+        "table": sampled(-4, 10, 5),
+        "surface": rings(40, 5),
+        "velocity": 1e-2,
+        "pressure": 5e4,
+    },
+    "table that ends in the tail": {"table": sampled(-4, 7, 5), "velocity": 4.0, "pressure": 1e6},
+    "table that ends at q1": {"table": sampled(-4, 6, 3), "velocity": 1.0, "pressure": 1e6},
+}
+USUAL = {"surface": ROAD, "rubber": SBR, "pressure": 2e5, "velocity": 1e-2, "poisson_ratio": 0.5}
+
+
+@cache
+def gauss(n):
+    """Return nodes, weights and the matrix of integrals up to each node, from -1 to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(n)
+    powers = np.polynomial.legendre.legvander(nodes, n - 1)
+    integrals = [np.polynomial.legendre.legint(row, lbnd=-1) for row in np.eye(n)]
+    values = np.array([np.polynomial.legendre.legval(nodes, row) for row in integrals]).T
+    return nodes, weights, values @ np.linalg.inv(powers)
+
+
+def rows_of(surface):
+    """Return wavenumbers and densities between which C is a power law or, at zeros, straight."""
+    if not isinstance(surface, dict):
+        return [np.array(column) for column in surface]
+    h, q0, q1 = surface["hurst"], surface["q0"], surface["q1"]
+    knee = surface["rolloff"] or q0
+    moment = (knee**2 - q0**2) / 2 + knee**2 * (1 - (q1 / knee) ** (-2 * h)) / (2 * h)
+    top = surface["rms_height"] ** 2 / (2 * np.pi * moment)
+    q = np.array([q0, knee, q1] if knee > q0 else [q0, q1])
+    return [q, top * np.maximum(q / knee, 1.0) ** (-2 * (h + 1))]
+
+
+def roughness(q, c):
+    """Return c = q^4 C as a function of y and of the number of the interval."""
+    power = np.zeros(len(c) - 1)
+    straight = (c[:-1] == 0) | (c[1:] == 0)
+    slopes = np.diff(np.log(np.where(c > 0, c, 1))) / np.diff(np.log(q))
+    power[~straight] = slopes[~straight]
+
+    def at(y, i):
+        k = np.exp(y)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            law = c[i] * np.exp(power[i] * (y - np.log(q[i])))
+        line = c[i] + (c[i + 1] - c[i]) * (k - q[i]) / (q[i + 1] - q[i])
+        return k**4 * np.where(straight[i], line, law)
+
+    return at, power, straight
+
+
+def closed_moment(q, c):
+    """Return y, y' -> int c dy between them, in closed form."""
+    _, power, straight = roughness(q, c)
+
+    def inside(y, i):
+        if straight[i]:
+            k, b = np.exp(y), (c[i + 1] - c[i]) / (q[i + 1] - q[i])
+            a = c[i] - b * q[i]
+            return a * (k**4 - q[i] ** 4) / 4 + b * (k**5 - q[i] ** 5) / 5
+        p, s = 4 + power[i], y - np.log(q[i])
+        return c[i] * q[i] ** 4 * (np.expm1(p * s) / p if abs(p * s) > 1e-9 else s)
+
+    before = np.cumsum([0.0, *(inside(np.log(q[i + 1]), i) for i in range(len(q) - 1))])
+
+    def moment(y):
+        result = np.empty(y.size)
+        for at, one in enumerate(y.ravel()):
+            i = min(max(np.searchsorted(np.log(q), one, side="right") - 1, 0), len(q) - 2)
+            result[at] = before[i] + inside(min(max(one, np.log(q[0])), np.log(q[-1])), i)
+        return result.reshape(y.shape)
+
+    return lambda low, high: moment(high) - moment(low)
+
+
+def summed_moment(q, c):
+    """Return the same by Gauss rules on the parts between rows."""
+    at, _, _ = roughness(q, c)
+    nodes, weights, _ = gauss(28)
+    places = np.log(q)
+
+    def between(low, high):
+        low = np.maximum(low[..., None], places[:-1])
+        high = np.minimum(high[..., None], places[1:])
+        half = np.maximum(high - low, 0)[..., None] / 2
+        rate = at(low[..., None] + half * (1 + nodes), np.arange(len(q) - 1)[:, None])
+        return (half * weights * rate).sum(axis=(-2, -1))
+
+    return between
+
+
+def held(integrals, highest):
+    """Return I1, I2 of frequencies that are held at `highest`."""
+
+    def at(w):
+        i1, i2 = integrals(np.minimum(w.ravel(), highest * (1 - 1e-15)))[:2]
+        return i1.reshape(w.shape), i2.reshape(w.shape)
+
+    return at
+
+
+def nodes_on(edges, rule):
+    """Return nodes, weights and half lengths of panels between edges."""
+    half = np.diff(edges)[:, None] / 2
+    return edges[:-1, None] + half * (1 + rule[0]), half * rule[1], half
+
+
+def band(scene, integrals, between, rule, first, growth, longest):
+    """Return G, its weights, g' and I1 / I2 at nodes of the band, G(q1), 2 e1 and 1 - 1 / rho."""
+    q, c = rows_of(scene["surface"])
+    at, _, _ = roughness(q, c)
+    places = np.log(q)
+    stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
+    rough = np.flatnonzero((c[:-1] > 0) | (c[1:] > 0))[0]
+    start, end = places[rough], places[-1]
+    grown = start + (end - start) * first * growth ** np.arange(
+        np.ceil(-np.log(first) / np.log(growth))
+    )
+    knots = np.log(np.array(scene.get("table", [[]])[0]) / scene["velocity"])
+    edges = [places, places - 1, places + 1, grown, knots, np.arange(start, end, longest)]
+    edges = np.unique(np.concatenate(edges))
+    edges = edges[(edges > start) & (edges < end)]
+    edges = np.concatenate([[start], edges, [end]])
+    y, weights, half = nodes_on(edges, rule)
+    i = np.searchsorted(places, (edges[:-1] + edges[1:]) / 2, side="right") - 1
+    i1, i2 = integrals(scene["velocity"] * np.exp(y))
+    rate = stiff**2 / 8 * at(y, i[:, None]) * i2
+    whole = (rate * weights).sum(axis=1)
+    before = np.cumsum([0.0, *whole])
+    g = before[:-1, None] + half * (rate @ rule[2].T)
+    steepness = stiff**2 / 8 * i2 * between(y - 1, y + 1) / 2
+    end = np.array([end])
+    last, whole = (between(end - back, end)[0] for back in (1, 2 * (end - start)))
+    at_end = stiff**2 / 8 * whole * integrals(scene["velocity"] * np.exp(end))[1][0]
+    return (
+        g,
+        rate * weights,
+        steepness,
+        i1 / i2,
+        before[-1],
+        2 * last / whole,
+        1 - before[-1] / at_end,
+    )
+
+
+def tail_in_logarithm(scene, integrals, between):
+    """Return int K c_w I (I2 / I2(v q1))^0.25 x^-3 dln x for I2 and I1."""
+    q1 = rows_of(scene["surface"])[0][-1]
+    knots = np.log(np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q1))
+    edges = np.unique(np.concatenate([np.linspace(0, np.log(TAIL_END), 40), knots]))
+    edges = edges[(edges >= 0) & (edges <= np.log(TAIL_END))]
+    z, weights, _ = nodes_on(edges, gauss(20))
+    i1, i2 = integrals(scene["velocity"] * q1 * np.exp(z))
+    stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
+    excess = (i2 / integrals(np.array([scene["velocity"] * q1]))[1]) ** 0.25
+    end = np.log(np.array([q1]))
+    factor = stiff**2 / 16 * between(end - 1, end)[0] * excess * weights * np.exp(-3 * z)
+    return (factor * i2).sum(), (factor * i1).sum()
+
+
+def tail_in_power(scene, integrals, between):
+    """Return the same in u = x^-3."""
+    q1 = rows_of(scene["surface"])[0][-1]
+    knots = (np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q1)) ** -3.0
+    edges = np.unique(np.concatenate([np.geomspace(TAIL_END**-3, 1, 60), knots]))
+    edges = edges[(edges >= TAIL_END**-3) & (edges <= 1)]
+    u, weights, _ = nodes_on(edges, gauss(28))
+    i1, i2 = integrals(scene["velocity"] * q1 * u ** (-1 / 3))
+    stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
+    excess = (i2 / integrals(np.array([scene["velocity"] * q1]))[1]) ** 0.25
+    end = np.log(np.array([q1]))
+    factor = stiff**2 / 16 * between(end - 1, end)[0] * excess * weights / 3
+    return (factor * i2).sum(), (factor * i1).sum()
+
+
+def sums(kappa, nodes, tail):
+    """Return int R dG + int T dln x, over the factor of m, and the same with I1 / I2."""
+    g, weights, steepness, ratio, g1, end, excess = nodes
+    s = 0.5 / np.sqrt(kappa * g1)
+    rest, share1 = erfc(s), erf(s)
+    share = erf(0.5 / np.sqrt(kappa * np.maximum(g, 1e-300)))
+    log_share = np.log1p(-rest) if rest < 0.5 else np.log(share1)
+    tenth, fourth, eighth = (-np.expm1(p * log_share) for p in (0.1, 0.25, 8))
+    obstacle = OBSTACLE * end**0.2 * kappa**0.25 * rest**0.125 * (1 + LIGHT * tenth**3)
+    stress = share / (1 + obstacle * share**2 * steepness) ** 2 * weights
+    edges = EDGES * share1 * fourth
+    factor = 1 + (SPREAD * share1 + STIFF * excess**4) * eighth
+    return (stress.sum() + edges * tail[0]) / factor, (stress * ratio).sum() + edges * tail[1]
+
+
+def variance(g):
+    """Return half the variance of Persson's pressure over sigma0^2."""
+    s = 0.5 / np.sqrt(g)
+    most = g * erf(s) if s < 1 else g - g * erfc(s)
+    return most - erfc(s) / 2 + np.sqrt(g / np.pi) * np.exp(-s * s)
+
+
+def by_kappa(nodes, tail):
+    """Return kappa, searched for in its logarithm."""
+    g1 = nodes[4]
+
+    def miss(x):
+        return np.log(variance(np.exp(x) * g1) / sums(np.exp(x), nodes, tail)[0])
+
+    return np.exp(brentq(miss, -5, 5, xtol=1e-14))
+
+
+def by_inverse(nodes, tail):
+    """Return kappa, searched for in s = 1 / (2 sqrt(kappa G1)); 1 where A1 = erf(s) is 1."""
+    g1 = nodes[4]
+    usual = 0.5 / np.sqrt(g1)
+    if erfc(usual / 1.5) < 1e-30:
+        return 1.0
+
+    def miss(s):
+        g = 0.25 / s**2
+        moment = (1 + 2 * g) * erf(s) + 2 * np.sqrt(g / np.pi) * np.exp(-s * s) - 1
+        return moment / 2 - sums(g / g1, nodes, tail)[0]
+
+    return 0.25 / brentq(miss, usual / 3, 3 * usual, xtol=1e-15 * usual, rtol=1e-15) ** 2 / g1
+
+
+def prony_integrals(rubber):
+    """Return w -> (I1, I2) closed, and by trapezoids in z, cos(phi) = sech(z)."""
+
+    def closed(w):
+        return tables.prony_integrals(w, *rubber.values(), sqrt=np.sqrt)
+
+    z, step = np.linspace(0, 45, 2251, retstep=True)
+    cosine = 1 / np.cosh(z)
+    weights = np.where((z == 0) | (z == 45), 0.5, 1.0) * step * 4 * cosine
+
+    def defined(w):
+        i1, i2 = np.empty((2, w.size))
+        for at in range(0, w.size, 256):
+            storage, loss = tables.prony(w[at : at + 256, None] * cosine, *rubber.values())
+            i1[at : at + 256] = (cosine * loss) @ weights
+            i2[at : at + 256] = (storage**2 + loss**2) @ weights
+        return i1, i2
+
+    return closed, defined
+
+
+def row(case, changes):
+    """Return one row, both methods compared."""
+    scene = USUAL | changes
+    table = scene.get("table")
+    first, second = angular_integrals(table) if table else prony_integrals(scene["rubber"])
+    highest = table[0][-1] if table else np.inf
+    first, second = held(first, highest), held(second, highest)
+    q, c = rows_of(scene["surface"])
+    moments, summed = closed_moment(q, c), summed_moment(q, c)
+    found = []
+    for nodes, tail, root in (
+        (
+            band(scene, first, moments, gauss(20), 1e-12, 1.5, 0.5),
+            tail_in_logarithm(scene, first, moments),
+            by_kappa,
+        ),
+        (
+            band(scene, second, summed, gauss(28), 1e-13, 1.7, 0.37),
+            tail_in_power(scene, second, summed),
+            by_inverse,
+        ),
+    ):
+        kappa = root(nodes, tail)
+        share = erf(0.5 / np.sqrt(kappa * nodes[4]))
+        friction = sums(kappa, nodes, tail)[1] * 4 * (1 - scene["poisson_ratio"] ** 2)
+        found.append((nodes[4], kappa, share, friction * scene["pressure"]))
+    for one, two in zip(*found, strict=True):
+        tables.agree("partial_contact", one, two, 1e-12)
+    print(f"{case:28s}", " ".join(f"{x:.10g}" for x in found[0]), flush=True)
+    surface = scene["surface"] if isinstance(scene["surface"], dict) else dict.fromkeys(ROAD)
+    rough = (None, None) if isinstance(scene["surface"], dict) else scene["surface"]
+    return {
+        "case": case,
+        **surface,
+        **dict(zip(("table_wavenumber", "table_density"), rough, strict=True)),
+        **(dict.fromkeys(SBR) if table else scene["rubber"]),
+        **dict(
+            zip(
+                ("table_frequency", "table_storage", "table_loss"),
+                table or (None, None, None),
+                strict=True,
+            )
+        ),
+        **{key: scene[key] for key in ("pressure", "velocity", "poisson_ratio")},
+        **dict(
+            zip(
+                ("g", "kappa", "contact_area", "hysteresis"),
+                (float(x) for x in found[0]),
+                strict=True,
+            )
+        ),
+        "rtol": 1e-10,
+    }
+
+
+def main():
+    """Write partial_contact.csv."""
+    comments = [
+        "Contact area and hysteretic friction by the rule of PartialContact (see its docstring);",
+        "surfaces and rubbers as in friction.csv, friction_measured.csv, friction_tabulated.csv.",
+        "Generated by make_partial_contact.py in double precision, two methods within rtol / 100.",
+        "Units: rms_height m; q0, q1, rolloff, table_wavenumber 1/m; table_density m^4; moduli,",
+        "table_storage, table_loss, pressure Pa; relaxation_times s; table_frequency rad/s;",
+        "velocity m/s; the rest none.",
+    ]
+    tables.write("partial_contact", comments, [row(*scene) for scene in SCENES.items()])
+
+
+if __name__ == "__main__":
+    main()
