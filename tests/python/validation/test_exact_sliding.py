@@ -1,0 +1,71 @@
+"""The table of exact sliding contacts is what `slide` gives, and what PartialContact is worth."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.cases import case
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
+import fit_partial_contact
+import make_exact_sliding
+
+ROWS = make_exact_sliding.rows()
+SLIDING = [row for row in ROWS if float(row["velocity"]) > 0]
+
+
+@pytest.mark.parametrize("name", ["a_39", "ja_7", "sk_5"])
+def test_rows_are_what_the_solver_gives(name):
+    (row,) = [row for row in ROWS if row["case"] == name]
+    found = make_exact_sliding.solved(row)
+    assert float(found["A"]) == pytest.approx(float(row["A"]), rel=2e-3)
+    assert float(found["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
+
+
+def by_the_package(row):
+    """mu and A/A0 of a Gaussian map by PartialContact, from the closed form of its spectrum."""
+    spectrum = asperity.SelfAffineSpectrum(
+        rms_height=1,
+        hurst=float(row["hurst"]),
+        q0=2 * np.pi * float(row["k0"]),
+        q1=2 * np.pi * float(row["k1"]),
+    )
+    found = asperity.friction(
+        spectrum.scaled(1 / spectrum.rms_slope**2),
+        make_exact_sliding.rubber(row["rubber"]),
+        pressure=float(row["pressure"]),
+        velocity=float(row["velocity"]),
+        correction=asperity.PartialContact(),
+    )
+    return float(found.hysteresis), float(found.contact_area)
+
+
+def gaussian(chosen):
+    return [row for row in SLIDING if row["set"] == chosen and row["kind"] == "gauss"]
+
+
+def test_the_package_solves_the_rule_of_the_fit():
+    rows = gaussian("fit")[::5]
+    names = ("hurst", "k0", "k1", "velocity", "pressure", "A", "mu")
+    contacts = fit_partial_contact.Contacts(
+        [(row["rubber"], *(float(row[n]) for n in names), 1.0, False) for row in rows]
+    )
+    area, mu = contacts.solve([*fit_partial_contact.STATED.values()])
+    for row, a, m in zip(rows, area, mu, strict=True):
+        with case(**row):  # 35 midpoints a unit of ln q there
+            assert by_the_package(row) == pytest.approx((m, a), rel=3e-3)
+
+
+def test_the_rule_holds_on_maps_that_no_fit_saw():
+    errors = np.array(
+        [
+            np.divide(by_the_package(row), (float(row["mu"]), float(row["A"]))) - 1
+            for row in gaussian("judge")
+            if float(row["A"]) > 0.02
+        ]
+    )
+    assert len(errors) > 60
+    assert np.sqrt(np.mean(errors**2, axis=0)) == pytest.approx([0.038, 0.028], rel=0.02)
