@@ -23,7 +23,7 @@ result = asperity.friction(
     rubber,
     pressure=300e3,
     velocity=np.geomspace(1e-6, 1, 60),
-    correction=asperity.NayakSFactor(),
+    correction=asperity.PartialContact(),
     adhesion=asperity.Adhesion(shear_stress=5e6),
 )
 

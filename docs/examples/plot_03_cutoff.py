@@ -24,7 +24,7 @@ results = [
         rubber,
         pressure=300e3,
         velocity=1e-3,
-        correction=asperity.NayakSFactor(),
+        correction=asperity.PartialContact(),
     )
     for q1 in cutoffs
 ]

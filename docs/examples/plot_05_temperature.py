@@ -46,7 +46,7 @@ for celsius, colour in ((10, "#0072B2"), (50, "#D55E00")):
     setting = {
         "pressure": 300e3,
         "velocity": velocity,
-        "correction": asperity.NayakSFactor(),
+        "correction": asperity.PartialContact(),
         "adhesion": asperity.Adhesion(shear_stress=5e6),
     }
     band = asperity.friction_band(road, build, seed=1, **setting)

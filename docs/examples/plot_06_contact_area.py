@@ -16,6 +16,7 @@ rubber = asperity.PronySeries(equilibrium_modulus=3e7, moduli=[], relaxation_tim
 wavenumber = np.geomspace(2000, 1e6, 200)
 corrections = {
     "none": None,
+    "PartialContact": asperity.PartialContact(),
     "NayakSFactor": asperity.NayakSFactor(),
     "S inside G, 0.5": asperity.SFactor(gamma=0.5, applies_to="area"),
     "p_T = 2": asperity.AffineShift(2),

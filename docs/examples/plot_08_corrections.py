@@ -20,6 +20,7 @@ rubber = asperity.PronySeries(
 )
 corrections = {
     "none": None,
+    "PartialContact": asperity.PartialContact(),
     "NayakSFactor": asperity.NayakSFactor(),
     "S factor, 0.5": asperity.SFactor(gamma=0.5),
     "p_T = 2": asperity.AffineShift(2),

@@ -22,7 +22,7 @@ result = asperity.friction(
     rubber,
     pressure=300e3,
     velocity=[1e-5, 1e-3, 1e-1],
-    correction=asperity.NayakSFactor(),
+    correction=asperity.PartialContact(),
     contributions=True,
 )
 

@@ -18,7 +18,7 @@ rubber = asperity.PronySeries(
     moduli=10 ** np.linspace(6, 9, 16),
     relaxation_times=10 ** np.linspace(2, -8, 16),
 )
-setting = {"pressure": 300e3, "correction": asperity.NayakSFactor()}
+setting = {"pressure": 300e3, "correction": asperity.PartialContact()}
 velocity = np.geomspace(1e-6, 1e-2, 24)
 truth = asperity.friction(
     road, rubber, velocity=velocity, adhesion=asperity.Adhesion(shear_stress=5e6), **setting
@@ -26,7 +26,8 @@ truth = asperity.friction(
 measured = truth.mu * (1 + 0.04 * np.random.default_rng(3).standard_normal(24))
 measured[[5, 17]] *= [1.6, 0.5]
 
-fit = asperity.fit_adhesion(road, rubber, velocity=velocity, mu=measured, **setting)
+held = {"width": 0.1}
+fit = asperity.fit_adhesion(road, rubber, velocity=velocity, mu=measured, fixed=held, **setting)
 curve = np.geomspace(1e-6, 1e-2, 100)
 fitted = asperity.friction(road, rubber, velocity=curve, adhesion=fit, **setting)
 
@@ -40,7 +41,7 @@ axes.set_ylim(bottom=0)
 axes.legend()
 
 # %%
-# 5 MPa, 6 mm/s and 0.1 went in.
+# 5 MPa and 6 mm/s went in; the width was held.
 
 for name, error in fit.standard_errors.items():
     print(f"{name} = {getattr(fit, name):.3g} +- {error:.1g}")

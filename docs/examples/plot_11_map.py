@@ -22,7 +22,7 @@ made = asperity.friction_map(
     rubber,
     pressure=(1e4, 1e6),
     velocity=(1e-6, 1),
-    correction=asperity.NayakSFactor(),
+    correction=asperity.PartialContact(),
     adhesion=asperity.Adhesion(shear_stress=5e6),
 )
 pressure = np.geomspace(1.01e4, 0.99e6, 80)[:, None]

@@ -27,7 +27,11 @@ image = left.imshow(1e-6 * exact[4].pressure, cmap="cividis")
 figure.colorbar(image, ax=left, label="pressure [MPa]")
 left.set(xlabel="x [pixels]", ylabel="y [pixels]", title=f"{velocity[4]:.2g} m/s")
 fine = np.geomspace(1e-3, 10, 80)
-for name, correction in (("NayakSFactor", asperity.NayakSFactor()), ("no correction", None)):
+for name, correction in (
+    ("PartialContact", asperity.PartialContact()),
+    ("NayakSFactor", asperity.NayakSFactor()),
+    ("no correction", None),
+):
     theory = asperity.friction(law, rubber, pressure=0.3e6, velocity=fine, correction=correction)
     right.plot(fine, theory.hysteresis, label=name)
 right.plot(velocity, [contact.hysteresis for contact in exact], "ko", label="exact, this map")
