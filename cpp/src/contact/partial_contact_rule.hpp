@@ -65,7 +65,7 @@ inline AtEnd::AtEnd(double g, double kappa, const Band& band) {
   };
   const auto [tenth, tenth_slope] = below_one(0.1);
   const double far = 1 + light * tenth * tenth * tenth;
-  obstacle = {partial_contact::obstacle * band.end_factor * std::pow(kappa, 0.25) * std::pow(rest, 0.125) * far,
+  obstacle = {partial_contact::obstacle * band.end_factor * std::sqrt(std::sqrt(kappa * std::sqrt(rest))) * far,
               0.25 + (rest > 0 ? -0.125 * share_slope / rest : 0) + 3 * light * tenth * tenth * tenth_slope / far};
   const auto [fourth, fourth_slope] = below_one(0.25);
   edges = {partial_contact::edges * share * fourth, log_slope + (fourth > 0 ? fourth_slope / fourth : 0)};

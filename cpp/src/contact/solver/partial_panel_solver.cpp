@@ -165,7 +165,7 @@ void PartialPanelSolver::solve(double pressure, double velocity) {
     g1_ = end_.g * scale_;
     check_g(g1_, pressure);
     const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(), g_.size()};
-    root_ = partial_root(nodes, end_, scale_, rtol_, stress_.data());
+    root_ = partial_root(nodes, end_, scale_, rtol_, round == 0 ? usual_kappa : root_.kappa, stress_.data());
     const double error = judge();
     if (error <= allowed) return;
     if (round == most_rounds || active_.size() > most_panels)

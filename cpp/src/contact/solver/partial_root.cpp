@@ -42,11 +42,11 @@ Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale
 
 }  // namespace
 
-PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double* stress) {
-  // kappa is 0.3 to 2 where it was seen; the start knows no other point
-  constexpr double start = -0.3, longest_step = 1.5;
+PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
+                         double* stress) {
+  constexpr double longest_step = 1.5;
   const double good = std::fmin(1e-4, 0.03 * std::sqrt(rtol));
-  double x = start, below = -std::numeric_limits<double>::infinity(), above = -below;
+  double x = std::log(start), below = -std::numeric_limits<double>::infinity(), above = -below;
   for (int i = 0; i < 100; ++i) {
     Residual found = residual(nodes, end, scale, std::exp(x), stress);
     if (!std::isfinite(found.value)) break;

@@ -32,8 +32,11 @@ struct PartialEnd {
   TailIntegrals tail;
 };
 
+/// A kappa to start from that knows no other point: it is 0.3 to 2 where it was seen.
+inline constexpr double usual_kappa = 0.75;
 /// NotConverged where there is no root. `stress` has room for R at each node.
-PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double* stress);
+PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
+                         double* stress);
 
 /// Solves points of one surface and rubber.
 class PartialSolver {
