@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.correction import Correction, NayakSFactor, SFactor
+from asperity.correction import Correction, NayakSFactor, PartialContact, SFactor
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure, picture
@@ -30,8 +30,9 @@ CORRECTIONS: dict[str, Correction | None] = {
     "S in Eq. 22, 0.50": SFactor(gamma=0.5),
     "S in G, 5/9": SFactor(gamma=5 / 9, applies_to="area"),
     "Nayak S": NayakSFactor(),
+    "partial contact": PartialContact(),
 }
-_DRAWN = {"none": ":", "S in Eq. 22, 0.50": "--", "Nayak S": "-"}  # the others lie near one of them
+_DRAWN = {"none": ":", "Nayak S": "--", "partial contact": "-"}
 _POINTS = 60  # of a curve
 _PAUSE = 0.2  # s between two looks of a progress line
 _COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
