@@ -15,6 +15,7 @@ from asperity.correction import *  # noqa: F403
 from asperity.dma import MasterCurveBuild, MasterPoints, build_master_curve
 from asperity.friction import Friction, friction
 from asperity.friction_map import FrictionMap, FrictionSlopes, friction_map
+from asperity.heating import Heating, heat_kernel
 from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import (
@@ -29,13 +30,14 @@ from asperity.measured_spectrum import (
 from asperity.prony_fit import PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
-from asperity.shift_factors import ArrheniusFit, ShiftFactors, WlfFit
+from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
 from asperity.sweeps import Isotherm, StrainSweep
 from asperity.uncertainty.band import FrictionBand, friction_band
 
 __all__ = [
+    "WLF",
     "Adhesion",
     "AdhesionFit",
     "Anisotropy",
@@ -45,6 +47,7 @@ __all__ = [
     "FrictionBand",
     "FrictionMap",
     "FrictionSlopes",
+    "Heating",
     "HeightMap",
     "InvalidInput",
     "Isotherm",
@@ -78,6 +81,7 @@ __all__ = [
     "friction",
     "friction_band",
     "friction_map",
+    "heat_kernel",
     "hertz_penetration",
     "line_spectrum",
     "mean_pressure",

@@ -44,8 +44,62 @@ class _Errors:
         instance.__dict__[self.name] = checked
 
 
+class _Law(Value):
+    """What a law of the shift factor can do."""
+
+    def log10_a_T(self, temperature: ArrayLike) -> Any:  # noqa: N802
+        """Return log10 a_T [-] at a `temperature` [K] of any shape.
+
+        One below 150 K is refused: it was most likely given in Celsius.
+        """
+        return over(temperature, "temperature", lambda t: _core.shift_at(self._core, t)[0])
+
+    def log10_a_T_slope(self, temperature: ArrayLike) -> Any:  # noqa: N802
+        """Return d log10 a_T / dT [1/K] at a `temperature` [K] of any shape."""
+        return over(temperature, "temperature", lambda t: _core.shift_at(self._core, t)[1])
+
+
 @value
-class WlfFit(Value):
+class WLF(_Law):
+    """The law of Williams, Landel and Ferry, by constants that are known.
+
+    log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref) (M. L. Williams, R. F. Landel, J. D. Ferry, J.
+    Am. Chem. Soc. 77, 3701 (1955)). At T_ref - c2 and below it has no a_T, and its methods raise
+    OutOfRange.
+
+    Parameters
+    ----------
+    c1 : float
+        [-], positive.
+    c2 : float
+        [K], positive.
+    reference_temperature : float
+        T_ref [K], where a_T = 1.
+
+    Raises
+    ------
+    InvalidInput
+
+    Examples
+    --------
+    >>> from asperity import WLF
+    >>> law = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+    >>> round(law.log10_a_T(273.15), 3)
+    2.172
+    """
+
+    c1: float
+    c2: float
+    reference_temperature: float
+
+    def __post_init__(self) -> None:
+        for name in ("c1", "c2", "reference_temperature"):
+            self._set(**{name: number(getattr(self, name), name)})
+        self._set(_core=_core.WLF(self.c1, self.c2, self.reference_temperature))
+
+
+@value
+class WlfFit(_Law):
     """The law of Williams, Landel and Ferry through shift factors, as `fit_wlf` returns it.
 
     log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref).
@@ -73,10 +127,11 @@ class WlfFit(Value):
     def __post_init__(self) -> None:
         for name in ("c1", "c2", "reference_temperature", "residual"):
             self._set(**{name: number(getattr(self, name), name)})
+        self._set(_core=_core.WlfFit(self.c1, self.c2, self.reference_temperature))
 
 
 @value
-class ArrheniusFit(Value):
+class ArrheniusFit(_Law):
     """Arrhenius' law through shift factors, as `fit_arrhenius` returns it.
 
     ln a_T = (E_a / R) (1 / T - 1 / T_ref).
@@ -101,6 +156,7 @@ class ArrheniusFit(Value):
     def __post_init__(self) -> None:
         for name in ("activation_energy", "reference_temperature", "residual"):
             self._set(**{name: number(getattr(self, name), name)})
+        self._set(_core=_core.ArrheniusFit(self.activation_energy, self.reference_temperature))
 
 
 class HasShiftFactors(Table):
@@ -230,3 +286,14 @@ def shift_factors_of(found: Any) -> ShiftFactors:
         return found.shift_factors  # type: ignore[attr-defined, no-any-return]
     allowed = "must be a ShiftFactors or what build_master_curve returned"
     raise InvalidInput(f"shift_factors = {brief(found)}: {allowed}")
+
+
+TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors
+
+
+def temperature_shift_core(found: Any) -> Any:
+    """Return a law or shift factors as the core takes them."""
+    if isinstance(found, _Law | HasShiftFactors):
+        return found._core
+    kinds = "a WLF, a WlfFit, an ArrheniusFit, a ShiftFactors or what build_master_curve returned"
+    raise InvalidInput(f"shift = {brief(found)}: must be {kinds}")

@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "topics.hpp"
+#include "variants.hpp"
 
 namespace asperity::python {
 
@@ -38,6 +39,32 @@ void bind_shift_factors(py::module_& m) {
         const ArrheniusFit fit = s.fit_arrhenius(span_of(covariance));
         return py::make_tuple(fit.activation_energy, fit.activation_energy_error, fit.residual);
       });
+}
+
+void bind_laws(py::module_& m) {
+  py::classh<WLF>(m, "WLF").def(py::init([](double c1, double c2, double reference) {
+    const WLF law{c1, c2, reference};
+    validate(law);
+    return law;
+  }));
+  py::classh<WlfFit>(m, "WlfFit").def(py::init([](double c1, double c2, double reference) {
+    return WlfFit{c1, c2, reference, 0, 0, 0};
+  }));
+  py::classh<ArrheniusFit>(m, "ArrheniusFit").def(py::init([](double energy, double reference) {
+    return ArrheniusFit{energy, reference, 0, 0};
+  }));
+  // (log10 a_T, its slopes)
+  m.def("shift_at", [](const TemperatureShift& shift, const Array& temperature) {
+    std::vector<double> values, slopes;
+    released([&] {
+      for (const double one : span_of(temperature)) {
+        const ShiftValue at = shift_at(shift, one);
+        values.push_back(at.log10_a_T);
+        slopes.push_back(at.slope);
+      }
+    });
+    return py::make_tuple(array_of(std::move(values)), array_of(std::move(slopes)));
+  });
 }
 
 void bind_sweeps(py::module_& m) {
@@ -118,6 +145,7 @@ py::tuple large_strain(const MasterCurve& curve, const ShiftTable& shift_factors
 
 void bind_dma(py::module_& m) {
   bind_shift_factors(m);
+  bind_laws(m);
   bind_sweeps(m);
   m.def("build_master_curve", &built);
   m.def("draw_master_curve", &drawn);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
+#include "asperity/heating.hpp"
 #include "topics.hpp"
 #include "variants.hpp"
 
@@ -12,14 +13,8 @@ namespace asperity::python {
 namespace {
 
 /// (a row a column of Friction in the order of `friction_columns`, notes, contributions or None).
-py::tuple friction_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-                      const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
-                      bool contributions, unsigned threads) {
-  Friction f = released([&] {
-    return friction(spectrum, rubber, model, adhesion, span_of(pressure), span_of(velocity), contributions, threads);
-  });
-  const auto points = static_cast<std::size_t>(pressure.size());
-  py::array_t<double> rows({std::size(friction_columns), points});
+py::tuple parts_of(Friction f) {
+  py::array_t<double> rows({std::size(friction_columns), f.mu.size()});
   double* to = rows.mutable_data();
   for (const auto column : friction_columns) to = std::ranges::copy(f.*column, to).out;
   py::object shares = py::none();
@@ -29,6 +24,33 @@ py::tuple friction_of(const Spectrum& spectrum, const Rubber& rubber, const Cont
                             array_of(std::move(c.decade_edges)), array_of(std::move(c.decade_share)));
   }
   return py::make_tuple(rows, tuple_of(f.notes), shares);
+}
+
+py::tuple friction_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                      const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
+                      bool contributions, unsigned threads, const std::optional<TemperatureShift>& shift,
+                      const std::optional<Array>& temperature) {
+  return parts_of(released([&] {
+    const auto p = span_of(pressure), v = span_of(velocity);
+    return shift ? friction(spectrum, rubber, *shift, model, adhesion, p, v, span_of(*temperature), contributions,
+                            threads)
+                 : friction(spectrum, rubber, model, adhesion, p, v, contributions, threads);
+  }));
+}
+
+/// (hot parts, cold parts, T at q1, P_m, gain, branches, temperature profiles)
+py::tuple flash_friction_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                            const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
+                            bool contributions, unsigned threads, const TemperatureShift& shift,
+                            const Array& temperature, const Heating& heating, int branch) {
+  FlashFriction f = released([&] {
+    return friction(spectrum, rubber, shift, heating, model, adhesion, span_of(pressure), span_of(velocity),
+                    span_of(temperature), static_cast<Branch>(branch), contributions, threads);
+  });
+  py::array hottest = array_of(std::move(f.hot.temperature));
+  return py::make_tuple(parts_of(std::move(f.hot)), parts_of(std::move(f.cold)), hottest,
+                        array_of(std::move(f.macro_area)), array_of(std::move(f.gain)), array_of(std::move(f.branches)),
+                        array_of(std::move(f.temperature_profile)));
 }
 
 /// ((tau_f0, v0, c), covariance row by row, residual, outliers, notes).
@@ -48,12 +70,39 @@ py::tuple fit(const Spectrum& spectrum, const Rubber& rubber, const ContactModel
 }  // namespace
 
 void bind_friction(py::module_& m) {
+  py::classh<Heating>(m, "Heating")
+      .def(py::init([](double density, double heat_capacity, double conductivity, double diameter,
+                       std::optional<double> macro_wavenumber, std::optional<double> macro_area, int residence,
+                       double share) {
+        const Heating heating{density,
+                              heat_capacity,
+                              conductivity,
+                              diameter,
+                              macro_wavenumber,
+                              macro_area,
+                              static_cast<Residence>(residence),
+                              share};
+        validate(heating);
+        return heating;
+      }));
+  m.def("heat_kernel", [](const Array& q, const Array& q_prime, double velocity, const Heating& heating) {
+    return computed([&] { return heat_kernel(span_of(q), span_of(q_prime), velocity, heating); });
+  });
   py::classh<Adhesion>(m, "Adhesion").def(py::init([](double tau, double v0, double c) {
     const Adhesion adhesion{tau, v0, c};
     validate(adhesion);
     return adhesion;
   }));
   m.def("friction", &friction_of);
+  m.def("flash_friction", &flash_friction_of);
+  m.def("sliding_length", [](const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                             const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
+                             const TemperatureShift& shift, const Array& temperature, const Heating& heating) {
+    return computed([&] {
+      return sliding_length(spectrum, rubber, shift, heating, model, adhesion, span_of(pressure), span_of(velocity),
+                            span_of(temperature));
+    });
+  });
   m.def("fit_adhesion", &fit);
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "asperity/contact.hpp"
+#include "asperity/dma.hpp"
 #include "asperity/rubber.hpp"
 #include "asperity/spectrum.hpp"
 
@@ -64,6 +65,8 @@ template <>
 struct type_caster<asperity::Spectrum> : asperity::python::OneOf<asperity::Spectrum> {};
 template <>
 struct type_caster<asperity::Rubber> : asperity::python::OneOf<asperity::Rubber> {};
+template <>
+struct type_caster<asperity::TemperatureShift> : asperity::python::OneOf<asperity::TemperatureShift> {};
 template <>
 struct type_caster<asperity::ContactModel> : asperity::python::ModelOfTuple {};
 }  // namespace pybind11::detail

@@ -41,6 +41,15 @@ int main() {
   } catch (const asperity::InvalidInput& error) {
     fine &= check(std::strstr(error.what(), "pressure = -1") != nullptr, error.what());
   }
+  const asperity::Heating tread{.density = 1200, .heat_capacity = 1650, .conductivity = 0.23, .contact_diameter = 1e-3};
+  const double pressure[] = {81e3, 81e3}, temperature[] = {293.15, 293.15};
+  const asperity::FlashFriction heated = asperity::friction(road, rubber, asperity::WLF{8.86, 101.6, 293.15}, tread, {},
+                                                            {}, pressure, velocity, temperature);
+  std::printf("hot mu = %.6f %.6f at %.2f %.2f K\n", heated.hot.mu[0], heated.hot.mu[1], heated.hot.temperature[0],
+              heated.hot.temperature[1]);
+  fine &= check(heated.cold.mu[0] == f.mu[0] && heated.hot.temperature[1] > 293.15 && heated.branches[0] == 1,
+                "friction heats its rubber");
+
   (void)asperity::power_spectrum(asperity::synthesize(road, {64, 64}, {1e-4, 1e-4}, 1));
 
   const asperity::SelfAffineSpectrum waves{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2000, .q1 = 16000};

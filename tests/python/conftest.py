@@ -40,7 +40,7 @@ def reference(name: str) -> list[dict[str, object]]:
 
 
 def value_of(column: str, cell: str) -> object:
-    if column in ("case", "form"):
+    if column in ("case", "form", "kind", "residence"):
         return cell
     if column in LISTS:
         return np.array([float(x) for x in cell.split(";") if x])

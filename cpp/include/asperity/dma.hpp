@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "asperity/export.hpp"
@@ -43,6 +44,8 @@ struct WlfFit {
   double residual;            // rms of log10 a_T about the fit [-]
 };
 
+inline constexpr double gas_constant = 8.31446261815324;  // R [J/(mol K)], CODATA 2018, exact
+
 /// ln a_T = (E_a / R) (1 / T - 1 / T_ref), with its standard error.
 struct ArrheniusFit {
   double activation_energy;        // E_a [J/mol]
@@ -50,6 +53,21 @@ struct ArrheniusFit {
   double activation_energy_error;  // [J/mol]
   double residual;                 // rms of log10 a_T about the fit [-]
 };
+
+/// log10 a_T and its slope over temperature.
+struct ShiftValue {
+  double log10_a_T;  // [-]
+  double slope;      // d log10 a_T / dT [1/K]
+};
+
+/// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), by constants that are known.
+struct WLF {
+  double c1, c2;     // [-], [K]
+  double reference;  // T_ref [K]
+  bool operator==(const WLF&) const = default;
+};
+
+ASPERITY_EXPORT void validate(const WLF& law);
 
 /// Shift factors over temperature, measured or read from outside.
 class ASPERITY_EXPORT ShiftTable {
@@ -63,6 +81,8 @@ class ASPERITY_EXPORT ShiftTable {
   [[nodiscard]] const std::vector<double>& standard_deviation() const { return deviation_; }
   /// a_T at a temperature [K]: Steffen's interpolant of log10 a_T; OutOfRange outside of the table.
   [[nodiscard]] double shift_factor(double temperature) const;
+  /// log10 a_T of the same and its slope.
+  [[nodiscard]] ShiftValue shift_at(double temperature) const;
   /// Least squares. Standard errors: from the covariance of log10 a_T (n rows of n, as of a build) where it is given,
   /// times the scatter over that which it explains where there is more; without it from the scatter about the law. A
   /// row at the reference is no data: any law goes through it.
@@ -73,6 +93,18 @@ class ASPERITY_EXPORT ShiftTable {
   double reference_;
   std::vector<double> temperature_, log10_a_T_, deviation_;
 };
+
+/// How a rubber's relaxation times follow its temperature.
+using TemperatureShift = std::variant<WLF, WlfFit, ArrheniusFit, ShiftTable>;
+
+/// log10 a_T at a temperature [K], at least 150. OutOfRange where the shift is not known.
+ASPERITY_EXPORT ShiftValue shift_at(const TemperatureShift& shift, double temperature);
+
+/// The rubber, which is given at the shift's reference, at a temperature [K].
+ASPERITY_EXPORT Rubber shifted(const Rubber& rubber, const TemperatureShift& shift, double temperature);
+
+/// InvalidInput for a temperature [K] that no rubber is used at.
+ASPERITY_EXPORT void require_temperature(double temperature);
 
 enum class VerticalShift { none, temperature_ratio, table };
 

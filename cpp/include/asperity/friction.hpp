@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "asperity/contact.hpp"
+#include "asperity/dma.hpp"
 #include "asperity/export.hpp"
+#include "asperity/heating.hpp"
 
 namespace asperity {
 
@@ -40,6 +42,7 @@ struct Friction {
   std::vector<double> error_estimate;        // absolute, of mu
   std::vector<double> extrapolated_share;    // of mu_H, from frequencies outside of the measured range
   std::vector<double> model_error;           // relative, of mu_H on exact sliding contacts; NaN where nothing is known
+  std::vector<double> temperature;           // as given [K]; empty without
   std::vector<std::string> notes;            // where the theory or its input leaves its range
   std::optional<Contributions> contributions;
 };
@@ -72,6 +75,42 @@ ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber
 ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                                   std::span<const double> velocity, bool contributions = false, unsigned threads = 1);
+
+/// The same at a temperature [K] for each point: the rubber, given at the reference of `shift`, is shifted by a_T(T).
+/// Eq. 23 knows no temperature.
+ASPERITY_EXPORT Friction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                                  const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                                  std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> temperature, bool contributions = false,
+                                  unsigned threads = 1);
+
+/// Friction with the heat that it makes, and without.
+struct FlashFriction {
+  Friction hot;                             // its temperature is that of the roughness at q1 [K]
+  Friction cold;                            // its temperature is the one given
+  std::vector<double> macro_area;           // P_m
+  std::vector<double> gain;                 // eigenvalue of the rise over the temperature, of the largest size
+  std::vector<int> branches;                // solutions at the point, 1 but for a thermal runaway
+  std::vector<double> temperature_profile;  // with contributions: points x wavenumbers [K]
+};
+
+/// Hysteresis and adhesion warm the rubber, whose modulus follows its temperature at each wavenumber T(q), steadily:
+/// the fixed point of Persson's model of 2006. `rubber` is the one at the reference of `shift`, `temperature` [K] that
+/// of the background. InvalidInput for GSL's methods and for corrections by Greenwood-Williamson's model.
+ASPERITY_EXPORT FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                                       const Heating& heating, const ContactModel& model,
+                                       const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                                       std::span<const double> velocity, std::span<const double> temperature,
+                                       Branch branch = Branch::coldest, bool contributions = false,
+                                       unsigned threads = 1);
+
+/// How far the rubber slides from rest, at its velocity throughout, until mu has come to within 1 / e of that with its
+/// heat [m]: of each point, by the same model with the history of the heat. A point takes some ten milliseconds.
+ASPERITY_EXPORT std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubber,
+                                                   const TemperatureShift& shift, const Heating& heating,
+                                                   const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                                                   std::span<const double> pressure, std::span<const double> velocity,
+                                                   std::span<const double> temperature);
 
 /// Parameters of Eq. 23 that a fit holds instead of fitting them.
 struct FixedAdhesion {

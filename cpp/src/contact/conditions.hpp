@@ -42,6 +42,16 @@ void at_point(double pressure, double velocity, Work work) {
   }
 }
 
+/// work(), with the temperature added to the message of an OutOfRange.
+template <class Work>
+void at_temperature(double temperature, Work work) {
+  try {
+    work();
+  } catch (const OutOfRange& error) {
+    throw OutOfRange("temperature = " + show(temperature, 6) + ": " + error.what());
+  }
+}
+
 /// What would let a rubber be asked beyond its measured frequencies, at the end of a message.
 inline const char* way_beyond(const Rubber& rubber) {
   if (const auto* curve = std::get_if<MasterCurve>(&rubber))

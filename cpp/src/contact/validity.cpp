@@ -111,7 +111,7 @@ void Notes::add(const Notes& others) {
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
-std::vector<std::string> Notes::texts() const {
+std::vector<std::string> Notes::texts(bool heated) const {
   std::vector<std::string> result;
   // a spectrum cut by the rule itself ends at the limit to rounding
   if (rms_slope_ > slope_limit * (1 + 1e-9))
@@ -123,7 +123,7 @@ std::vector<std::string> Notes::texts() const {
   if (std::isfinite(flagged_ends_[1]))
     result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
                      " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
-  if (fast_)
+  if (fast_ && !heated)
     result.push_back("above " + show(flash_velocity) +
                      " m/s flash heating, which is not modelled, lowers the friction (Persson 2006, J. Phys.: Condens. "
                      "Matter 18, 7789)");

@@ -45,7 +45,8 @@ class Notes {
   void add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags);
   /// What others found on other points of the same scene.
   void add(const Notes& others);
-  [[nodiscard]] std::vector<std::string> texts() const;
+  /// `heated`: the heat of sliding is taken into account.
+  [[nodiscard]] std::vector<std::string> texts(bool heated = false) const;
 
  private:
   double rms_slope_;

@@ -17,8 +17,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double gas_constant = 8.31446261815324;  // [J/(mol K)], CODATA 2018, exact
-
 struct Sums {
   double uu = 0, uy = 0;
 };
@@ -85,12 +83,15 @@ ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::v
   }
 }
 
-double ShiftTable::shift_factor(double temperature) const {
+double ShiftTable::shift_factor(double temperature) const { return std::pow(10, shift_at(temperature).log10_a_T); }
+
+ShiftValue ShiftTable::shift_at(double temperature) const {
   require_finite("temperature", temperature);
   if (!(temperature >= temperature_.front() && temperature <= temperature_.back()))
     throw OutOfRange("temperature = " + show(temperature, 6) + ": shift factors are known in [" +
                      show(temperature_.front(), 6) + ", " + show(temperature_.back(), 6) + "] K");
-  return std::pow(10, Steffen(temperature_, log10_a_T_)(temperature));
+  const auto [value, slope] = Steffen(temperature_, log10_a_T_).value_and_slope(temperature);
+  return {value, slope};
 }
 
 // With d = T - T_ref and a given c2, log10 a_T = c1 u, u = -d / (c2 + d), is linear in c1: c2 is searched for alone, in

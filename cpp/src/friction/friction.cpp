@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "asperity/watch.hpp"
@@ -16,6 +18,7 @@
 #include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
+#include "friction/before_heating.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
@@ -23,12 +26,6 @@
 namespace asperity {
 
 namespace {
-
-/// mu_A per contact share (Eq. 23).
-double adhesion_per_share(const Adhesion& a, double pressure, double velocity) {
-  const double decades = std::log10(velocity / a.reference_velocity);
-  return a.shear_stress / pressure * std::exp(-a.width * decades * decades);
-}
 
 /// Powers of ten that enclose every v q [rad/s].
 std::vector<double> decades(double lowest, double highest) {
@@ -163,20 +160,27 @@ void PointSolver::add_contributions(Contributions& c, std::size_t i, double velo
   }
 }
 
+/// Points of one rubber: `order` are their indices, those of one velocity side by side.
+struct RubberPoints {
+  const Rubber& rubber;
+  std::vector<std::size_t> order;
+};
+
 /// Tables of zeros over wavenumbers that resolve the narrowest front of all points.
-Contributions empty_contributions(const Scene& scene, std::span<const double> pressure,
+Contributions empty_contributions(const Spectrum& spectrum, std::span<const Segment> surface, const ContactModel& model,
+                                  std::span<const RubberPoints> groups, std::span<const double> pressure,
                                   std::span<const double> velocity) {
-  const auto [q0, q1] = band(scene.spectrum);
+  const auto [q0, q1] = band(spectrum);
   const auto [slowest, fastest] = std::ranges::minmax(velocity);
   double front = 1;
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
-    heed();
-    front = std::fmin(
-        front, front_width(scene.surface, scene.rubber, {scene.model.poisson_ratio, pressure[i], velocity[i], 1}));
-  }
+  for (const RubberPoints& group : groups)
+    for (const std::size_t i : group.order) {
+      heed();
+      front = std::fmin(front, front_width(surface, group.rubber, {model.poisson_ratio, pressure[i], velocity[i], 1}));
+    }
   double end = q1;
   std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
-  if (std::holds_alternative<PartialContact>(scene.model.correction)) {
+  if (std::holds_alternative<PartialContact>(model.correction)) {
     end = q1 * partial_contact::tail_end;
     const double first = std::nextafter(q1, end);  // the density jumps at q1
     for (const double q : contribution_wavenumbers(first, end, 1)) wavenumber.push_back(q);
@@ -213,7 +217,59 @@ void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::s
   }
 }
 
+/// Columns with room for every point.
+Friction columns_for(std::span<const double> pressure, std::span<const double> velocity) {
+  Friction f;
+  f.pressure.assign(pressure.begin(), pressure.end());
+  f.velocity.assign(velocity.begin(), velocity.end());
+  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
+                       &f.extrapolated_share, &f.model_error}) {
+    heed();  // a gigabyte each where there are many points
+    column->assign(velocity.size(), 0.0);
+  }
+  return f;
+}
+
+/// The points of all groups, whose arguments have been checked.
+Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                      std::span<const RubberPoints> groups, std::span<const double> pressure,
+                      std::span<const double> velocity, bool contributions, unsigned threads, bool heated = false) {
+  const SurfaceSegments kept(spectrum);
+  Friction f = columns_for(pressure, velocity);
+  if (contributions) f.contributions = empty_contributions(spectrum, kept.get(), model, groups, pressure, velocity);
+  const std::span<const double> stops =
+      f.contributions ? std::span<const double>(f.contributions->decade_edges) : std::span<const double>();
+  std::vector<Notes> notes;
+  for (const auto& [rubber, order] : groups) {
+    const Scene scene{spectrum, rubber, model, adhesion, kept.get(), s_in_integrand(model.correction), stops};
+    constexpr std::size_t block = 100;  // points that are worth a thread of their own
+    const std::size_t n = order.size(), first = notes.size();
+    const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
+    notes.resize(first + workers, Notes(spectrum, rubber, model.correction));
+    std::vector<std::optional<PointSolver>> solvers(workers);
+    in_blocks(workers, n, workers == 1 ? n : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+      if (!solvers[worker]) solvers[worker].emplace(scene);
+      solve_points(scene, *solvers[worker], std::span(order).subspan(begin, end - begin), f, notes[first + worker]);
+    });
+  }
+  for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
+  f.notes = notes.front().texts(heated);
+  return f;
+}
+
+void check_points(const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                  std::span<const double> velocity, unsigned threads) {
+  check_contact(model, pressure, velocity);
+  if (adhesion) validate(*adhesion);
+  if (threads == 0) throw InvalidInput("threads = 0: must be 1 or more");
+}
+
 }  // namespace
+
+double adhesion_per_share(const Adhesion& a, double pressure, double velocity) {
+  const double decades = std::log10(velocity / a.reference_velocity);
+  return a.shear_stress / pressure * std::exp(-a.width * decades * decades);
+}
 
 void validate(const Adhesion& adhesion) {
   require_not_negative("shear_stress", adhesion.shear_stress);
@@ -232,38 +288,41 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditio
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                   std::span<const double> velocity, bool contributions, unsigned threads) {
-  check_contact(model, pressure, velocity);
-  if (adhesion) validate(*adhesion);
-  if (threads == 0) throw InvalidInput("threads = 0: must be 1 or more");
+  check_points(model, adhesion, pressure, velocity, threads);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
-  const SurfaceSegments kept(spectrum);
-  Scene scene{spectrum, rubber, model, adhesion, kept.get(), s_in_integrand(model.correction), {}};
+  const RubberPoints all{rubber, by_velocity(velocity)};
+  return solve_groups(spectrum, model, adhesion, {&all, 1}, pressure, velocity, contributions, threads);
+}
 
-  const std::size_t n = velocity.size();
-  Friction f;
-  f.pressure.assign(pressure.begin(), pressure.end());
-  f.velocity.assign(velocity.begin(), velocity.end());
-  for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
-                       &f.extrapolated_share, &f.model_error}) {
-    heed();  // a gigabyte each where there are many points
-    column->assign(n, 0.0);
-  }
-  if (contributions) {
-    f.contributions = empty_contributions(scene, pressure, velocity);
-    scene.stops = f.contributions->decade_edges;
-  }
+Friction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                  const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                  std::span<const double> velocity, std::span<const double> temperature, bool contributions,
+                  unsigned threads) {
+  return friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity, temperature,
+                                 contributions, threads, false);
+}
 
-  constexpr std::size_t block = 100;  // points that are worth a thread of their own
-  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
-  const std::vector<std::size_t> order = by_velocity(velocity);
-  std::vector<Notes> notes(workers, Notes(spectrum, rubber, model.correction));
-  std::vector<std::optional<PointSolver>> solvers(workers);
-  in_blocks(workers, n, workers == 1 ? n : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
-    if (!solvers[worker]) solvers[worker].emplace(scene);
-    solve_points(scene, *solvers[worker], std::span(order).subspan(begin, end - begin), f, notes[worker]);
-  });
-  for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
-  f.notes = notes.front().texts();
+Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                                 const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                                 std::span<const double> pressure, std::span<const double> velocity,
+                                 std::span<const double> temperature, bool contributions, unsigned threads,
+                                 bool heated) {
+  check_points(model, adhesion, pressure, velocity, threads);
+  require_same_size("temperature", temperature.size(), "velocity", velocity.size());
+  std::map<double, std::vector<std::size_t>> points;  // by temperature
+  for (const std::size_t i : by_velocity(velocity)) points[temperature[i]].push_back(i);
+  std::deque<Rubber> rubbers;
+  std::vector<RubberPoints> groups;
+  for (auto& [at, order] : points) {
+    heed();
+    rubbers.push_back(shifted(rubber, shift, at));
+    at_temperature(at, [&] {
+      for (const std::size_t i : order) check_frequencies(spectrum, rubbers.back(), velocity[i]);
+    });
+    groups.push_back({rubbers.back(), std::move(order)});
+  }
+  Friction f = solve_groups(spectrum, model, adhesion, groups, pressure, velocity, contributions, threads, heated);
+  f.temperature.assign(temperature.begin(), temperature.end());
   return f;
 }
 

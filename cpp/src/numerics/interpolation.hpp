@@ -62,6 +62,12 @@ class Steffen {
     const double t = at - x_[i];
     return y + t * (slope + t * (square + t * cube));
   }
+  [[nodiscard]] std::array<double, 2> value_and_slope(double at) const {
+    const std::size_t i = interval(at);
+    const auto [y, slope, square, cube] = cubic(i);
+    const double t = at - x_[i];
+    return {y + t * (slope + t * (square + t * cube)), slope + t * (2 * square + t * 3 * cube)};
+  }
   [[nodiscard]] double slope(std::size_t i) const { return slope_[i]; }
 
  private:

@@ -65,7 +65,8 @@ def demo(args: Namespace) -> None:
 def friction(args: Namespace) -> None:
     """Friction of one scene, or of several under one another."""
     outputs = check_outputs(args)
-    scenes = [load_scene(name) for name in args.scene]
+    files = [load_scene(name, for_friction=True) for name in args.scene]
+    scenes = [scene for file in files for scene in (file, *file.others)]
     refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes, bands=args.plot is not None)
     write_outputs(args, table, lambda path: plot.friction_figure(scenes, curves, path))
@@ -77,17 +78,26 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
     curves = [_curves(scene, band=bands or scene.asks_for_band) for scene in scenes]
     columns: dict[str, list[Any]] = {}
     asked = all(scene.asks_for_band for scene in scenes)
+    at_temperatures = all(scene.temperature is not None for scene in scenes)
+    heated = all(scene.heating is not None for scene in scenes)
+    files = {scene.path: scene for scene in reversed(scenes)}
     for scene, result in zip(scenes, curves, strict=True):
         pressure, velocity = scene.points
-        names = {"scene": [f"{scene.path}"] * pressure.size} if len(scenes) > 1 else {}
+        names = {"scene": [f"{scene.path}"] * pressure.size} if len(files) > 1 else {}
         points = {"pressure_pa": pressure, "velocity_m_s": velocity}
         values = {name: getattr(result, name).ravel() for name in COLUMNS}
         if asked and result.band is not None:
             values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
+        if at_temperatures:
+            values["temperature_k"] = [scene.temperature] * pressure.size
+        if heated and result.hot_temperature is not None and result.mu_cold is not None:
+            values["hot_temperature_k"] = result.hot_temperature.ravel()
+            values["mu_cold"] = result.mu_cold.ravel()
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
     notes = _notes_of_all(scenes, curves)
-    return Table("friction", [_inputs(scene) for scene in scenes], notes, columns), curves
+    inputs = [_inputs(scene) for scene in reversed(files.values())]
+    return Table("friction", inputs, notes, columns), curves
 
 
 def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
@@ -96,14 +106,14 @@ def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str
     for scene, result in zip(scenes, curves, strict=True):
         for note in dict.fromkeys(result.notes):
             about.setdefault(note, []).append(f"{scene.path}")
-    if len(scenes) == 1:
+    if len({scene.path for scene in scenes}) == 1:
         return list(about)
-    return [f"{', '.join(names)}: {note}" for note, names in about.items()]
+    return [f"{', '.join(dict.fromkeys(names))}: {note}" for note, names in about.items()]
 
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
     curves = scene.friction(progress(f"{scene.path}"))
-    if not (band and scene.has_errors):
+    if not (band and scene.has_errors) or scene.heating is not None:
         return curves
     return curves.within(scene.band(curves.mu, band_progress(scene)))
 

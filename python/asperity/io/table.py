@@ -22,6 +22,7 @@ UNITS = {
     "_rad_s": "rad/s",
     "_per_m": "1/m",
     "_m4": "m^4",
+    "temperature_k": "K",
     "_m": "m",
 }
 

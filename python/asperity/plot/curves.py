@@ -39,14 +39,14 @@ def check_plot(path: Path) -> None:
 
 
 def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
-    """mu over velocity (over pressure, where only that varies), a colour a pressure or scene."""
-    figure, (axes,) = new_figure(1)
+    """mu over velocity (over pressure, where only that varies), a colour a pressure or scene; with
+    heat also mu without it, and a panel of the rise of the temperature."""
+    heated = any(result.mu_cold is not None for result in results)
+    figure, (axes, *beside) = new_figure(2 if heated else 1)
     over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
     adhesive = any(scene.adhesion is not None for scene in scenes)
     kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
-    names = [scene.path.name for scene in scenes]
-    if len(set(names)) < len(names):
-        names = [str(scene.path) for scene in scenes]
+    names = _names(scenes)
     curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
     for name, scene, result in zip(names, scenes, results, strict=True):
         values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
@@ -55,7 +55,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
             values = [array.T for array in values]
             loads = [f"{float(scene.velocity[0]):.4g} m/s"]
         for row, load in enumerate(loads):
-            label = f"{_plain(name)}, {load}" if len(scenes) > 1 else load
+            label = f"{_plain(name)}, {load}" if name else load
             x = scene.pressure if over_pressure else scene.velocity
             lines = [array[row] for array in values]
             curves.append((label, x, lines[:3], lines[3:]))
@@ -80,6 +80,8 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
                 marker="o" if x.size == 1 else None,
                 label=label if kind == "total" and not many else None,
             )
+    for rise_axes in beside:
+        _draw_heat(axes, rise_axes, scenes, results, tints, over_pressure)
     if adhesive:
         for kind, dashes in kinds.items():
             axes.plot([], [], dashes, color=grey(0.3), label=kind)
@@ -102,6 +104,46 @@ def legend_beside(figure: "Figure", *entries: Any) -> None:
         figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small")
     else:
         figure.legend(*entries, loc="outside right upper")
+
+
+def _names(scenes: Sequence[Scene]) -> list[str]:
+    """What tells scenes apart: their files, and temperatures where a file has several."""
+    paths = {scene.path for scene in scenes}
+    short = len({path.name for path in paths}) == len(paths)
+    names = []
+    for scene in scenes:
+        file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
+        several = sum(other.path == scene.path for other in scenes) > 1
+        names.append(", ".join(file + ([f"{scene.temperature:.4g} K"] if several else [])))
+    return names
+
+
+def _draw_heat(
+    axes: "Axes",
+    beside: "Axes",
+    scenes: Sequence[Scene],
+    results: Sequence[Curves],
+    tints: Sequence[Any],
+    over_pressure: bool,
+) -> None:
+    """mu without heat, and the rise of the temperature beside it, in the colours of the curves."""
+    row = iter(tints)
+    for scene, result in zip(scenes, results, strict=True):
+        x = scene.pressure if over_pressure else scene.velocity
+        order = np.argsort(x)
+        lines = scene.velocity.size if over_pressure else scene.pressure.size
+        for i, colour in zip(range(lines), row, strict=False):
+            if result.mu_cold is None or result.hot_temperature is None:
+                continue
+            rise = result.hot_temperature - (scene.temperature or 0.0)
+            cold, risen = (a[:, i] if over_pressure else a[i] for a in (result.mu_cold, rise))
+            axes.plot(x[order], cold[order], "-.", color=colour, linewidth=1.0)
+            beside.plot(x[order], risen[order], color=colour, linewidth=1.8)
+    axes.plot([], [], "-.", color=grey(0.3), linewidth=1.0, label="without heat")
+    beside.set_xscale("log")
+    beside.set_ylim(bottom=0)
+    beside.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
+    beside.set_ylabel("Rise of the temperature at $q_1$ [K]")
 
 
 def area_figure(

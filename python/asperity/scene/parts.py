@@ -1,6 +1,7 @@
 """Correction and adhesion of a scene, each built from its table."""
 
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from asperity.correction import (
     PeaksThenGreenwoodWilliamson,
     SFactor,
 )
+from asperity.heating import Heating
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
@@ -62,6 +64,31 @@ _ADHESION = {
     "reference_velocity_m_s": Field(number, "reference_velocity", plausible.VELOCITY),
     "width": Field(number, "width"),
 }
+
+
+_HEATING = {
+    "density_kg_m3": Field(number, "density"),
+    "heat_capacity_j_kg_k": Field(number, "heat_capacity"),
+    "conductivity_w_m_k": Field(number, "conductivity"),
+    "contact_diameter_m": Field(number, "contact_diameter", plausible.SPACING),
+    "macro_wavenumber_per_m": Field(number, "macro_wavenumber", plausible.WAVENUMBER),
+    "macro_area": Field(number, "macro_area"),
+    "residence": Field(text, "residence"),
+    "interface_share": Field(number, "interface_share"),
+}
+
+
+def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
+    values = read_table(path, "heating", table, _HEATING)
+    require(path, "heating", values, tuple(_HEATING)[:4])
+    with heating_in_errors(path):
+        heating = Heating(**arguments(values, _HEATING))
+    return heating, _with_defaults(values, _HEATING, heating)
+
+
+def heating_in_errors(path: Path) -> AbstractContextManager[None]:
+    """Let errors of the core name the keys of [heating]."""
+    return rename_in_errors(path, names_of("heating", _HEATING))
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:

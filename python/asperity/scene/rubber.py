@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +32,7 @@ from asperity.io.read_dma import read_isotherms, read_shift_factors
 from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, Rubber
-from asperity.shift_factors import ShiftFactors
+from asperity.shift_factors import WLF, ShiftFactors, TemperatureShift
 from asperity.uncertainty.draws import Drawn, Generator, draw_build
 
 Values = dict[str, Any]
@@ -61,6 +61,7 @@ _TEMPERATURE = {
     "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
     "shift": Field(file_name),
 }
+_WLF = {"wlf_c1": Field(number, "c1"), "wlf_c2_k": Field(number, "c2")}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
 _CELSIUS = 273.15
 _RUBBER = {
@@ -70,14 +71,15 @@ _RUBBER = {
     **_DMA,
     **_BUILD,
     **_TEMPERATURE,
+    **_WLF,
     **_PRONY_FIT,
     "extrapolation": Field(text, "extrapolation"),
 }
 # which keys go with which source of the modulus
 _WITH = {
     "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, *_PRONY_FIT, "extrapolation"},
-    "master_curve": {*_TEMPERATURE, *_REFERENCE, "extrapolation"},
-    "": {*_PRONY, *_TEMPERATURE, *_REFERENCE},
+    "master_curve": {*_TEMPERATURE, *_REFERENCE, *_WLF, "extrapolation"},
+    "": {*_PRONY, *_TEMPERATURE, *_REFERENCE, *_WLF},
 }
 
 
@@ -89,18 +91,28 @@ class BuiltRubber:
     values: Values  # the table as it was used
     notes: Sequence[str]
     drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
+    shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
+    at_reference: Rubber | None = None
 
 
-def build_rubber(path: Path, table: object) -> BuiltRubber:
-    """The rubber of a scene's table."""
+def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
+    """The rubber of a scene's table; `temperature` [K] is that of its conditions."""
     values = read_table(path, "rubber", table, _RUBBER)
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
         if key != source and key not in _WITH[source]:
             given = f"{source} is given" if source else "neither isotherms nor master_curve is"
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
-    with _blaming_celsius(values):
-        return _build(path, source, _in_kelvin(path, values))
+    if temperature is None:
+        with _blaming_celsius(values):
+            return _build(path, source, _in_kelvin(path, values))
+    for key in ("temperature_k", "temperature_c"):
+        if key in values:
+            refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
+    with _blaming_celsius(values), _blaming_conditions():
+        built = _build(path, source, {**_in_kelvin(path, values), "temperature_k": temperature})
+    used = {key: one for key, one in built.values.items() if key != "temperature_k"}
+    return replace(built, values=used)
 
 
 def _build(path: Path, source: str, values: Values) -> BuiltRubber:
@@ -121,14 +133,16 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
             rubber = PronySeries(**arguments(values, _PRONY))
         where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
         plausible.check(where, stiffest(rubber), plausible.MODULUS)
-    shifts = _shift_table(path, values)
+    shifts = _shifts(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:
-                refuse(path, f"[rubber] {key}", "needs shift, a file of shift factors")
+                problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
+                refuse(path, f"[rubber] {key}", problem)
         return _without_errors(rubber, values)
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: shift holds a_T of several")
-    return _without_errors(rubber.shifted(_shift_factor(path, shifts, values)), values)
+    shifted = rubber.shifted(_shift_factor(path, shifts, values))
+    return replace(_without_errors(shifted, values), shift=shifts, at_reference=rubber)
 
 
 def _in_kelvin(path: Path, values: Values) -> Values:
@@ -153,6 +167,16 @@ def _blaming_celsius(values: Values) -> Iterator[None]:
         for name in ("temperature", "reference_temperature"):
             if f"{name}_c" in values:
                 message = message.replace(f"[rubber] {name}_k", f"[rubber] {name}_c (in K)")
+        raise type(error)(message) from error
+
+
+@contextmanager
+def _blaming_conditions() -> Iterator[None]:
+    """Let errors on a temperature name the table that has it."""
+    try:
+        yield
+    except (InvalidInput, OutOfRange) as error:
+        message = str(error).replace("[rubber] temperature_k", "[conditions] temperature")
         raise type(error)(message) from error
 
 
@@ -193,7 +217,19 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
         return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
 
-    return BuiltRubber(rubber, values, [*build.notes, *notes], Drawn[Rubber](rubber, draw))
+    heatable = values.get("vertical_shift") is None  # the model of heat has no b_T
+    return BuiltRubber(
+        rubber,
+        values,
+        [*build.notes, *notes],
+        Drawn[Rubber](rubber, draw),
+        build if heatable else None,
+        _at_temperature(path, _at_reference(values), build, extrapolation)[0] if heatable else None,
+    )
+
+
+def _at_reference(values: Values) -> Values:
+    return {**values, "temperature_k": values["reference_temperature_k"]}
 
 
 def _at_temperature(
@@ -220,6 +256,21 @@ def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
     )
 
 
+def _shifts(path: Path, values: Values) -> ShiftFactors | WLF | None:
+    """a_T(T), from a file or from the constants of a law."""
+    constants = [key for key in _WLF if key in values]
+    if not constants:
+        return _shift_table(path, values)
+    if "shift" in values:
+        refuse(path, f"[rubber] {constants[0]}", "must be left out where shift is given")
+    require(path, "rubber", values, tuple(_WLF), "the law of a_T has two constants")
+    hint = "or reference_temperature_c, at which a_T is 1"
+    require(path, "rubber", values, ("reference_temperature_k",), hint)
+    with rename_in_errors(path, names_of("rubber", {**_WLF, **_BUILD})):
+        reference = values["reference_temperature_k"]
+        return WLF(reference_temperature=reference, **arguments(values, _WLF))
+
+
 def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
     if "shift" not in values:
         return None
@@ -236,12 +287,18 @@ def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
         return read_shift_factors(file, reference_temperature=reference)
 
 
-def _shift_factor(path: Path, shifts: ShiftFactors | MasterCurveBuild, values: Values) -> float:
+def _shift_factor(
+    path: Path, shifts: ShiftFactors | MasterCurveBuild | WLF, values: Values
+) -> float:
     """a_T at the scene's temperature."""
     if values["temperature_k"] == values.get("reference_temperature_k"):
         return 1.0
     with rename_in_errors(path, names_of("rubber", _TEMPERATURE)):
-        a_t = float(shifts.shift_factor(values["temperature_k"]))
+        at = values["temperature_k"]
+        if isinstance(shifts, WLF):
+            a_t = float(10 ** shifts.log10_a_T(at))
+        else:
+            a_t = float(shifts.shift_factor(at))
         if not 0 < a_t < float("inf"):
             raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
         return a_t

@@ -17,6 +17,7 @@ from asperity.base.arguments import path_of
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
+from asperity.heating import Heating
 from asperity.io import plausible
 from asperity.io.fields import (
     MOST_ROWS,
@@ -35,7 +36,13 @@ from asperity.io.fields import (
 )
 from asperity.io.files import check_file
 from asperity.rubber import Rubber
-from asperity.scene.parts import build_adhesion, build_correction
+from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
+from asperity.scene.parts import (
+    build_adhesion,
+    build_correction,
+    build_heating,
+    heating_in_errors,
+)
 from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
 from asperity.scene.surface import Surface, build_surface
 from asperity.spectrum import Spectrum
@@ -45,7 +52,7 @@ _POINTS = {
     "pressure_pa": Field(sweep, "pressure", plausible.PRESSURE),
     "velocity_m_s": Field(sweep, "velocity", plausible.VELOCITY),
 }
-_CONDITIONS = {**_POINTS, "poisson_ratio": Field(number, "poisson_ratio")}
+_CONDITIONS = {**_POINTS, **TEMPERATURE, "poisson_ratio": Field(number, "poisson_ratio")}
 _SOLVER = {"rtol": Field(number, "rtol")} | {name: Field(text, name) for name in ("form", "method")}
 _NAMES = {**names_of("conditions", _CONDITIONS), **names_of("solver", _SOLVER)}
 _UNCERTAINTY = {
@@ -54,7 +61,16 @@ _UNCERTAINTY = {
     "level": Field(number, "level"),
 }
 _TABLES = dict.fromkeys(
-    ("surface", "rubber", "conditions", "correction", "adhesion", "solver", "uncertainty")
+    (
+        "surface",
+        "rubber",
+        "conditions",
+        "correction",
+        "adhesion",
+        "heating",
+        "solver",
+        "uncertainty",
+    )
 )
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
@@ -74,6 +90,8 @@ class Curves:
     contact_area: NDArray[np.float64]
     shift_factor: NDArray[np.float64]
     error_estimate: NDArray[np.float64]
+    hot_temperature: NDArray[np.float64] | None = None  # T(q1) [K], and mu without heat
+    mu_cold: NDArray[np.float64] | None = None
     band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
 
     def within(self, band: Bounds) -> "Curves":
@@ -101,6 +119,9 @@ class Scene:
     sampling: Mapping[str, Any]  # samples, seed and level of a band
     stated_rtol: float | None  # of [solver], None where the default holds
     unusual: Sequence[str]  # numbers that their units make unlikely
+    temperature: float | None = None  # of [conditions] [K]
+    heating: Heating | None = None
+    others: Sequence["Scene"] = ()  # the same at the further temperatures of a list
 
     @property
     def spectrum(self) -> Spectrum:
@@ -136,7 +157,15 @@ class Scene:
     def friction(self, progress: Progress = nullcontext) -> Curves:
         """Friction at every pressure and velocity; `progress` sees the chunks of points."""
         compute = partial(friction, adhesion=self.adhesion, **self.options)
-        parts: list[Friction] = self._at_points(compute, progress)
+        if self.heating is not None:
+            compute = partial(
+                compute,
+                temperature=self.temperature,
+                shift=self.built_rubber.shift,
+                heating=self.heating,
+            )
+        with heating_in_errors(self.path) if self.heating else nullcontext():
+            parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
         notes = dict.fromkeys(self.notes)
         notes |= dict.fromkeys(note for part in parts for note in part.notes)
@@ -144,6 +173,10 @@ class Scene:
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in COLUMNS
         }
+        if self.heating is not None:
+            columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])
+            columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
+            columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
         return Curves(notes=list(notes), band=None, **columns)
 
     @property
@@ -204,11 +237,12 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
+        rubber = self.built_rubber.at_reference if self.heating else self.rubber
         with progress(chunks) as shown, rename_in_errors(self.path, _NAMES):
             return [
                 compute(
                     self.spectrum,
-                    self.rubber,
+                    rubber,
                     pressure=pressure[chunk],
                     velocity=velocity[chunk],
                     correction=self.correction,
@@ -235,8 +269,15 @@ class Scene:
         return density
 
 
-def load_scene(path: str | Path) -> Scene:
+def _known(one: Any) -> Any:
+    assert one is not None
+    return one
+
+
+def load_scene(path: str | Path, *, for_friction: bool = False) -> Scene:
     """Read a scene file and build the parts that it names.
+
+    `for_friction`: it may ask for heat and for several temperatures, which friction alone knows.
 
     Raises
     ------
@@ -244,11 +285,11 @@ def load_scene(path: str | Path) -> Scene:
         In one line: file, table and key, the value found and what is allowed.
     """
     with plausible.collected() as notes:
-        scene = _load(path_of(path, "path"))
+        scene = _load(path_of(path, "path"), for_friction)
     return replace(scene, unusual=tuple(notes))
 
 
-def _load(path: Path) -> Scene:
+def _load(path: Path, for_friction: bool) -> Scene:
     tables = _read_toml(path)
     conditions = read_table(path, "conditions", tables["conditions"], _CONDITIONS)
     require(path, "conditions", conditions, tuple(_POINTS))
@@ -264,13 +305,25 @@ def _load(path: Path) -> Scene:
         refuse(path, "[conditions]", problem)
 
     surface = build_surface(path, tables["surface"])
-    rubber = build_rubber(path, tables["rubber"])
+    temperatures = temperatures_of(path, conditions)
+    if not for_friction:
+        if len(temperatures) > 1:
+            problem = "several are for asperity friction alone: must be one"
+            refuse(path, "[conditions] temperature", problem)
+        if "heating" in tables:
+            refuse(path, "[heating]", "is known to asperity friction alone: must be left out")
+    rubbers = [build_rubber(path, tables["rubber"], t) for t in temperatures]
+    rubber = rubbers[0]
     where = f"{path}: [conditions] pressure_pa"
     plausible.check_load(where, points["pressure_pa"], stiffest(rubber.rubber))
     inputs = {
         "surface": surface.values,
         "rubber": rubber.values,
-        "conditions": {**{key: tables["conditions"][key] for key in _POINTS}, **conditions},
+        "conditions": {
+            **{key: tables["conditions"][key] for key in _POINTS},
+            **{key: one for key, one in tables["conditions"].items() if key in TEMPERATURE},
+            **conditions,
+        },
     }
     correction = adhesion = None
     if "correction" in tables:
@@ -279,6 +332,10 @@ def _load(path: Path) -> Scene:
         )
     if "adhesion" in tables:
         adhesion, inputs["adhesion"] = build_adhesion(path, tables["adhesion"])
+    heating = None
+    if "heating" in tables:
+        heating, inputs["heating"] = build_heating(path, tables["heating"])
+        check_heated(path, tables, temperatures[0], rubber)
     inputs["solver"] = solver
     sampling = {"samples": 100, "seed": 0, "level": 0.95}
     if "uncertainty" in tables:
@@ -289,7 +346,7 @@ def _load(path: Path) -> Scene:
                 "no standard errors are known: the surface must be a file, or the rubber isotherms"
             )
             refuse(path, "[uncertainty]", problem)
-    return Scene(
+    first = Scene(
         path=path,
         surface=surface,
         built_rubber=rubber,
@@ -302,7 +359,12 @@ def _load(path: Path) -> Scene:
         sampling=sampling,
         stated_rtol=stated_rtol,
         unusual=(),
+        temperature=temperatures[0],
+        heating=heating,
     )
+    further = zip(rubbers[1:], temperatures[1:], strict=True)
+    others = [replace(first, built_rubber=one, temperature=t) for one, t in further]
+    return replace(first, others=others)
 
 
 def _read_toml(path: Path) -> dict[str, Any]:

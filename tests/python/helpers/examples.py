@@ -60,6 +60,13 @@ STICKING = {
     "outliers": [[False, True]],
     "notes": ("a note",),
 }
+LAW = {"c1": 8.86, "c2": 101.6, "reference_temperature": 293.15}
+TREAD = {
+    "density": 1200.0,
+    "heat_capacity": 1650.0,
+    "conductivity": 0.23,
+    "contact_diameter": 1e-3,
+}
 FITTED_ROAD = asperity.SelfAffineFit(**FIT)
 SLIDING = {"pressure": [1e5, 2e5], "velocity": 0.01}
 
@@ -133,6 +140,9 @@ MADE = [
     ("AdhesionFit", STICKING, {"residual": 0.06}),
     ("AdhesionFit", STICKING, {"outliers": [[True, False]]}),
     ("PartialContact", {}, None),
+    ("WLF", LAW, {"c2": 50.0}),
+    ("Heating", TREAD, {"interface_share": 0.5}),
+    ("Heating", TREAD | {"macro_area": 0.2}, {"residence": "box"}),
 ]
 IDS = [f"{name}{i}" for i, (name, _, _) in enumerate(MADE)]
 RESULTS = {
@@ -238,6 +248,24 @@ DERIVED = {
     "contributions at many points": asperity.friction(
         ROAD, RUBBER, pressure=1e5, velocity=[0.01, 0.1], contributions=True
     ),
+    "friction at temperatures": asperity.friction(
+        ROAD,
+        RUBBER,
+        pressure=1e5,
+        velocity=[0.01, 0.1],
+        temperature=[[263.0], [293.0], [313.0]],
+        shift=asperity.WLF(**LAW),
+    ),
+    "friction with its heat": asperity.friction(
+        ROAD,
+        RUBBER,
+        pressure=1e5,
+        velocity=[0.01, 0.1],
+        temperature=293.0,
+        shift=asperity.WLF(**LAW),
+        heating=asperity.Heating(**TREAD),
+        contributions=True,
+    ),
     "no friction": asperity.friction(
         ROAD,
         RUBBER,
@@ -282,6 +310,12 @@ CALLS = {
     "friction": SLIDES,
     "friction_band": {**SLIDES, "spectrum": FITTED_ROAD, "samples": 20},
     "friction_map": {**SLIDES, "pressure": (1e5, 2e5), "velocity": (0.01, 1.0), "checked": 1},
+    "heat_kernel": {
+        "q": 2e3,
+        "q_prime": [2e3, 1e4],
+        "velocity": 1.0,
+        "heating": asperity.Heating(**TREAD),
+    },
     "hertz_penetration": {"force": 1.0, "effective_modulus": 1e6, "radius": 1e-3},
     "line_spectrum": {"surface": ROUGH},
     "mean_pressure": SLIDES,

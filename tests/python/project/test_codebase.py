@@ -25,7 +25,12 @@ PYTHON = sorted((ROOT / "python/asperity").rglob("*.py"))
 CMAKE = (ROOT / "cpp/CMakeLists.txt").read_text(encoding="utf-8")
 TOPICS = re.search(r"set\(ASPERITY_TOPICS ([^)]*)\)", CMAKE)[1].split()
 # Public headers whose topic's folder has another name.
-FOLDER_OF = {"asperities": "contact", "correction": "contact", "build_friction_map": "friction_map"}
+FOLDER_OF = {
+    "asperities": "contact",
+    "correction": "contact",
+    "heating": "heat",
+    "build_friction_map": "friction_map",
+}
 
 
 def includes(path):

@@ -173,6 +173,7 @@ def test_every_verb_is_shown_and_has_an_example() -> None:
 def test_the_page_of_scenes_has_every_key() -> None:
     page = PAGES["docs/reference/scene.md"]
     tables = [surface._SURFACE, rubber._RUBBER, parts._ADHESION, *parts._CORRECTIONS.values()]
+    tables += [parts._HEATING]
     tables += [scene._CONDITIONS, scene._SOLVER, scene._UNCERTAINTY]
     missing = {key for table in tables for key in table if f"`{key}`" not in page}
     assert missing == set()

@@ -130,6 +130,10 @@ def used(value):
             return asperity.build_master_curve([value, colder], reference_temperature=290.0)
         case asperity.ShiftFactors():
             return value.shift_factor([275.0, 300.0]), value.fit_arrhenius()
+        case asperity.WLF() | asperity.WlfFit() | asperity.ArrheniusFit():
+            return value.log10_a_T([275.0, 300.0]), value.log10_a_T_slope(300.0)
+        case asperity.Heating():
+            return asperity.heat_kernel(1e3, [1e3, 2e4], velocity=0.3, heating=value)
         case asperity.StrainSweep():
             return large_strain(5e-3, [value])
         case asperity.FrictionMap():
@@ -140,7 +144,7 @@ def used(value):
             return None
 
 
-RESULTS = {"Friction", "Separation", "WlfFit", "ArrheniusFit", "Anisotropy", "SpectralDensity"}
+RESULTS = {"Friction", "Separation", "Anisotropy", "SpectralDensity"}
 RESULTS |= {"MasterPoints", "FrictionBand", "FrictionSlopes"}
 
 

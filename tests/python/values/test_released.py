@@ -19,6 +19,7 @@ from helpers.examples import (
     SLOW,
     SWEEPS,
     SWEPT,
+    TREAD,
     large_strain,
 )
 
@@ -59,6 +60,9 @@ COMPUTING = {
         velocity=(0.01, 0.1),
         rtol=1e-2,
         checked=100,
+    ),
+    "heat_kernel": partial(
+        asperity.heat_kernel, Q, 1e4, velocity=1.0, heating=asperity.Heating(**TREAD)
     ),
     "line_spectrum": partial(asperity.line_spectrum, MAP),
     "mean_pressure": partial(asperity.mean_pressure, ROAD, SLOW, **SCENE),

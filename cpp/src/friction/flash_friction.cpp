@@ -1,0 +1,213 @@
+// Friction of a rubber that the friction heats: mu_H of Eq. 22 and mu_A of Eq. 23 with the modulus at the temperature
+// that roughness of each wavenumber feels, beside the same without heat. B. N. J. Persson, J. Phys.: Condens. Matter
+// 18, 7789 (2006).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "asperity/friction.hpp"
+#include "asperity/watch.hpp"
+#include "contact/conditions.hpp"
+#include "friction/before_heating.hpp"
+#include "heat/flash_solver.hpp"
+#include "heat/history.hpp"
+#include "numerics/arguments.hpp"
+#include "numerics/parallel_for.hpp"
+#include "spectrum/table_surface.hpp"
+
+namespace asperity {
+
+namespace {
+
+void check_heating(const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion) {
+  validate(heating);
+  if (heating.interface_share != 1 && !adhesion)
+    refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
+  if (model.method != Method::gauss)
+    throw InvalidInput("method: must be gauss where heating is given; the others do not know a temperature");
+  const Correction& c = model.correction;
+  if (!std::holds_alternative<NoCorrection>(c) && !std::holds_alternative<SFactor>(c) &&
+      !std::holds_alternative<NayakSFactor>(c) && !std::holds_alternative<AffineShift>(c) &&
+      !std::holds_alternative<LocalPeaks>(c))
+    throw InvalidInput(
+        "correction: must be None, SFactor, NayakSFactor, AffineShift or LocalPeaks where heating is given; the others "
+        "would have to follow the temperature");
+}
+
+/// What there is to say of the points, a bit each.
+struct HeatNotes {
+  bool hot = false, wide = false, several = false, crowded = false;
+  void add(const HeatNotes& other) {
+    hot |= other.hot;
+    wide |= other.wide;
+    several |= other.several;
+    crowded |= other.crowded;
+  }
+};
+
+constexpr double published_rise = 100;  // [K]
+constexpr double least_peclet = 10, telling_rise = 1;
+constexpr double crowded_area = 0.3;
+
+std::vector<std::string> texts(const HeatNotes& notes, const Heating& heating, const Spectrum& spectrum) {
+  std::vector<std::string> result;
+  if (notes.hot)
+    result.push_back("the rubber heats itself by more than " + show(published_rise) +
+                     " K at some points, beyond what the model was compared with experiments on");
+  if (notes.wide)
+    result.push_back("heat flows to the sides too at some points, where v R / D is below " + show(least_peclet) +
+                     ": the rise there is up to 5 % too high, at v R / D = 1 by half");
+  if (notes.several)
+    result.emplace_back(
+        "the heat has more than one steady state at some points, see branches: the one that sliding from rest reaches "
+        "is given, unless branch=\"hot\" asked for the other end");
+  const auto [q0, q1] = band(spectrum);
+  const double q = 2 * std::numbers::pi / heating.contact_diameter;
+  if (!heating.macro_wavenumber && !heating.macro_area && (q < q0 || q > q1))
+    result.push_back("the macro-asperities' wavenumber, 2 pi / contact_diameter = " + show(q, 4) +
+                     " 1/m, is held to the spectrum's end: give macro_wavenumber or macro_area");
+  if (notes.crowded)
+    result.push_back("the macro-asperity contacts cover more than " + show(crowded_area) +
+                     " of the surface at some points: they touch, and the heat of one reaches the next");
+  return result;
+}
+
+/// The points of a curve side by side, from low to high velocity.
+std::vector<std::size_t> by_curve(std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> temperature) {
+  std::vector<std::size_t> order(velocity.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return std::tuple(temperature[i], pressure[i], velocity[i]); });
+  return order;
+}
+
+void add_contributions(const FlashSolver& solver, FlashFriction& f, std::size_t i) {
+  Contributions& c = *f.hot.contributions;
+  const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
+  for (std::size_t j = 0; j < n; ++j) {
+    c.dmu_dlnq[i * n + j] = solver.hysteresis_density(c.wavenumber[j]);
+    f.temperature_profile[i * n + j] = solver.temperature_at(c.wavenumber[j]);
+  }
+  const double whole = f.hot.hysteresis[i];
+  if (whole == 0) return;
+  for (const auto& [lower, upper, hysteresis] : solver.shares()) {
+    const double w = f.hot.velocity[i] * std::sqrt(lower * upper);
+    const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
+    const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
+    c.decade_share[i * m + decade] += hysteresis / whole;
+  }
+}
+
+/// Columns for the hot points, cleared.
+FlashFriction cleared(Friction cold, std::size_t n) {
+  FlashFriction f;
+  f.hot = cold;
+  f.cold = std::move(cold);
+  f.macro_area.assign(n, 0.0);
+  f.gain.assign(n, 0.0);
+  f.branches.assign(n, 1);
+  f.hot.model_error.assign(n, std::numeric_limits<double>::quiet_NaN());  // exact contacts were cold
+  if (f.hot.contributions) {
+    Contributions& c = *f.hot.contributions;
+    std::ranges::fill(c.dmu_dlnq, 0.0);
+    std::ranges::fill(c.decade_share, 0.0);
+    f.temperature_profile.assign(c.dmu_dlnq.size(), 0.0);
+  }
+  return f;
+}
+
+}  // namespace
+
+FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                       const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                       std::span<const double> pressure, std::span<const double> velocity,
+                       std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
+  check_heating(heating, model, adhesion);
+  const double q_m = macro_wavenumber(heating, spectrum);
+  const std::size_t n = velocity.size();
+  FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
+                                                    temperature, contributions, threads, true),
+                            n);
+  const SurfaceSegments kept(spectrum);
+  const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, s_in_integrand(model.correction), q_m};
+  const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
+  const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
+  constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
+  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
+  std::vector<HeatNotes> notes(workers);
+  std::vector<std::optional<FlashSolver>> solvers(workers);
+  in_blocks(workers, n, block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+    if (!solvers[worker]) solvers[worker].emplace(scene, branch);
+    FlashSolver& solve = *solvers[worker];
+    for (std::size_t k = begin; k < end; ++k) {
+      heed();
+      const std::size_t i = order[k];
+      const double p = pressure[i], v = velocity[i], t = temperature[i];
+      const bool new_curve = k == begin || pressure[order[k - 1]] != p || temperature[order[k - 1]] != t;
+      if (new_curve) solve.forget();
+      if (f.hot.contributions) {
+        std::vector<double> stops = f.hot.contributions->decade_edges;
+        for (double& stop : stops) stop /= v;
+        solve.set_stops(std::move(stops));
+      }
+      const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
+      HotPoint at;
+      at_point(p, v, [&] { at = solve({p, v, t, f.cold.shift_factor[i], per_area}); });
+      f.hot.mu[i] = at.hysteresis + at.adhesion;
+      f.hot.hysteresis[i] = at.hysteresis;
+      f.hot.adhesion[i] = at.adhesion;
+      f.hot.contact_area[i] = at.contact_area;
+      f.hot.error_estimate[i] = at.error_estimate;
+      f.hot.extrapolated_share[i] = at.extrapolated_share;
+      f.hot.temperature[i] = at.temperature;
+      f.macro_area[i] = at.macro_area;
+      f.gain[i] = at.gain;
+      f.branches[i] = at.branches;
+      if (f.hot.contributions) add_contributions(solve, f, i);
+      const double rise = at.temperature - t;
+      notes[worker].add(
+          {rise > published_rise,
+           rise > telling_rise && v * heating.contact_diameter / 2 / diffusivity<least_peclet, at.branches> 1,
+           at.macro_area > crowded_area});
+    }
+  });
+  for (const HeatNotes& others : std::span(notes).subspan(1)) notes.front().add(others);
+  std::ranges::move(texts(notes.front(), heating, spectrum), std::back_inserter(f.hot.notes));
+  return f;
+}
+
+std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                                   const Heating& heating, const ContactModel& model,
+                                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                                   std::span<const double> velocity, std::span<const double> temperature) {
+  check_contact(model, pressure, velocity);
+  require_same_size("temperature", temperature.size(), "velocity", velocity.size());
+  if (adhesion) validate(*adhesion);
+  check_heating(heating, model, adhesion);
+  const SurfaceSegments kept(spectrum);
+  const HeatScene scene{spectrum,
+                        kept.get(),
+                        rubber,
+                        shift,
+                        heating,
+                        model,
+                        s_in_integrand(model.correction),
+                        macro_wavenumber(heating, spectrum)};
+  std::vector<double> result;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const double p = pressure[i], v = velocity[i];
+    const double shift_factor = affine_shift(model.correction, spectrum, rubber, p, v, model.poisson_ratio).p;
+    at_point(p, v, [&] {
+      result.push_back(sliding_length(
+          scene, {p, v, temperature[i], shift_factor, adhesion ? adhesion_per_share(*adhesion, p, v) : 0}));
+    });
+  }
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,63 @@
+// Friction with the heat that it makes, at points of pressure, velocity and temperature.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "heat/fixed_point.hpp"
+
+namespace asperity {
+
+/// The results at one point.
+struct HotPoint {
+  double hysteresis = 0, adhesion = 0, contact_area = 0;
+  double error_estimate = 0;  // of mu
+  double extrapolated_share = 0;
+  double temperature = 0;  // T(q1) [K]
+  double macro_area = 0, gain = 0;
+  int branches = 1;
+};
+
+/// Solves each point on two grids, the second finer by two digits; their difference is the error of the first, and the
+/// second is what is returned. Points follow each other from low to high velocity.
+class FlashSolver {
+ public:
+  /// `stops`: wavenumbers [1/m] at which panels shall end too, for contributions.
+  FlashSolver(const HeatScene& scene, Branch branch);
+  HotPoint operator()(const HeatPoint& point);
+  /// Ends panels at these wavenumbers [1/m] too, from the next point on.
+  void set_stops(std::vector<double> stops);
+  /// Forgets the point before, where a new curve begins.
+  void forget();
+
+  /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
+  [[nodiscard]] double temperature_at(double wavenumber) const;
+  [[nodiscard]] double hysteresis_density(double wavenumber) const;
+  struct PanelShare {
+    double lower, upper, hysteresis;
+  };
+  [[nodiscard]] std::vector<PanelShare> shares() const;
+
+ private:
+  struct Level {
+    std::unique_ptr<HeatGrid> grid;
+    std::unique_ptr<FlashMap> map;
+  };
+  FlashMap& map_of(std::size_t level);
+  void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
+  [[nodiscard]] double outside_share(const FlashMap& map) const;
+
+  const HeatScene& scene_;
+  Branch branch_;
+  std::vector<double> stops_;
+  std::vector<Level> levels_;
+  std::size_t first_level_ = 0, level_ = 0;  // of the coarser grid
+  HeatPoint point_{};
+  FixedPoint before_;  // on grid `before_level_`, of the point before
+  std::size_t before_level_ = 0, finest_ = 0;
+};
+
+/// q_m: as given, or 2 pi / diameter held to the band.
+double macro_wavenumber(const Heating& heating, const Spectrum& spectrum);
+
+}  // namespace asperity

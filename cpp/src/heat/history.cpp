@@ -1,0 +1,145 @@
+// The rise after the distance s is what the heat of the distance u before has left of it, for all u up to s:
+//   theta(q, s) = int_0^s du / v h(u / 2 R) sum_q' K(q, q', u / v) f(q', s - u),
+// K = a (b erfcx(a l) - a erfcx(b l)) / (b^2 - a^2) with a = 2 q, b = 2 q', l = sqrt(D u / v), h the overlap of two
+// discs or 1 (box). f is linear between equal steps of s, and its last value follows from the one before.
+#include "heat/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "asperity/watch.hpp"
+#include "numerics/gauss_legendre.hpp"
+
+namespace asperity {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+namespace {
+
+constexpr std::size_t level = 1;            // of the grid: six digits
+constexpr std::size_t steps_a_length = 80;  // of the residence; errors of s0 are a small part of a step
+constexpr std::size_t steps = steps_a_length * 3 / 2;
+
+/// What is left of heat that came so many steps before, a unit of it that rises and falls over a step each: at the
+/// nodes (temperature points x nodes [s]) and at the surface [s/m].
+struct Left {
+  std::vector<MatrixXd> nodes;
+  std::vector<VectorXd> surface;
+};
+struct Response {
+  Left whole, falling;  // of the very first heat there is but the fall: it does not rise from nothing
+};
+
+double overlap(Residence residence, double share) {
+  if (share >= 1) return 0;
+  if (residence == Residence::box) return 1;
+  return 1 - 2 / pi * (share * std::sqrt(1 - share * share) + std::asin(share));
+}
+
+VectorXd scaled_erfcs(const VectorXd& doubled, double length) {
+  return doubled.unaryExpr([&](double a) { return scaled_erfc(a * length); });
+}
+
+Response response(const HeatScene& scene, const HeatGrid& grid, double residence_time) {
+  const Heating& heating = scene.heating;
+  const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
+  const auto columns = [](const std::vector<double>& q) -> VectorXd {
+    return 2 * Eigen::Map<const VectorXd>(q.data(), static_cast<Index>(q.size()));
+  };
+  const VectorXd a = columns(grid.temperature_points()), b = columns(grid.wavenumber());
+  // 1 / (b^2 - a^2), moved a little off where the two are the same: K is smooth there
+  MatrixXd inverse(a.size(), b.size());
+  for (Index j = 0; j < b.size(); ++j)
+    for (Index i = 0; i < a.size(); ++i) {
+      double apart = b[j] - a[i];
+      if (std::fabs(apart) < 1e-7 * b[j]) apart = std::copysign(1e-7 * b[j], apart);
+      inverse(i, j) = 1 / (apart * (b[j] + a[i]));
+    }
+  Response result;
+  for (Left* const left : {&result.whole, &result.falling}) {
+    left->nodes.assign(steps_a_length + 1, MatrixXd::Zero(a.size(), b.size()));
+    left->surface.assign(steps_a_length + 1, VectorXd::Zero(a.size()));
+  }
+  const LegendreRule& rule = legendre_rule(8);
+  const double step = residence_time / steps_a_length;
+  for (std::size_t k = 0; k < steps_a_length; ++k) {
+    heed();
+    // in sqrt(tau), of which erfcx is smooth
+    const double lower = std::sqrt(step * static_cast<double>(k)), upper = std::sqrt(step * static_cast<double>(k + 1));
+    for (std::size_t i = 0; i < rule.n; ++i) {
+      const double root = lower + (upper - lower) / 2 * (1 + rule.node[i]), tau = root * root;
+      const double share = tau / step - static_cast<double>(k);  // of the step
+      const double weight = (upper - lower) * rule.weight[i] * root * overlap(heating.residence, tau / residence_time);
+      const double length = std::sqrt(diffusivity) * root;
+      const VectorXd felt = scaled_erfcs(a, length), heated = scaled_erfcs(b, length);
+      const MatrixXd kernel =
+          weight * (a.cwiseProduct(felt) * b.transpose() - a.cwiseAbs2() * heated.transpose()).cwiseProduct(inverse);
+      const VectorXd surface = weight * a.cwiseProduct(felt);
+      result.whole.nodes[k] += (1 - share) * kernel;
+      result.whole.surface[k] += (1 - share) * surface;
+      result.falling.nodes[k + 1] += share * kernel;
+      result.falling.surface[k + 1] += share * surface;
+    }
+  }
+  for (std::size_t k = 0; k <= steps_a_length; ++k) {
+    result.whole.nodes[k] += result.falling.nodes[k];
+    result.whole.surface[k] += result.falling.surface[k];
+  }
+  return result;
+}
+
+/// Where a curve first comes within 1 / e of its last value; its values are steps apart.
+double distance_to_last(const std::vector<double>& values, double step) {
+  const double last = values.back(), span = values.front() - last;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double before = (values[i - 1] - last) / span, here = (values[i] - last) / span;
+    if (here <= 1 / std::numbers::e)
+      return step * (static_cast<double>(i - 1) + (before - 1 / std::numbers::e) / (before - here));
+  }
+  return step * static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double sliding_length(const HeatScene& scene, const HeatPoint& point) {
+  const HeatGrid grid(scene.surface, scene.model.poisson_ratio, std::vector<double>{scene.macro_wavenumber}, level,
+                      std::holds_alternative<MasterCurve>(scene.rubber));
+  FlashMap map(scene, grid);
+  map.start(point);
+  const double reach = scene.heating.contact_diameter / (scene.heating.residence == Residence::box ? 2 : 1);
+  const Response after = response(scene, grid, reach / point.velocity);
+  std::vector<VectorXd> nodes;
+  std::vector<double> surface, mu, rise;
+  VectorXd theta = VectorXd::Zero(static_cast<Index>(grid.temperature_points().size()));
+  for (std::size_t n = 0; n <= steps; ++n) {
+    heed();
+    if (n > 0) {
+      VectorXd before = VectorXd::Zero(theta.size());
+      for (std::size_t k = 1; k <= std::min(n, steps_a_length); ++k) {
+        const Left& left = k == n ? after.falling : after.whole;
+        before += left.nodes[k] * nodes[n - k] + surface[n - k] * left.surface[k];
+      }
+      for (int pass = 0; pass < 3; ++pass) {  // the last heat, by what it was a step before at first
+        const VectorXd& f = pass == 0 ? nodes.back() : map.heat_of_nodes();
+        const double f_surface = pass == 0 ? surface.back() : map.heat_of_surface();
+        theta = (before + after.whole.nodes[0] * f + f_surface * after.whole.surface[0]).cwiseMax(0.0);
+        map(theta);
+      }
+    } else {
+      map(theta);
+    }
+    nodes.push_back(map.heat_of_nodes());
+    surface.push_back(map.heat_of_surface());
+    mu.push_back(map.hysteresis() + map.adhesion());
+    rise.push_back(theta[theta.size() - 1]);
+  }
+  const double step = reach / static_cast<double>(steps_a_length);
+  constexpr double told = 1e-6;  // of mu
+  return distance_to_last(std::fabs(mu.front() - mu.back()) > told * mu.front() ? mu : rise, step);
+}
+
+}  // namespace asperity

@@ -1,0 +1,46 @@
+"""Temperatures of a scene, and what heat needs to start from."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from asperity.io import plausible
+from asperity.io.fields import Field, refuse, sweep
+from asperity.scene.rubber import BuiltRubber
+
+MOST_TEMPERATURES = 1000  # of a list
+TEMPERATURE = {
+    "temperature_k": Field(sweep, "temperature", plausible.TEMPERATURE),
+    "temperature_c": Field(sweep, "", plausible.TEMPERATURE, "C"),
+}
+
+
+def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
+    """Temperatures [K] of [conditions], taken out of it; None where it has none."""
+    given = {key: conditions.pop(key) for key in TEMPERATURE if key in conditions}
+    if len(given) > 1:
+        refuse(path, "[conditions] temperature_c", "must be left out where temperature_k is given")
+    if not given:
+        return [None]
+    [(key, values)] = given.items()
+    kelvin = values + (273.15 if key == "temperature_c" else 0)
+    if len(kelvin) > MOST_TEMPERATURES:
+        problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"
+        refuse(path, f"[conditions] {key}", problem)
+    return [float(one) for one in kelvin]
+
+
+def check_heated(
+    path: Path, tables: Mapping[str, Any], temperature: float | None, rubber: BuiltRubber
+) -> None:
+    """Refuse heat where it has nothing to start from, or where nothing follows it."""
+    if temperature is None:
+        problem = "needs [conditions] temperature_k or temperature_c, from which the rubber warms"
+        refuse(path, "[heating]", problem)
+    if rubber.shift is None:
+        if "vertical_shift" in rubber.values:
+            problem = "must be left out where [heating] is given: its model has no b_T"
+            refuse(path, "[rubber] vertical_shift", problem)
+        refuse(path, "[heating]", "needs [rubber] shift, or wlf_c1 and wlf_c2_k")
+    if "uncertainty" in tables:
+        refuse(path, "[uncertainty]", "must be left out where [heating] is given: bands are cold")

@@ -1,0 +1,140 @@
+"""The kernel of the heat flow: values from its definition, limits, and what it refuses."""
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.cases import case, each
+from helpers.examples import TREAD
+from helpers.table_rows import close
+
+HEATING = asperity.Heating(**TREAD)
+D = TREAD["conductivity"] / (TREAD["density"] * TREAD["heat_capacity"])
+RHO_C = TREAD["density"] * TREAD["heat_capacity"]
+
+
+def heated(row):
+    """The constants of a row, whose diffusivity is that of this density and capacity."""
+    return asperity.Heating(
+        **TREAD
+        | {
+            "conductivity": row["diffusivity"] * RHO_C,
+            "contact_diameter": row["contact_diameter"],
+            "residence": row["residence"],
+        }
+    )
+
+
+@pytest.mark.reference("heat_kernel")
+def test_kernel_of_its_definition(row):
+    found = asperity.heat_kernel(
+        row["q"], row["q_prime"], velocity=row["velocity"], heating=heated(row)
+    )
+    close(row, ["g"], [found])
+
+
+@pytest.mark.reference("heat_universal")
+def test_universal_functions_of_their_definition(row):
+    # far apart g has N alone, and on the diagonal Q alone
+    q = 1e4
+    time = (row["x"] / (2 * q)) ** 2 / D
+    diameter = 1e-3
+    box = row["residence"] == "box"
+    velocity = diameter / time / (2 if box else 1)
+    heating = asperity.Heating(**TREAD | {"residence": row["residence"]})
+    on_diagonal = asperity.heat_kernel(q, q, velocity=velocity, heating=heating)
+    close(row, ["q"], [2 * on_diagonal / time])
+
+
+def over_k(q, q_prime, time, residence):
+    """g by the integral over k, with the mean of exp(-D k^2 tau) over the residence."""
+    k = np.exp(np.arange(-40, 40, 0.05))
+    z = D * k * k * time
+    if residence == "box":
+        mean = -np.expm1(-z) / z
+    else:  # by the trapezoid in time, an angle that the square roots at both ends ask for
+        node, weight = np.polynomial.legendre.leggauss(400)
+        phi = np.pi / 4 * (1 + node)
+        w = np.sin(phi) ** 4  # many nodes near w = 0
+        h = 1 - 2 / np.pi * (w * np.sqrt(1 - w * w) + np.arcsin(w))
+        dw = 4 * np.sin(phi) ** 3 * np.cos(phi) * np.pi / 4 * weight
+        mean = (np.exp(-z[:, None] * w) * h * dw).sum(axis=1)
+    lorentz = 4 * q**2 / (k**2 + 4 * q**2) * 4 * q_prime / (k**2 + 4 * q_prime**2)
+    return time * 0.05 / np.pi * (lorentz * mean * k).sum()
+
+
+@each("residence", ["disc", "box"])
+def test_closed_form_is_the_integral_over_k(residence):
+    rng = np.random.default_rng(3)
+    heating = asperity.Heating(**TREAD | {"residence": residence})
+    for _ in range(40):
+        q, q_prime, v = np.exp(rng.uniform(np.log([1e3, 1e3, 1e-4]), np.log([1e6, 1e6, 10])))
+        if rng.random() < 0.3:
+            q_prime = q * (1 + 10 ** rng.uniform(-8, -1))
+        time = TREAD["contact_diameter"] / v / (2 if residence == "box" else 1)
+        with case(q=q, q_prime=q_prime, v=v):
+            g = asperity.heat_kernel(q, q_prime, velocity=v, heating=heating)
+            assert g == pytest.approx(over_k(q, q_prime, time, residence), rel=1e-7)
+
+
+def test_kernel_has_no_seam_where_its_formula_changes():
+    q = 1e4
+    for residence in ("disc", "box"):
+        heating = asperity.Heating(**TREAD | {"residence": residence})
+        for v in (1e-4, 1.0, 1e3):
+            for apart in (0.02, 1e-3, 1e-9):
+                near = q * (1 + apart * np.array([1 - 1e-6, 1, 1 + 1e-6]))
+                g = asperity.heat_kernel(q, near, velocity=v, heating=heating)
+                with case(residence=residence, v=v, apart=apart):
+                    assert abs(g[0] - 2 * g[1] + g[2]) < 1e-12 * g[1]
+
+
+def test_kernel_without_diffusion_stays_where_the_heat_is():
+    thin = asperity.Heating(**TREAD | {"conductivity": 0.01, "contact_diameter": 1e-12})
+    q, q_prime, v = 2e3, 1e5, 1e3
+    residence = 4 / (3 * np.pi) * 1e-12 / v  # 8 R / (3 pi v)
+    g = asperity.heat_kernel(q, q_prime, velocity=v, heating=thin)
+    assert g == pytest.approx(residence * q / (q + q_prime), rel=1e-4)
+
+
+def test_kernel_where_diffusion_wins_is_the_same_for_all_wavenumbers():
+    q, v = np.array([1e3, 1e5, 1e7]), 1e-15
+    g = asperity.heat_kernel(q[:, None], q, velocity=v, heating=HEATING)
+    surface = 1.2204156216 * np.sqrt(1e-3 / v / np.pi / D) / 2  # c_h sqrt(t / (pi D)) / 2
+    np.testing.assert_allclose(g * q, surface, rtol=1e-4)
+
+
+def test_kernel_is_positive_over_all_scales():
+    q = np.geomspace(1e-3, 1e12, 60)
+    for residence in ("disc", "box"):
+        heating = asperity.Heating(**TREAD | {"residence": residence})
+        for v in (1e-9, 1e-3, 10.0, 1e5):
+            assert asperity.heat_kernel(q[:, None], q, velocity=v, heating=heating).min() > 0
+
+
+BAD = {
+    "density": (1.2, r"in \[100, 10000\] kg/m\^3"),
+    "heat_capacity": (1.65, r"in \[100, 10000\] J/\(kg K\)"),
+    "conductivity": (230.0, r"in \[0.01, 100\] W/\(m K\)"),
+    "contact_diameter": (0.0, "positive and finite"),
+    "macro_wavenumber": (-1.0, "positive and finite"),
+    "macro_area": (1.1, r"in \(0, 1\]"),
+    "interface_share": (-0.1, r"in \[0, 1\]"),
+}
+
+
+@each("name", BAD)
+def test_constants_out_of_their_ranges_are_refused(name):
+    value, allowed = BAD[name]
+    for wrong in (value, np.nan, -np.inf):
+        with pytest.raises(asperity.InvalidInput, match=f"{name} = .*: must be {allowed}"):
+            asperity.Heating(**TREAD | {name: wrong})
+
+
+def test_both_macro_arguments_are_refused():
+    with pytest.raises(asperity.InvalidInput, match=r"macro_area = 0.2: must be left out where"):
+        asperity.Heating(**TREAD | {"macro_area": 0.2, "macro_wavenumber": 5e3})
+    with pytest.raises(asperity.InvalidInput, match='residence = "ring": must be one of'):
+        asperity.Heating(**TREAD | {"residence": "ring"})
+    with pytest.raises(asperity.InvalidInput, match="velocity = 0: must be positive"):
+        asperity.heat_kernel(1e3, 1e3, velocity=0.0, heating=HEATING)

@@ -1,0 +1,360 @@
+"""Friction that heats its rubber: values of two other programs, limits, honesty, refusals."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.cases import case, each
+from helpers.examples import TREAD
+
+REFERENCE = Path(__file__).parents[2] / "reference"
+LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+HEATING = asperity.Heating(**TREAD)
+STICKY = asperity.Adhesion(shear_stress=8.3e6, reference_velocity=6e-3, width=0.1)
+ASPHALT = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
+CUT = ASPHALT.truncated(q1=23339.76848083597)
+KINDS = {
+    "s_factor": {"correction": asperity.SFactor(gamma=0.5)},
+    "interpolated": {"form": "interpolated"},
+    "box": {"heating": asperity.Heating(**TREAD | {"residence": "box"})},
+    "macro_area_0.2": {"heating": asperity.Heating(**TREAD | {"macro_area": 0.2})},
+    "adhesion": {"adhesion": STICKY},
+}
+
+
+@cache
+def rubber():
+    """The rubber that the comments of the table have."""
+    text = (REFERENCE / "flash.csv").read_text(encoding="utf-8").splitlines()
+    columns = {
+        line.split()[1]: [float(x) for x in line.split()[2:]]
+        for line in text
+        if line.startswith(("# moduli", "# relaxation_times"))
+    }
+    return asperity.PronySeries(equilibrium_modulus=2e6, **columns)
+
+
+def hot(spectrum=CUT, *, velocity, pressure=2e5, temperature=293.15, shift=LAW, **more):
+    given = {"heating": HEATING, "rtol": 1e-9} | more
+    compound = given.pop("rubber", None) or rubber()
+    return asperity.friction(
+        spectrum,
+        compound,
+        pressure=pressure,
+        velocity=velocity,
+        temperature=temperature,
+        shift=shift,
+        **given,
+    )
+
+
+def of_row(row, **more):
+    spectrum = ASPHALT.truncated(q1=row["q1"])
+    at = {name: row[name] for name in ("pressure", "temperature")}
+    return hot(spectrum, **at, **KINDS.get(row["kind"], {}), **more)
+
+
+def test_the_table_of_two_other_programs(reference_table):
+    rows = reference_table("flash")
+    curves = {}
+    for row in rows:
+        key = tuple(row[name] for name in ("kind", "pressure", "temperature", "q1"))
+        curves.setdefault(key, []).append(row)
+    compared = 0
+    for key, of_curve in curves.items():
+        velocity = np.array([row["velocity"] for row in of_curve])
+        found = of_row(of_curve[0], velocity=velocity)
+        for i, row in enumerate(of_curve):
+            if row["solution"] != 1:
+                continue
+            values = {
+                "mu_h": found.hysteresis[i],
+                "mu_a": found.adhesion[i],
+                "area": found.contact_area[i],
+                "area_macro": found.macro_area[i],
+                "rise_q1": found.temperature[i] - row["temperature"],
+                "mu_h_cold": found.cold.hysteresis[i],
+                "mu_a_cold": found.cold.adhesion[i],
+                "area_cold": found.cold.contact_area[i],
+            }
+            for name, value in values.items():
+                with case(key=key, velocity=row["velocity"], name=name):
+                    # a rise is a difference of temperatures of 300 K
+                    rounding = 2e-13 if name == "rise_q1" else 0
+                    assert value == pytest.approx(row[name], rel=1e-8, abs=rounding)
+            with case(key=key, velocity=row["velocity"]):
+                assert found.branches[i] == row["solutions"]
+                assert found.gain[i] == pytest.approx(row["gain"], rel=1e-6)
+                assert found.error_estimate[i] <= 1e-9 * found.mu[i]
+            compared += 1
+    assert compared == 71
+
+
+def test_every_branch_of_the_thermal_runaway(reference_table):
+    rows = [row for row in reference_table("flash") if row["solutions"] == 3]
+    assert [row["solution"] for row in rows] == [1, 2, 3]
+    for branch, row in (("cold", rows[0]), ("hot", rows[2])):
+        found = of_row(row, velocity=row["velocity"], branch=branch)
+        with case(branch=branch):
+            assert found.branches == 3
+            assert found.mu == pytest.approx(row["mu_h"], rel=1e-8)
+            assert found.temperature - row["temperature"] == pytest.approx(row["rise_q1"], 1e-8)
+            assert any("more than one steady state" in note for note in found.notes)
+
+
+def test_temperature_profiles(reference_table):
+    rows = reference_table("flash_profile")
+    curves = {}
+    for row in rows:
+        curves.setdefault((row["kind"], row["velocity"]), []).append(row)
+    assert len(curves) == 15
+    for (kind, velocity), profile in curves.items():
+        row = {**profile[0], "q1": profile[-1]["wavenumber"]}
+        found = of_row(row, velocity=velocity, contributions=True)
+        q = np.array([one["wavenumber"] for one in profile])
+        rise = np.interp(np.log(q), np.log(found.wavenumber), found.temperature_profile) - 293.15
+        expected = np.array([one["rise"] for one in profile])
+        with case(kind=kind, velocity=velocity):
+            np.testing.assert_allclose(rise, expected, rtol=1e-3)  # linear between its wavenumbers
+            np.testing.assert_allclose(rise[[0, -1]], expected[[0, -1]], rtol=1e-8)
+
+
+def test_contributions_add_up_to_the_hysteresis():
+    v = np.array([1e-3, 1.0])
+    found = hot(velocity=v, contributions=True, adhesion=STICKY)
+    plain = hot(velocity=v, adhesion=STICKY)
+    np.testing.assert_allclose(found.mu, plain.mu, rtol=2e-9)
+    np.testing.assert_allclose(found.decade_share.sum(axis=-1), 1, rtol=1e-12)
+    total = np.trapezoid(found.dmu_dlnq, np.log(found.wavenumber), axis=-1)
+    np.testing.assert_allclose(total, found.hysteresis, rtol=5e-3)
+    assert (np.diff(found.temperature_profile, axis=-1) > 0).all()  # hottest at the surface
+    np.testing.assert_allclose(found.temperature_profile[:, -1], found.temperature, rtol=1e-12)
+
+
+def test_without_a_shift_in_the_modulus_heat_changes_nothing():
+    still = asperity.ArrheniusFit(
+        activation_energy=0.0,
+        reference_temperature=293.15,
+        standard_errors={"activation_energy": 0.0},
+        residual=0.0,
+    )
+    found = hot(velocity=np.geomspace(1e-4, 10, 6), shift=still, adhesion=STICKY)
+    np.testing.assert_allclose(found.mu, found.cold.mu, rtol=2e-9)
+    np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=2e-9)
+    assert (found.temperature > 293.15).all()
+    np.testing.assert_array_equal(found.gain, 0)
+
+
+def test_the_reference_of_the_law_does_not_matter():
+    other = asperity.WLF(c1=8.86 * 101.6 / 121.6, c2=121.6, reference_temperature=313.15)
+    warm = rubber().shifted(10 ** LAW.log10_a_T(313.15))
+    v = np.geomspace(1e-3, 10, 5)
+    np.testing.assert_allclose(
+        hot(velocity=v, shift=other, rubber=warm).mu, hot(velocity=v).mu, rtol=2e-9
+    )
+
+
+def test_strong_or_quick_cooling_leads_back_to_the_cold_rubber():
+    v = 1.0
+    rise = [
+        hot(
+            velocity=1e-5, heating=asperity.Heating(**TREAD | {"conductivity": conductivity})
+        ).temperature
+        - 293.15
+        for conductivity in (1.0, 100.0)
+    ]
+    assert rise[0] / rise[1] == pytest.approx(10, rel=0.03)  # as lambda^-1/2
+    small = {"contact_diameter": 1e-10, "macro_wavenumber": 6283.0}
+    found = hot(velocity=v, heating=asperity.Heating(**TREAD | small))
+    assert found.mu == pytest.approx(found.cold.mu, rel=1e-6)
+    smaller = asperity.Heating(**TREAD | small | {"contact_diameter": 1e-12})
+    rises = found.temperature - 293.15, hot(velocity=v, heating=smaller).temperature - 293.15
+    assert rises[0] / rises[1] == pytest.approx(100, rel=0.02)
+
+
+def test_the_energy_arrives_at_long_waves():
+    """theta(q) / (2 q) -> t_r mu sigma0 v / (rho c_v P_m), q -> 0, whatever conducts the heat."""
+    long_waves = asperity.TabulatedSpectrum(
+        wavenumber=[1e-2, 1999.9, 2000.0, 23339.0],
+        density=[1e-60, 1e-60, *CUT.at([2000.0, 23339.0])],
+    )
+    found = hot(
+        long_waves,
+        velocity=1.0,
+        contributions=True,
+        rtol=1e-6,
+        heating=asperity.Heating(**TREAD | {"macro_wavenumber": 6283.0}),
+    )
+    residence = 8 * 5e-4 / (3 * np.pi)
+    flux = found.hysteresis * 2e5 / (1200 * 1650 * found.macro_area)
+    rise = found.temperature_profile[0] - 293.15
+    assert rise / (2 * 1e-2) == pytest.approx(residence * flux, rel=1e-4)
+
+
+def test_slow_sliding_warms_all_waves_alike():
+    """theta -> (mu sigma0 v / (rho c_v P_m)) c_h sqrt(2 R / (pi D v)), off by sqrt v."""
+    diffusivity = 0.23 / (1200 * 1650)
+    errors = []
+    for v in (1e-6, 1e-8):
+        found = hot(velocity=v, contributions=True)
+        flux = found.mu * 2e5 * v / (1200 * 1650 * found.macro_area)
+        expected = flux * 1.2204156216 * np.sqrt(1e-3 / (np.pi * diffusivity * v))
+        rises = found.temperature_profile - 293.15
+        errors.append(np.abs(rises / expected - 1).max())
+    assert errors[0] < 0.06
+    assert errors[1] < 0.1 * errors[0] * 1.2
+
+
+def test_the_estimate_is_kept_on_scenes_it_was_not_made_for():
+    rng = np.random.default_rng(5)
+    tried = 0
+    for i in range(40):
+        q1 = 2000 * np.exp(rng.uniform(np.log(3), np.log(1e3)))
+        slope, hurst = rng.uniform(0.4, 2), rng.uniform(0.3, 1)
+        road = asperity.SelfAffineSpectrum(
+            rms_height=1e-4 * slope,
+            hurst=hurst,
+            q0=2000,
+            q1=q1,
+            rolloff=2000 * (q1 / 2000) ** rng.uniform(0.1, 0.5) if i % 3 == 0 else None,
+        )
+        terms = rng.integers(1, 16)
+        compound = asperity.PronySeries(
+            equilibrium_modulus=10 ** rng.uniform(5.5, 6.5),
+            moduli=10 ** rng.uniform(5.5, 8.5, terms),
+            relaxation_times=10 ** rng.uniform(-10, 0, terms),
+        )
+        constants = TREAD | {
+            "contact_diameter": 10 ** rng.uniform(-4, -2.5),
+            "residence": rng.choice(["disc", "box"]).item(),
+        }
+        at = {
+            "velocity": 10 ** rng.uniform(-4, 1, 4),
+            "pressure": 10 ** rng.uniform(4, 6),
+            "temperature": rng.uniform(263, 333),
+            "adhesion": STICKY if i % 2 else None,
+            "correction": [None, asperity.SFactor(gamma=0.4, applies_to="both")][i % 2],
+            "heating": asperity.Heating(**constants),
+            "rubber": compound,
+        }
+        try:
+            truth = hot(road, **at, rtol=1e-11)
+        except (asperity.OutOfRange, asperity.NotConverged):
+            continue  # above 700 K, or finer than grids go
+        for rtol in (1e-4, 1e-7):
+            found = hot(road, **at, rtol=rtol)
+            with case(i=i, rtol=rtol):
+                assert (found.error_estimate <= rtol * found.mu).all()
+                off = np.abs(found.mu - truth.mu)
+                assert (off <= found.error_estimate + truth.error_estimate).all()
+        tried += 1
+    assert tried > 30
+
+
+def test_points_do_not_depend_on_the_threads_that_share_them():
+    v = np.geomspace(1e-4, 1, 150)
+    one, two = (hot(velocity=v, rtol=1e-4, threads=n) for n in (1, 2))
+    assert one == two
+
+
+@each(
+    "given",
+    [
+        ({"shift": None, "temperature": None}, "heating: needs temperature="),
+        ({"method": "qag"}, "method: must be gauss where heating is given"),
+        (
+            {"correction": asperity.GreenwoodWilliamson(z_max=1e-3, z_min=-1e-3)},
+            "correction: must be None, SFactor",
+        ),
+        (
+            {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})},
+            "interface_share = 0.2: must be 1, its default, where there is no adhesion",
+        ),
+        (
+            {"heating": asperity.Heating(**TREAD | {"macro_wavenumber": 1e3})},
+            "macro_wavenumber = 1000: must be in the spectrum's band, [2000, ",
+        ),
+        ({"heating": TREAD}, "heating = {'density': 1200.0"),
+        ({"heating": None, "branch": "hot"}, 'branch = "hot": needs heating='),
+        ({"branch": "warm"}, 'branch = "warm": must be one of "cold", "hot"'),
+    ],
+)
+def test_what_heating_cannot_be_asked_with_is_refused(given):
+    change, message = given
+    with pytest.raises(asperity.InvalidInput) as error:
+        hot(**{"velocity": 1.0} | change)
+    assert message in str(error.value)
+
+
+def test_heat_beyond_what_is_known_is_out_of_range():
+    table = asperity.ShiftFactors(
+        reference_temperature=293.15,
+        temperature=[283.15, 293.15, 297.15],
+        log10_a_T=LAW.log10_a_T([283.15, 293.15, 297.15]),
+    )
+    known = hot(velocity=1e-2, shift=table)
+    assert known.mu == pytest.approx(hot(velocity=1e-2).mu, rel=1e-3)
+    with pytest.raises(asperity.OutOfRange, match=r"heats itself to .* K: temperature = .*: shift"):
+        hot(velocity=1.0, shift=table)
+    fitted = asperity.PronyFit(
+        equilibrium_modulus=2e6,
+        moduli=rubber().moduli,
+        relaxation_times=rubber().relaxation_times,
+        storage_residual=0.01,
+        loss_residual=0.01,
+        causal=True,
+        lowest_frequency=1900.0,
+        highest_frequency=1e6,
+    )
+    with pytest.raises(asperity.OutOfRange, match=r"asked for its modulus from 1.* to .*known in"):
+        hot(velocity=1.0, rubber=fitted)  # heat leaves the range at its low end
+    hot(velocity=1.0, rubber=rubber())
+    burning = {"conductivity": 0.01, "contact_diameter": 0.1, "macro_area": 1e-3}
+    with pytest.raises(asperity.OutOfRange, match="above 700 K, which it does not stand"):
+        hot(velocity=30.0, pressure=5e6, heating=asperity.Heating(**TREAD | burning))
+
+
+def test_notes_say_where_the_model_leaves_its_range():
+    def notes(**more):
+        return " ".join(hot(**{"velocity": 1.0} | more).notes)
+
+    assert "flash heating" not in notes()
+    assert "flash heating" in " ".join(
+        asperity.friction(CUT, rubber(), pressure=2e5, velocity=1.0).notes
+    )
+    assert "heats itself by more than 100 K" in notes(spectrum=ASPHALT, velocity=10.0)
+    small = {"contact_diameter": 2e-6, "macro_area": 1e-6}
+    assert "heat flows to the sides" in notes(heating=asperity.Heating(**TREAD | small))
+    wide = asperity.Heating(**TREAD | {"contact_diameter": 4e-3})
+    assert "is held to the spectrum's end" in notes(heating=wide)
+    assert "cover more than 0.3 of the surface" in notes(heating=wide)
+
+
+def test_sliding_lengths_of_the_history_of_the_heat():
+    """Distances to 1 / e over the diameter, by another program, to about 0.01."""
+    for spectrum, velocity, expected in (
+        (CUT, [0.1, 1.0, 10.0], [0.23, 0.19, 0.17]),
+        (ASPHALT, [0.01, 0.1, 1.0, 10.0], [0.09, 0.07, 0.05, 0.04]),
+    ):
+        found = hot(spectrum, velocity=np.array(velocity), rtol=1e-6)
+        np.testing.assert_allclose(found.sliding_length / 1e-3, expected, atol=0.02)
+        assert found.sliding_length is found.sliding_length  # computed once
+        np.testing.assert_allclose(found.mu_at(0.0), found.cold.mu, rtol=1e-15)
+        np.testing.assert_allclose(found.mu_at(1.0), found.mu, rtol=1e-15)
+        between = found.mu_at(found.sliding_length)
+        np.testing.assert_allclose(
+            (between - found.mu) / (found.cold.mu - found.mu), np.exp(-1), rtol=1e-9
+        )
+
+
+def test_friction_without_heat_has_no_sliding_length():
+    cold = asperity.friction(CUT, rubber(), pressure=2e5, velocity=1.0)
+    assert cold.sliding_length is None
+    assert cold.mu_at(0.1) == cold.mu
+    with pytest.raises(asperity.InvalidInput, match="distance = -1: must be 0 or more"):
+        cold.mu_at(-1)
+    many = hot(velocity=np.array([0.1, 1.0]))
+    assert many.mu_at([[0.0], [1e-4], [1e-2]]).shape == (3, 2)

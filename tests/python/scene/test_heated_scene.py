@@ -1,0 +1,191 @@
+"""Scenes at temperatures, and with the heat of sliding: the same numbers as Python's, columns at
+the end of the table, refusals in one line."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.main import main
+from asperity.scene.scene import load_scene
+from helpers import scenes
+from helpers.cases import each
+
+LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
+HEATING = """
+[heating]
+density_kg_m3 = 1200
+heat_capacity_j_kg_k = 1650
+conductivity_w_m_k = 0.23
+contact_diameter_m = 1e-3
+"""
+WLF = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+TREAD = asperity.Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
+
+
+def scene(temperature="temperature_k = 300", *, law=LAW, more=""):
+    conditions = f"{scenes.CONDITIONS}\n{temperature}\n"
+    return scenes.SURFACE + scenes.RUBBER + law + conditions + scenes.ADHESION + more
+
+
+def written(text):
+    with open("hot.toml", "w", encoding="utf-8") as file:
+        file.write(text)
+    return "hot.toml"
+
+
+def rows(text, capsys):
+    assert main(["friction", written(text)]) == 0
+    out = capsys.readouterr().out
+    lines = [line for line in out.splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(io.StringIO("\n".join(lines)))), out
+
+
+def of_python(temperature, **more):
+    base = load_scene(written(scene("")))
+    pressure, velocity = base.points
+    return asperity.friction(
+        base.spectrum,
+        base.rubber,
+        pressure=pressure,
+        velocity=velocity,
+        adhesion=base.adhesion,
+        temperature=temperature,
+        shift=WLF,
+        **more,
+    )
+
+
+def test_a_list_of_temperatures_is_a_block_of_rows_each(folder, capsys):
+    found, out = rows(scene("temperature_c = [10, 26.85]"), capsys)
+    assert list(found[0])[-1] == "temperature_k"
+    assert "temperature_k [K]" in out
+    assert "conditions.temperature_c = [10, 26.85]" in out
+    for t, block in ((283.15, found[:10]), (300.0, found[10:])):
+        expected = asperity.friction(
+            load_scene(written(scene(f"temperature_k = {t}"))).spectrum,
+            asperity.PronySeries(
+                equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
+            ),
+            pressure=[float(row["pressure_pa"]) for row in block],
+            velocity=[float(row["velocity_m_s"]) for row in block],
+            adhesion=asperity.Adhesion(shear_stress=8.3e6),
+            temperature=t,
+            shift=WLF,
+        )
+        np.testing.assert_allclose([float(row["temperature_k"]) for row in block], t)
+        np.testing.assert_allclose([float(row["mu"]) for row in block], expected.mu, rtol=1e-12)
+
+
+def test_heat_adds_its_columns(folder, capsys):
+    found, _ = rows(scene(more=HEATING), capsys)
+    assert list(found[0])[-3:] == ["temperature_k", "hot_temperature_k", "mu_cold"]
+    first = load_scene("hot.toml", for_friction=True)
+    pressure, velocity = first.points
+    expected = asperity.friction(
+        first.spectrum,
+        first.built_rubber.at_reference,
+        pressure=pressure,
+        velocity=velocity,
+        adhesion=first.adhesion,
+        temperature=300.0,
+        shift=WLF,
+        heating=TREAD,
+    )
+    for name, column in (
+        ("mu", expected.mu),
+        ("hot_temperature_k", expected.temperature),
+        ("mu_cold", expected.cold.mu),
+    ):
+        np.testing.assert_allclose([float(row[name]) for row in found], column, rtol=1e-9)
+
+
+def test_a_scene_without_a_temperature_has_no_column_of_it(folder, capsys):
+    found, out = rows(scenes.SCENE, capsys)
+    assert list(found[0])[-1] == "error_estimate"
+    assert "temperature" not in out
+
+
+def test_conditions_and_rubber_may_both_be_the_place_of_one_temperature(folder):
+    here = load_scene(written(scene("temperature_k = 300")))
+    there = load_scene(written(scene("", law=LAW + "temperature_k = 300\n")))
+    assert here.rubber == there.rubber
+    assert here.temperature == 300
+    assert there.temperature is None
+
+
+def test_a_file_of_shift_factors_will_do(folder, capsys):
+    t = np.linspace(270, 400, 40)
+    lines = [f"{a},{b}" for a, b in zip(t, WLF.log10_a_T(t), strict=True)]
+    (folder / "shift.csv").write_text("temperature_k,log10_a_t\n" + "\n".join(lines))
+    law = '\nshift = "shift.csv"\nreference_temperature_k = 293.15\n'
+    by_file, _ = rows(scene(law=law, more=HEATING), capsys)
+    by_law, _ = rows(scene(more=HEATING), capsys)
+    for one, other in zip(by_file, by_law, strict=True):
+        assert float(one["mu"]) == pytest.approx(float(other["mu"]), rel=1e-3)
+
+
+def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
+    text = scene("temperature_c = [10, 20]", more=HEATING)
+    assert main(["friction", written(text), "--output", "h.csv", "--plot", "h.png"]) == 0
+    over_pressure = text.replace("{from = 1e-4, to = 1, points = 5}", "0.1")
+    assert main(["friction", written(over_pressure), "--output", "p.csv", "--plot", "p.png"]) == 0
+
+
+@each(
+    "given",
+    [
+        (
+            scene("temperature_k = 300\ntemperature_c = 20"),
+            "[conditions] temperature_c: must be left",
+        ),
+        (
+            scene(law=LAW + "temperature_k = 300\n"),
+            "[rubber] temperature_k: must be left out where",
+        ),
+        (
+            scene(law=""),
+            "[conditions] temperature: needs shift, a file of shift factors, or wlf_c1",
+        ),
+        (scene("temperature_k = 20"), "[conditions] temperature_k = 20"),
+        (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
+        (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
+        (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out where shift"),
+        (
+            scene("", more=HEATING, law=LAW + "temperature_k = 300\n"),
+            "[heating]: needs [conditions]",
+        ),
+        (scene(more=HEATING.replace("1200", "1.2")), "[heating] density_kg_m3 = 1.2: must be in"),
+        (
+            scene(more=HEATING.replace("1650", "1.65")),
+            "[heating] heat_capacity_j_kg_k = 1.65: must",
+        ),
+        (scene(more=HEATING + "macro_area = 2\n"), "[heating] macro_area = 2: must be in (0, 1]"),
+        (
+            scene(more=HEATING + "macro_wavenumber_per_m = 10.0\n"),
+            "[heating] macro_wavenumber_per_m",
+        ),
+        (scene(more=HEATING + "width = 1\n"), "[heating] width: unknown key"),
+        (
+            scene(more=HEATING + '[solver]\nmethod = "qag"\n'),
+            "[solver] method: must be gauss where",
+        ),
+    ],
+)
+def test_refusals_name_the_field_in_one_line(folder, capsys, given):
+    text, message = given
+    assert main(["friction", written(text), "--output", "refused.csv"]) == 2
+    told = capsys.readouterr().err.splitlines()
+    assert len(told) == 1
+    assert message in told[0]
+    assert not (folder / "refused.csv").exists()
+
+
+@each("verb", ["area", "map"])
+def test_other_commands_refuse_heat_and_several_temperatures(folder, capsys, verb):
+    output = ["--output", "m.fmap"] if verb == "map" else []
+    for text in (scene(more=HEATING), scene("temperature_k = [290, 300]")):
+        assert main([verb, written(text), *output]) == 2
+        assert "asperity friction alone" in capsys.readouterr().err
