@@ -1,6 +1,7 @@
 """The rule of PartialContact: its reference table, what it promises, one root, random scenes."""
 
 import csv
+import re
 from pathlib import Path
 
 import numpy as np
@@ -287,3 +288,21 @@ def test_exact_sliding_contacts():
     assert np.abs(off).max() < 0.12  # 0.100
     assert rms_of_area < 0.045  # 0.040
     assert np.abs(area).max() < 0.12  # 0.098
+
+
+def test_a_spectrum_that_goes_on_beyond_its_roughness_is_told():
+    rows = np.geomspace(2e3, 1e5, 60)
+    density = np.where(rows <= 2e4, 1e-14 * (rows / 2e3) ** -3.6, 1e-40)
+    empty = asperity.TabulatedSpectrum(wavenumber=rows, density=density)
+
+    def notes(surface, correction):
+        found = asperity.friction(
+            surface, RUBBER, correction=correction, pressure=1e5, velocity=1e-3
+        )
+        return [note for note in found.notes if "hardly any" in note]
+
+    (note,) = notes(empty, RULE)
+    end = float(re.search(r"from ([\d.e+]+) 1/m on", note)[1])
+    assert 1.5e4 < end < 2.4e4
+    assert notes(empty.truncated(q1=end), RULE) == []
+    assert notes(empty, None) == []

@@ -51,6 +51,11 @@ double RoughnessWindow::share_of_end() const {
   return between(std::fmax(end / std::numbers::e, surface_.front().a), end) / total();
 }
 
+double RoughnessWindow::up_to(double share) const {
+  const auto above = std::ranges::upper_bound(before_, share * total());
+  return surface_[static_cast<std::size_t>(above - before_.begin()) - 1].b;
+}
+
 std::vector<double> RoughnessWindow::ends() const { return {surface_.front().a * reach, surface_.back().b / reach}; }
 
 }  // namespace asperity

@@ -17,6 +17,8 @@ class RoughnessWindow {
   /// int c d ln q over the band, and the share of the last unit of ln q in it.
   [[nodiscard]] double total() const;
   [[nodiscard]] double share_of_end() const;
+  /// The end of the segment up to which this share of the integral over the band lies [1/m].
+  [[nodiscard]] double up_to(double share) const;
   /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
   [[nodiscard]] std::vector<double> ends() const;
 
