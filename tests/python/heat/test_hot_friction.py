@@ -358,3 +358,28 @@ def test_friction_without_heat_has_no_sliding_length():
         cold.mu_at(-1)
     many = hot(velocity=np.array([0.1, 1.0]))
     assert many.mu_at([[0.0], [1e-4], [1e-2]]).shape == (3, 2)
+
+
+def test_measured_inputs_are_heated_too():
+    """A dense table of the law is the law; on rings, jumps and zero rows the estimate is kept."""
+    v = np.array([1e-2, 1.0])
+    q = np.geomspace(CUT.q0, CUT.q1, 200)
+    density = CUT.at(q)
+    law = hot(velocity=v, rtol=1e-6)
+    table = hot(asperity.TabulatedSpectrum(wavenumber=q, density=density), velocity=v, rtol=1e-6)
+    np.testing.assert_allclose(table.mu, law.mu, rtol=1e-8)
+    scatter = np.exp(0.3 * np.random.default_rng(1).normal(size=q.size))
+    steps = np.where((np.arange(q.size) // 20) % 2, 1.0, 1e-3)
+    empty = np.where((np.arange(q.size) < 50) | (np.arange(q.size) // 10 == 12), 0.0, 1.0)
+    for factor in (scatter, steps, empty):
+        rough = asperity.TabulatedSpectrum(wavenumber=q, density=density * factor)
+        found, truth = (hot(rough, velocity=v, rtol=rtol) for rtol in (1e-5, 1e-8))
+        assert (np.abs(found.mu - truth.mu) <= found.error_estimate).all()
+    w = np.geomspace(1e-3, 1e12, 140)
+    modulus = rubber().modulus(w)
+    curve = asperity.MasterCurve(
+        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
+    )
+    found, truth = (hot(velocity=v, rubber=curve, rtol=rtol) for rtol in (1e-5, 1e-8))
+    assert (np.abs(found.mu - truth.mu) <= found.error_estimate).all()
+    np.testing.assert_allclose(found.mu, law.mu, rtol=2e-5)  # Steffen at nine rows a decade
