@@ -12,10 +12,12 @@ namespace asperity {
 namespace {
 
 constexpr double for_tail = 0.02;  // of the tolerance
-/// The error of the finer level, by what it changes: it should be a sixteenth. kappa tells the error where mu and the
-/// area agree by chance.
-constexpr double of_change = 0.5, of_change_with_knots = 1, of_kappa = 0.3;
-constexpr double least_error = 0.02;  // of the tolerance
+/// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
+/// the area agree by chance.
+constexpr double of_change = 0.5, of_change_with_knots = 1, of_others = 0.3;
+/// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
+/// they did.
+constexpr double least_error = 0.6;
 
 }  // namespace
 
@@ -95,9 +97,11 @@ void PartialRingSolver::solve(double pressure, double velocity) {
     root_ = root(level, scale, before.kappa);
     const double change =
         std::max({difference(root_.friction, before.friction), difference(root_.share, before.share),
-                  of_kappa * difference(root_.kappa, before.kappa), difference(level.end.g, coarse->end.g)});
+                  difference(level.end.g, coarse->end.g),
+                  of_others * std::max({difference(root_.kappa, before.kappa), std::fabs(root_.slope - before.slope),
+                                        std::fabs(root_.friction_slope - before.friction_slope)})});
     const double error = (std::holds_alternative<MasterCurve>(rubber_) ? of_change_with_knots : of_change) * change +
-                         (for_tail + least_error) * model_.rtol;
+                         for_tail * model_.rtol;
     before = root_;
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;
@@ -105,8 +109,8 @@ void PartialRingSolver::solve(double pressure, double velocity) {
     double outside = root_.edges * level.end.window * tail_.i1_outside;
     if (level.any_outside)
       for (std::size_t i = 0; i < level.g.size(); ++i) outside += level.weight[i] * level.stress[i] * level.outside[i];
-    hysteresis_ = {mu_factor * root_.friction, mu_factor * root_.friction * error, mu_factor * outside};
-    area_error_ = error;
+    area_error_ = std::fmax(error, least_error * model_.rtol);
+    hysteresis_ = {mu_factor * root_.friction, mu_factor * root_.friction * area_error_, mu_factor * outside};
     return;
   }
   by_panels(pressure, velocity);
