@@ -35,6 +35,12 @@ int main() {
   std::printf("mu = %.6f %.6f\n", f.mu[0], f.mu[1]);
   fine &= check(f.mu[0] > 0 && f.error_estimate[0] < 1e-6 * f.mu[0], "friction within its tolerance");
 
+  const asperity::Friction partial =
+      asperity::friction(road, rubber, {.pressure = 81e3, .correction = asperity::PartialContact{}}, velocity);
+  fine &= check(partial.mu[0] > 0 && partial.error_estimate[0] < 1e-6 * partial.mu[0] &&
+                    partial.contact_area[0] > f.contact_area[0],
+                "partial contact within its tolerance");
+
   try {
     (void)asperity::friction(road, rubber, {.pressure = -1}, velocity);
     fine = check(false, "a negative pressure is refused");

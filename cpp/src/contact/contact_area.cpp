@@ -94,7 +94,7 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   check_contact(model, pressure, velocity);
   for (const double v : velocity) check_frequencies(spectrum, rubber, v);
   const std::vector<std::size_t> order = by_velocity(velocity);
-  const double q0 = band(spectrum)[0];
+  const auto [q0, q1] = band(spectrum);
   for (std::size_t j = 0; j < wavenumber.size(); ++j) {
     heed();
     if (wavenumber[j] <= q0) {
@@ -102,7 +102,8 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
       continue;
     }
     const std::vector<Segment> surface = surface_up_to(spectrum, wavenumber.subspan(j, 1));
-    const auto solver = partial_solver(surface, rubber, model);
+    const std::unique_ptr<PartialSolver> solver = wavenumber[j] == q1 ? partial_solver(surface, rubber, model, spectrum)
+                                                                      : partial_profile_solver(surface, rubber, model);
     for (const std::size_t i : order) {
       heed();
       at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
@@ -177,7 +178,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
     check_contact(model, pressure, velocity);
     for (const double v : velocity) check_frequencies(spectrum, rubber, v);
     const SurfaceSegments whole(spectrum);
-    const auto solver = partial_solver(whole.get(), rubber, model);
+    const auto solver = partial_profile_solver(whole.get(), rubber, model);
     for (const std::size_t i : by_velocity(velocity)) {
       at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
       for (std::size_t j = 0; j < q.size(); ++j) {

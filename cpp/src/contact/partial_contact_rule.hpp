@@ -17,8 +17,6 @@
 namespace asperity::partial_contact {
 
 inline constexpr double obstacle = 0.67, light = 6.3, edges = 3.55, spread = 0.105, stiff = 0.45;
-/// Half the length in ln q of the window about q.
-inline constexpr double half_window = 1;
 /// Beyond the band: its end, the power of x, and that of I2 beside the one in G.
 inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
 

@@ -81,8 +81,14 @@ class PointSolver {
         model_error_(scene.model.correction, scene.spectrum, scene.rubber),
         solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
     if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
-    if (std::holds_alternative<PartialContact>(scene.model.correction))
-      partial_ = partial_solver(scene.surface, scene.rubber, scene.model, scene.stops);
+    if (!std::holds_alternative<PartialContact>(scene.model.correction)) return;
+    if (scene.stops.empty()) {
+      partial_ = partial_solver(scene.surface, scene.rubber, scene.model, scene.spectrum);
+    } else {
+      auto made = partial_profile_solver(scene.surface, scene.rubber, scene.model, scene.stops);
+      profile_ = made.get();
+      partial_ = std::move(made);
+    }
   }
 
   Point operator()(double pressure, double velocity, const Shift& shift);
@@ -97,7 +103,8 @@ class PointSolver {
   ModelError model_error_;
   double velocity_ = 0;  // of the point before
   Solver solver_;
-  std::unique_ptr<PartialSolver> partial_;  // instead of it
+  std::unique_ptr<PartialSolver> partial_;         // instead of it
+  const PartialProfileSolver* profile_ = nullptr;  // the same, where contributions are asked for
 };
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
@@ -149,10 +156,10 @@ void PointSolver::add_contributions(Contributions& c, std::size_t i, double velo
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
   for (std::size_t j = 0; j < n; ++j)
     c.dmu_dlnq[i * n + j] =
-        partial_ ? partial_->hysteresis_density(c.wavenumber[j]) : solver_.hysteresis_density(c.wavenumber[j]);
+        profile_ ? profile_->hysteresis_density(c.wavenumber[j]) : solver_.hysteresis_density(c.wavenumber[j]);
   const double whole = (partial_ ? partial_->hysteresis() : solver_.hysteresis()).value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : partial_ ? partial_->shares() : solver_.shares()) {
+  for (const auto& [lower, upper, hysteresis] : profile_ ? profile_->shares() : solver_.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;

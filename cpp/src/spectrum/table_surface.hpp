@@ -11,6 +11,7 @@
 
 #include "asperity/spectrum.hpp"
 #include "spectrum/ring_blocks.hpp"
+#include "spectrum/roughness_pieces.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -24,13 +25,17 @@ class TableSurface {
   /// On one of so many grids, each finer than the one before.
   static constexpr std::size_t grids = 7;
   const RingSurface& rings(const TabulatedSpectrum& table, std::size_t grid);
+  /// Each level finer than the one before.
+  const RoughnessPieces& pieces(const TabulatedSpectrum& table, std::size_t level);
 
  private:
   std::once_flag segments_made_, slope_made_, nayak_made_;
   std::array<std::once_flag, grids> rings_made_;
+  std::array<std::once_flag, RoughnessPieces::levels> pieces_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
   std::array<std::unique_ptr<const RingSurface>, grids> rings_;
+  std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels> pieces_;
 };
 
 /// The segments of a spectrum for as long as it is there: a table's own, or made here.

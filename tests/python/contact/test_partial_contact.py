@@ -259,6 +259,45 @@ def test_random_scenes_keep_their_estimates(count):
                 assert 0 < found.contact_area <= 1
 
 
+def rough_table(rng, kind):
+    """Rings of a scan: scattered, with jumps of their level, with single lines, at random."""
+    first, n = int(rng.choice([1, 4, 8])), int(10 ** rng.uniform(1.2, 2.5))
+    k = np.arange(first, first + n)
+    factor = {
+        "scatter": 1 + 0.7 * rng.standard_normal(n) / np.sqrt(np.pi * k),
+        "levels": np.where(np.arange(n) // 10 % 2, 1000.0, 1.0),
+        "lines": np.where(rng.random(n) < 0.1, 1000.0, 1.0),
+        "random": 1000 ** rng.random(n),
+    }[kind]
+    density = 1.4e-16 * (k / first) ** -3.7 * np.abs(factor)
+    return asperity.TabulatedSpectrum(wavenumber=500.0 * k, density=density)
+
+
+@each("kind", ["scatter", "levels", "lines", "random"])
+@pytest.mark.parametrize("count", [3, long(60)])
+def test_rings_keep_their_estimates(kind, count):
+    rng = np.random.default_rng(7)
+    w = np.geomspace(1e-4, 1e8, 60)
+    e = RUBBER.modulus(w) * np.exp(0.02 * rng.standard_normal(60))
+    curve = MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+    steep = PronySeries(equilibrium_modulus=1e6, moduli=[1e9], relaxation_times=[1e-4])
+    for i in range(count):
+        spectrum = rough_table(rng, kind)
+        conditions = {
+            "pressure": 10 ** rng.uniform(2, 8, 8),
+            "velocity": 10 ** rng.uniform(-6, 1, 8).clip(None, np.log10(9e7 / spectrum.q1)),
+        }
+        for rubber in (RUBBER, steep, curve):
+            scene = {**conditions, "correction": RULE}
+            with case(number=i, rows=len(spectrum.wavenumber), rubber=type(rubber)):
+                best = asperity.friction(spectrum, rubber, **scene, rtol=5e-9)  # by panels
+                for rtol in (1e-3, 1e-6):
+                    found = asperity.friction(spectrum, rubber, **scene, rtol=rtol)
+                    off = np.abs(found.mu - best.mu)
+                    assert np.all(off <= found.error_estimate + best.error_estimate)
+                    np.testing.assert_allclose(found.contact_area, best.contact_area, rtol=rtol)
+
+
 def test_exact_sliding_contacts():
     lines = (line for line in CONTACTS.read_text().splitlines() if line[0] != "#")
     off, area = [], []

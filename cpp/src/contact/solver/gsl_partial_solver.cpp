@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-const double reach = std::exp(partial_contact::half_window);
+const double reach = std::exp(RoughnessWindow::half_length);
 constexpr std::size_t most_met = 40;
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/partial_solver.hpp"
-#include "contact/solver/partial_window.hpp"
+#include "spectrum/roughness_window.hpp"
 
 namespace asperity {
 
-class GslPartialSolver : public PartialSolver {
+class GslPartialSolver : public PartialProfileSolver {
  public:
   GslPartialSolver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
                    std::span<const double> stops);

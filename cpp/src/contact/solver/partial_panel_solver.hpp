@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-class PartialPanelSolver : public PartialSolver {
+class PartialPanelSolver : public PartialProfileSolver {
  public:
   PartialPanelSolver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
                      std::span<const double> stops);

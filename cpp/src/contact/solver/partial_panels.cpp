@@ -118,7 +118,7 @@ void PartialPanels::lay_out(std::span<const double> stops) {
   also.insert(also.end(), stops.begin(), stops.end());
   if (surface_.size() <= most_met)
     for (const Segment& segment : surface_)
-      for (const double side : {-partial_contact::half_window, partial_contact::half_window})
+      for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
         also.push_back(segment.a * std::exp(side));
   std::ranges::sort(also);
   std::vector<double> edges;

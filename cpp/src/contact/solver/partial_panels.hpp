@@ -7,8 +7,8 @@
 
 #include "asperity/rubber.hpp"
 #include "contact/partial_contact_rule.hpp"
-#include "contact/solver/partial_window.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {

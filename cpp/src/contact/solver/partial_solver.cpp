@@ -6,11 +6,21 @@
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/gsl_partial_solver.hpp"
 #include "contact/solver/partial_panel_solver.hpp"
+#include "contact/solver/partial_ring_solver.hpp"
 
 namespace asperity {
 
 std::unique_ptr<PartialSolver> partial_solver(std::span<const Segment> surface, const Rubber& rubber,
-                                              const ContactModel& model, std::span<const double> stops) {
+                                              const ContactModel& model, const Spectrum& spectrum) {
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  if (table && model.method == Method::gauss && table->wavenumber().size() >= PartialRingSolver::least_rows &&
+      model.rtol >= PartialRingSolver::least_rtol)
+    return std::make_unique<PartialRingSolver>(*table, surface, rubber, model);
+  return partial_profile_solver(surface, rubber, model);
+}
+
+std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Segment> surface, const Rubber& rubber,
+                                                             const ContactModel& model, std::span<const double> stops) {
   if (model.method == Method::gauss) return std::make_unique<PartialPanelSolver>(surface, rubber, model, stops);
   return std::make_unique<GslPartialSolver>(surface, rubber, model, stops);
 }

@@ -58,22 +58,40 @@ class PartialSolver {
   [[nodiscard]] double area_error() const { return area_error_; }
   /// G at the end of the spectrum, before kappa.
   [[nodiscard]] double g() const { return g1_; }
+
+ protected:
+  PartialRoot root_;
+  PanelSolver::Hysteresis hysteresis_;
+  double g1_ = 0, area_error_ = 0;
+
+  /// The result of another solver.
+  void take(const PartialSolver& other) {
+    root_ = other.root_;
+    hysteresis_ = other.hysteresis_;
+    g1_ = other.g1_;
+    area_error_ = other.area_error_;
+  }
+};
+
+/// One that knows its integrals part by part.
+class PartialProfileSolver : public PartialSolver {
+ public:
   /// R at a wavenumber of the band.
   [[nodiscard]] virtual double stress(double wavenumber) const = 0;
   /// dmu_H / dln q, beyond the end of the spectrum too.
   [[nodiscard]] virtual double hysteresis_density(double wavenumber) const = 0;
   /// Stretches of ln q in order, those beyond the spectrum too; their hysteresis sums to the whole.
   [[nodiscard]] virtual std::vector<PanelSolver::PanelShare> shares() const = 0;
-
- protected:
-  PartialRoot root_;
-  PanelSolver::Hysteresis hysteresis_;
-  double g1_ = 0, area_error_ = 0;
 };
 
-/// By the method of the model. Panels end at the frequencies `stops` [rad/s], which must outlive it, too.
+/// By the method of the model; a table of rings in pieces where that holds, which `surface` is to reach the end of
+/// then.
 std::unique_ptr<PartialSolver> partial_solver(std::span<const Segment> surface, const Rubber& rubber,
-                                              const ContactModel& model, std::span<const double> stops = {});
+                                              const ContactModel& model, const Spectrum& spectrum);
+/// Panels end at the frequencies `stops` [rad/s], which must outlive it, too.
+std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Segment> surface, const Rubber& rubber,
+                                                             const ContactModel& model,
+                                                             std::span<const double> stops = {});
 
 /// R at a place of a band, and T beyond it: what the solvers share.
 double partial_stress(const PartialRoot& root, double g, double steepness);

@@ -1,11 +1,9 @@
-// c(q) = int q^3 C dq over a window of ln q, over its length (partial_contact_rule.hpp).
-#include "contact/solver/partial_window.hpp"
+// c(q) = int q^3 C dq over a window of ln q, over its length (contact/partial_contact_rule.hpp).
+#include "spectrum/roughness_window.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "contact/partial_contact_rule.hpp"
 
 namespace asperity {
 
@@ -14,8 +12,17 @@ RoughnessWindow::RoughnessWindow(std::span<const Segment> surface) : surface_(su
   before_.reserve(surface.size());
   for (const Segment& segment : surface) {
     before_.push_back(sum);
+    at_start_.push_back(segment.at_a * (segment.a * segment.a) * (segment.a * segment.a));
     sum += segment.moment(3, segment.b);
   }
+}
+
+/// From the start of a segment on.
+double RoughnessWindow::up_to(std::size_t index, double wavenumber) const {
+  const Segment& segment = surface_[index];
+  if (segment.straight) return segment.moment(3, wavenumber);
+  const double power = 4 + segment.slope, s = segment.offset(wavenumber);
+  return at_start_[index] * (power == 0 ? s : std::expm1(power * s) / power);
 }
 
 std::size_t RoughnessWindow::segment_at(double wavenumber) const {
@@ -25,23 +32,21 @@ std::size_t RoughnessWindow::segment_at(double wavenumber) const {
 
 double RoughnessWindow::between(double lower, double upper) const {
   const std::size_t first = segment_at(lower), last = segment_at(upper);
-  const Segment &from = surface_[first], &to = surface_[last];
-  const double head = from.moment(3, std::fmin(lower, from.b));
-  if (first == last) return to.moment(3, upper) - head;
-  const double whole = first + 1 == last ? 0 : before_[last] - before_[first + 1];
-  return (from.moment(3, from.b) - head) + whole + to.moment(3, upper);
+  const double head = up_to(first, std::fmin(lower, surface_[first].b));
+  if (first == last) return up_to(last, upper) - head;
+  return (before_[first + 1] - before_[first] - head) + (before_[last] - before_[first + 1]) + up_to(last, upper);
 }
 
 namespace {
 
-const double reach = std::exp(partial_contact::half_window);
+const double reach = std::exp(RoughnessWindow::half_length);
 
 }  // namespace
 
 double RoughnessWindow::operator()(double wavenumber) const {
   const double lower = std::fmax(wavenumber / reach, surface_.front().a);
   const double upper = std::fmin(wavenumber * reach, surface_.back().b);
-  return std::fmax(0, between(lower, upper)) / (2 * partial_contact::half_window);
+  return std::fmax(0, between(lower, upper)) / (2 * half_length);
 }
 
 double RoughnessWindow::total() const { return before_.back() + surface_.back().moment(3, surface_.back().b); }

@@ -12,6 +12,9 @@ namespace asperity {
 /// alone, and single rows of a measured spectrum have a small part in it.
 class RoughnessWindow {
  public:
+  /// Of the window, in ln q.
+  static constexpr double half_length = 1;
+
   explicit RoughnessWindow(std::span<const Segment> surface);
   [[nodiscard]] double operator()(double wavenumber) const;
   /// int c d ln q over the band, and the share of the last unit of ln q in it.
@@ -25,10 +28,11 @@ class RoughnessWindow {
  private:
   /// int q^3 C dq from one wavenumber to another.
   [[nodiscard]] double between(double lower, double upper) const;
+  [[nodiscard]] double up_to(std::size_t index, double wavenumber) const;
   [[nodiscard]] std::size_t segment_at(double wavenumber) const;
 
   std::span<const Segment> surface_;
-  std::vector<double> before_;  // the integral up to each segment
+  std::vector<double> before_, at_start_;  // of each segment: the integral up to it, and c where it starts
 };
 
 }  // namespace asperity

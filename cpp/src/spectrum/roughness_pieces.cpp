@@ -1,0 +1,300 @@
+// Pieces of ln q with two nodes each: their ends, and the moments of c = q^4 C that make nodes, weights and
+// projections. The Gauss rule of two nodes: with mean y and standard deviation s of dm on the piece, z = (y - mean) / s
+// and the skewness g = <z^3>, the nodes are the roots of z^2 - g z - 1, their weights 1 / (1 + z^2) of m.
+#include "spectrum/roughness_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "asperity/watch.hpp"
+#include "spectrum/roughness_window.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// The Gauss-Legendre rules of four nodes and of two on [-1, 1].
+struct FewPoints {
+  std::size_t n;
+  std::array<double, 4> node, weight;
+};
+
+FewPoints four_points() {
+  FewPoints r{.n = 4, .node = {}, .weight = {}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double inner = i == 1 || i == 2 ? 1 : -1;
+    r.node[i] = (i < 2 ? -1 : 1) * std::sqrt((3 - inner * 2 * std::sqrt(1.2)) / 7);
+    r.weight[i] = (18 + inner * std::sqrt(30.0)) / 36;
+  }
+  return r;
+}
+const FewPoints four = four_points(), two{.n = 2, .node = {-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}, .weight = {1, 1}};
+
+struct Integrals {
+  double zeroth, first;
+};
+
+/// int_0^s exp(a t) dt and int_0^s t exp(a t) dt.
+Integrals of_power(double a, double s) {
+  const double x = a * s;
+  if (std::fabs(x) > 1) {
+    const double e = std::exp(x);
+    return {(e - 1) / a, s * s * ((x - 1) * e + 1) / (x * x)};
+  }
+  double term = 1, zeroth = 0, first = 0;  // sum x^k / (k! (k + 1)), sum x^k / (k! (k + 2))
+  for (int k = 0; k < 18; ++k) {
+    zeroth += term / (k + 1);
+    first += term / (k + 2);
+    term *= x / (k + 1);
+  }
+  return {s * zeroth, s * s * first};
+}
+
+/// int c dt and int c (t - from) dt from one place of a segment on, in ln q, to another.
+Integrals of_segment(const Segment& segment, double from, double to) {
+  const double q = segment.a * std::exp(from), square = q * q, length = to - from;
+  if (!segment.straight) {
+    const double c = square * square * segment.density_at(from);
+    const auto [zeroth, first] = of_power(4 + segment.slope, length);
+    return {c * zeroth, c * first};
+  }
+  Integrals sum{};  // a polynomial in q: two rules on a short piece
+  for (int half = 0; half < 2; ++half)
+    for (std::size_t i = 0; i < four.n; ++i) {
+      const double t = length / 4 * (1 + 2 * half + four.node[i]), k = q * std::exp(t);
+      const double part = length / 4 * four.weight[i] * (k * k) * (k * k) * segment.density_at(from + t);
+      sum.zeroth += part;
+      sum.first += part * t;
+    }
+  return sum;
+}
+
+}  // namespace
+
+namespace {
+
+/// In y at level 0; near the foot in sqrt(y), in which functions of sqrt(G) are smooth.
+constexpr double longest = 0.12, beside_foot = 0.25;
+/// By which part of itself sqrt(m) may grow along a piece, or of its value at the end where it is small before; the
+/// mean squares of what is not smooth of m and of the window, over theirs. All at level 0.
+constexpr double growth = 0.3, least_growth = 0.05, roughest = 2e-6;
+constexpr double steepest = 1.5;  // |d ln c / dy| times the length of an atom
+
+}  // namespace
+
+RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t level)
+    : surface_(surface), window_(surface), level_(level) {
+  const auto first = std::ranges::find_if(surface, [](const Segment& s) { return s.at_a > 0 || s.at_b > 0; });
+  if (first == surface.end()) return;
+  foot_ = first->a;
+  double m = 0;
+  for (const Segment& segment : surface) {
+    start_.push_back(std::log1p((segment.a - foot_) / foot_));
+    before_.push_back(m);
+    m += segment.moment(3, segment.b);
+  }
+  constexpr double sharply = 0.7;  // change of ln c along a segment, by what it changes along the next
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const auto change = [&](std::size_t k) {
+      return k >= surface.size() ? 0 : surface[k].straight ? 1e9 : (4 + surface[k].slope) * surface[k].length();
+    };
+    if (std::fabs(change(i)) < sharply && (i == 0 || std::fabs(change(i - 1)) < sharply)) continue;
+    for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
+      bends_.push_back(start_[i] + side);
+  }
+  std::ranges::sort(bends_);
+  // the window has kinks where it meets the ends of the band
+  std::vector<double> edges{0, std::log1p((surface.back().b - foot_) / foot_)};
+  for (const double q : window_.ends())
+    if (q > foot_ && q < surface.back().b) edges.push_back(std::log1p((q - foot_) / foot_));
+  std::ranges::sort(edges);
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    if (edges[i + 1] > edges[i]) cut(edges[i], edges[i + 1], 0);
+  // nodes of no weight make up for a multiple of four
+  while (nodes_.wavenumber.size() % 4 != 0) {
+    nodes_.wavenumber.push_back(surface.back().b);
+    for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
+  }
+}
+
+std::size_t RoughnessPieces::segment_at(double y) const {
+  return std::max<std::size_t>(static_cast<std::size_t>(std::ranges::upper_bound(start_, y) - start_.begin()), 1) - 1;
+}
+
+double RoughnessPieces::m_at(double y) const {
+  const std::size_t i = segment_at(y);
+  return before_[i] + of_segment(surface_[i], 0, std::fmin(y - start_[i], surface_[i].length())).zeroth;
+}
+
+bool RoughnessPieces::short_enough(double lower, double upper, std::size_t level) const {
+  const double finer = std::pow(0.5, static_cast<double>(level)), most = longest * finer;
+  if (upper - lower > (lower < beside_foot ? (2 * std::sqrt(lower) + most) * most : most)) return false;
+  const double root = std::sqrt(m_at(lower));
+  return std::sqrt(m_at(upper)) - root <= finer * std::fmax(growth * root, least_growth * std::sqrt(window_.total()));
+}
+
+/// A piece that would do at level 0 is halved as often as the level says.
+void RoughnessPieces::cut(double lower, double upper, std::size_t halved) {
+  heed();
+  constexpr double shortest = 1e-9;
+  const bool end = upper - lower < shortest * std::fmax(1e-3, upper);
+  std::size_t next = halved;
+  if (halved > 0 || short_enough(lower, upper, 0)) {
+    const Points points = points_of(lower, upper);
+    const bool first = halved > 0 || smooth(points, 0);
+    if (end || (first && halved >= level_ && short_enough(lower, upper, level_) && smooth(points, level_))) {
+      add_piece(points);
+      return;
+    }
+    if (first) ++next;
+  }
+  // at a row, where there is one near
+  const double middle =
+      lower < beside_foot ? std::pow((std::sqrt(lower) + std::sqrt(upper)) / 2, 2) : (lower + upper) / 2;
+  double at = middle, nearest = (upper - lower) / 6;
+  const std::size_t above = segment_at(middle);
+  for (std::size_t row = above; row < std::min(above + 2, start_.size()); ++row)
+    if (std::fabs(start_[row] - middle) < nearest) {
+      at = start_[row];
+      nearest = std::fabs(at - middle);
+    }
+  cut(lower, at, next);
+  cut(at, upper, next);
+}
+
+RoughnessPieces::Points RoughnessPieces::points_of(double lower, double upper) const {
+  Points result;
+  double m = result.m_lower = m_at(lower), y = lower;
+  for (std::size_t i = segment_at(lower); y < upper && i < surface_.size();) {
+    const Segment& segment = surface_[i];
+    const bool inside = i + 1 == surface_.size() || upper <= start_[i + 1];
+    const double end = inside ? upper : start_[i + 1], from = y - start_[i];
+    const auto bend = std::ranges::upper_bound(bends_, y);
+    const bool whole_way = bend == bends_.end() || *bend >= end;
+    y = whole_way ? end : *bend;
+    const double to = whole_way && !inside ? segment.length() : y - start_[i];
+    const double start = start_[i];
+    if (whole_way) ++i;
+    if ((segment.at_a == 0 && segment.at_b == 0) || !(to > from)) continue;
+    const double change = segment.straight ? 0 : std::fabs(4 + segment.slope) * (to - from);
+    const double atoms = std::ceil(std::fmax(1, change / steepest));
+    const FewPoints& rule = !segment.straight && change < 0.05 && to - from < 0.01 ? two : four;
+    for (double k = 0; k < atoms; ++k) {
+      const double s = from + (to - from) * (k / atoms), half = (to - from) / atoms / 2;
+      for (std::size_t j = 0; j < rule.n; ++j) {
+        const double at = s + half * (1 + rule.node[j]), q = segment.a * std::exp(at), square = q * q;
+        const Integrals up_to = of_segment(segment, s, at);
+        result.y.push_back(start + at);
+        result.weight.push_back(half * rule.weight[j] * square * square * segment.density_at(at));
+        result.window.push_back(window_(std::fmin(q, surface_.back().b)));
+        result.m.push_back(m + up_to.zeroth);
+        result.zeroth.push_back(up_to.zeroth);
+        result.first.push_back(up_to.first);
+      }
+      const Integrals whole = of_segment(segment, s, s + 2 * half);
+      result.atoms.push_back({start + s, whole.zeroth, whole.first, rule.n});
+      m += whole.zeroth;
+    }
+  }
+  result.m_upper = m;
+  return result;
+}
+
+namespace {
+
+/// Mean, standard deviation and skewness of dm on a piece.
+struct Measure {
+  double all = 0, mean = 0, deviation = 0, skewness = 0;
+};
+
+Measure measure(const std::vector<double>& y, const std::vector<double>& weight, double origin) {
+  Measure of;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    of.all += weight[i];
+    of.mean += weight[i] * (y[i] - origin);
+  }
+  of.mean = origin + of.mean / of.all;
+  double second = 0, third = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double d = y[i] - of.mean;
+    second += weight[i] * d * d;
+    third += weight[i] * d * d * d;
+  }
+  of.deviation = std::sqrt(second / of.all);
+  of.skewness = third / of.all / (of.deviation * of.deviation * of.deviation);
+  return of;
+}
+
+/// The mean square of what a function has beside a polynomial of degree 2 in z under dm.
+double rest(const Measure& of, const std::vector<double>& y, const std::vector<double>& weight,
+            const std::vector<double>& f) {
+  double zero = 0, one = 0, two = 0, norm = 0, squares = 0;
+  const double origin = f[f.size() / 2];
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double z = (y[i] - of.mean) / of.deviation, w = weight[i] / of.all, value = f[i] - origin;
+    const double p2 = z * z - of.skewness * z - 1;
+    zero += w * value;
+    one += w * value * z;
+    two += w * value * p2;
+    norm += w * p2 * p2;
+    squares += w * value * value;
+  }
+  return std::fmax(0, squares - zero * zero - one * one - (norm > 0 ? two * two / norm : 0));
+}
+
+}  // namespace
+
+bool RoughnessPieces::smooth(const Points& p, std::size_t level) const {
+  if (p.y.empty()) return true;
+  const Measure of = measure(p.y, p.weight, p.y.front());
+  if (!(of.deviation > 0)) return false;
+  const double m = (p.m_lower + p.m_upper) / 2, window = p.window[p.window.size() / 2];
+  const double most = roughest * std::pow(0.5, 4 * static_cast<double>(level));
+  return rest(of, p.y, p.weight, p.m) <= most * m * m && rest(of, p.y, p.weight, p.window) <= most * window * window;
+}
+
+void RoughnessPieces::add_piece(const Points& p) {
+  if (p.y.empty()) return;
+  const Measure of = measure(p.y, p.weight, p.y.front());
+  if (!(of.all > 0)) return;
+  const double g = of.skewness, root = std::sqrt(g * g + 4), z[2] = {(g - root) / 2, (g + root) / 2};
+  // int c dy and int c z dy up to the points
+  const std::size_t n = p.y.size();
+  std::vector<double> of_one(n), of_z(n);
+  double one_before = 0, z_before = 0;
+  std::size_t i = 0;
+  for (const Atom& atom : p.atoms) {
+    const double from = (atom.lower - of.mean) / of.deviation;
+    for (const std::size_t last = i + atom.points; i < last; ++i) {
+      of_one[i] = one_before + p.zeroth[i];
+      of_z[i] = z_before + from * p.zeroth[i] + p.first[i] / of.deviation;
+    }
+    one_before += atom.zeroth;
+    z_before += from * atom.zeroth + atom.first / of.deviation;
+  }
+  // projections on 1 and z
+  struct Line {
+    double at_mean = 0, slope = 0;
+  };
+  const auto project = [&](const std::vector<double>& f) {
+    Line line;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double w = p.weight[k] / of.all;
+      line.at_mean += w * f[k];
+      line.slope += w * f[k] * (p.y[k] - of.mean) / of.deviation;
+    }
+    return line;
+  };
+  const Line one = project(of_one), first = project(of_z), window = project(p.window);
+  for (const double at : z) {
+    const double of_c = one.at_mean + one.slope * at, of_c_z = first.at_mean + first.slope * at;
+    nodes_.wavenumber.push_back(std::fmin(surface_.back().b, foot_ * std::exp(of.mean + at * of.deviation)));
+    nodes_.weight.push_back(of.all / (1 + at * at));
+    nodes_.window.push_back(std::fmax(0, window.at_mean + window.slope * at));
+    nodes_.of_first.push_back((of_c_z - z[1] * of_c) / (z[0] - z[1]));
+    nodes_.of_second.push_back((of_c_z - z[0] * of_c) / (z[1] - z[0]));
+  }
+}
+
+}  // namespace asperity

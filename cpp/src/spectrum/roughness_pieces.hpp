@@ -1,0 +1,61 @@
+// A measured spectrum as few nodes, for integrals over int c d ln q of functions of ln q, G and the roughness beside q.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "spectrum/roughness_window.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+/// Pieces of y = ln(q / qf), qf where roughness begins, each with the Gauss rule of two nodes of dm = c dy on it, c =
+/// q^4 C. Rings are taken together where m and the roughness of the window about q differ so little from what is smooth
+/// that their squares do not matter: what stands at the nodes are projections on what is linear in y, so that the rest
+/// is orthogonal to it.
+class RoughnessPieces {
+ public:
+  static constexpr std::size_t levels = 4;
+  /// `level` from 0 on; on each next one the pieces are halves of those before, or less. The surface must outlive it.
+  RoughnessPieces(std::span<const Segment> surface, std::size_t level);
+
+  struct Nodes {
+    std::vector<double> wavenumber;  // [1/m], two a piece; padded to a multiple of four with nodes of no weight
+    std::vector<double> weight;      // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
+    std::vector<double> window;      // of RoughnessWindow
+    std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
+  };
+  [[nodiscard]] const Nodes& nodes() const { return nodes_; }
+  [[nodiscard]] const RoughnessWindow& window() const { return window_; }
+
+ private:
+  /// A part of one segment, and int c dy and int c (y - lower) dy over it.
+  struct Atom {
+    double lower, zeroth, first;
+    std::size_t points;
+  };
+  /// Points of a piece, atom by atom, with the same integrals from the atom's lower end up to them; m from the foot on.
+  struct Points {
+    std::vector<double> y, weight, m, window, zeroth, first;
+    std::vector<Atom> atoms;
+    double m_lower = 0, m_upper = 0;
+  };
+  void cut(double lower, double upper, std::size_t halved);
+  [[nodiscard]] bool short_enough(double lower, double upper, std::size_t level) const;
+  [[nodiscard]] bool smooth(const Points& points, std::size_t level) const;
+  [[nodiscard]] Points points_of(double lower, double upper) const;
+  [[nodiscard]] std::size_t segment_at(double y) const;
+  [[nodiscard]] double m_at(double y) const;
+  void add_piece(const Points& points);
+
+  std::span<const Segment> surface_;
+  RoughnessWindow window_;
+  std::size_t level_;
+  std::vector<double> start_, before_;  // of each segment: where it starts in y, and m there
+  std::vector<double> bends_;           // where the window meets a row at which c bends sharply, in y
+  Nodes nodes_;
+  double foot_ = 0;
+};
+
+}  // namespace asperity

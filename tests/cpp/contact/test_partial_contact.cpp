@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <numeric>
+
+#include "asperity/friction.hpp"
+#include "reference_table.hpp"
+
+using namespace asperity;
+
+namespace {
+
+Spectrum surface_of(const Row& row) {
+  if (row.text("rms_height").empty()) return TabulatedSpectrum(row.list("table_wavenumber"), row.list("table_density"));
+  return SelfAffineSpectrum{row.number("rms_height"), row.number("hurst"), row.number("q0"), row.number("q1"),
+                            row.maybe("rolloff")};
+}
+
+Rubber rubber_of(const Row& row) {
+  if (row.text("table_frequency").empty())
+    return PronySeries(row.number("equilibrium_modulus"), row.list("moduli"), row.list("relaxation_times"));
+  return MasterCurve(row.list("table_frequency"), row.list("table_storage"), row.list("table_loss"));
+}
+
+}  // namespace
+
+TEST_CASE("PartialContact meets its reference table") {
+  for (const Row& row : reference("partial_contact")) {
+    CAPTURE(row.text("case"));
+    const Spectrum surface = surface_of(row);
+    const Rubber rubber = rubber_of(row);
+    const double velocity = row.number("velocity");
+    for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+      const Friction f = friction(surface, rubber,
+                                  {.pressure = row.number("pressure"),
+                                   .poisson_ratio = row.number("poisson_ratio"),
+                                   .correction = PartialContact{},
+                                   .rtol = rtol},
+                                  std::span(&velocity, 1));
+      const double exact = row.number("hysteresis");
+      CHECK(std::fabs(f.hysteresis[0] - exact) <= f.error_estimate[0] + row.number("rtol") * exact);
+      CHECK_NEAR(f.contact_area[0], row.number("contact_area"), rtol, 0);
+    }
+  }
+}
+
+TEST_CASE("contributions of PartialContact add up to the hysteresis, beyond the spectrum too") {
+  const SelfAffineSpectrum road{.rms_height = 100e-6, .hurst = 0.8, .q0 = 2000, .q1 = 1e5};
+  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
+  const double velocity[] = {1e-4, 1.0};
+  const Friction f =
+      friction(road, rubber, {.pressure = 81e3, .correction = PartialContact{}, .contributions = true}, velocity);
+  const Contributions& c = *f.contributions;
+  const std::size_t m = c.decade_edges.size() - 1, n = c.wavenumber.size();
+  CHECK(c.wavenumber.back() == doctest::Approx(33e5));
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(std::accumulate(&c.decade_share[i * m], &c.decade_share[i * m] + m, 0.0) == doctest::Approx(1).epsilon(1e-6));
+    double sum = 0;
+    for (std::size_t j = 1; j < n; ++j)
+      sum += (c.dmu_dlnq[i * n + j] + c.dmu_dlnq[i * n + j - 1]) / 2 * std::log(c.wavenumber[j] / c.wavenumber[j - 1]);
+    CHECK(sum == doctest::Approx(f.hysteresis[i]).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("PartialContact tells its error on exact contacts, and refuses the interpolated area") {
+  const SelfAffineSpectrum road{.rms_height = 100e-6, .hurst = 0.8, .q0 = 2000, .q1 = 1e5};
+  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
+  const double velocity = 0.01;
+  const Friction f = friction(road, rubber, {.pressure = 3e5, .correction = PartialContact{}}, std::span(&velocity, 1));
+  CHECK(f.model_error[0] > 0.01);
+  CHECK(f.model_error[0] < 0.12);
+  CHECK_THROWS_AS(
+      (void)friction(road, rubber, {.pressure = 3e5, .correction = PartialContact{}, .form = Form::interpolated},
+                     std::span(&velocity, 1)),
+      InvalidInput);
+}
