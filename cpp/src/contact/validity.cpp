@@ -8,8 +8,8 @@
 #include <limits>
 #include <tuple>
 
-#include "contact/solver/partial_window.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -58,7 +58,7 @@ std::optional<double> empty_end(const Spectrum& spectrum) {
   const SurfaceSegments kept(spectrum);
   const RoughnessWindow window(kept.get());
   if (window.total() == 0 || window.share_of_end() > empty) return {};
-  return window.up_to(nearly_all);
+  return window.end_of(nearly_all);
 }
 
 /// Velocities at which a spectrum asks a fitted Prony series for nothing but the frequencies it was fitted on.

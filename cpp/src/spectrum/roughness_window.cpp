@@ -56,7 +56,7 @@ double RoughnessWindow::share_of_end() const {
   return between(std::fmax(end / std::numbers::e, surface_.front().a), end) / total();
 }
 
-double RoughnessWindow::up_to(double share) const {
+double RoughnessWindow::end_of(double share) const {
   const auto above = std::ranges::upper_bound(before_, share * total());
   return surface_[static_cast<std::size_t>(above - before_.begin()) - 1].b;
 }

@@ -21,7 +21,7 @@ class RoughnessWindow {
   [[nodiscard]] double total() const;
   [[nodiscard]] double share_of_end() const;
   /// The end of the segment up to which this share of the integral over the band lies [1/m].
-  [[nodiscard]] double up_to(double share) const;
+  [[nodiscard]] double end_of(double share) const;
   /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
   [[nodiscard]] std::vector<double> ends() const;
 
