@@ -229,18 +229,18 @@ Measure measure(const std::vector<double>& y, const std::vector<double>& weight,
 /// The mean square of what a function has beside a polynomial of degree 2 in z under dm.
 double rest(const Measure& of, const std::vector<double>& y, const std::vector<double>& weight,
             const std::vector<double>& f) {
-  double zero = 0, one = 0, two = 0, norm = 0, squares = 0;
+  double level = 0, line = 0, bow = 0, norm = 0, squares = 0;
   const double origin = f[f.size() / 2];
   for (std::size_t i = 0; i < y.size(); ++i) {
     const double z = (y[i] - of.mean) / of.deviation, w = weight[i] / of.all, value = f[i] - origin;
     const double p2 = z * z - of.skewness * z - 1;
-    zero += w * value;
-    one += w * value * z;
-    two += w * value * p2;
+    level += w * value;
+    line += w * value * z;
+    bow += w * value * p2;
     norm += w * p2 * p2;
     squares += w * value * value;
   }
-  return std::fmax(0, squares - zero * zero - one * one - (norm > 0 ? two * two / norm : 0));
+  return std::fmax(0, squares - level * level - line * line - (norm > 0 ? bow * bow / norm : 0));
 }
 
 }  // namespace
