@@ -29,7 +29,8 @@ FewPoints four_points() {
   }
   return r;
 }
-const FewPoints four = four_points(), two{.n = 2, .node = {-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}, .weight = {1, 1}};
+const FewPoints four = four_points(),
+                two_points{.n = 2, .node = {-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}, .weight = {1, 1}};
 
 struct Integrals {
   double zeroth, first;
@@ -76,8 +77,9 @@ namespace {
 
 /// In y at level 0; near the foot in sqrt(y), in which functions of sqrt(G) are smooth.
 constexpr double longest = 0.12, beside_foot = 0.25;
-/// By which part of itself sqrt(m) may grow along a piece, or of its value at the end where it is small before; the
-/// mean squares of what is not smooth of m and of the window, over theirs. All at level 0.
+/// By which part of itself the window may grow along a piece, and the root of int c dy from a unit before on, of which
+/// a part of that of the next unit will do where it is small; the mean squares of what is not smooth of m and of the
+/// window, over theirs. At level 0.
 constexpr double growth = 0.3, least_growth = 0.05, roughest = 2e-6;
 constexpr double steepest = 1.5;  // |d ln c / dy| times the length of an atom
 
@@ -94,7 +96,7 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
     before_.push_back(m);
     m += segment.moment(3, segment.b);
   }
-  constexpr double sharply = 0.7;  // change of ln c along a segment, by what it changes along the next
+  constexpr double sharply = 0.25;  // change of ln c along a segment, by what it changes along the next
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const auto change = [&](std::size_t k) {
       return k >= surface.size() ? 0 : surface[k].straight ? 1e9 : (4 + surface[k].slope) * surface[k].length();
@@ -130,8 +132,11 @@ double RoughnessPieces::m_at(double y) const {
 bool RoughnessPieces::short_enough(double lower, double upper, std::size_t level) const {
   const double finer = std::pow(0.5, static_cast<double>(level)), most = longest * finer;
   if (upper - lower > (lower < beside_foot ? (2 * std::sqrt(lower) + most) * most : most)) return false;
-  const double root = std::sqrt(m_at(lower));
-  return std::sqrt(m_at(upper)) - root <= finer * std::fmax(growth * root, least_growth * std::sqrt(window_.total()));
+  // where I2 rises steeply, what lies further back than a unit has little part in G
+  const double m = m_at(lower), before = m - (lower > 1 ? m_at(lower - 1) : 0), beside = m_at(lower + 1) - m;
+  const double root = std::sqrt(before);
+  return std::sqrt(before + (m_at(upper) - m)) - root <=
+         finer * std::fmax(growth * root, least_growth * std::sqrt(beside));
 }
 
 /// A piece that would do at level 0 is halved as often as the level says.
@@ -179,7 +184,7 @@ RoughnessPieces::Points RoughnessPieces::points_of(double lower, double upper) c
     if ((segment.at_a == 0 && segment.at_b == 0) || !(to > from)) continue;
     const double change = segment.straight ? 0 : std::fabs(4 + segment.slope) * (to - from);
     const double atoms = std::ceil(std::fmax(1, change / steepest));
-    const FewPoints& rule = !segment.straight && change < 0.05 && to - from < 0.01 ? two : four;
+    const FewPoints& rule = !segment.straight && change < 0.05 && to - from < 0.01 ? two_points : four;
     for (double k = 0; k < atoms; ++k) {
       const double s = from + (to - from) * (k / atoms), half = (to - from) / atoms / 2;
       for (std::size_t j = 0; j < rule.n; ++j) {
@@ -250,6 +255,8 @@ bool RoughnessPieces::smooth(const Points& p, std::size_t level) const {
   const Measure of = measure(p.y, p.weight, p.y.front());
   if (!(of.deviation > 0)) return false;
   const double m = (p.m_lower + p.m_upper) / 2, window = p.window[p.window.size() / 2];
+  const auto [least, largest] = std::ranges::minmax(p.window);
+  if (largest - least > growth * std::pow(0.5, static_cast<double>(level)) * window) return false;
   const double most = roughest * std::pow(0.5, 4 * static_cast<double>(level));
   return rest(of, p.y, p.weight, p.m) <= most * m * m && rest(of, p.y, p.weight, p.window) <= most * window * window;
 }

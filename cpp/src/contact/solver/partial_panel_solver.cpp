@@ -58,7 +58,7 @@ void PartialPanelSolver::gather() {
   steepness_.clear();
   weight_.clear();
   ratio_.clear();
-  double g = 0, g_error = 0;
+  double g = 0;
   for (ActivePanel& active : active_) {
     const PartialPanel& p = panels_[active.panel];
     const std::size_t n = p.rule->n;
@@ -74,8 +74,6 @@ void PartialPanelSolver::gather() {
     steepness_.insert(steepness_.end(), steepness, steepness + n);
     ratio_.insert(ratio_.end(), ratio, ratio + n);
     g += p.g_total;
-    g_error += p.g_error;
-    active.g_error = g_error / g;
   }
   end_.g = g;
   end_.band = panels_.band(g);
@@ -99,13 +97,15 @@ double PartialPanelSolver::judge() {
     const double at_foot = p.root && p.lower == 0 ? per_scale * foot_error(root_.kappa * scale_ * g_[0],
                                                                            root_.obstacle * scale_ * steepness_[0])
                                                   : 0;
+    const double g_upper = active.g_lower + p.g_total;
     for (std::size_t i = 0; i < n; ++i) f[i] = rate[i] * stress_[first + i];
     loops.add_up(*p.rule, f, &total, tail);
-    const double variance = (rule_error(tail) + at_foot + passed_on * active.g_error * total) * variance_share;
+    const double variance = (rule_error(tail) + at_foot) * variance_share;
+    active.variance_by_g = passed_on * total / g_upper * variance_share;
     for (std::size_t i = 0; i < n; ++i) f[i] *= ratio[i];
     loops.add_up(*p.rule, f, &total, tail);
-    const double friction =
-        (rule_error(tail) + at_foot * ratio[0] + passed_on * active.g_error * total) * friction_share;
+    const double friction = (rule_error(tail) + at_foot * ratio[0]) * friction_share;
+    active.friction_by_g = passed_on * total / g_upper * friction_share;
     of_mu += friction + kappa_on_mu * variance;
     of_area += kappa_on_area * variance;
     active.error = friction + std::fmax(kappa_on_mu, kappa_on_area) * variance;
@@ -115,13 +115,24 @@ double PartialPanelSolver::judge() {
     }
     first += n;
   }
-  // F at the end of the spectrum has the error of G there
-  const double of_f = active_.empty() ? 0 : active_.back().g_error;
+  // an error of G passes on to all that follows, and to F at the end of the spectrum
+  double variance_behind = 1 / end_.g, friction_behind = 0;
+  for (std::size_t i = active_.size(); i-- > 0;) {
+    ActivePanel& active = active_[i];
+    variance_behind += active.variance_by_g;
+    friction_behind += active.friction_by_g;
+    const double error = panels_[active.panel].g_error;
+    const double on_mu = error * (friction_behind + kappa_on_mu * variance_behind);
+    const double on_area = error * (kappa_on_area * variance_behind + 1 / (2 * end_.g));
+    of_mu += on_mu;
+    of_area += on_area;
+    active.error += std::fmax(on_mu, on_area);
+  }
   const double in_tail = root_.edges * end_.window;
   const double tail_variance = in_tail * end_.tail.i2_error * variance_share,
                tail_friction = in_tail * end_.tail.i1_error * friction_share;
-  of_mu += tail_friction + kappa_on_mu * (tail_variance + of_f);
-  of_area += kappa_on_area * (tail_variance + of_f) + of_f / 2;
+  of_mu += tail_friction + kappa_on_mu * tail_variance;
+  of_area += kappa_on_area * tail_variance;
   hysteresis_ = {mu_factor_ * root_.friction, mu_factor_ * root_.friction * of_mu,
                  mu_factor_ * (outside + in_tail * end_.tail.i1_outside)};
   area_error_ = of_area;

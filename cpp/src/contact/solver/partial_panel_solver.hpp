@@ -23,8 +23,9 @@ class PartialPanelSolver : public PartialProfileSolver {
  private:
   struct ActivePanel {
     std::size_t panel;
-    double g_lower = 0, g_error = 0;  // G at its lower end, at unit load; the relative error of it at its upper end
-    double error = 0;                 // its part of the relative error of mu_H or the area
+    double g_lower = 0;                           // G at its lower end, at unit load
+    double variance_by_g = 0, friction_by_g = 0;  // relative errors of both sums that an error of G brings on it
+    double error = 0;                             // its part of the relative error of mu_H or the area
   };
   void start(double velocity);
   void gather();
