@@ -1,6 +1,7 @@
 """Figures for a paper: friction over velocity, area over magnification (matplotlib)."""
 
 import io
+import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMATS = (".png", ".svg", ".pdf")
+_MOST_SHADED = 3  # curves whose model error can be told apart
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
 _COLUMN = 3.4  # inches, of a journal of two columns
@@ -48,8 +50,13 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
     names = _names(scenes)
     curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
+    off: list[NDArray[np.float64]] = []  # of each curve, how far the model may be
+    numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
     for name, scene, result in zip(names, scenes, results, strict=True):
         values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
+        assert result.model_error is not None
+        model = result.model_error * result.hysteresis
+        off += list(model.T if over_pressure else model)
         loads = [pressure_text(float(pressure)) for pressure in scene.pressure]
         if over_pressure:
             values = [array.T for array in values]
@@ -65,8 +72,13 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         tints = list(shaded(axes, scenes[0].pressure, _PRESSURE))
     elif many:
         named(axes, [label for label, *_ in curves])
-    for (label, x, lines, band), colour in zip(curves, tints, strict=True):
+    hatched = len(curves) <= _MOST_SHADED and any(np.isfinite(one).any() for one in off)
+    for (label, x, lines, band), model, colour in zip(curves, off, tints, strict=True):
         order = np.argsort(x)
+        if hatched:
+            mu = lines[0][order]
+            around = (np.fmax(mu - model[order], 0), mu + model[order])
+            axes.fill_between(x[order], *around, **_hatch(colour))
         if band:
             low, high = (bound[order] for bound in band)
             axes.fill_between(x[order], low, high, color=colour, alpha=0.2, linewidth=0)
@@ -89,6 +101,12 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
         label = band_text(level)
         axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+    if hatched:
+        axes.fill_between(
+            [], [], **_hatch(grey(0.3)), label="model error, from exact\nsliding contacts"
+        )
+        label = f"numerical error below {_power_above(numerical)},\ntoo small to see"
+        axes.plot([], [], linestyle="", label=label)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
     axes.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
@@ -96,6 +114,15 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     if axes.get_legend_handles_labels()[1]:
         legend_beside(figure)
     return picture(figure, path)
+
+
+def _power_above(error: float) -> str:
+    """The power of ten above an error."""
+    return f"$10^{{{math.ceil(math.log10(max(error, 1e-16)))}}}$"
+
+
+def _hatch(colour: Any) -> dict[str, Any]:
+    return {"facecolor": "none", "edgecolor": colour, "hatch": "////", "alpha": 0.4, "linewidth": 0}
 
 
 def legend_beside(figure: "Figure", *entries: Any) -> None:

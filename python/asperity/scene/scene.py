@@ -90,6 +90,7 @@ class Curves:
     contact_area: NDArray[np.float64]
     shift_factor: NDArray[np.float64]
     error_estimate: NDArray[np.float64]
+    model_error: NDArray[np.float64] | None = None  # relative, of the hysteresis; NaN: unknown
     hot_temperature: NDArray[np.float64] | None = None  # T(q1) [K], and mu without heat
     mu_cold: NDArray[np.float64] | None = None
     band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
@@ -171,7 +172,7 @@ class Scene:
         notes |= dict.fromkeys(note for part in parts for note in part.notes)
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
-            for name in COLUMNS
+            for name in (*COLUMNS, "model_error")
         }
         if self.heating is not None:
             columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])

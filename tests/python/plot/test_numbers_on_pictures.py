@@ -1,6 +1,7 @@
 """Numbers on pictures, computed again from what is drawn."""
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -136,3 +137,45 @@ def test_parameters_of_the_adhesion_are_those_of_the_curve_drawn() -> None:
     assert width == pytest.approx(-c, rel=0.05)
     assert np.log10(velocity * 1e-3) == pytest.approx(-b / (2 * c), abs=0.02)
     assert stress * 1e6 == pytest.approx(np.exp(a - b * b / (4 * c)), rel=0.01)
+
+
+SCENE = """
+surface = {rms_height_m = 1e-4, hurst = 0.8, q0_per_m = 2e3, q1_per_m = 3e4}
+rubber = {equilibrium_modulus_pa = 3e6, moduli_pa = [1e8], relaxation_times_s = [1e-4]}
+conditions = {pressure_pa = 1e5, velocity_m_s = {from = 1e-6, to = 1, points = 7}}
+correction = {kind = "partial-contact"}
+adhesion = {shear_stress_pa = 1e6}
+"""
+
+
+def test_the_hatched_band_is_the_model_error_of_the_hysteresis(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    from asperity.plot import curves
+    from asperity.scene.scene import load_scene
+
+    drawn: list[Any] = []
+    monkeypatch.setattr(curves, "picture", lambda figure, path: drawn.append(figure))
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    scene = load_scene(tmp_path / "scene.toml")
+    found = scene.friction()
+    assert found.model_error is not None
+    known = np.isfinite(found.model_error[0])
+    assert known.any()
+    curves.friction_figure([scene], [found], tmp_path / "mu.png")
+    (axes,) = drawn[0].axes
+    hatched = [shape for shape in axes.collections if shape.get_hatch() and shape.get_paths()]
+    corners = np.concatenate([path.vertices for path in hatched[0].get_paths()])
+    for v, mu, off in zip(
+        scene.velocity[known],
+        found.mu[0][known],
+        (found.model_error * found.hysteresis)[0][known],
+        strict=True,
+    ):
+        here = corners[np.isclose(corners[:, 0], v, rtol=1e-9), 1]
+        assert [here.min(), here.max()] == pytest.approx([mu - off, mu + off], rel=1e-9)
+    (line,) = [one for one in axes.lines if "numerical" in str(one.get_label())]
+    power = int(re.search(r"10\^\{(-\d+)\}", line.get_label())[1])  # type: ignore[index]
+    worst = float(np.max(found.error_estimate / found.mu))
+    assert 10.0 ** (power - 1) < worst <= 10.0**power
