@@ -31,7 +31,7 @@ from asperity.article.separation import shifts
 from asperity.article.statement import Finding, Findings
 from asperity.correction import AffineShift, Correction, SFactor
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import grey, palette, paper
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -109,8 +109,8 @@ def fig11(inputs: Inputs) -> dict[str, bytes]:
     limits = 0.7 * curves["pf_cf"].min(), 1.5
     rows = zip(panels, _MPA, *curves.values(), model.implied.shift_factor, strict=True)
     for axes, load, persson, improved, p in rows:
-        axes.plot(_ZETA, persson, color=COLOURS[0], label=_PF_CF)
-        axes.plot(_ZETA, improved, "--", color=COLOURS[1], label=f"IGW-CF, $p_T$ = {p:.2f}")
+        axes.plot(_ZETA, persson, color=palette()[0], label=_PF_CF)
+        axes.plot(_ZETA, improved, "--", color=palette()[1], label=f"IGW-CF, $p_T$ = {p:.2f}")
         panel(axes, load, "best", **_FACTOR, ylim=limits)
     return page("fig11", figure, _given(inputs), _columns(curves))
 
@@ -140,7 +140,7 @@ def _local(name: str, inputs: Inputs, distance: float, printed: AffineShift) -> 
         f"LP-CF, $p_{{T1}}$ = {printed.p:g} (printed)",
         f"LP-CF, $p_{{T1}}$ = {shift:.2f} (this scan)",
     )
-    lines = zip(curves.values(), ("-", "--", ":"), labels, COLOURS, strict=False)
+    lines = zip(curves.values(), ("-", "--", ":"), labels, palette(), strict=False)
     for row, dash, label, colour in lines:
         right.plot(_ZETA, row, dash, color=colour, label=label)
     panel(right, f"(b) {_MPA[_MIDDLE]}, {VELOCITY:g} m/s", "best", **_FACTOR)
@@ -170,7 +170,7 @@ def _draw_corner(axes: "Axes", heights: Array, x: Array, y: Array) -> None:
         vmax=float(high),
         interpolation="nearest",
     )
-    axes.plot(1e3 * x, 1e3 * y, "o", color=COLOURS[1], markersize=4, markeredgecolor="white")
+    axes.plot(1e3 * x, 1e3 * y, "o", color=palette()[1], markersize=4, markeredgecolor=paper())
     axes.set(xlim=(0, side), ylim=(side, 0))
     axes.figure.colorbar(image, ax=axes, label="Height $z$ [µm]", shrink=0.9)
 
@@ -180,11 +180,11 @@ def _areas(
 ) -> dict[str, bytes]:
     figure, (axes,) = new_figure(1)
     before, after = model.area(_ZETA), model.area(_ZETA, correction)
-    for load, original, modified, colour in zip(_MPA, before, after, COLOURS, strict=False):
+    for load, original, modified, colour in zip(_MPA, before, after, palette(), strict=False):
         axes.plot(_ZETA, original, color=colour, label=load)
         axes.plot(_ZETA, modified, "--", color=colour)
     for dash, text in (("-", "original"), ("--", label)):
-        axes.plot([], [], dash, color="0.3", label=text)
+        axes.plot([], [], dash, color=grey(0.3), label=text)
     panel(axes, f"{VELOCITY:g} m/s", **_AREA)
     figure.legend(loc="outside right upper")
     return page(name, figure, given, _columns({"original_area": before, "modified_area": after}))

@@ -12,7 +12,7 @@ from asperity.article.statement import Finding, Findings
 from asperity.asperities import separation
 from asperity.contact import contact_area
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import grey, palette
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -115,10 +115,10 @@ def _figure(
         left, right = panels[2 * k : 2 * k + 2]
         if pressure.size > velocity.size:
             x, labels, place = pressure / 1e6, [f"{v:g} m/s" for v in velocity], "upper right"
-            rows = zip(*(values.T for values in found), labels, COLOURS, strict=False)
+            rows = zip(*(values.T for values in found), labels, palette(), strict=False)
         else:
             x, labels, place = velocity, [f"{p / 1e6:g} MPa" for p in pressure], "upper left"
-            rows = zip(*found, labels, COLOURS, strict=False)
+            rows = zip(*found, labels, palette(), strict=False)
         for d, p, label, colour in rows:
             left.plot(x, 1e3 * d, color=colour, label=label)
             right.plot(x, np.where(np.isfinite(p), p, np.nan), color=colour, label=label)
@@ -142,9 +142,9 @@ def _limits(axes: "Axes", z_max: float, z_min: float) -> None:
     """Where there is no contact, and where it is full [mm]."""
     small: dict[str, Any] = {"va": "top", "fontsize": "small"}
     axes.set_ylim(-0.58, 0.38)
-    axes.axhspan(z_max, 0.38, color="0.88", linewidth=0)
+    axes.axhspan(z_max, 0.38, color=grey(0.88), linewidth=0)
     axes.text(0.03, 0.965, "no contact", transform=axes.transAxes, **small)
-    axes.axhline(z_min, color="0.4", linestyle=":", linewidth=1)
+    axes.axhline(z_min, color=grey(0.4), linestyle=":", linewidth=1)
     text, place = r"full contact below $z_{\mathrm{min}}$", axes.get_yaxis_transform()
     axes.text(0.97, z_min - 0.01, text, transform=place, ha="right", **small)
 

@@ -22,7 +22,7 @@ from asperity.article.surfaces import printed_eq12
 from asperity.correction import Correction, GreenwoodWilliamson, SFactor
 from asperity.friction import Friction, friction
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import palette
 
 # The article's q1, and that of the rule it cites.
 _CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
@@ -103,9 +103,9 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
     theories = {"original": "(a) original theory", "implicit": "(b) modified, IGW"}
     for axes, (name, title) in zip(panels, theories.items(), strict=True):
         for label, values, dash, colour in (
-            ("total", curves[name].mu, "-", COLOURS[0]),
-            ("hysteresis", curves[name].hysteresis, "--", COLOURS[1]),
-            ("adhesion", curves[name].adhesion, "--", COLOURS[4]),
+            ("total", curves[name].mu, "-", palette()[0]),
+            ("hysteresis", curves[name].hysteresis, "--", palette()[1]),
+            ("adhesion", curves[name].adhesion, "--", palette()[4]),
         ):
             axes.plot(_VELOCITY, values, dash, color=colour, label=label)
         axes.text(

@@ -19,7 +19,7 @@ from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
 from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import grey, palette
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
@@ -146,14 +146,14 @@ def fig02(inputs: Inputs) -> dict[str, bytes]:
         (panels[1], 1e6 * shifted, _SHIFT, f"(b) partial contact, $p_T$ = {_SHIFT:g}"),
     ):
         axes.fill_between(
-            mm, rubber, 200, color=COLOURS[5], alpha=0.35, linewidth=0, label="rubber"
+            mm, rubber, 200, color=palette()[5], alpha=0.35, linewidth=0, label="rubber"
         )
-        axes.fill_between(mm, -150, um, color="0.75", linewidth=0, label="substrate")
-        axes.plot(mm, um, color="0.3", linewidth=1.2, label="$h(x)$")
-        axes.plot(mm, rubber, color=COLOURS[0], linewidth=1.8, label="$h_T(x)$")
-        axes.axhline(top, color=COLOURS[1], linestyle=":", label=r"$z_{\mathrm{max}}$")
+        axes.fill_between(mm, -150, um, color=grey(0.75), linewidth=0, label="substrate")
+        axes.plot(mm, um, color=grey(0.3), linewidth=1.2, label="$h(x)$")
+        axes.plot(mm, rubber, color=palette()[0], linewidth=1.8, label="$h_T(x)$")
+        axes.axhline(top, color=palette()[1], linestyle=":", label=r"$z_{\mathrm{max}}$")
         mean, label = 1e6 * h.max() * (1 - 1 / p), r"$\langle h_T \rangle$"
-        axes.axhline(mean, color=COLOURS[2], linestyle="--", label=label)
+        axes.axhline(mean, color=palette()[2], linestyle="--", label=label)
         limits = {"xlim": (0, mm[-1]), "ylim": (-150, 200)}
         panel(axes, title, **limits, xlabel="$x$ [mm]", ylabel="Height $z$ [µm]")
     named = panels[0].get_legend_handles_labels()
@@ -176,19 +176,19 @@ def fig03(inputs: Inputs) -> dict[str, bytes]:
     peaks = local_peaks(scan, 1.0).heights
     counts, peak_edges = np.histogram(peaks, bins=12, density=True)
     peak_middle = (peak_edges[1:] + peak_edges[:-1]) / 2
-    left.plot(1e3 * x, 1e6 * row, color="0.3", linewidth=0.6)
-    right.plot(1e-3 * density, 1e6 * middle, color=COLOURS[0], label="heights")
+    left.plot(1e3 * x, 1e6 * row, color=grey(0.3), linewidth=0.6)
+    right.plot(1e-3 * density, 1e6 * middle, color=palette()[0], label="heights")
     right.stairs(
         1e-3 * counts,
         1e6 * peak_edges,
         orientation="horizontal",
-        color=COLOURS[1],
+        color=palette()[1],
         linewidth=1.5,
         label=r"local peaks, $\lambda_0$ apart",
     )
     mean, label = 1e6 * peaks.mean(), r"$\langle h_{\mathrm{Peaks}} \rangle$"
     for axes in (left, right):
-        axes.axhline(mean, color=COLOURS[1], linestyle="--", label=label)
+        axes.axhline(mean, color=palette()[1], linestyle="--", label=label)
     height = {"ylabel": "Height $z$ [µm]", "ylim": (1.08e6 * scan.z_min, 1.15e6 * scan.z_max)}
     panel(left, "(a) profile", xlim=(0, 1e3 * x[-1]), xlabel="$x$ [mm]", **height)
     right.set_xlim(left=0)
@@ -219,8 +219,8 @@ def fig06(inputs: Inputs) -> dict[str, bytes]:
     flat = np.asarray(LineScan(raw, spacing=PIXEL_SIZE).detrend("plane").heights)
     titles = ("(a) with slope and offset", "(b) slope and offset suppressed")
     for axes, heights, title in zip(panels, (raw, flat), titles, strict=True):
-        axes.plot(1e3 * x, 1e3 * heights, color=COLOURS[0], linewidth=0.7)
-        axes.axhline(0, color="0.5", linewidth=0.8)
+        axes.plot(1e3 * x, 1e3 * heights, color=palette()[0], linewidth=0.7)
+        axes.axhline(0, color=grey(0.5), linewidth=0.8)
         length = 1e3 * x[-1]
         panel(axes, title, xlim=(0, length), xlabel="$x$ [mm]", ylabel="Height $z$ [mm]")
     columns = {"x_m": x.tolist(), "height_m": raw.tolist(), "detrended_height_m": flat.tolist()}
@@ -246,16 +246,16 @@ def fig07(inputs: Inputs) -> dict[str, bytes]:
         fit, q, density = slope_fit(measured), measured.wavenumber, measured.density
         shown, good = q <= np.pi / PIXEL_SIZE, measured.reliable & (q >= Q0)
         for rows, colour, label in (
-            (good, COLOURS[0], "synthetic scan"),
-            (shown & ~good, "0.7", "unreliable or below $q_0$"),
+            (good, palette()[0], "synthetic scan"),
+            (shown & ~good, grey(0.7), "unreliable or below $q_0$"),
         ):
             axes.plot(q[rows], density[rows], ".", markersize=3, color=colour, label=label)
         whole = np.geomspace(Q0, MAGNIFICATION * Q0, 50)
-        axes.plot(whole, truth.at(whole), color="0.2", linewidth=1, label="analytic, to $q_1$")
+        axes.plot(whole, truth.at(whole), color=grey(0.2), linewidth=1, label="analytic, to $q_1$")
         line = np.geomspace(fit.q0, fit.q1, 50)
         label = f"Eq. 28: $H$ = {fit.hurst:.3f}"
-        axes.plot(line, fit.spectrum.at(line), "--", color=COLOURS[1], linewidth=2, label=label)
-        axes.axvline(Q0, color="0.5", linestyle=":", label="$q_0$ = 2000/m")
+        axes.plot(line, fit.spectrum.at(line), "--", color=palette()[1], linewidth=2, label=label)
+        axes.axvline(Q0, color=grey(0.5), linestyle=":", label="$q_0$ = 2000/m")
         labels = {"xlabel": "Wavenumber $q$ [1/m]", "ylabel": "Roughness spectrum $C(q)$ [m$^4$]"}
         panel(axes, f"({mark}) {name}", "upper right", **LOG, **labels)
         curves.append(

@@ -22,7 +22,7 @@ from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
 from asperity.contact import contact_area, mean_pressure, pressure_distribution
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import grey, palette
 
 _ZETA = (1.5, 5.0, 25.0)  # of Fig. 1
 _SLIDING: dict[str, Any] = {"pressure": 0.5e6, "velocity": 1e-3}  # of Fig. 1
@@ -73,16 +73,16 @@ def fig01(inputs: Inputs) -> dict[str, bytes]:
         upper.imshow(
             np.where(touching[:shown, :shown], 1.0, 0.0),
             extent=(0, side, side, 0),
-            cmap=ListedColormap(["0.9", COLOURS[0]]),  # no contact, contact
+            cmap=ListedColormap([grey(0.9), palette()[0]]),  # no contact, contact
             vmin=0,
             vmax=1,
             interpolation="nearest",
         )
         title = f"({mark}) $q/q_0$ = {zeta:g}, $A/A_0$ = {area:.3f}"
         panel(upper, title, xlabel="$x$ [mm]", ylabel="$y$ [mm]")
-        lower.plot(stress / load, load * density, color=COLOURS[0], label=f"{zeta:g} $q_0$")
+        lower.plot(stress / load, load * density, color=palette()[0], label=f"{zeta:g} $q_0$")
         label = r"$q_0$: all at $\sigma_0$"
-        lower.axvline(1, color="0.4", linestyle="--", linewidth=1, label=label)
+        lower.axvline(1, color=grey(0.4), linestyle="--", linewidth=1, label=label)
         lower.set_ylim(bottom=0)
         panel(
             lower,

@@ -9,7 +9,7 @@ from asperity.article.inputs import Inputs, effective_modulus
 from asperity.article.page import LOG, page, panel, stacked
 from asperity.article.statement import Finding, Findings
 from asperity.plot.curves import new_figure
-from asperity.plot.style import COLOURS
+from asperity.plot.style import grey, palette
 
 
 def findings(inputs: Inputs) -> Findings:
@@ -40,7 +40,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
     tuned = {f"A, tuned ({reading})": t.rubber for reading, t in inputs.tuned.items()}
     rubbers |= {name: name for name in tuned}
     curves: list[dict[str, Any]] = []
-    for (label, name), colour in zip(rubbers.items(), COLOURS, strict=False):
+    for (label, name), colour in zip(rubbers.items(), palette(), strict=False):
         modulus = np.asarray({**plain, **tuned}[name].modulus(frequency))
         style: dict[str, Any] = {"color": colour, "linewidth": 1.8 if name in plain else 1.0}
         axes.plot(frequency, modulus.real / 1e6, label=label, **style)
@@ -54,7 +54,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
             }
         )
     for dash, text in (("-", "$E'$"), ("--", "$E''$")):
-        axes.plot([], [], dash, color="0.3", label=text)
+        axes.plot([], [], dash, color=grey(0.3), label=text)
     labels = {"xlabel": r"Angular frequency $\omega$ [rad/s]", "ylabel": "Modulus [MPa]"}
     panel(axes, f"surrogates, {compounds.ROOM:g} °C", **LOG, **labels)
     figure.legend(loc="outside right upper", fontsize="small")

@@ -20,6 +20,7 @@ from asperity.base.arguments import FilePath
 from asperity.cli.streams import print_stdout
 from asperity.io.files import check_directory, write_files
 from asperity.plot.curves import check_plot
+from asperity.plot.style import drawn_in
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")
@@ -49,7 +50,8 @@ def article(args: Namespace) -> None:
     directory = FilePath(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
     check_directory(directory, FILES, force=args.force)
-    contents, statements = remake()
+    with drawn_in(args.style):
+        contents, statements = remake()
     write_files({directory / name: data for name, data in contents.items()})
     print_stdout(f"{counted(statements)}\nsummary: {directory / 'summary.md'}\n")
 

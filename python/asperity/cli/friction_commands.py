@@ -24,7 +24,7 @@ from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import surface as plot_surface
-from asperity.plot.style import STYLES, drawn_in
+from asperity.plot.style import drawn_in
 from asperity.scene import scan
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
@@ -47,7 +47,8 @@ def demo(args: Namespace) -> None:
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
-        files[picture.name] = plot.friction_figure([scene], curves, picture)
+        with drawn_in(args.style):
+            files[picture.name] = plot.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
@@ -302,7 +303,7 @@ def write_outputs(
     text = table.json() if args.json else table.csv()
     files: dict[Path, bytes] = {}
     if args.plot is not None:
-        with drawn_in(args.style or STYLES[0]):
+        with drawn_in(args.style):
             files[FilePath(args.plot)] = draw(FilePath(args.plot))
     if args.output is not None:
         files[FilePath(args.output)] = _bytes(text)

@@ -20,7 +20,7 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
-from asperity.plot.style import STYLES, drawn_in
+from asperity.plot.style import drawn_in
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Scene, load_scene
 
@@ -75,7 +75,7 @@ def friction_map_of(args: Namespace) -> None:
         files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
         path = FilePath(args.plot)
-        with drawn_in(args.style or STYLES[0]):
+        with drawn_in(args.style):
             files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)

@@ -45,13 +45,16 @@ def parser() -> argparse.ArgumentParser:
         added.set_defaults(run=run)
         return added
 
-    def pictures(to: argparse.ArgumentParser) -> None:
-        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+    def style(to: argparse.ArgumentParser) -> None:
         to.add_argument(
             "--style",
             choices=STYLES,
-            help="of the picture: print (default), single for one of two columns, dark for screens",
+            help="of pictures: print (default), single for one of two columns, dark for screens",
         )
+
+    def pictures(to: argparse.ArgumentParser) -> None:
+        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+        style(to)
 
     def outputs(to: argparse.ArgumentParser) -> None:
         to.add_argument("--output", metavar="FILE", help="where to write (default: the terminal)")
@@ -65,6 +68,7 @@ def parser() -> argparse.ArgumentParser:
         to.add_argument(
             "--force", action="store_true", help="replace the files of an earlier run there"
         )
+        style(to)
 
     demo = verb(
         "demo", commands.demo, "friction of rubber on a shipped asphalt scan", "--output tryout"

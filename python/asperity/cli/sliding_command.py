@@ -15,6 +15,7 @@ from asperity.demo import input_files
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.plot import curves as plot
+from asperity.plot.style import drawn_in
 from asperity.scene.scene import Scene, load_scene
 from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
@@ -57,7 +58,9 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
     notes += found.notes
     rubber = args.rubber or "scene.toml, shipped"
     table = Table("validate --sliding", [{"rubber": rubber, **told}], notes, found.columns())
-    contents = (found.summary().encode(), table.csv().encode(), found.figure(Path(FILES[2])))
+    with drawn_in(args.style):
+        picture = found.figure(Path(FILES[2]))
+    contents = (found.summary().encode(), table.csv().encode(), picture)
     write_files({directory / n: data for n, data in zip(FILES, contents, strict=True)})
     tell_notes(notes)
     print_stdout(f"{found.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")

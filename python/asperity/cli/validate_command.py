@@ -15,6 +15,7 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.plot import curves as plot
+from asperity.plot.style import drawn_in
 from asperity.scene.scan import read_filled
 from asperity.surface import HeightMap
 from asperity.validation.contacts import Contact, read_contacts, shipped
@@ -44,7 +45,8 @@ def validate(args: Namespace) -> None:
     predictions = [[predict(c, model) for c in contacts] for model in models_for(contacts)]
     text = summary(predictions)
     table = Table("validate", [told], notes, error_rows(predictions))
-    pictures = _pictures(contacts, predictions)
+    with drawn_in(args.style):
+        pictures = _pictures(contacts, predictions)
     files = {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
     write_files({directory / name: data for name, data in files.items()})
     tell_notes(notes)

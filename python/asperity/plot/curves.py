@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.plot.labels import MOST_NAMED, legend_beside, legend_inside, name_curves
 from asperity.plot.style import colours, grey, narrow, palette, shades
 from asperity.scene.scene import Curves, Scene
 
@@ -125,14 +126,6 @@ def _hatch(colour: Any) -> dict[str, Any]:
     return {"facecolor": "none", "edgecolor": colour, "hatch": "////", "alpha": 0.4, "linewidth": 0}
 
 
-def legend_beside(figure: "Figure", *entries: Any) -> None:
-    """A legend to the right of the panels, or above those of a single column."""
-    if narrow():
-        figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small")
-    else:
-        figure.legend(*entries, loc="outside right upper")
-
-
 def _names(scenes: Sequence[Scene]) -> list[str]:
     """What tells scenes apart: their files, and temperatures where a file has several."""
     paths = {scene.path for scene in scenes}
@@ -192,23 +185,28 @@ def area_figure(
     entries = coloured.size + (drawn.size if dashed.size > 1 else 0)
     many = coloured.size > len(palette()) or entries > MOST_ENTRIES
     tints = shaded(axes, coloured, title) if many else palette()
+    curves: list[tuple[Any, str]] = []
     for dash, row_of in zip(_DASHES, drawn, strict=False):
-        for colour, row in zip(tints, area[row_of], strict=False):
-            axes.plot(wavenumber / wavenumber[0], row, dash, color=colour)
-    if not many:
-        for value, colour in zip(coloured, tints, strict=False):
-            axes.plot([], [], color=colour, label=colour_name(float(value)))
-    if dashed.size > 1:
-        for value, dash in zip(dashed[drawn], _DASHES, strict=False):
-            axes.plot([], [], dash, color=grey(0.3), label=dash_name(float(value)))
-    if not many or dashed.size > 1:
-        some = f"{drawn.size} of {dashed.size}" if drawn.size < dashed.size else None
-        axes.legend(loc="best", fontsize="small", title=some, title_fontsize="small")
+        for value, colour, row in zip(coloured, tints, area[row_of], strict=False):
+            (line,) = axes.plot(wavenumber / wavenumber[0], row, dash, color=colour)
+            curves.append((line, colour_name(float(value))))
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("Magnification $q / q_0$ [-]")
     axes.set_ylabel("Relative contact area $A / A_0$ [-]")
     _draw_distributions(right, scene, float(area[0, 0, -1]))
+    curves = curves[: coloured.size]  # those of the first line style
+    if not many and not (coloured.size <= MOST_NAMED and name_curves(axes, curves)):
+        for (_, name), colour in zip(curves, tints, strict=False):
+            axes.plot([], [], color=colour, label=name)
+    if dashed.size > 1:
+        for value, dash in zip(dashed[drawn], _DASHES, strict=False):
+            axes.plot([], [], dash, color=grey(0.3), label=dash_name(float(value)))
+    if axes.get_legend_handles_labels()[1]:
+        some = f"{drawn.size} of {dashed.size}" if drawn.size < dashed.size else None
+        how = {"title": some, "title_fontsize": "small"}
+        if not legend_inside(axes, **how):
+            axes.legend(loc="best", fontsize="small", **how)
     return picture(figure, path)
 
 

@@ -11,12 +11,12 @@ from asperity.adhesion import AdhesionFit
 from asperity.plot.curves import (
     MOST_ENTRIES,
     band_text,
-    legend_beside,
     new_figure,
     picture,
     pressure_text,
     shaded,
 )
+from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import colours, grey, narrow, paper
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 
@@ -46,7 +46,7 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    legend_beside(figure, list(entries.values()), list(entries))
+    legend_where_room_is(figure, panels[-1], list(entries.values()), list(entries))
     return picture(figure, path)
 
 

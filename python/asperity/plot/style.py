@@ -22,8 +22,11 @@ _style: ContextVar[str] = ContextVar("style", default="print")
 
 
 @contextmanager
-def drawn_in(style: str) -> Iterator[None]:
+def drawn_in(style: str | None) -> Iterator[None]:
     """Let the pictures that are drawn meanwhile have a style."""
+    if style is None:
+        yield
+        return
     from matplotlib import rc_context
 
     token = _style.set(style)

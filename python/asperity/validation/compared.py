@@ -15,7 +15,7 @@ from asperity.correction import Correction, NayakSFactor, PartialContact, SFacto
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import colours
+from asperity.plot.style import colours, grey
 from asperity.rubber import Rubber
 from asperity.scene.scene import Progress
 from asperity.spectrum import Spectrum
@@ -98,7 +98,7 @@ class Comparison:
             axes.set_xlabel("Sliding velocity $v$ [m/s]")
             axes.set_ylabel(label)
         for name, dash in _DRAWN.items():
-            panels[0].plot([], [], dash, color="0.3", label=name)
+            panels[0].plot([], [], dash, color=grey(0.3), label=name)
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right upper")
         return picture(figure, path)
 

@@ -73,7 +73,8 @@ def read_contacts(path: Path) -> list[Contact]:
                 name for name in ("case", *_NUMBERS) if name not in (reader.fieldnames or ())
             ]
             if missing:
-                raise InvalidInput(f"has no column {', '.join(missing)}")
+                there = ",".join(reader.fieldnames or ())
+                raise InvalidInput(f"header {there!r} has no column {', '.join(missing)}")
             contacts = [_contact(reader.line_num, row) for row in reader]
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error

@@ -8,8 +8,8 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import COLOURS
 from asperity.plot.style import colours as colours_for
+from asperity.plot.style import grey, palette
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,
@@ -41,7 +41,7 @@ def error_figure(
     exponents = sorted({contact.hurst for contact in contacts}, key=str)
     colours = colours_for(len(bands))
     for axes, found in zip(panels, predictions, strict=False):
-        axes.axhline(0, color="0.4", linewidth=0.8)
+        axes.axhline(0, color=grey(0.4), linewidth=0.8)
         for i, band in enumerate(bands):
             for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
                 _draw_errors(axes, found, band, hurst, quantity, colours[i], mark)
@@ -56,7 +56,7 @@ def error_figure(
         legend.plot([], [], "s", color=colours[i], markersize=5, label=f"$q_1/q_0$ = {band:g}")
     for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
         if hurst is not None:
-            legend.plot([], [], mark, color="0.3", markersize=4, label=f"$H$ = {hurst:g}")
+            legend.plot([], [], mark, color=grey(0.3), markersize=4, label=f"$H$ = {hurst:g}")
     legend.legend(loc="center", fontsize="small", ncols=2, frameon=False)
     panels[0].set_xscale("log")
     # linear up to what a theory without fitted numbers reaches, logarithmic beyond
@@ -116,27 +116,27 @@ def shift_figure(
         axes.plot(load, middle, dashes, color=colour, label=label)
         axes.fill_between(load, low, high, color=colour, alpha=0.2, linewidth=0)
 
-    draw(left, "asked for by the area", [needed_shift(c) for c in contacts], COLOURS[0], "-")
+    draw(left, "asked for by the area", [needed_shift(c) for c in contacts], palette()[0], "-")
     energetic = [needed_shift_for_energy(c) for c in contacts]
-    draw(left, "asked for by the energy", energetic, COLOURS[1], "-")
+    draw(left, "asked for by the energy", energetic, palette()[1], "-")
     for label, name, colour in (
-        ("IGW, implicit", "IGW implicit", COLOURS[2]),
-        ("IGW, added", "IGW added", COLOURS[4]),
-        ("peaks, $\\lambda_0$", "peaks, lambda0", COLOURS[3]),
-        ("peaks, $\\lambda_0/2$", "peaks, lambda0/2", COLOURS[5]),
+        ("IGW, implicit", "IGW implicit", palette()[2]),
+        ("IGW, added", "IGW added", palette()[4]),
+        ("peaks, $\\lambda_0$", "peaks, lambda0", palette()[3]),
+        ("peaks, $\\lambda_0/2$", "peaks, lambda0/2", palette()[5]),
     ):
         if name in by_name:
             draw(left, label, [p.shift for p in by_name[name]], colour, "--")
     left.set_ylim(0.9, 5)
     left.set_ylabel("Shift factor $p_T$ [-]")
     left.set_title("(a) shift factors", fontsize="medium")
-    right.axhline(1, color="0.4", linewidth=0.8)
+    right.axhline(1, color=grey(0.4), linewidth=0.8)
     for label, name, colour, dashes in (
-        ("no correction", "none", "0.4", "-"),
-        ("$S$, $\\gamma$ = 0.40", "S in Eq. 22, 0.40", COLOURS[0], "-"),
-        ("$p_T$ = 2", "shift 2", COLOURS[6], "--"),
-        ("IGW, implicit", "IGW implicit", COLOURS[2], "--"),
-        ("IGW, added", "IGW added", COLOURS[4], "--"),
+        ("no correction", "none", grey(0.4), "-"),
+        ("$S$, $\\gamma$ = 0.40", "S in Eq. 22, 0.40", palette()[0], "-"),
+        ("$p_T$ = 2", "shift 2", palette()[6], "--"),
+        ("IGW, implicit", "IGW implicit", palette()[2], "--"),
+        ("IGW, added", "IGW added", palette()[4], "--"),
     ):
         if name in by_name:
             draw(right, label, [1 + p.energy_error for p in by_name[name]], colour, dashes)

@@ -85,10 +85,70 @@ def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[A
     assert not any("road" in entry for entry in entries(figures[0]))
 
 
-def test_few_curves_keep_their_legend(folder: Path, figures: list[Any]) -> None:
+def written(axes: Any) -> dict[str, Any]:
+    return {text.get_text(): text for text in axes.texts}
+
+
+def touches(axes: Any, box: Any, apart: float = 0.0) -> list[str]:
+    """The dashes and colours of the curves that pass through a box of the picture [pixels]."""
+    found = []
+    for line in axes.lines:
+        if len(line.get_xdata()):
+            corners = axes.transData.transform(np.column_stack(line.get_data()))
+            x = np.linspace(box.x0 - apart, box.x1 + apart, 60)
+            y = np.interp(x, *corners[np.argsort(corners[:, 0])].T, left=np.nan, right=np.nan)
+            if np.any((y > box.y0 - apart) & (y < box.y1 + apart)):
+                found.append(f"{line.get_linestyle()} {line.get_color()}")
+    return found
+
+
+def test_few_curves_have_their_names_beside_them(folder: Path, figures: list[Any]) -> None:
+    """81 and 200 kPa each at its own curve, in its colour; dashes and no pressure in the legend."""
     assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    assert bars(figures[0]) == []
-    assert entries(figures[0])[:2] == ["81 kPa", "200 kPa"]
+    (axes,) = figures[0].axes
+    assert entries(figures[0])[:3] == ["total", "hysteresis", "adhesion"]
+    assert not any("kPa" in entry for entry in entries(figures[0]))
+    names = written(axes)
+    assert list(names) == ["81 kPa", "200 kPa"]
+    totals = [x for x in axes.lines if x.get_linestyle() == "-" and len(x.get_xdata())]
+    for text, line in zip(names.values(), totals, strict=True):
+        assert text.get_color() == line.get_color()
+        box = text.get_window_extent()
+        assert touches(axes, box) == []
+        assert f"- {line.get_color()}" in touches(axes, box, apart=2 * box.height)
+
+
+def test_the_kinds_of_a_single_curve_are_named_and_not_in_a_legend(
+    folder: Path, figures: list[Any]
+) -> None:
+    (folder / "scene.toml").write_text(SCENE.replace("[81e3, 2e5]", "81e3"))
+    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    (axes,) = figures[0].axes
+    assert all("error" in entry for entry in entries(figures[0]))
+    assert axes.get_title() == "81 kPa"
+    assert sorted(written(axes)) == ["adhesion", "hysteresis", "total"]
+    dashes = {"total": "-", "hysteresis": "--", "adhesion": ":"}
+    for name, text in written(axes).items():
+        box = text.get_window_extent()
+        assert touches(axes, box) == []
+        assert any(x.startswith(f"{dashes[name]} ") for x in touches(axes, box, 2 * box.height))
+
+
+@pytest.mark.parametrize("pressures", ["81e3", "[81e3, 2e5]", "[5e4, 81e3, 2e5, 4e5]"])
+@pytest.mark.parametrize("verb", ["friction", "area"])
+def test_a_legend_covers_no_curve_and_each_of_its_entries_shows_something(
+    folder: Path, figures: list[Any], verb: str, pressures: str
+) -> None:
+    (folder / "scene.toml").write_text(SCENE.replace("[81e3, 2e5]", pressures))
+    assert main([verb, "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    (figure,) = figures
+    for axes in figure.axes[:1]:
+        if legend := axes.get_legend():
+            assert touches(axes, legend.get_window_extent()) == []
+    for legend in [*figure.legends, *(axes.get_legend() for axes in figure.axes)]:
+        for handle in legend.legend_handles if legend else ():
+            empty = getattr(handle, "get_linestyle", lambda: "-")() == "None"
+            assert not (empty and handle.get_marker() == "None")
 
 
 def test_levels_of_a_map_are_labelled(folder: Path, figures: list[Any]) -> None:
