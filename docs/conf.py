@@ -52,6 +52,7 @@ html_theme_options = {"navigation_with_keys": True}
 html_copy_source = False
 
 sphinx_gallery_conf = {
+    "reset_modules": ("matplotlib", "gallery_style.style"),
     "examples_dirs": "examples",
     "gallery_dirs": "gallery",
     "filename_pattern": r"/plot_",

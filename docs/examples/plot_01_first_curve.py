@@ -29,9 +29,18 @@ result = asperity.friction(
 
 figure, axes = plt.subplots(layout="constrained")
 for name, line in (("mu", "-"), ("hysteresis", "--"), ("adhesion", ":")):
-    axes.plot(result.velocity, getattr(result, name), line, label=name)
+    values = getattr(result, name)
+    (curve,) = axes.plot(result.velocity, values, line)
+    place = {"mu": 55, "hysteresis": 50, "adhesion": 30}[name]  # where there is room
+    axes.annotate(
+        name,
+        (result.velocity[place], values[place]),
+        xytext=(4, 6),
+        textcoords="offset points",
+        color=curve.get_color(),
+    )
 axes.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="friction coefficient [-]")
-axes.legend()
+axes.set_ylim(bottom=0)
 
 # %%
 # The result tells its largest numerical error, and where the theory leaves its range.

@@ -30,8 +30,10 @@ results = [
 ]
 
 figure, axes = plt.subplots(layout="constrained")
-axes.plot(cutoffs, [result.hysteresis for result in results], label="hysteresis")
-axes.plot(cutoffs, [result.contact_area for result in results], label="A/A0")
-axes.axvline(road.cutoff_for_slope(1.3), color="0.4", linestyle="--", label="rms slope 1.3")
-axes.set(xscale="log", yscale="log", xlabel="end of the spectrum q1 [1/m]", ylabel="[-]")
-axes.legend()
+axes.plot(cutoffs, [result.hysteresis for result in results])
+axes.plot(cutoffs, [result.contact_area for result in results])
+axes.axvline(road.cutoff_for_slope(1.3), color="0.4", linestyle="--")
+axes.text(2e5, 0.45, "hysteresis", color="C0")
+axes.text(2e5, 0.011, "contact area A/A0", color="C1")
+axes.text(road.cutoff_for_slope(1.3) * 1.05, 0.09, "rms slope 1.3", color="0.4")
+axes.set(xscale="log", yscale="log", xlabel="end of the spectrum q1 [1/m]", ylabel="value [-]")

@@ -37,10 +37,12 @@ build = asperity.build_master_curve(isotherms, reference_temperature=293.15)
 series = asperity.fit_prony(build)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-colours = plt.get_cmap("cividis")(np.linspace(0, 0.92, len(isotherms)))
-for isotherm, colour in zip(isotherms, colours, strict=True):
+celsius = plt.cm.ScalarMappable(plt.Normalize(-30, 60), "cividis")
+for isotherm in isotherms:
+    colour = celsius.to_rgba(isotherm.temperature - 273.15)
     left.loglog(isotherm.angular_frequency, isotherm.storage_modulus, ".-", color=colour)
-left.set(xlabel="angular frequency [rad/s]", ylabel="E' [Pa]", title="-30 °C (dark) to 60 °C")
+left.set(xlabel="angular frequency [rad/s]", ylabel="E' [Pa]", title="isotherms")
+figure.colorbar(celsius, ax=left, label="temperature [°C]")
 
 points = build.points
 right.loglog(points.angular_frequency, points.storage_modulus, ".", label="E'")
@@ -48,7 +50,7 @@ right.loglog(points.angular_frequency, points.loss_modulus, ".", label="E''")
 w = np.geomspace(points.angular_frequency.min(), points.angular_frequency.max(), 300)
 right.loglog(w, series.modulus(w).real, "k", linewidth=0.8, label="Prony series")
 right.loglog(w, series.modulus(w).imag, "k", linewidth=0.8)
-right.set(xlabel="reduced frequency [rad/s]", title="master curve at 20 °C")
+right.set(xlabel="reduced frequency [rad/s]", ylabel="modulus [Pa]", title="master curve at 20 °C")
 right.legend()
 
 # %%

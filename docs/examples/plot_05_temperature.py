@@ -40,7 +40,7 @@ spectrum = asperity.power_spectrum(surface, detrend="quadratic")
 road = spectrum.truncated(q0=1900, q1=spectrum.truncated(q1=2.8e4).cutoff_for_slope(1.3))
 velocity = np.geomspace(2e-5, 10, 37)
 
-figure, axes = plt.subplots(figsize=(6.6, 3.6), layout="constrained")
+figure, axes = plt.subplots(layout="constrained")
 for celsius, colour in ((10, "#0072B2"), (50, "#D55E00")):
     build = asperity.build_master_curve(isotherms, reference_temperature=273.15 + celsius)
     setting = {
@@ -52,7 +52,7 @@ for celsius, colour in ((10, "#0072B2"), (50, "#D55E00")):
     band = asperity.friction_band(road, build, seed=1, **setting)
     mu = asperity.friction(road, build.master_curve, **setting).mu
     axes.fill_between(velocity, band.lower, band.upper, color=colour, alpha=0.3, linewidth=0)
-    axes.plot(velocity, mu, color=colour, label=f"{celsius} °C")
+    axes.plot(velocity, mu, color=colour)
+    axes.text(velocity[5], mu[5] + 0.09, f"{celsius} °C", color=colour, ha="right")
 axes.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="friction coefficient [-]")
 axes.set_ylim(bottom=0)
-axes.legend()

@@ -27,5 +27,5 @@ for magnification in (1.02, 3, 30, 500):
         wavenumber=2000 * magnification,
     )
     axes.plot(stress / nominal, stress * density, label=f"q / q0 = {magnification}")
-axes.set(xscale="log", xlabel="local pressure / nominal [-]", ylabel="sigma P(sigma) [-]")
+axes.set(xscale="log", xlabel="local pressure / nominal [-]", ylabel=r"$\sigma\, P(\sigma)$ [-]")
 axes.legend()

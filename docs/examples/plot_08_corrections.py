@@ -35,4 +35,5 @@ for name, correction in corrections.items():
     )
     axes.plot(result.velocity, result.hysteresis, label=name)
 axes.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="hysteresis [-]")
-axes.legend()
+axes.set_ylim(0, 1)
+axes.legend(loc="upper left", ncols=3)

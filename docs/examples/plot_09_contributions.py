@@ -30,8 +30,12 @@ figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained
 for velocity, density, share in zip(
     result.velocity, result.dmu_dlnq, result.decade_share, strict=True
 ):
-    left.plot(result.wavenumber, density, label=f"{velocity:.0e} m/s")
-    right.stairs(100 * share, np.log10(result.decade_edges), label=f"{velocity:.0e} m/s")
+    (curve,) = left.plot(result.wavenumber, density)
+    edges = np.log10(result.decade_edges)
+    right.stairs(100 * share, edges, color=curve.get_color())
+    most = np.argmax(share)
+    name = f"{velocity:g} m/s"
+    right.text(edges[most], 100 * share[most] + 1, name, color=curve.get_color())
 left.set(xscale="log", yscale="log", xlabel="wavenumber [1/m]", ylabel="d mu / d ln q [-]")
-left.legend()
 right.set(xlabel="log10 of angular frequency [rad/s]", ylabel="share of the hysteresis [%]")
+right.set_ylim(0, 52)

@@ -31,6 +31,7 @@ from asperity.article.separation import shifts
 from asperity.article.statement import Finding, Findings
 from asperity.correction import AffineShift, Correction, SFactor
 from asperity.plot.curves import new_figure
+from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import grey, palette, paper
 
 if TYPE_CHECKING:
@@ -186,7 +187,7 @@ def _areas(
     for dash, text in (("-", "original"), ("--", label)):
         axes.plot([], [], dash, color=grey(0.3), label=text)
     panel(axes, f"{VELOCITY:g} m/s", **_AREA)
-    figure.legend(loc="outside right upper")
+    legend_where_room_is(figure, axes)
     return page(name, figure, given, _columns({"original_area": before, "modified_area": after}))
 
 

@@ -9,6 +9,7 @@ from asperity.article.inputs import Inputs, effective_modulus
 from asperity.article.page import LOG, page, panel, stacked
 from asperity.article.statement import Finding, Findings
 from asperity.plot.curves import new_figure
+from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import grey, palette
 
 
@@ -57,7 +58,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
         axes.plot([], [], dash, color=grey(0.3), label=text)
     labels = {"xlabel": r"Angular frequency $\omega$ [rad/s]", "ylabel": "Modulus [MPa]"}
     panel(axes, f"surrogates, {compounds.ROOM:g} °C", **LOG, **labels)
-    figure.legend(loc="outside right upper", fontsize="small")
+    legend_where_room_is(figure, axes)
     given = {
         "temperature_c": compounds.ROOM,
         **{f"glass_transition_{k}_c": v for k, v in compounds.T_G.items()},

@@ -15,6 +15,7 @@ from asperity.correction import Correction, NayakSFactor, PartialContact, SFacto
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure, picture
+from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import colours, grey
 from asperity.rubber import Rubber
 from asperity.scene.scene import Progress
@@ -99,7 +100,7 @@ class Comparison:
             axes.set_ylabel(label)
         for name, dash in _DRAWN.items():
             panels[0].plot([], [], dash, color=grey(0.3), label=name)
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right upper")
+        legend_where_room_is(figure, panels[0])
         return picture(figure, path)
 
 
