@@ -23,6 +23,7 @@ from asperity.io.fields import MOST_ROWS, rename_in_errors
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
+from asperity.plot import friction as plot_friction
 from asperity.plot import surface as plot_surface
 from asperity.plot.style import STYLES, drawn_in
 from asperity.scene import scan
@@ -47,7 +48,7 @@ def demo(args: Namespace) -> None:
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
-        files[picture.name] = plot.friction_figure([scene], curves, picture)
+        files[picture.name] = plot_friction.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
@@ -69,7 +70,7 @@ def friction(args: Namespace) -> None:
     scenes = [scene for file in files for scene in (file, *file.others)]
     refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes, bands=args.plot is not None)
-    write_outputs(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+    write_outputs(args, table, lambda path: plot_friction.friction_figure(scenes, curves, path))
 
 
 def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:

@@ -93,6 +93,7 @@ class BuiltRubber:
     drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
     shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
     at_reference: Rubber | None = None
+    temperature: float | None = None  # [K], at which the rubber is wanted
 
 
 def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
@@ -105,14 +106,15 @@ def build_rubber(path: Path, table: object, temperature: float | None = None) ->
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
     if temperature is None:
         with _blaming_celsius(values):
-            return _build(path, source, _in_kelvin(path, values))
+            kelvin = _in_kelvin(path, values)
+            return replace(_build(path, source, kelvin), temperature=kelvin.get("temperature_k"))
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
     with _blaming_celsius(values), _blaming_conditions():
         built = _build(path, source, {**_in_kelvin(path, values), "temperature_k": temperature})
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
-    return replace(built, values=used)
+    return replace(built, values=used, temperature=temperature)
 
 
 def _build(path: Path, source: str, values: Values) -> BuiltRubber:

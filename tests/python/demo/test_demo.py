@@ -78,7 +78,7 @@ def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.Mon
         drawn.extend(results)  # the band is narrower than the line: no pixel shows it
         return b""
 
-    monkeypatch.setattr("asperity.plot.curves.friction_figure", watch)
+    monkeypatch.setattr("asperity.plot.friction.friction_figure", watch)
     assert main(["demo", "--output", str(tmp_path)]) == 0
     (curves,) = drawn
     assert curves.band is not None
