@@ -114,7 +114,7 @@ def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
     curves = scene.friction(progress(f"{scene.path}"))
-    if not (band and scene.has_errors) or scene.heating is not None:
+    if not (band and scene.has_errors):
         return curves
     return curves.within(scene.band(curves.mu, band_progress(scene)))
 

@@ -26,7 +26,6 @@ from asperity.scene.scene import Curves, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_SHADED = 3  # curves whose model error can be told apart
 _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
@@ -85,8 +84,9 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         beside[0].set_ylabel("Rise of the temperature at $q_1$ [K]")
     if profiled is not None:
         _draw_profiles(beside[1], profiled)
-    if axes.get_legend_handles_labels()[1]:
-        _place_legend(figure, axes)
+    entries = axes.get_legend_handles_labels()
+    if entries[1]:
+        legend_beside(figure, *entries)
     return picture(figure, path)
 
 
@@ -190,6 +190,8 @@ def _draw_rises(axes: "Axes", curves: Sequence[_Curve], tints: Sequence[Any]) ->
 
 def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     """The rise that each roughness feels, at some of the velocities and the first pressure."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     fastest = float(np.max(scene.velocity))
     slowest = max(float(np.min(scene.velocity)), 1e-4 * fastest)  # slower ones are cold
     velocity = np.geomspace(slowest, fastest, _PROFILES)
@@ -198,10 +200,13 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     for v, line, colour in zip(velocity[::-1], rise[::-1], tints[::-1], strict=True):
         axes.plot(q, line, color=colour, label=f"{v:.2g} m/s")
     axes.set_xscale("log")
+    decades = math.log10(scene.spectrum.q1 / scene.spectrum.q0)
+    axes.xaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2 else (1, 2, 5)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(bottom=0)
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Rise of the temperature $T(q) - T_0$ [K]")
-    at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.4g} K"]
+    at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.5g} K"]
     axes.legend(loc="upper left", fontsize="small", title=", ".join(at), title_fontsize="small")
 
 
@@ -226,15 +231,6 @@ def _hatch(colour: Any) -> dict[str, Any]:
     return {"facecolor": "none", "edgecolor": colour, "hatch": "////", "alpha": 0.4, "linewidth": 0}
 
 
-def _place_legend(figure: "Figure", axes: "Axes") -> None:
-    """In a panel of heat, where curves leave no room, below the panels; else beside them."""
-    if len(figure.axes) < 3:
-        legend_beside(figure)
-        return
-    axes.legend(loc="upper left", fontsize="small")
-    axes.set_ylim(top=1.35 * axes.get_ylim()[1])
-
-
 def _names(scenes: Sequence[Scene]) -> list[str]:
     """What tells scenes apart: their files, and temperatures where a file has several."""
     paths = {scene.path for scene in scenes}
@@ -243,7 +239,7 @@ def _names(scenes: Sequence[Scene]) -> list[str]:
     for scene in scenes:
         file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
         several = sum(other.path == scene.path for other in scenes) > 1
-        names.append(", ".join(file + ([f"{scene.temperature:.4g} K"] if several else [])))
+        names.append(", ".join(file + ([f"{scene.temperature:.5g} K"] if several else [])))
     return names
 
 

@@ -48,6 +48,7 @@ from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
 from asperity.scene.surface import Surface, build_surface
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
+from asperity.uncertainty.draws import Drawn, ShiftedRubber
 
 _POINTS = {
     "pressure_pa": Field(sweep, "pressure", plausible.PRESSURE),
@@ -247,18 +248,20 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
+        options = {name: self.options[name] for name in ("poisson_ratio", "form")}
+        options["correction"] = self.correction
+        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
+        if self.heating is not None:
+            options |= {"temperature": self.temperature, "heating": self.heating}
+            rubber = _known(self.built_rubber.drawn_at_reference)
         with rename_in_errors(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             band = swept_band(
                 self.surface.drawn,
-                self.built_rubber.drawn,
+                rubber,
                 self.adhesion,
                 self.pressure,
                 self.velocity,
-                {
-                    "poisson_ratio": self.options["poisson_ratio"],
-                    "form": self.options["form"],
-                    "correction": self.correction,
-                },
+                options,
                 progress=progress,
                 refit=refit,
                 **self.sampling,
@@ -382,7 +385,7 @@ def _load(path: Path, for_friction: bool) -> Scene:
     heating = None
     if "heating" in tables:
         heating, inputs["heating"] = build_heating(path, tables["heating"])
-        check_heated(path, tables, temperatures[0], rubber)
+        check_heated(path, temperatures[0], rubber)
     inputs["solver"] = solver
     sampling = {"samples": 100, "seed": 0, "level": 0.95}
     if "uncertainty" in tables:
