@@ -35,14 +35,14 @@ from asperity.surface import HeightMap
 
 
 def demo(args: Namespace) -> None:
-    """Write the shipped scan and scene, compute and draw them, show the curve."""
+    """Write the shipped scan and scenes, compute and draw the hot one, show the curve."""
     directory = FilePath(args.output)
     check_directory(directory, FILES, force=args.force)
     files = input_files()
     with TemporaryDirectory() as aside:
         write_files({FilePath(aside) / name: data for name, data in files.items()})
-        scene = load_scene(FilePath(aside) / "scene.toml")
-    scene = replace(scene, path=directory / "scene.toml")
+        scene = load_scene(FilePath(aside) / "hot.toml", for_friction=True)
+    scene = replace(scene, path=directory / "hot.toml")
     table, curves = _friction_table([scene], bands=True)
     files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
@@ -50,7 +50,7 @@ def demo(args: Namespace) -> None:
     if not missing:
         files[picture.name] = plot_friction.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
-    shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
+    shown = ("velocity_m_s", "mu", "mu_cold", "hysteresis", "adhesion", "hot_temperature_k")
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)

@@ -39,10 +39,10 @@ from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.parts import (
+    HEATING_NAMES,
     build_adhesion,
     build_correction,
     build_heating,
-    heating_in_errors,
 )
 from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
 from asperity.scene.surface import Surface, build_surface
@@ -167,8 +167,7 @@ class Scene:
                 shift=self.built_rubber.shift,
                 heating=self.heating,
             )
-        with heating_in_errors(self.path) if self.heating else nullcontext():
-            parts: list[Friction] = self._at_points(compute, progress)
+        parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
         found = dict.fromkeys(note for part in parts for note in part.notes)
         notes = dict.fromkeys([*self.notes, *self._with_size_of_heat([*found])])
@@ -288,7 +287,8 @@ class Scene:
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
         rubber = self.built_rubber.at_reference if self.heating else self.rubber
-        with progress(chunks) as shown, rename_in_errors(self.path, _NAMES):
+        names = _NAMES | (HEATING_NAMES if self.heating else {})
+        with progress(chunks) as shown, rename_in_errors(self.path, names):
             return [
                 compute(
                     self.spectrum,
