@@ -16,6 +16,8 @@ struct HotPoint {
   double temperature = 0;  // T(q1) [K]
   double macro_area = 0, gain = 0;
   int branches = 1;
+  Shift shift;
+  double g = 0;  // at q1
 };
 
 /// Solves each point on two grids, the second finer by two digits; their difference is the error of the first, and the
@@ -45,7 +47,6 @@ class FlashSolver {
   };
   FlashMap& map_of(std::size_t level);
   void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
-  [[nodiscard]] double outside_share(const FlashMap& map) const;
 
   const HeatScene& scene_;
   Branch branch_;
