@@ -20,7 +20,8 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
       grid_(grid),
       angular_(scene.rubber),
       contact_(heat_contact(scene.model, scene.spectrum, scene.surface, grid)),
-      known_(known_range(scene.rubber)) {
+      known_(known_range(scene.rubber)),
+      table_(grid.temperature_points(), grid.wavenumber()) {
   const auto n = static_cast<Index>(grid.size());
   reduced_.resize(grid.size());
   for (auto* column : {&rate_, &modulus_.i2, &modulus_.ratio}) column->setZero(n);
@@ -34,18 +35,7 @@ void FlashMap::start(const HeatPoint& point) {
   mu_factor_ = 4 * point.pressure / stiffening;
   per_flux_ = point.velocity * point.pressure / (scene_.heating.density * scene_.heating.heat_capacity);
   if (!moved) return;
-  const HeatKernel kernel(scene_.heating, point.velocity);
-  const std::vector<double>&points = grid_.temperature_points(), &nodes = grid_.wavenumber();
-  kernel_.resize(static_cast<Index>(points.size()), static_cast<Index>(nodes.size()));
-  surface_.resize(static_cast<Index>(points.size()));
-  std::vector<HeatKernel::Place> felt;
-  for (const double q : points) felt.push_back(kernel.at(q));
-  for (std::size_t j = 0; j < nodes.size(); ++j) {
-    const HeatKernel::Place heated = kernel.at(nodes[j]);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      kernel_(static_cast<Index>(i), static_cast<Index>(j)) = nodes[j] * kernel(felt[i], heated);
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) surface_[static_cast<Index>(i)] = kernel.from_surface(felt[i]);
+  table_.fill(scene_.heating, point.velocity, kernel_, surface_);
 }
 
 double FlashMap::reduced_frequency(double wavenumber, double temperature) const {
@@ -68,9 +58,9 @@ void FlashMap::frequencies(const VectorXd& theta) {
 }
 
 void FlashMap::operator()(const VectorXd& theta) {
-  differentiated_ = false;
+  differentiated_ = sloped_ = false;
   frequencies(theta);
-  angular_(reduced_, columns_);
+  angular_.values(reduced_, columns_);
   for (Index j = 0; j < rate_.size(); ++j) {
     const auto at = static_cast<std::size_t>(j);
     modulus_.i2[j] = columns_.i2[at];
@@ -97,41 +87,55 @@ void FlashMap::heat() {
 }
 
 const MatrixXd& FlashMap::jacobian() {
-  if (!differentiated_) differentiate();
+  if (!differentiated_) jacobian_ = slopes_along(MatrixXd::Identity(rise_size(), rise_size()), slope_of_mu_);
+  differentiated_ = true;
   return jacobian_;
 }
 
 const Eigen::RowVectorXd& FlashMap::slope_of_mu() {
-  if (!differentiated_) differentiate();
+  (void)jacobian();
   return slope_of_mu_;
 }
 
-void FlashMap::differentiate() {
-  differentiated_ = true;
-  const Index points = kernel_.rows(), n = rate_.size();
-  if (!touches()) {
-    jacobian_.setZero(points, points);
-    slope_of_mu_.setZero(points);
-    return;
-  }
-  VectorXd i2(n), ratio(n);
-  for (Index j = 0; j < n; ++j) {
+VectorXd FlashMap::along(const VectorXd& direction) {
+  Eigen::RowVectorXd of_mu;
+  return slopes_along(direction, of_mu);
+}
+
+void FlashMap::take_slopes() {
+  if (sloped_) return;
+  sloped_ = true;
+  angular_(reduced_, columns_);
+  log_i2_.resize(rate_.size());
+  log_ratio_.resize(rate_.size());
+  for (Index j = 0; j < rate_.size(); ++j) {
     const auto at = static_cast<std::size_t>(j);
-    i2[j] = rate_[j] * columns_.slope2[at] / columns_.i2[at];
-    ratio[j] = columns_.i1[at] > 0 ? rate_[j] * columns_.slope1[at] / columns_.i1[at] - i2[j] : -i2[j];
+    log_i2_[j] = rate_[j] * columns_.slope2[at] / columns_.i2[at];
+    log_ratio_[j] = (columns_.i1[at] > 0 ? rate_[j] * columns_.slope1[at] / columns_.i1[at] : 0) - log_i2_[j];
   }
+}
+
+MatrixXd FlashMap::slopes_along(const MatrixXd& directions, Eigen::RowVectorXd& of_mu) {
+  const Index count = directions.cols();
+  if (!touches()) {
+    of_mu.setZero(count);
+    return MatrixXd::Zero(rise_size(), count);
+  }
+  take_slopes();
   const bool shifted = grid_.also_felt().size() != 0;
-  const ModulusSlopes along{
-      i2.asDiagonal() * grid_.to_nodes(), ratio.asDiagonal() * grid_.to_nodes(),
-      shifted ? Eigen::RowVectorXd(-2 * shift_.slope * grid_.also_felt()) : Eigen::RowVectorXd::Zero(points)};
+  const MatrixXd at_nodes = count == rise_size() ? grid_.to_nodes() : (grid_.to_nodes() * directions).eval();
+  const ModulusSlopes along{log_i2_.asDiagonal() * at_nodes, log_ratio_.asDiagonal() * at_nodes,
+                            shifted ? Eigen::RowVectorXd(-2 * shift_.slope * (grid_.also_felt() * directions))
+                                    : Eigen::RowVectorXd::Zero(count)};
   ContactSlopes slopes;
   contact_->differentiate(along, slopes);
   const double by_depth = 2 * per_flux_ * mu_factor_ / macro_area_;
   const double by_surface = scene_.heating.interface_share * per_flux_ * point_.adhesion_per_area / macro_area_;
-  jacobian_.noalias() = by_depth * (kernel_ * slopes.part);
-  jacobian_ += by_surface * surface_ * slopes.area;
-  if (!scene_.heating.macro_area) jacobian_ -= rise_ * (slopes.macro / macro_area_);
-  slope_of_mu_ = mu_factor_ * slopes.part.colwise().sum() + point_.adhesion_per_area * slopes.area;
+  MatrixXd result = by_depth * (kernel_ * slopes.part);
+  if (by_surface > 0) result += by_surface * surface_ * slopes.area;
+  if (!scene_.heating.macro_area) result -= rise_ * (slopes.macro / macro_area_);
+  of_mu = mu_factor_ * slopes.part.colwise().sum() + point_.adhesion_per_area * slopes.area;
+  return result;
 }
 
 VectorXd FlashMap::heat_of_nodes() const {

@@ -47,6 +47,10 @@ class FlashMap {
   /// Slopes of the last pass: dF_i / dtheta_j, and d(mu_H + mu_A) / dtheta.
   [[nodiscard]] const Eigen::MatrixXd& jacobian();
   [[nodiscard]] const Eigen::RowVectorXd& slope_of_mu();
+  /// The Jacobian times a profile.
+  [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& direction);
+  /// How many temperature points there are.
+  [[nodiscard]] Eigen::Index rise_size() const { return grid_.to_nodes().cols(); }
   [[nodiscard]] double hysteresis() const { return hysteresis_; }
   [[nodiscard]] double contact_area() const { return touches() ? contact_->area() : 0; }
   [[nodiscard]] double adhesion() const { return contact_area() * point_.adhesion_per_area; }
@@ -69,7 +73,8 @@ class FlashMap {
  private:
   void frequencies(const Eigen::VectorXd& theta);
   void heat();
-  void differentiate();
+  void take_slopes();
+  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, Eigen::RowVectorXd& of_mu);
   [[nodiscard]] bool touches() const { return shift_.shift.state != ContactState::no_contact; }
 
   const HeatScene& scene_;
@@ -80,6 +85,7 @@ class FlashMap {
   HeatPoint point_{};
   double mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]
 
+  HeatKernelTable table_;
   Eigen::MatrixXd kernel_;   // q_j g_ij
   Eigen::VectorXd surface_;  // 2 q t N at the temperature points
   std::vector<double> reduced_;
@@ -89,7 +95,8 @@ class FlashMap {
   HotShift shift_;
   Eigen::VectorXd rise_;
   double hysteresis_ = 0, macro_area_ = 1;
-  bool differentiated_ = false;
+  bool differentiated_ = false, sloped_ = false;
+  Eigen::VectorXd log_i2_, log_ratio_;  // slopes over the temperature
   Eigen::MatrixXd jacobian_;
   Eigen::RowVectorXd slope_of_mu_;
 };

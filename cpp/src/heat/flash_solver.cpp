@@ -13,6 +13,7 @@
 namespace asperity {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -25,15 +26,16 @@ constexpr double pieces_rtol = 1e-7;
 
 int digits_of(std::size_t level) { return first_digits + digits_a_level * static_cast<int>(level); }
 
-/// The profile of one grid at the points of another.
-VectorXd carried(const HeatGrid& from, const HeatGrid& to, const VectorXd& theta) {
-  if (&from == &to) return theta;
-  VectorXd result(static_cast<Index>(to.temperature_points().size()));
-  const Index lone = to.lone_point() ? 1 : 0;
-  if (lone == 1) result[0] = theta[0];
-  for (Index i = lone; i < result.size(); ++i)
-    result[i] = from.row_at(to.temperature_points()[static_cast<std::size_t>(i)]).dot(theta);
-  return result.cwiseMax(0.0);
+/// From values at the temperature points of one grid to those at the points of another.
+MatrixXd carrying(const HeatGrid& from, const HeatGrid& to) {
+  const auto n = static_cast<Index>(to.temperature_points().size());
+  MatrixXd result(n, static_cast<Index>(from.temperature_points().size()));
+  for (Index i = 0; i < n; ++i)
+    if (i == 0 && to.lone_point())
+      result.row(i) = Eigen::RowVectorXd::Unit(result.cols(), 0);
+    else
+      result.row(i) = from.row_at(to.temperature_points()[static_cast<std::size_t>(i)]);
+  return result;
 }
 
 }  // namespace
@@ -57,7 +59,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch) : scene_(scene),
 }
 
 void FlashSolver::forget() {
-  before_ = {};
+  before_.clear();
   level_ = first_level_;
 }
 
@@ -85,19 +87,38 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
       options.pieces = &table->surface().pieces(*table, level - 1);
     made.grid = std::make_unique<HeatGrid>(scene_.surface, options);
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);
+    if (level > 0 && levels_[level - 1].grid) {
+      made.up = carrying(*levels_[level - 1].grid, *made.grid);
+      made.down = carrying(*made.grid, *levels_[level - 1].grid);
+    }
   }
   return *made.map;
+}
+
+/// By the last two points, whose rises go on as powers of the velocity; empty without a point.
+VectorXd FlashSolver::guess(double velocity) const {
+  if (before_.empty() || before_.back().level != level_) return {};
+  const Solved& last = before_.back();
+  if (before_.size() < 2 || before_.front().level != level_) return last.theta;
+  const Solved& first = before_.front();
+  const double share = std::log(velocity / last.velocity) / std::log(last.velocity / first.velocity);
+  if (!(share > 0 && share < 2)) return last.theta;
+  VectorXd result = last.theta;
+  for (Index i = 0; i < result.size(); ++i)
+    if (last.theta[i] > 0 && first.theta[i] > 0)
+      result[i] *= std::pow(std::clamp(last.theta[i] / first.theta[i], 0.2, 5.0), share);
+  return result;
 }
 
 HotPoint FlashSolver::operator()(const HeatPoint& point) {
   const double rtol = scene_.model.rtol, tolerance = std::clamp(0.01 * rtol, 1e-13, 1e-5);
   FlashMap* map = &map_of(level_);
   map->start(point);
-  const auto size = static_cast<Index>(map->grid().temperature_points().size());
-  const VectorXd guess = before_.theta.size() == 0 ? VectorXd::Zero(size).eval()
-                                                   : carried(*levels_[before_level_].grid, map->grid(), before_.theta);
-  FixedPoint found = solve_fixed_point(*map, point, guess, branch_, tolerance);
+  FixedPoint found = solve_fixed_point(*map, point, guess(point.velocity), branch_, tolerance, tangent_);
   const int branches = found.solutions;
+  if (before_.size() == 2) before_.erase(before_.begin());
+  before_.push_back({point.velocity, level_, found.theta});
+  const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
   for (std::size_t level = level_ + 1;; ++level) {
     if (level == levels)
       throw NotConverged("mu = " + show(map->hysteresis() + map->adhesion()) +
@@ -106,7 +127,11 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     const double coarse = map->hysteresis() + map->adhesion();
     FlashMap& finer = map_of(level);
     finer.start(point);
-    found = polish(finer, carried(map->grid(), finer.grid(), found.theta), tolerance);
+    if (level > level_ + 1) {
+      tangent_.take(*map);
+      before_.back() = {point.velocity, level - 1, found.theta};
+    }
+    found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
@@ -117,8 +142,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     if (!(error <= rtol * mu)) continue;
     level_ = level - 1;
     check_temperatures(*map, found, point);
-    before_ = found;
-    before_level_ = level;
+    theta_ = found.theta;
     point_ = point;
     return {map->hysteresis(),
             map->adhesion(),
@@ -127,7 +151,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
             map->outside_share(),
             point.temperature + map->grid().row_at(band(scene_.spectrum)[1]).dot(found.theta),
             map->macro_area(),
-            found.gain,
+            gain,
             branches,
             map->shift(),
             map->g()};
@@ -167,7 +191,7 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
 }
 
 double FlashSolver::temperature_at(double wavenumber) const {
-  return point_.temperature + levels_[before_level_].grid->row_at(wavenumber).dot(before_.theta);
+  return point_.temperature + levels_[finest_].grid->row_at(wavenumber).dot(theta_);
 }
 
 double FlashSolver::hysteresis_density(double wavenumber) const {
