@@ -7,6 +7,8 @@ import numpy as np
 
 from asperity import _core
 from asperity.base.arguments import (
+    ABSENT,
+    Given,
     Vector,
     choice,
     flag,
@@ -19,6 +21,7 @@ from asperity.base.table import Columns
 from asperity.base.value import value
 from asperity.dma import MasterCurveBuild
 from asperity.rubber import MasterCurve, PronySeries
+from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 
 PronyExtrapolation = Literal["prony"]
 
@@ -46,6 +49,8 @@ class PronyFit(PronySeries):
         `extrapolated_share` of a result, whose notes say so.
     notes : tuple of str
         What a reader must know.
+    shift_factors : ShiftFactors, optional
+        Those of the master curve that it was fitted to, which `friction` takes at a temperature.
     """
 
     moduli: Vector
@@ -57,6 +62,7 @@ class PronyFit(PronySeries):
     highest_frequency: float
     extrapolation: PronyExtrapolation | None = None
     notes: tuple[str, ...] = ()
+    shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -72,6 +78,8 @@ class PronyFit(PronySeries):
             causal=flag(self.causal, "causal"),
             notes=sentences(self.notes, "notes"),
         )
+        if self.shift_factors is not None:
+            self._set(shift_factors=shift_factors_of(self.shift_factors))
 
     @classmethod
     def _of(cls, core: Any, **others: Any) -> Self:
@@ -80,7 +88,10 @@ class PronyFit(PronySeries):
         return super()._of(core, lowest_frequency=lowest, highest_frequency=highest, **others)
 
     def shifted(self, a_T: float) -> "PronyFit":  # noqa: N803
-        """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T."""
+        """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T.
+
+        The new fit has no `shift_factors`.
+        """
         same = ("storage_residual", "loss_residual", "causal", "extrapolation", "notes")
         core = self._core.shifted(number(a_T, "a_T"))
         return PronyFit._of(core, **{name: getattr(self, name) for name in same})
@@ -88,9 +99,14 @@ class PronyFit(PronySeries):
     def _drawn_range(self) -> tuple[float, float]:
         return self.lowest_frequency, self.highest_frequency
 
+    def _summary(self) -> dict[str, Any]:
+        shown = self._arguments()
+        del shown["shift_factors"]
+        return shown
+
     def _columns(self) -> Columns:
         columns = super()._columns()
-        facts: dict[str, Any] = {**columns.attributes, **self._arguments()}
+        facts: dict[str, Any] = {**columns.attributes, **self._summary()}
         del facts["moduli"], facts["relaxation_times"]
         return Columns(columns.coordinates, columns.variables, facts)
 
@@ -155,4 +171,5 @@ def fit_prony(
         causal=causal,
         extrapolation=extrapolation,
         notes=notes,
+        shift_factors=curve.shift_factors,
     )

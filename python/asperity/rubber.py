@@ -170,7 +170,7 @@ class MasterCurve(_HasModulus):
         ln E' and ln E'' have at the end, or constant.
     shift_factors : ShiftFactors, optional
         Those of the isotherms behind the curve, or the build that has them. `at_strain` places
-        strain sweeps by them.
+        strain sweeps by them, and `friction` takes them at a temperature.
 
     Raises
     ------
@@ -255,7 +255,7 @@ class MasterCurve(_HasModulus):
         core, notes = _core.at_strain(self._core, known._core, size, given)
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
-        return MasterCurve._of(core, self.extrapolation)
+        return MasterCurve._of(core, self.extrapolation, known)
 
     def _summary(self) -> dict[str, Any]:
         shown = self._arguments()

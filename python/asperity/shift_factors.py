@@ -16,6 +16,7 @@ from asperity.base.arguments import (
     brief,
     frozen,
     number,
+    number_or_none,
     over,
     vector,
     vector_or_none,
@@ -59,6 +60,26 @@ class _Law(Value):
         return over(temperature, "temperature", lambda t: _core.shift_at(self._core, t)[1])
 
 
+class _FittedLaw(_Law):
+    """A law that knows the temperatures it was fitted on."""
+
+    lowest_temperature: float | None
+    highest_temperature: float | None
+
+    def _check_range(self) -> None:
+        ends = ("lowest_temperature", "highest_temperature")
+        lowest, highest = (number_or_none(getattr(self, name), name) for name in ends)
+        if (lowest is None) != (highest is None):
+            given, missing = ends if highest is None else ends[::-1]
+            raise InvalidInput(f"{missing}: must be given where {given} is")
+        if lowest is not None and highest is not None and not 0 < lowest < highest:
+            raise InvalidInput(
+                f"lowest_temperature = {lowest:g}: must be positive and below "
+                f"highest_temperature = {highest:g}"
+            )
+        self._set(lowest_temperature=lowest, highest_temperature=highest)
+
+
 @value
 class WLF(_Law):
     """The law of Williams, Landel and Ferry, by constants that are known.
@@ -99,7 +120,7 @@ class WLF(_Law):
 
 
 @value
-class WlfFit(_Law):
+class WlfFit(_FittedLaw):
     """The law of Williams, Landel and Ferry through shift factors, as `fit_wlf` returns it.
 
     log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref).
@@ -116,6 +137,8 @@ class WlfFit(_Law):
         {"c1": [-], "c2": [K]}, from the scatter about the fit.
     residual : float
         Root mean square of log10 a_T about the fit [-].
+    lowest_temperature, highest_temperature : float, optional
+        Those that it was fitted on [K]. Results that use the law beyond them say so in a note.
     """
 
     c1: float
@@ -123,15 +146,18 @@ class WlfFit(_Law):
     reference_temperature: float
     standard_errors: _Errors = _Errors()
     residual: float
+    lowest_temperature: float | None = None
+    highest_temperature: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("c1", "c2", "reference_temperature", "residual"):
             self._set(**{name: number(getattr(self, name), name)})
+        self._check_range()
         self._set(_core=_core.WlfFit(self.c1, self.c2, self.reference_temperature))
 
 
 @value
-class ArrheniusFit(_Law):
+class ArrheniusFit(_FittedLaw):
     """Arrhenius' law through shift factors, as `fit_arrhenius` returns it.
 
     ln a_T = (E_a / R) (1 / T - 1 / T_ref).
@@ -146,16 +172,21 @@ class ArrheniusFit(_Law):
         {"activation_energy": [J/mol]}, from the scatter about the fit.
     residual : float
         Root mean square of log10 a_T about the fit [-].
+    lowest_temperature, highest_temperature : float, optional
+        Those that it was fitted on [K]. Results that use the law beyond them say so in a note.
     """
 
     activation_energy: float
     reference_temperature: float
     standard_errors: _Errors = _Errors()
     residual: float
+    lowest_temperature: float | None = None
+    highest_temperature: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("activation_energy", "reference_temperature", "residual"):
             self._set(**{name: number(getattr(self, name), name)})
+        self._check_range()
         self._set(_core=_core.ArrheniusFit(self.activation_energy, self.reference_temperature))
 
 
@@ -192,6 +223,7 @@ class HasShiftFactors(Table):
             reference_temperature=self.reference_temperature,
             standard_errors={"c1": c1_error, "c2": c2_error},
             residual=residual,
+            **self._fitted_on(),
         )
 
     def fit_arrhenius(self) -> ArrheniusFit:
@@ -202,7 +234,12 @@ class HasShiftFactors(Table):
             reference_temperature=self.reference_temperature,
             standard_errors={"activation_energy": error},
             residual=residual,
+            **self._fitted_on(),
         )
+
+    def _fitted_on(self) -> dict[str, float]:
+        ends = float(self.temperature[0]), float(self.temperature[-1])
+        return dict(zip(("lowest_temperature", "highest_temperature"), ends, strict=True))
 
     def _columns(self) -> Columns:
         rows = ("temperature",)

@@ -161,6 +161,15 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
                     correction);
 }
 
+std::optional<double> asperity_wavenumber(const Correction& correction, const Spectrum& spectrum) {
+  return std::visit(
+      [&](const auto& s) -> std::optional<double> {
+        if constexpr (requires { s.reading; }) return macro_wavenumber(s, spectrum);
+        return std::nullopt;
+      },
+      correction);
+}
+
 std::optional<double> macro_modulus(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
                                     double velocity, double poisson_ratio) {
   return std::visit(

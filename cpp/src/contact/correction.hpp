@@ -1,4 +1,4 @@
-// The modulus that decides the state of the Greenwood-Williamson corrections.
+// The wavenumber and the modulus that decide the state of the Greenwood-Williamson corrections.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,9 @@
 #include "asperity/correction.hpp"
 
 namespace asperity {
+
+/// q0 [1/m] of the macro-asperities, whose modulus decides. None for corrections that know no such model.
+std::optional<double> asperity_wavenumber(const Correction& correction, const Spectrum& spectrum);
 
 /// E* = |E(q0 v)| / (1 - nu^2) [Pa], q0 of the macro-asperities: p_T depends on sigma0 / E* alone. None for corrections
 /// that know no such model.

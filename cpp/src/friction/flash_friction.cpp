@@ -29,13 +29,6 @@ void check_heating(const Heating& heating, const ContactModel& model, const std:
     refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
   if (model.method != Method::gauss)
     throw InvalidInput("method: must be gauss where heating is given; the others do not know a temperature");
-  const Correction& c = model.correction;
-  if (!std::holds_alternative<NoCorrection>(c) && !std::holds_alternative<SFactor>(c) &&
-      !std::holds_alternative<NayakSFactor>(c) && !std::holds_alternative<AffineShift>(c) &&
-      !std::holds_alternative<LocalPeaks>(c))
-    throw InvalidInput(
-        "correction: must be None, SFactor, NayakSFactor, AffineShift or LocalPeaks where heating is given; the others "
-        "would have to follow the temperature");
 }
 
 /// What there is to say of the points, a bit each.
@@ -134,7 +127,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                                                     temperature, contributions, threads, true),
                             n);
   const SurfaceSegments kept(spectrum);
-  const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, s_in_integrand(model.correction), q_m};
+  const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, q_m};
   const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
   constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
@@ -157,11 +150,12 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       }
       const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
       HotPoint at;
-      at_point(p, v, [&] { at = solve({p, v, t, f.cold.shift_factor[i], per_area}); });
+      at_point(p, v, [&] { at = solve({p, v, t, per_area}); });
       f.hot.mu[i] = at.hysteresis + at.adhesion;
       f.hot.hysteresis[i] = at.hysteresis;
       f.hot.adhesion[i] = at.adhesion;
       f.hot.contact_area[i] = at.contact_area;
+      f.hot.shift_factor[i] = at.shift.p;
       f.hot.error_estimate[i] = at.error_estimate;
       f.hot.extrapolated_share[i] = at.extrapolated_share;
       f.hot.temperature[i] = at.temperature;
@@ -190,21 +184,13 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   if (adhesion) validate(*adhesion);
   check_heating(heating, model, adhesion);
   const SurfaceSegments kept(spectrum);
-  const HeatScene scene{spectrum,
-                        kept.get(),
-                        rubber,
-                        shift,
-                        heating,
-                        model,
-                        s_in_integrand(model.correction),
-                        macro_wavenumber(heating, spectrum)};
+  const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
   std::vector<double> result;
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     const double p = pressure[i], v = velocity[i];
-    const double shift_factor = affine_shift(model.correction, spectrum, rubber, p, v, model.poisson_ratio).p;
     at_point(p, v, [&] {
-      result.push_back(sliding_length(
-          scene, {p, v, temperature[i], shift_factor, adhesion ? adhesion_per_share(*adhesion, p, v) : 0}));
+      result.push_back(
+          sliding_length(scene, {p, v, temperature[i], adhesion ? adhesion_per_share(*adhesion, p, v) : 0}));
     });
   }
   return result;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/kernels.hpp"
+
 namespace asperity {
 
 using std::numbers::pi;
@@ -32,6 +34,27 @@ void AngularSlopes::operator()(std::span<const double> w, AngularColumns& result
     of_series(*series, w, result);
   else
     of_curve(std::get<MasterCurve>(rubber_), w, result);
+}
+
+void AngularSlopes::values(std::span<const double> w, AngularColumns& result) {
+  const std::size_t n = w.size();
+  result.resize(n);
+  held_.assign(w.begin(), w.end());
+  if (const auto* curve = std::get_if<MasterCurve>(&rubber_)) {
+    for (double& one : held_) one = std::clamp(one, curve->lowest_frequency(), curve->highest_frequency());
+    (void)curve->angular_integrals(held_, result.i1, result.i2);
+    return;
+  }
+  const auto& series = std::get<PronySeries>(rubber_);
+  const std::size_t padded = (n + lanes - 1) / lanes * lanes;
+  held_.resize(padded, 1.0);
+  result.i1.resize(padded);
+  result.i2.resize(padded);
+  kernels().prony({series.moduli().data(), weight_.data(), series.relaxation_times().data(), weight_.size(),
+                   series.equilibrium_modulus()},
+                  held_.data(), padded, result.i1.data(), result.i2.data());
+  result.i1.resize(n);
+  result.i2.resize(n);
 }
 
 void AngularSlopes::of_series(const PronySeries& series, std::span<const double> w, AngularColumns& result) const {

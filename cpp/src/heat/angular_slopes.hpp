@@ -19,6 +19,8 @@ struct AngularColumns {
 class AngularSlopes {
  public:
   explicit AngularSlopes(const Rubber& rubber);
+  /// I1 and I2 alone.
+  void values(std::span<const double> w, AngularColumns& result);
   void operator()(std::span<const double> w, AngularColumns& result);
 
  private:
@@ -27,7 +29,7 @@ class AngularSlopes {
 
   const Rubber& rubber_;
   std::vector<double> weight_;  // w_k of a series
-  std::vector<double> around_[2], i1_[2], i2_[2];
+  std::vector<double> around_[2], i1_[2], i2_[2], held_;
 };
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -52,15 +53,19 @@ MatrixXd identity_less(const MatrixXd& jacobian, double factor = 1) {
   return matrix;
 }
 
-/// Newton's steps, each of which must lower the residual; the map is left at the solution.
-std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, int passes) {
+/// Newton's steps, each of which must lower the residual, with the slopes of an earlier pass as long as they do; the
+/// map is left at the solution.
+std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, int passes, Tangent& tangent) {
+  constexpr double enough = 0.15;  // of the residual, which slopes of an earlier pass leave at most
   map(theta);
+  tangent.take(map);
+  bool fresh = true;
   VectorXd residual = map.rise() - theta;
   double size = size_of(residual, theta);
   while (!(size <= tolerance)) {
-    const VectorXd step = identity_less(map.jacobian()).partialPivLu().solve(residual);
+    const VectorXd step = tangent.lu.solve(residual);
     bool lower = false;
-    for (double share = 1; share > 0.05 && !lower; share /= 2) {
+    for (double share = 1; share > (fresh ? 0.05 : 0.9) && !lower; share /= 2) {
       if (--passes < 0) return {};
       const VectorXd tried = (theta + share * step).cwiseMax(0.0);
       map(tried);
@@ -68,14 +73,20 @@ std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, 
       const double left_size = size_of(left, tried);
       // near rounding a residual need not fall any more
       if (left_size < 0.9 * size || left_size < 1e-12) {
+        lower = true;
         theta = tried;
         residual = left;
-        lower = true;
         if (left_size >= size && left_size < 1e-12) return theta;
+        fresh = left_size > enough * size && left_size > tolerance;
+        if (fresh) tangent.take(map);
         size = left_size;
       }
     }
-    if (!lower) return {};
+    if (lower) continue;
+    if (fresh || --passes < 0) return {};
+    map(theta);
+    tangent.take(map);
+    fresh = true;
   }
   return theta;
 }
@@ -169,17 +180,34 @@ class March {
   Place at_;
 };
 
-FixedPoint finished(FlashMap& map, const VectorXd& theta) {
+FixedPoint finished(const FlashMap& map, const VectorXd& theta, const Tangent& tangent) {
   FixedPoint found;
   found.theta = theta;
   found.residual = map.rise() - theta;
-  const VectorXd off = identity_less(map.jacobian()).partialPivLu().solve(found.residual);
-  found.mu_error = std::fabs(map.slope_of_mu() * off);
-  found.gain = dominant_eigenvalue(map.jacobian(), map.rise());
+  found.mu_error = std::fabs(tangent.slope_of_mu * tangent.lu.solve(found.residual));
   return found;
 }
 
-FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_rise, Branch branch, double tolerance) {
+/// Whether tau over the rise at the last point from tau times a shape, that of the rise before, grows all along tau,
+/// and by how much it should: the march would have one crossing then.
+bool one_crossing(FlashMap& map, const HeatPoint& point, const VectorXd& cold_rise) {
+  constexpr double stride = 2, least = 0.1;  // of ln eps a stride, whose ln is 0.7
+  const Index last = cold_rise.size() - 1;
+  VectorXd shape = cold_rise / cold_rise[last];
+  const double highest = 2 * std::fmax(highest_rubber_temperature - point.temperature, 1);
+  double before = -std::numeric_limits<double>::infinity();
+  for (double tau = 0.02 * cold_rise[last]; tau < stride * highest; tau *= stride) {
+    map(tau * shape);
+    const double rise = map.rise()[last], log_eps = std::log(tau / rise);
+    if (!(log_eps > before + least)) return false;
+    before = log_eps;
+    shape = map.rise() / rise;
+  }
+  return true;
+}
+
+FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_rise, Branch branch, double tolerance,
+                    Tangent& tangent) {
   March march(map, point.temperature, cold_rise);
   std::vector<std::pair<Place, Place>> crossings;
   Place before = march.at();
@@ -192,31 +220,89 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
     throw OutOfRange("temperature = " + show(point.temperature, 6) + ": the rubber heats itself above " +
                      show(highest_rubber_temperature) + " K, which it does not stand");
   const auto& [low, high] = branch == Branch::coldest ? crossings.front() : crossings.back();
-  const std::optional<VectorXd> theta = newton(map, march.between(low, high), tolerance, 30);
+  const std::optional<VectorXd> theta = newton(map, march.between(low, high), tolerance, 30, tangent);
   if (!theta) throw NotConverged("the flash temperature: Newton's steps do not end");
-  FixedPoint found = finished(map, *theta);
+  FixedPoint found = finished(map, *theta, tangent);
   found.solutions = static_cast<int>(crossings.size());
   return found;
 }
 
 }  // namespace
 
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, Branch branch,
-                             double tolerance) {
-  map(VectorXd::Zero(guess.size()));
-  const VectorXd cold_rise = map.rise();
-  if (cold_rise.lpNorm<Eigen::Infinity>() == 0) return finished(map, cold_rise);
-  if (dominant_eigenvalue(map.jacobian(), cold_rise) <= 0) {
-    constexpr int passes = 8;
-    if (const auto theta = newton(map, guess, tolerance, passes)) return finished(map, *theta);
-  }
-  return by_march(map, point, cold_rise, branch, tolerance);
+void Tangent::take(FlashMap& map) {
+  jacobian = map.jacobian();
+  lu.compute(identity_less(jacobian));
+  slope_of_mu = map.slope_of_mu();
 }
 
-FixedPoint polish(FlashMap& map, const VectorXd& theta, double tolerance) {
-  const std::optional<VectorXd> found = newton(map, theta, tolerance, 12);
-  if (!found) throw NotConverged("the flash temperature: Newton's steps do not end");
-  return finished(map, *found);
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, Branch branch,
+                             double tolerance, Tangent& tangent) {
+  map(VectorXd::Zero(map.rise_size()));
+  const VectorXd cold_rise = map.rise();
+  if (cold_rise.lpNorm<Eigen::Infinity>() == 0) {
+    tangent.take(map);
+    return finished(map, cold_rise, tangent);
+  }
+  // two powers tell the sign of the eigenvalue, as heat of any roughness warms all
+  const VectorXd first = map.along(cold_rise), second = map.along(first);
+  const double cold_gain = first.squaredNorm() > 0 ? first.dot(second) / first.squaredNorm() : 0;
+  const bool alone = cold_gain <= 0 || one_crossing(map, point, cold_rise);
+  if (alone) {
+    constexpr int passes = 10;
+    const VectorXd start = guess.size() != 0 ? guess : (cold_rise / (1 - std::fmin(cold_gain, 0.5))).eval();
+    if (const auto theta = newton(map, start, tolerance, passes, tangent)) return finished(map, *theta, tangent);
+  }
+  return by_march(map, point, cold_rise, branch, tolerance, tangent);
+}
+
+FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, const MatrixXd& up,
+                  const MatrixXd& down, double tolerance) {
+  FixedPoint found;
+  found.theta = (up * theta).cwiseMax(0.0);
+  double before = std::numeric_limits<double>::infinity();
+  constexpr int passes = 12;
+  for (int pass = 0; pass < passes; ++pass) {
+    map(found.theta);
+    found.residual = map.rise() - found.theta;
+    const VectorXd coarse = down * found.residual, step = tangent.lu.solve(coarse);
+    found.mu_error = std::fabs(tangent.slope_of_mu * step);
+    const double size = size_of(found.residual, found.theta);
+    if (size <= tolerance || (size < 1e-12 && size >= before)) return found;
+    if (size > 0.5 * before) break;
+    before = size;
+    // what dF adds to a step is smooth, so that the coarser grid knows it
+    found.theta = (found.theta + found.residual + up * (step - coarse)).cwiseMax(0.0);
+  }
+  Tangent own;
+  const std::optional<VectorXd> again = newton(map, (up * theta).cwiseMax(0.0), tolerance, passes, own);
+  if (!again) throw NotConverged("the flash temperature: Newton's steps do not end");
+  return finished(map, *again, own);
+}
+
+double gain_of(FlashMap& map, const Tangent& tangent, double tolerance) {
+  const MatrixXd& j = tangent.jacobian;
+  VectorXd right = map.rise(), left = VectorXd::Ones(right.size());
+  double value = 0;
+  for (int i = 0; i < 40; ++i) {
+    right = j * right;
+    left = j.transpose() * left;
+    const double size = right.norm(), left_size = left.norm();
+    if (!(size > 0 && left_size > 0)) return 0;
+    right /= size;
+    left /= left_size;
+    const double before = value;
+    value = left.dot(j * right) / left.dot(right);
+    if (i > 2 && std::fabs(value - before) <= 1e-9 * std::fabs(value)) break;
+    if (i == 39) return dominant_eigenvalue(map.jacobian(), map.rise());
+  }
+  for (int i = 0; i < 20; ++i) {
+    const VectorXd next = map.along(right);
+    const double before = value;
+    value = left.dot(next) / left.dot(right);
+    if (std::fabs(value - before) <= tolerance * std::fabs(value)) return value;
+    right = next / next.norm();
+  }
+  return dominant_eigenvalue(map.jacobian(), map.rise());
 }
 
 }  // namespace asperity

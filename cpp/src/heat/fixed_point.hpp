@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "heat/flash_map.hpp"
 
@@ -15,15 +16,28 @@ struct FixedPoint {
   int solutions = 1;         // stable and unstable ones
 };
 
-/// A solution of theta = F(theta), from `guess` by Newton's method where heat takes from itself, that is where the cold
-/// eigenvalue is not positive, and there is one. Otherwise theta = eps F(theta) is followed along theta(q1), which
-/// finds all crossings of eps = 1. Tolerance relative to the largest rise. NotConverged, or OutOfRange where there is
-/// none up to the temperature that rubber stands.
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, Branch branch,
-                             double tolerance);
+/// The slopes of a pass, with which further ones step towards the fixed point.
+struct Tangent {
+  Eigen::MatrixXd jacobian;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;  // of 1 - dF/dtheta
+  Eigen::RowVectorXd slope_of_mu;
+  void take(FlashMap& map);
+};
 
-/// The same from a profile that is a solution but for the discretisation.
-FixedPoint polish(FlashMap& map, const Eigen::VectorXd& theta, double tolerance);
+/// A solution of theta = F(theta), from `guess` by Newton's method where there is one, that is where heat takes from
+/// itself, or where the rise falls behind the heat all along a scan. Otherwise theta = eps F(theta) is followed along
+/// theta(q1), which finds all crossings of eps = 1. Tolerance relative to the largest rise. Leaves the map at the
+/// solution. NotConverged, or OutOfRange where there is none up to the temperature that rubber stands.
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, Branch branch,
+                             double tolerance, Tangent& tangent);
+
+/// The same on a finer grid from the solution of a coarser one, whose slopes do: `up` and `down` carry profiles from
+/// the coarser grid to the finer one and back.
+FixedPoint polish(FlashMap& map, const Eigen::VectorXd& theta, const Tangent& tangent, const Eigen::MatrixXd& up,
+                  const Eigen::MatrixXd& down, double tolerance);
+
+/// The eigenvalue of dF/dtheta of the largest size at the last pass, near which `tangent` was taken; to `tolerance`.
+double gain_of(FlashMap& map, const Tangent& tangent, double tolerance);
 
 /// Rubber does not stand more [K].
 inline constexpr double highest_rubber_temperature = 700;

@@ -2,15 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "asperity/contact.hpp"
 #include "asperity/dma.hpp"
-#include "contact/s_factor.hpp"
-#include "contact/solver/contact_integral.hpp"
 #include "heat/angular_slopes.hpp"
 #include "heat/grid.hpp"
+#include "heat/heat_contact.hpp"
+#include "heat/hot_shift.hpp"
 #include "heat/kernel.hpp"
 
 namespace asperity {
@@ -23,14 +25,12 @@ struct HeatScene {
   const TemperatureShift& shift;
   const Heating& heating;
   const ContactModel& model;
-  std::optional<SFunction> factor;  // S of the integrand of Eq. 22
-  double macro_wavenumber;          // q_m, inside of the band [1/m]
+  double macro_wavenumber;  // q_m, inside of the band [1/m]
 };
 
 /// One pressure, velocity and background temperature.
 struct HeatPoint {
   double pressure, velocity, temperature;
-  double shift_factor;       // p_T
   double adhesion_per_area;  // mu_A over A/A0 at q1, 0 without
 };
 
@@ -43,54 +43,62 @@ class FlashMap {
   void operator()(const Eigen::VectorXd& theta);
 
   [[nodiscard]] const HeatGrid& grid() const { return grid_; }
-  [[nodiscard]] const Eigen::VectorXd& rise() const { return rise_; }          // F
-  [[nodiscard]] const Eigen::MatrixXd& jacobian() const { return jacobian_; }  // dF_i / dtheta_j
+  [[nodiscard]] const Eigen::VectorXd& rise() const { return rise_; }  // F
+  /// Slopes of the last pass: dF_i / dtheta_j, and d(mu_H + mu_A) / dtheta.
+  [[nodiscard]] const Eigen::MatrixXd& jacobian();
+  [[nodiscard]] const Eigen::RowVectorXd& slope_of_mu();
+  /// The Jacobian times a profile.
+  [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& direction);
+  /// How many temperature points there are.
+  [[nodiscard]] Eigen::Index rise_size() const { return grid_.to_nodes().cols(); }
   [[nodiscard]] double hysteresis() const { return hysteresis_; }
-  [[nodiscard]] double contact_area() const { return area_; }
-  [[nodiscard]] double adhesion() const { return area_ * point_.adhesion_per_area; }
+  [[nodiscard]] double contact_area() const { return touches() ? contact_->area() : 0; }
+  [[nodiscard]] double adhesion() const { return contact_area() * point_.adhesion_per_area; }
   [[nodiscard]] double macro_area() const { return macro_area_; }
-  [[nodiscard]] const Eigen::RowVectorXd& slope_of_mu() const { return slope_of_mu_; }  // d(mu_H + mu_A) / dtheta
-  /// Reduced frequencies v q a_T(T(q)) at the nodes [rad/s], and the temperatures there [K].
-  [[nodiscard]] const std::vector<double>& reduced_frequency() const { return reduced_; }
-  [[nodiscard]] const Eigen::VectorXd& temperature() const { return temperature_; }
+  [[nodiscard]] double g() const { return touches() ? contact_->g() : 0; }  // at q1
+  [[nodiscard]] const Shift& shift() const { return shift_.shift; }
+  /// Reduced frequencies v q a_T(T(q)) at the nodes of the band [rad/s], and that of a wavenumber at a temperature.
+  [[nodiscard]] std::span<const double> reduced_frequency() const { return {reduced_.data(), grid_.band_size()}; }
+  [[nodiscard]] double reduced_frequency(double wavenumber, double temperature) const;
   /// Heat f of the nodes, with which the rise is sum_j f_j g(q, q_j) where it is steady [K/s], and that of the surface
   /// [K m/s], which makes the rise times 2 q t N.
   [[nodiscard]] Eigen::VectorXd heat_of_nodes() const;
   [[nodiscard]] double heat_of_surface() const;
-  /// The parts R_j m_j of mu_H that the nodes have.
-  [[nodiscard]] std::vector<double> contributions() const;
-  /// G at the lower end of a panel and at u in [-1, 1] on it.
-  [[nodiscard]] double g_on(std::size_t panel, double u) const;
-  /// v q a_T at a temperature.
-  [[nodiscard]] double reduced_frequency(double wavenumber, double temperature) const;
+  /// The parts of mu_H that the nodes have, and of them those from outside of the measured frequencies.
+  [[nodiscard]] Eigen::VectorXd contributions() const;
+  [[nodiscard]] double outside_share() const;
+  /// dmu_H / dln q at a wavenumber and its temperature.
+  [[nodiscard]] double hysteresis_density(double wavenumber, double temperature) const;
 
  private:
   void frequencies(const Eigen::VectorXd& theta);
-  void contact();
-  void measure();
   void heat();
+  void take_slopes();
+  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, Eigen::RowVectorXd& of_mu);
+  [[nodiscard]] bool touches() const { return shift_.shift.state != ContactState::no_contact; }
 
   const HeatScene& scene_;
   const HeatGrid& grid_;
-  ContactIntegral contact_;
   AngularSlopes angular_;
-  AreaG area_g_;
-  std::optional<SFunction> inside_;
-  std::size_t macro_panels_;
+  std::unique_ptr<HeatContact> contact_;
+  std::optional<FrequencyRange> known_;
   HeatPoint point_{};
-  double scale_ = 0, mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]
+  double mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]
 
-  Eigen::MatrixXd kernel_;   // q_j g_ij, and a last row of ones
+  HeatKernelTable table_;
+  Eigen::MatrixXd kernel_;   // q_j g_ij
   Eigen::VectorXd surface_;  // 2 q t N at the temperature points
   std::vector<double> reduced_;
-  Eigen::VectorXd temperature_, rate_;  // rate_: d ln a_T / dT at the nodes
+  Eigen::VectorXd rate_;  // d ln a_T / dT at the nodes, 0 where the frequency is held
   AngularColumns columns_;
-  Eigen::VectorXd ratio_, dg_, g_, f_, share_, measure_;
-  std::vector<double> g_edge_, f_edge_, share_edge_;  // at the ends of panels, the first at G = 0
-  Eigen::VectorXd rise_, hysteresis_rise_;
+  NodeModulus modulus_;
+  HotShift shift_;
+  Eigen::VectorXd rise_;
+  double hysteresis_ = 0, macro_area_ = 1;
+  bool differentiated_ = false, sloped_ = false;
+  Eigen::VectorXd log_i2_, log_ratio_;  // slopes over the temperature
   Eigen::MatrixXd jacobian_;
   Eigen::RowVectorXd slope_of_mu_;
-  double hysteresis_ = 0, area_ = 0, macro_area_ = 1;
 };
 
 }  // namespace asperity

@@ -6,27 +6,36 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
 
 constexpr int first_digits = 4, digits_a_level = 2;
 constexpr std::size_t levels = 7;  // up to 16 digits
+/// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
+constexpr std::size_t pieces_rows = 16;
+constexpr double pieces_rtol = 1e-7;
 
 int digits_of(std::size_t level) { return first_digits + digits_a_level * static_cast<int>(level); }
 
-/// The profile of one grid at the points of another.
-VectorXd carried(const HeatGrid& from, const HeatGrid& to, const VectorXd& theta) {
-  if (&from == &to) return theta;
-  VectorXd result(static_cast<Index>(to.temperature_points().size()));
-  for (Index i = 0; i < result.size(); ++i)
-    result[i] = from.row_at(to.temperature_points()[static_cast<std::size_t>(i)]) * theta;
-  return result.cwiseMax(0.0);
+/// From values at the temperature points of one grid to those at the points of another.
+MatrixXd carrying(const HeatGrid& from, const HeatGrid& to) {
+  const auto n = static_cast<Index>(to.temperature_points().size());
+  MatrixXd result(n, static_cast<Index>(from.temperature_points().size()));
+  for (Index i = 0; i < n; ++i)
+    if (i == 0 && to.lone_point())
+      result.row(i) = Eigen::RowVectorXd::Unit(result.cols(), 0);
+    else
+      result.row(i) = from.row_at(to.temperature_points()[static_cast<std::size_t>(i)]);
+  return result;
 }
 
 }  // namespace
@@ -50,7 +59,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch) : scene_(scene),
 }
 
 void FlashSolver::forget() {
-  before_ = {};
+  before_.clear();
   level_ = first_level_;
 }
 
@@ -65,24 +74,51 @@ void FlashSolver::set_stops(std::vector<double> stops) {
 FlashMap& FlashSolver::map_of(std::size_t level) {
   Level& made = levels_[level];
   if (!made.map) {
-    std::vector<double> stops = stops_;
-    stops.push_back(scene_.macro_wavenumber);
-    made.grid = std::make_unique<HeatGrid>(scene_.surface, scene_.model.poisson_ratio, stops, level,
-                                           std::holds_alternative<MasterCurve>(scene_.rubber));
+    HeatGridOptions options{.poisson_ratio = scene_.model.poisson_ratio,
+                            .level = level,
+                            .tabulated = std::holds_alternative<MasterCurve>(scene_.rubber),
+                            .macro_wavenumber = scene_.macro_wavenumber,
+                            .stops = stops_,
+                            .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
+                            .also_felt = asperity_wavenumber(scene_.model.correction, scene_.spectrum)};
+    const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
+    if (table && stops_.empty() && scene_.model.rtol >= pieces_rtol && level - 1 < RoughnessPieces::levels &&
+        table->wavenumber().size() >= pieces_rows)
+      options.pieces = &table->surface().pieces(*table, level - 1);
+    made.grid = std::make_unique<HeatGrid>(scene_.surface, options);
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);
+    if (level > 0 && levels_[level - 1].grid) {
+      made.up = carrying(*levels_[level - 1].grid, *made.grid);
+      made.down = carrying(*made.grid, *levels_[level - 1].grid);
+    }
   }
   return *made.map;
+}
+
+/// By the last two points, whose rises go on as powers of the velocity; empty without a point.
+VectorXd FlashSolver::guess(double velocity) const {
+  if (before_.empty() || before_.back().level != level_) return {};
+  const Solved& last = before_.back();
+  if (before_.size() < 2 || before_.front().level != level_) return last.theta;
+  const Solved& first = before_.front();
+  const double share = std::log(velocity / last.velocity) / std::log(last.velocity / first.velocity);
+  if (!(share > 0 && share < 2)) return last.theta;
+  VectorXd result = last.theta;
+  for (Index i = 0; i < result.size(); ++i)
+    if (last.theta[i] > 0 && first.theta[i] > 0)
+      result[i] *= std::pow(std::clamp(last.theta[i] / first.theta[i], 0.2, 5.0), share);
+  return result;
 }
 
 HotPoint FlashSolver::operator()(const HeatPoint& point) {
   const double rtol = scene_.model.rtol, tolerance = std::clamp(0.01 * rtol, 1e-13, 1e-5);
   FlashMap* map = &map_of(level_);
   map->start(point);
-  const auto size = static_cast<Index>(map->grid().temperature_points().size());
-  const VectorXd guess = before_.theta.size() == 0 ? VectorXd::Zero(size).eval()
-                                                   : carried(*levels_[before_level_].grid, map->grid(), before_.theta);
-  FixedPoint found = solve_fixed_point(*map, point, guess, branch_, tolerance);
+  FixedPoint found = solve_fixed_point(*map, point, guess(point.velocity), branch_, tolerance, tangent_);
   const int branches = found.solutions;
+  if (before_.size() == 2) before_.erase(before_.begin());
+  before_.push_back({point.velocity, level_, found.theta});
+  const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
   for (std::size_t level = level_ + 1;; ++level) {
     if (level == levels)
       throw NotConverged("mu = " + show(map->hysteresis() + map->adhesion()) +
@@ -91,33 +127,41 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     const double coarse = map->hysteresis() + map->adhesion();
     FlashMap& finer = map_of(level);
     finer.start(point);
-    found = polish(finer, carried(map->grid(), finer.grid(), found.theta), tolerance);
+    if (level > level_ + 1) {
+      tangent_.take(*map);
+      before_.back() = {point.velocity, level - 1, found.theta};
+    }
+    found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
     // twice both: the residual's effect is taken to first order, and the finer grid has an error too. Two grids that
     // miss a thin front alike differ by less than they are off: never less than a hundredth of the tolerance is told.
-    const double error = 2 * (std::fabs(mu - coarse) + found.mu_error) + std::fmax(0.01 * rtol, 1e-13) * mu;
+    const double error = 2 * (std::fabs(mu - coarse) + found.mu_error) +
+                         (std::fmax(0.01 * rtol, 1e-13) + 4 * map->shift().relative_error) * mu;
     if (!(error <= rtol * mu)) continue;
     level_ = level - 1;
     check_temperatures(*map, found, point);
-    before_ = found;
-    before_level_ = level;
+    theta_ = found.theta;
     point_ = point;
     return {map->hysteresis(),
             map->adhesion(),
             map->contact_area(),
             error,
-            outside_share(*map),
-            point.temperature + found.theta[found.theta.size() - 1],
+            map->outside_share(),
+            point.temperature + map->grid().row_at(band(scene_.spectrum)[1]).dot(found.theta),
             map->macro_area(),
-            found.gain,
-            branches};
+            gain,
+            branches,
+            map->shift(),
+            map->g()};
   }
 }
 
 /// Refuses a solution that was found where nothing is known.
 void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const {
+  const auto [q0, q1] = band(scene_.spectrum);
+  const auto temperature = [&](double q) { return point.temperature + map.grid().row_at(q).dot(found.theta); };
   const double hottest = point.temperature + found.theta.maxCoeff();
   const std::string at = "temperature = " + show(point.temperature, 6) + ", velocity = " + show(point.velocity) +
                          ": the rubber heats itself to " + show(hottest, 6) + " K";
@@ -136,9 +180,9 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
     highest = std::fmax(highest, w);
   };
   for (const double w : map.reduced_frequency()) see(w);
-  const auto [q0, q1] = band(scene_.spectrum);
-  see(map.reduced_frequency(q0, point.temperature + found.theta[0]));
-  see(map.reduced_frequency(q1, point.temperature + found.theta[found.theta.size() - 1]));
+  for (const double q : {q0, q1}) see(map.reduced_frequency(q, temperature(q)));
+  if (const auto q = asperity_wavenumber(scene_.model.correction, scene_.spectrum))
+    see(map.reduced_frequency(*q, point.temperature + map.grid().also_felt().dot(found.theta)));
   constexpr double rounding = 1e-12;
   if (lowest < known->lowest * (1 - rounding) || highest > known->highest * (1 + rounding))
     throw OutOfRange(at + " and is asked for its modulus from " + show(lowest) + " to " + show(highest) +
@@ -146,55 +190,27 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
                      show(known->highest) + "] rad/s");
 }
 
-double FlashSolver::outside_share(const FlashMap& map) const {
-  const std::vector<double>& w = map.reduced_frequency();
-  if (const auto* series = std::get_if<PronySeries>(&scene_.rubber); series && !series->fitted_range()) return 0;
-  std::vector<double> i1(w.size()), i2(w.size()), outside(w.size());
-  std::vector<double> held = w;  // nodes may miss the end of the range by rounding
-  if (const auto known = known_range(scene_.rubber))
-    for (double& one : held) one = std::clamp(one, known->lowest, known->highest);
-  if (!angular_integrals(scene_.rubber, held, i1, i2, outside)) return 0;
-  const std::vector<double> part = map.contributions();
-  double sum = 0, whole = 0;
-  for (std::size_t j = 0; j < part.size(); ++j) {
-    sum += part[j] * outside[j] / i1[j];
-    whole += part[j];
-  }
-  return whole > 0 ? sum / whole : 0;
-}
-
 double FlashSolver::temperature_at(double wavenumber) const {
-  return point_.temperature + levels_[before_level_].grid->row_at(wavenumber).dot(before_.theta);
+  return point_.temperature + levels_[finest_].grid->row_at(wavenumber).dot(theta_);
 }
 
 double FlashSolver::hysteresis_density(double wavenumber) const {
-  const FlashMap& map = *levels_[finest_].map;
-  const HeatGrid& grid = *levels_[finest_].grid;
-  const double t = grid.t_at(wavenumber);
-  std::size_t panel = 0;
-  while (panel + 1 < grid.panels().size() && wavenumber > grid.panels()[panel].end) ++panel;
-  const HeatGrid::Panel& at = grid.panels()[panel];
-  if (wavenumber < at.segment->a || wavenumber > at.segment->b) return 0;  // in an empty bin
-  const double g = map.g_on(panel, std::clamp(2 * (t - at.lower) / (at.upper - at.lower) - 1, -1.0, 1.0));
-  const double share = g > 0 ? contact_share(g, scene_.model.form) : 1;
-  const double square = wavenumber * wavenumber, stiff = 1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio;
-  double w = map.reduced_frequency(wavenumber, temperature_at(wavenumber));
-  if (const auto known = known_range(scene_.rubber)) w = std::clamp(w, known->lowest, known->highest);
-  return square * square * at.segment->density(wavenumber) * angular_integrals(scene_.rubber, w).i1 * share *
-         (scene_.factor ? (*scene_.factor)(share) : 1) /
-         (2 * stiff * point_.pressure * point_.shift_factor * point_.shift_factor);
+  return levels_[finest_].map->hysteresis_density(wavenumber, temperature_at(wavenumber));
 }
 
 std::vector<FlashSolver::PanelShare> FlashSolver::shares() const {
-  const FlashMap& map = *levels_[finest_].map;
   const HeatGrid& grid = *levels_[finest_].grid;
-  const std::vector<double> part = map.contributions();
+  const VectorXd part = levels_[finest_].map->contributions();
   std::vector<PanelShare> result;
-  for (const HeatGrid::Panel& panel : grid.panels()) {
-    double sum = 0;
-    for (std::size_t j = 0; j < panel.rule->n; ++j) sum += part[panel.first + j];
-    result.push_back({grid.wavenumber_at(panel.lower), panel.end, sum});
-  }
+  const auto sum = [&](std::size_t first, std::size_t count) {
+    return part.segment(static_cast<Index>(first), static_cast<Index>(count)).sum();
+  };
+  for (const HeatGrid::Cell& panel : grid.cells())
+    result.push_back({grid.wavenumber_at(panel.lower), panel.end, sum(panel.first, panel.count)});
+  const HeatGrid::Beyond& beyond = grid.beyond();
+  std::size_t first = beyond.first;
+  for (std::size_t i = 0; i < beyond.panel_nodes.size(); first += beyond.panel_nodes[i++])
+    result.push_back({beyond.ends[i], beyond.ends[i + 1], sum(first, beyond.panel_nodes[i])});
   return result;
 }
 

@@ -16,6 +16,8 @@ struct HotPoint {
   double temperature = 0;  // T(q1) [K]
   double macro_area = 0, gain = 0;
   int branches = 1;
+  Shift shift;
+  double g = 0;  // at q1
 };
 
 /// Solves each point on two grids, the second finer by two digits; their difference is the error of the first, and the
@@ -42,10 +44,11 @@ class FlashSolver {
   struct Level {
     std::unique_ptr<HeatGrid> grid;
     std::unique_ptr<FlashMap> map;
+    Eigen::MatrixXd up, down;  // between the level below and this one
   };
   FlashMap& map_of(std::size_t level);
+  [[nodiscard]] Eigen::VectorXd guess(double velocity) const;
   void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
-  [[nodiscard]] double outside_share(const FlashMap& map) const;
 
   const HeatScene& scene_;
   Branch branch_;
@@ -53,8 +56,15 @@ class FlashSolver {
   std::vector<Level> levels_;
   std::size_t first_level_ = 0, level_ = 0;  // of the coarser grid
   HeatPoint point_{};
-  FixedPoint before_;  // on grid `before_level_`, of the point before
-  std::size_t before_level_ = 0, finest_ = 0;
+  struct Solved {
+    double velocity;
+    std::size_t level;
+    Eigen::VectorXd theta;
+  };
+  std::vector<Solved> before_;  // the last two on the coarser grid, rising in velocity
+  Tangent tangent_;
+  Eigen::VectorXd theta_;  // of the last point on the finest grid
+  std::size_t finest_ = 0;
 };
 
 /// q_m: as given, or 2 pi / diameter held to the band.

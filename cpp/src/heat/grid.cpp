@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/partial_contact_rule.hpp"
+#include "spectrum/ring_gauss.hpp"
+
 namespace asperity {
 
 using std::numbers::pi;
@@ -34,16 +37,40 @@ double pieces_for(double length, double longest, std::size_t level, bool tabulat
 
 }  // namespace
 
-HeatGrid::HeatGrid(std::span<const Segment> surface, double poisson_ratio, std::span<const double> stops,
-                   std::size_t level, bool tabulated)
-    : lowest_(std::log(surface.front().a)), highest_(std::log(surface.back().b)) {
-  const double stiffening = 1 / (1 - poisson_ratio * poisson_ratio);
+HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& options)
+    : lowest_(std::log(surface.front().a)), highest_(std::log(surface.back().b)), end_of_band_(surface.back().b) {
+  const double stiffening = 1 / (1 - options.poisson_ratio * options.poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
   std::size_t first = 0;
   while (first + 1 < surface.size() && surface[first].at_a == 0 && surface[first].at_b == 0) ++first;
   start_ = std::log(surface[first].a);
-  const double longest = tabulated ? 0.5 : 3;
-  for (const Segment& segment : surface.subspan(first)) {
+  if (options.pieces)
+    add_pieces(*options.pieces);
+  else
+    add_panels(surface.subspan(first), options);
+  band_size_ = wavenumber_.size();
+  if (options.beyond_end) add_beyond(surface, options);
+  if (options.pieces) add_macro_nodes(surface.subspan(first), options.macro_wavenumber);
+  macro_weights_.resize(wavenumber_.size());
+  weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
+  macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
+  add_temperature_points(options);
+}
+
+void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOptions& options) {
+  const double longest = options.tabulated ? 0.5 : 3;
+  const auto nodes = [&](double length) { return nodes_for(length, options.level, false, options.tabulated); };
+  std::vector<double> stops = options.stops;
+  stops.push_back(options.macro_wavenumber);
+  if (options.beyond_end) {  // the window has kinks where it meets the ends of segments
+    constexpr std::size_t most_met = 40;
+    const double reach = std::exp(RoughnessWindow::half_length);
+    for (const Segment& segment : surface.size() <= most_met ? surface : surface.first(1))
+      for (const double q : {segment.a * reach, segment.b / reach, segment.a / reach, segment.b * reach})
+        stops.push_back(q);
+    stops.push_back(surface.back().b / reach);
+  }
+  for (const Segment& segment : surface) {
     std::vector<double> ends{segment.a};
     for (const double q : stops)
       if (q > segment.a * (1 + same) && q < segment.b * (1 - same)) ends.push_back(q);
@@ -51,38 +78,28 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, double poisson_ratio, std::
     std::ranges::sort(ends);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double lower = std::fmax(std::log(ends[i]) - start_, 0), upper = std::log(ends[i + 1]) - start_;
-      const double pieces = pieces_for(upper - lower, longest, level, tabulated);
+      const double pieces = pieces_for(upper - lower, longest, options.level, options.tabulated);
       for (double k = 1; k <= pieces; ++k) {
         const double from = lower + (upper - lower) * (k - 1) / pieces, to = lower + (upper - lower) * k / pieces;
         const double end = k == pieces ? ends[i + 1] : std::exp(start_ + to);
         if (from == 0)
-          add_front(segment, std::sqrt(to), end, level, tabulated);
+          add_front(segment, std::sqrt(to), end, options);
         else
-          add_panel(segment, std::sqrt(from), std::sqrt(to), end, nodes_for(to - from, level, false, tabulated));
+          add_panel(segment, std::sqrt(from), std::sqrt(to), end, nodes(to - from));
       }
     }
   }
-
-  const double length = highest_ - lowest_, off = 2 * pi / length;
-  const double falling = std::log(off + std::sqrt(1 + off * off));
-  const auto digits = static_cast<double>(first_digits + 2 * level);
-  const auto n = static_cast<std::size_t>(std::ceil(digits * std::numbers::ln10 / falling)) + 4;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double angle = pi * static_cast<double>(k) / static_cast<double>(n - 1);
-    points_.push_back(std::exp(lowest_ + length * std::pow(std::sin(angle / 2), 2)));
-  }
-  points_.front() = surface.front().a;
-  points_.back() = surface.back().b;
-  for (const double q : points_) log_points_.push_back(std::log(q));
-  to_nodes_.resize(static_cast<Eigen::Index>(size()), static_cast<Eigen::Index>(n));
-  for (std::size_t j = 0; j < size(); ++j) to_nodes_.row(static_cast<Eigen::Index>(j)) = row_at(wavenumber_[j]);
+  macro_weights_.assign(weights_.size(), 0.0);
+  for (const Cell& cell : cells_)
+    if (cell.end <= options.macro_wavenumber * (1 + same))
+      for (std::size_t i = cell.first; i < cell.first + cell.count; ++i) macro_weights_[i] = weights_[i];
 }
 
 /// The panel that begins where G is 0, cut in t at a quarter once more from level to level, so that two levels tell a
 /// front that is thinner than their nodes apart.
-void HeatGrid::add_front(const Segment& segment, double upper, double end, std::size_t level, bool tabulated) {
-  const std::size_t cuts = level > 1 ? level - 1 : 0;
-  const std::size_t n = std::min(nodes_for(upper * upper, level, true, tabulated), LegendreRule::most);
+void HeatGrid::add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options) {
+  const std::size_t cuts = options.level > 1 ? options.level - 1 : 0;
+  const std::size_t n = std::min(nodes_for(upper * upper, options.level, true, options.tabulated), LegendreRule::most);
   double lower = 0;
   for (std::size_t k = cuts; k > 0; --k) {
     const double to = upper * std::pow(0.25, static_cast<double>(k));
@@ -93,34 +110,154 @@ void HeatGrid::add_front(const Segment& segment, double upper, double end, std::
 }
 
 void HeatGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
-  const Panel panel{&legendre_rule(nodes), size(), lower, upper, end, &segment};
-  panels_.push_back(panel);
+  const LegendreRule& rule = legendre_rule(nodes);
+  const auto n = static_cast<Eigen::Index>(rule.n);
+  Cell cell{wavenumber_.size(), rule.n, &rule, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
   const double half = (upper - lower) / 2, from = start_ - std::log(segment.a);
-  for (std::size_t i = 0; i < panel.rule->n; ++i) {
-    const double t = lower + half * (1 + panel.rule->node[i]), q = std::exp(start_ + t * t);
+  const auto& columns = lower == 0 ? rule.cumulative_linear : rule.cumulative;
+  for (std::size_t j = 0; j < rule.n; ++j) {
+    const double t = lower + half * (1 + rule.node[j]), q = std::exp(start_ + t * t);
     const double s = std::clamp(from + t * t, 0.0, segment.length());
+    const double roughness = g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t);
     wavenumber_.push_back(q);
-    roughness_.push_back(g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t));
+    weights_.push_back(roughness * rule.weight[j]);
+    for (std::size_t i = 0; i < rule.n; ++i)
+      cell.to_g(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = columns[j][i] * roughness;
   }
+  cells_.push_back(std::move(cell));
+}
+
+void HeatGrid::add_pieces(const RoughnessPieces& pieces) {
+  const RoughnessPieces::Nodes& nodes = pieces.nodes();
+  for (std::size_t i = 0; i < nodes.wavenumber.size(); i += 2) {
+    Cell cell{i, 2, nullptr, 0, 0, end_of_band_, nullptr, Eigen::MatrixXd(2, 2)};
+    for (const std::size_t k : {i, i + 1}) {
+      wavenumber_.push_back(nodes.wavenumber[k]);
+      weights_.push_back(g_factor_ * nodes.weight[k]);
+      const auto row = static_cast<Eigen::Index>(k - i);
+      cell.to_g(row, 0) = g_factor_ * nodes.of_first[k];
+      cell.to_g(row, 1) = g_factor_ * nodes.of_second[k];
+    }
+    cells_.push_back(std::move(cell));
+  }
+}
+
+void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOptions& options) {
+  const RoughnessWindow& window = options.pieces ? options.pieces->window() : beyond_.of_surface.emplace(surface);
+  beyond_.g_factor = g_factor_;
+  if (options.pieces) {
+    for (const double mean : options.pieces->nodes().window) beyond_.window.push_back(g_factor_ * mean);
+  } else {
+    for (const double q : wavenumber_) beyond_.window.push_back(g_factor_ * window(std::fmin(q, end_of_band_)));
+  }
+  beyond_.window_at_end = g_factor_ * window(end_of_band_);
+  beyond_.whole = g_factor_ * window.total();
+  beyond_.share_of_end = window.share_of_end();
+  beyond_.first = wavenumber_.size();
+  const double end = end_of_band_ * partial_contact::tail_end;
+  std::vector<double> ends{end_of_band_, end};
+  for (const double q : options.stops)
+    if (q > end_of_band_ * (1 + same) && q < end * (1 - same)) ends.push_back(q);
+  std::ranges::sort(ends);
+  std::vector<double> weight;
+  beyond_.ends.push_back(end_of_band_);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double length = std::log(ends[i + 1] / ends[i]);
+    const double pieces = pieces_for(length, options.tabulated ? 0.5 : 2, options.level, options.tabulated);
+    for (double k = 0; k < pieces; ++k) {
+      const double lower = std::log(ends[i]) + length * (k / pieces), half = length / pieces / 2;
+      const LegendreRule& rule = legendre_rule(nodes_for(2 * half, options.level, false, options.tabulated));
+      for (std::size_t j = 0; j < rule.n; ++j) {
+        const double q = std::exp(lower + half * (1 + rule.node[j]));
+        wavenumber_.push_back(q);
+        weight.push_back(half * rule.weight[j] * std::pow(q / end_of_band_, -partial_contact::tail_power));
+      }
+      beyond_.panel_nodes.push_back(rule.n);
+      beyond_.ends.push_back(k + 1 == pieces ? ends[i + 1] : std::exp(lower + 2 * half));
+    }
+  }
+  beyond_.count = weight.size();
+  beyond_.weight = Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
+  wavenumber_.push_back(end_of_band_);
+  highest_ = std::log(end);
+  macro_weights_.resize(wavenumber_.size());
+}
+
+/// Gauss rules of the roughness, with which I2 is integrated up to q_m.
+void HeatGrid::add_macro_nodes(std::span<const Segment> surface, double wavenumber) {
+  constexpr double longest = 1;
+  constexpr std::size_t most_nodes = 10;
+  const double length = std::log(wavenumber) - start_;
+  if (!(length > 0)) return;
+  const double stretches = std::ceil(length / longest);
+  macro_weights_.resize(wavenumber_.size());
+  const LegendreRule& rule = legendre_rule(8);
+  std::size_t index = 0;
+  for (double k = 0; k < stretches; ++k) {
+    const double lower = start_ + length * (k / stretches), upper = start_ + length * ((k + 1) / stretches);
+    std::vector<double> x, weight;
+    while (index + 1 < surface.size() && std::log(surface[index].b) <= lower) ++index;
+    for (std::size_t i = index; i < surface.size(); ++i) {
+      const Segment& segment = surface[i];
+      const double begin = std::log(segment.a), from = std::fmax(begin, lower),
+                   to = std::fmin(std::log(segment.b), upper);
+      if (from >= upper) break;
+      if (!(to > from)) continue;
+      const double steps = std::ceil(std::fmax(1, (to - from) * (4 + std::fabs(segment.slope)) / 4));
+      for (double step = 0; step < steps; ++step)
+        for (std::size_t j = 0; j < rule.n; ++j) {
+          const double half = (to - from) / steps / 2, at = from + half * (1 + 2 * step + rule.node[j]);
+          const double q = std::exp(at), s = std::clamp(at - begin, 0.0, segment.length());
+          const double part = half * rule.weight[j] * (q * q) * (q * q) * segment.density_at(s);
+          if (!(part > 0)) continue;
+          x.push_back((2 * at - lower - upper) / (upper - lower));
+          weight.push_back(part);
+        }
+    }
+    if (x.empty()) continue;
+    std::vector<double> rows(Jacobi::most * x.size());
+    const NodeRule nodes = gauss(orthonormal(weight, x, rows), most_nodes);
+    for (std::size_t j = 0; j < nodes.count; ++j) {
+      wavenumber_.push_back(std::exp((lower + upper + nodes.x[j] * (upper - lower)) / 2));
+      macro_weights_.push_back(g_factor_ * nodes.measure[j]);
+    }
+  }
+}
+
+void HeatGrid::add_temperature_points(const HeatGridOptions& options) {
+  const double length = highest_ - lowest_, off = 2 * pi / length;
+  const double falling = std::log(off + std::sqrt(1 + off * off));
+  const auto digits = static_cast<double>(first_digits + 2 * options.level);
+  const auto n = static_cast<std::size_t>(std::ceil(digits * std::numbers::ln10 / falling)) + 4;
+  constexpr double rounding = 1e-12;
+  const std::optional<double>& also = options.also_felt;
+  if (also && (std::log(*also) < lowest_ - rounding || std::log(*also) > highest_ + rounding)) {
+    points_.push_back(*also);
+    first_point_ = 1;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const double angle = pi * static_cast<double>(k) / static_cast<double>(n - 1);
+    points_.push_back(std::exp(lowest_ + length * std::pow(std::sin(angle / 2), 2)));
+  }
+  for (const double q : points_) log_points_.push_back(std::log(q));
+  to_nodes_.resize(static_cast<Eigen::Index>(size()), static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t j = 0; j < size(); ++j) to_nodes_.row(static_cast<Eigen::Index>(j)) = row_at(wavenumber_[j]);
+  if (!also) return;
+  also_felt_ =
+      first_point_ == 1 ? Eigen::RowVectorXd::Unit(static_cast<Eigen::Index>(points_.size()), 0).eval() : row_at(*also);
 }
 
 // The barycentric form at Chebyshev's points: weights 1 with alternating signs, 1/2 at the ends.
 Eigen::RowVectorXd HeatGrid::row_at(double wavenumber) const {
-  const auto n = static_cast<Eigen::Index>(points_.size());
-  Eigen::RowVectorXd row(n);
-  const double at = std::log(wavenumber);
-  for (Eigen::Index k = 0; k < n; ++k) {
+  const auto n = static_cast<Eigen::Index>(points_.size()), first = static_cast<Eigen::Index>(first_point_);
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
+  const double at = std::clamp(std::log(wavenumber), lowest_, highest_);  // but for rounding it is so
+  for (Eigen::Index k = first; k < n; ++k) {
     const double apart = at - log_points_[static_cast<std::size_t>(k)];
     if (std::fabs(apart) < 1e-15 * std::fmax(1, std::fabs(at))) return Eigen::RowVectorXd::Unit(n, k);
-    row[k] = (k % 2 == 0 ? 1.0 : -1.0) * (k == 0 || k == n - 1 ? 0.5 : 1.0) / apart;
+    row[k] = ((k - first) % 2 == 0 ? 1.0 : -1.0) * (k == first || k == n - 1 ? 0.5 : 1.0) / apart;
   }
   return row / row.sum();
-}
-
-std::size_t HeatGrid::panels_below(double wavenumber) const {
-  std::size_t below = 0;
-  while (below < panels_.size() && panels_[below].end <= wavenumber * (1 + same)) ++below;
-  return below;
 }
 
 double HeatGrid::wavenumber_at(double t) const { return std::exp(start_ + t * t); }

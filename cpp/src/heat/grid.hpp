@@ -3,57 +3,100 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "numerics/gauss_legendre.hpp"
+#include "spectrum/roughness_pieces.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
 
-/// Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root that F(G) has behind the front is smooth,
-/// and Chebyshev's points in ln q, both ends among them, for the temperature, which is analytic within pi of the real
-/// axis.
+struct HeatGridOptions {
+  double poisson_ratio = 0.5;
+  std::size_t level = 0;                           // a level more is two digits more
+  bool tabulated = false;                          // the rubber has knots: panels are shorter
+  double macro_wavenumber = 0;                     // at which G is asked for [1/m]
+  std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
+  bool beyond_end = false;                         // PartialContact carries stress beyond the end of the spectrum
+  std::optional<double> also_felt = std::nullopt;  // a temperature point that may lie outside of the band [1/m]
+  const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
+};
+
+/// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root
+/// that F(G) has behind the front is smooth, or pieces of rings with two nodes each. Behind the nodes of the band
+/// follow those beyond its end, and those that G at q_m is taken from. The temperature is an unknown at Chebyshev's
+/// points in ln q, both ends among them, as it is analytic within pi of the real axis.
 class HeatGrid {
  public:
-  struct Panel {
-    const LegendreRule* rule;
-    std::size_t first;    // of its nodes
-    double lower, upper;  // in t
-    double end;           // q at the upper end [1/m]
+  struct Cell {
+    std::size_t first, count;  // of its nodes
+    const LegendreRule* rule;  // none on a piece
+    double lower, upper;       // of a panel, in t
+    double end;                // q at its upper end [1/m]
     const Segment* segment;
+    Eigen::MatrixXd to_g;  // from I2 at the nodes to G there at unit pressure, less that at the lower end
   };
 
-  /// Panels end at `stops` [1/m] too. A level more is two digits more; with knots in the rubber panels are shorter.
-  HeatGrid(std::span<const Segment> surface, double poisson_ratio, std::span<const double> stops, std::size_t level,
-           bool tabulated);
+  HeatGrid(std::span<const Segment> surface, const HeatGridOptions& options);
 
   [[nodiscard]] std::size_t size() const { return wavenumber_.size(); }
-  [[nodiscard]] const std::vector<Panel>& panels() const { return panels_; }
+  [[nodiscard]] std::size_t band_size() const { return band_size_; }
+  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }  // [1/m], of the nodes
-  /// dG/du at I2 = 1 and unit pressure, u from -1 to 1 on a panel.
-  [[nodiscard]] const std::vector<double>& roughness() const { return roughness_; }
-  /// Points of the temperature [1/m], rising from q0 to q1.
+  /// dG at I2 = 1 and unit pressure of each node of the band, with the weights of the rule.
+  [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
+  /// G at q_m as a sum over I2 of all nodes.
+  [[nodiscard]] const Eigen::VectorXd& macro_weight() const { return macro_weight_; }
+  /// Points of the temperature [1/m]; the last is the upper end.
   [[nodiscard]] const std::vector<double>& temperature_points() const { return points_; }
   /// From values at those points to values at the nodes.
   [[nodiscard]] const Eigen::MatrixXd& to_nodes() const { return to_nodes_; }
   /// The row that takes values at the points to that at a wavenumber.
   [[nodiscard]] Eigen::RowVectorXd row_at(double wavenumber) const;
-  /// The number of panels below a wavenumber, which must be the end of one.
-  [[nodiscard]] std::size_t panels_below(double wavenumber) const;
+  /// Whether the first of the points is beside the band.
+  [[nodiscard]] bool lone_point() const { return first_point_ == 1; }
+  /// The row of `also_felt`.
+  [[nodiscard]] const Eigen::RowVectorXd& also_felt() const { return also_felt_; }
   /// q at t.
   [[nodiscard]] double wavenumber_at(double t) const;
   [[nodiscard]] double t_at(double wavenumber) const;
 
+  /// What PartialContact asks for. c is q^4 C with the factor of dG / dln q.
+  struct Beyond {
+    std::size_t first = 0, count = 0;  // of the nodes beyond the end; the one behind them is the end itself
+    Eigen::VectorXd weight;            // dln x x^-3 of them, x = q / q1
+    std::vector<double> window;        // mean of c about each node of the band
+    double window_at_end = 0, whole = 0, share_of_end = 0;  // whole: int c dln q
+    std::vector<double> ends;                               // of panels, from q1 on [1/m]
+    std::vector<std::size_t> panel_nodes;
+    std::optional<RoughnessWindow> of_surface;  // with panels
+    [[nodiscard]] double window_at(double q) const { return g_factor * (*of_surface)(q); }
+    double g_factor = 0;
+  };
+  [[nodiscard]] const Beyond& beyond() const { return beyond_; }
+
  private:
-  void add_front(const Segment& segment, double upper, double end, std::size_t level, bool tabulated);
+  void add_panels(std::span<const Segment> surface, const HeatGridOptions& options);
+  void add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options);
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
+  void add_pieces(const RoughnessPieces& pieces);
+  void add_beyond(std::span<const Segment> surface, const HeatGridOptions& options);
+  void add_macro_nodes(std::span<const Segment> surface, double wavenumber);
+  void add_temperature_points(const HeatGridOptions& options);
 
   double g_factor_, start_;  // ln q where the roughness begins
-  double lowest_, highest_;  // ln q0, ln q1
-  std::vector<Panel> panels_;
-  std::vector<double> wavenumber_, roughness_, points_, log_points_;
+  double lowest_, highest_;  // ln q of the temperature's ends
+  double end_of_band_;       // [1/m]
+  std::size_t band_size_ = 0, first_point_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<double> wavenumber_, points_, log_points_;
+  Eigen::VectorXd weight_, macro_weight_;
   Eigen::MatrixXd to_nodes_;
+  Eigen::RowVectorXd also_felt_;
+  std::vector<double> weights_, macro_weights_;
+  Beyond beyond_;
 };
 
 /// int l_j du from -1 to u, l_j the polynomial that is 1 at node j of the rule.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "asperity/watch.hpp"
+#include "contact/correction.hpp"
 #include "numerics/gauss_legendre.hpp"
 
 namespace asperity {
@@ -106,12 +107,17 @@ double distance_to_last(const std::vector<double>& values, double step) {
 }  // namespace
 
 double sliding_length(const HeatScene& scene, const HeatPoint& point) {
-  const HeatGrid grid(scene.surface, scene.model.poisson_ratio, std::vector<double>{scene.macro_wavenumber}, level,
-                      std::holds_alternative<MasterCurve>(scene.rubber));
+  const HeatGrid grid(scene.surface, {.poisson_ratio = scene.model.poisson_ratio,
+                                      .level = level,
+                                      .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
+                                      .macro_wavenumber = scene.macro_wavenumber,
+                                      .beyond_end = std::holds_alternative<PartialContact>(scene.model.correction),
+                                      .also_felt = asperity_wavenumber(scene.model.correction, scene.spectrum)});
   FlashMap map(scene, grid);
   map.start(point);
   const double reach = scene.heating.contact_diameter / (scene.heating.residence == Residence::box ? 2 : 1);
   const Response after = response(scene, grid, reach / point.velocity);
+  const Eigen::RowVectorXd at_end = grid.row_at(scene.surface.back().b);
   std::vector<VectorXd> nodes;
   std::vector<double> surface, mu, rise;
   VectorXd theta = VectorXd::Zero(static_cast<Index>(grid.temperature_points().size()));
@@ -135,7 +141,7 @@ double sliding_length(const HeatScene& scene, const HeatPoint& point) {
     nodes.push_back(map.heat_of_nodes());
     surface.push_back(map.heat_of_surface());
     mu.push_back(map.hysteresis() + map.adhesion());
-    rise.push_back(theta[theta.size() - 1]);
+    rise.push_back(at_end.dot(theta));
   }
   const double step = reach / static_cast<double>(steps_a_length);
   constexpr double told = 1e-6;  // of mu

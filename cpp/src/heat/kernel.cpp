@@ -64,6 +64,64 @@ double HeatKernel::operator()(const Place& felt, const Place& heated) const {
   return time_ * x * x * y / sum * mean;
 }
 
+// The mean of a smooth function over a thousandth of its argument: that of its values at two Gauss nodes.
+double HeatKernel::near(double felt, double heated) const {
+  const double x = 2 * felt * length_, y = 2 * heated * length_, sum = x + y, apart = y - x;
+  constexpr double node = 0.57735026918962576;
+  double mean = 0;
+  for (const double side : {-node, node}) {
+    const double z = sum / 2 + apart / 2 * side;
+    mean += heat_functions(residence_, z).q / (2 * z * z);
+  }
+  return time_ * x * x * y / sum * mean;
+}
+
+namespace {
+
+constexpr double near_in_table = 0.004;  // |q - q'| / (q + q'), where differences keep twelve digits
+
+}  // namespace
+
+HeatKernelTable::HeatKernelTable(std::span<const double> felt, std::span<const double> heated)
+    : felt_(felt.begin(), felt.end()), heated_(heated.begin(), heated.end()) {
+  using Eigen::Index;
+  factor_.resize(static_cast<Index>(felt.size()), static_cast<Index>(heated.size()));
+  for (Index j = 0; j < factor_.cols(); ++j)
+    for (Index i = 0; i < factor_.rows(); ++i) {
+      const double a = felt[static_cast<std::size_t>(i)], b = heated[static_cast<std::size_t>(j)];
+      const double apart = b - a, sum = a + b;
+      if (std::fabs(apart) > near_in_table * sum) {
+        factor_(i, j) = 2 * (a * a) * (b * b) / (apart * sum);
+      } else {
+        factor_(i, j) = 0;
+        near_.push_back({i, j});
+      }
+    }
+}
+
+void HeatKernelTable::fill(const Heating& heating, double velocity, Eigen::MatrixXd& table, Eigen::VectorXd& surface) {
+  using Eigen::Index;
+  const HeatKernel kernel(heating, velocity);
+  psi_felt_.resize(factor_.rows());
+  psi_heated_.resize(factor_.cols());
+  surface.resize(factor_.rows());
+  for (Index i = 0; i < factor_.rows(); ++i) {
+    const HeatKernel::Place place = kernel.at(felt_[static_cast<std::size_t>(i)]);
+    psi_felt_[i] = place.psi;
+    surface[i] = kernel.from_surface(place);
+  }
+  for (Index j = 0; j < factor_.cols(); ++j) psi_heated_[j] = kernel.at(heated_[static_cast<std::size_t>(j)]).psi;
+  // t x^2 y q' (psi - psi') / (y^2 - x^2)
+  table.resize(factor_.rows(), factor_.cols());
+  for (Index j = 0; j < factor_.cols(); ++j)
+    table.col(j).array() =
+        kernel.time() * kernel.length() * factor_.col(j).array() * (psi_felt_.array() - psi_heated_[j]);
+  for (const auto& [i, j] : near_) {
+    const double q = felt_[static_cast<std::size_t>(i)], heated = heated_[static_cast<std::size_t>(j)];
+    table(i, j) = heated * kernel.near(q, heated);
+  }
+}
+
 std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime, double velocity,
                                 const Heating& heating) {
   validate(heating);

@@ -1,6 +1,10 @@
 // The temperature that one roughness feels from the heat of another, at one velocity.
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
 #include "heat/universal.hpp"
 
 namespace asperity {
@@ -17,12 +21,33 @@ class HeatKernel {
   [[nodiscard]] Place at(double wavenumber) const;
   /// g [s].
   [[nodiscard]] double operator()(const Place& felt, const Place& heated) const;
+  /// The same of wavenumbers that differ by less than a hundredth.
+  [[nodiscard]] double near(double felt, double heated) const;
+  [[nodiscard]] double time() const { return time_; }      // t [s]
+  [[nodiscard]] double length() const { return length_; }  // l [m]
   /// 2 q t N(2 q l) [s/m], the same from a unit of heat at the surface itself: the limit q' -> inf of g times q'.
   [[nodiscard]] double from_surface(const Place& felt) const { return felt.x * felt.x * felt.psi * time_ / length_; }
 
  private:
   Residence residence_;
   double time_, length_;
+};
+
+/// q' g(q, q') of many pairs of wavenumbers, of which what knows no velocity is kept.
+class HeatKernelTable {
+ public:
+  HeatKernelTable(std::span<const double> felt, std::span<const double> heated);
+  /// Rows are those that feel, columns those that heat; `surface` is `from_surface` of the former.
+  void fill(const Heating& heating, double velocity, Eigen::MatrixXd& table, Eigen::VectorXd& surface);
+
+ private:
+  struct Pair {
+    Eigen::Index felt, heated;
+  };
+  std::vector<double> felt_, heated_;
+  Eigen::MatrixXd factor_;  // 2 q^2 q'^2 / (q'^2 - q^2) [1/m^2], 0 where both are near each other
+  std::vector<Pair> near_;
+  Eigen::VectorXd psi_felt_, psi_heated_;
 };
 
 }  // namespace asperity

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from asperity.article.flash import cold, heated, hot_columns, rise
 from asperity.article.inputs import (
     ADHESION,
     ASPHALT_PRESSURE,
@@ -23,6 +24,7 @@ from asperity.correction import Correction, GreenwoodWilliamson, SFactor
 from asperity.friction import Friction, friction
 from asperity.plot.curves import new_figure
 from asperity.plot.style import palette
+from asperity.spectrum import SelfAffineSpectrum
 
 # The article's q1, and that of the rule it cites.
 _CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
@@ -36,11 +38,9 @@ _Row = tuple[str, str, float, str, str]  # quantity, symbol, value, unit, source
 def compute(inputs: Inputs) -> Mapping[str, Mapping[str, Friction]]:
     """Friction over velocity, by cut-off and by correction: plain Persson ("original"), IGW in both
     readings, and the S factor with gamma 0.4 and 0.5."""
-    road = inputs.asphalt
     corrections: dict[str, Correction | None] = {"original": None}
     corrections |= {reading: _of_asphalt(inputs, reading) for reading in READINGS}
     corrections |= {f"gamma {gamma}": SFactor(gamma=gamma) for gamma in (0.4, 0.5)}
-    surfaces = dict(zip(_CUTOFFS, (road, road.truncated(q1=road.cutoff_for_slope())), strict=True))
     return {
         name: {
             which: friction(
@@ -53,8 +53,13 @@ def compute(inputs: Inputs) -> Mapping[str, Mapping[str, Friction]]:
             )
             for which, correction in corrections.items()
         }
-        for name, surface in surfaces.items()
+        for name, surface in _surfaces(inputs).items()
     }
+
+
+def _surfaces(inputs: Inputs) -> Mapping[str, SelfAffineSpectrum]:
+    road = inputs.asphalt
+    return dict(zip(_CUTOFFS, (road, road.truncated(q1=road.cutoff_for_slope())), strict=True))
 
 
 def _of_asphalt(inputs: Inputs, reading: Reading) -> GreenwoodWilliamson:
@@ -86,7 +91,16 @@ def findings(inputs: Inputs) -> Findings:
                 rising.size == 0, share=100 * _at(share, _SHARES), rising=rising
             )
     article, rule = (theories["original"].hysteresis for theories in curves.values())
-    found["F4"][""] = Finding(cutoff=rule / article)
+    hot = heated(_surfaces(inputs), _VELOCITY)
+    found["F4"][""] = Finding(
+        cutoff=rule / article,
+        heat=np.stack([one.hysteresis / cold(one).hysteresis for one in hot.values()]).ravel(),
+    )
+    changed = [one.mu / cold(one).mu - 1 for one in hot.values()]
+    found["F5"][""] = Finding(
+        heat=np.concatenate([_at(change, _SHARES) for change in changed]),
+        rise=np.concatenate([_at(rise(one), _SHARES) for one in hot.values()]),
+    )
     return found
 
 
@@ -98,7 +112,7 @@ def _at(values: Array, velocity: Sequence[float]) -> Array:
 def fig15(inputs: Inputs) -> dict[str, bytes]:
     """The original theory and the modified one."""
     figure, panels = new_figure(2)
-    found = compute(inputs)
+    found, hot = compute(inputs), heated(_surfaces(inputs), _VELOCITY)
     curves = found[_CUTOFFS[0]]
     theories = {"original": "(a) original theory", "implicit": "(b) modified, IGW"}
     for axes, (name, title) in zip(panels, theories.items(), strict=True):
@@ -108,10 +122,18 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
             ("adhesion", curves[name].adhesion, "--", palette()[4]),
         ):
             axes.plot(_VELOCITY, values, dash, color=colour, label=label)
+        if name == "original":
+            axes.plot(
+                _VELOCITY,
+                hot[_CUTOFFS[0]].mu,
+                ":",
+                color=palette()[0],
+                label="total, with flash heat",
+            )
         axes.text(
             0.03,
             0.96,
-            "measured points of the article's\nFig. 15 are not at hand: none shown",
+            "measured points of\nthe article's Fig. 15\nare not at hand:\nnone shown",
             transform=axes.transAxes,
             va="top",
             fontsize="small",
@@ -122,7 +144,7 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
             "upper right",
             xscale="log",
             xlim=(_VELOCITY[0], _VELOCITY[-1]),
-            ylim=(0, 1.4 * np.max(curves["original"].mu)),
+            ylim=(0, 1.5 * np.max(curves["original"].mu)),
             xlabel="Sliding velocity $v$ [m/s]",
             ylabel=r"Friction coefficient $\mu$ [-]",
         )
@@ -134,6 +156,7 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
                 "cutoff": cutoff,
                 "velocity_m_s": _VELOCITY,
                 **{value: getattr(theories[which], value) for value in _VALUES},
+                **(hot_columns(hot[cutoff]) if which == "original" else {}),
             }
             for cutoff, theories in found.items()
             for which in names
@@ -147,7 +170,7 @@ def table1(inputs: Inputs) -> dict[str, bytes]:
     """Table 1 as printed, and what follows from it."""
     from matplotlib.transforms import Bbox
 
-    rows = [*_parameters(inputs), *_frictions(compute(inputs))]
+    rows = [*_parameters(inputs), *_frictions(compute(inputs)), *_hot_rows(inputs)]
     figure, (axes,) = new_figure(1)
     figure.set_size_inches(8.4, 0.27 * len(rows) + 0.6)
     axes.set_axis_off()
@@ -217,4 +240,17 @@ def _frictions(curves: Mapping[str, Mapping[str, Friction]]) -> list[_Row]:
     factors = _at(curves[_CUTOFFS[0]]["implicit"].shift_factor, _LISTED).tolist()
     for v, factor in zip(_LISTED, factors, strict=True):
         rows.append((f"shift factor at {v:g} m/s", "$p_T$", factor, "-", "implicit"))
+    return rows
+
+
+def _hot_rows(inputs: Inputs) -> list[_Row]:
+    rows: list[_Row] = []
+    for cutoff, hot in heated(_surfaces(inputs), _VELOCITY).items():
+        source = f"cut off at {cutoff}"
+        risen = rise(hot)
+        for v, mu, kelvin in zip(_LISTED, _at(hot.mu, _LISTED), _at(risen, _LISTED), strict=True):
+            rows.append((f"friction at {v:g} m/s, original, flash heat", r"$\mu$", mu, "-", source))
+            rows.append(
+                (f"rise at {v:g} m/s, original, flash heat", r"$T(q_1) - T_0$", kelvin, "K", source)
+            )
     return rows

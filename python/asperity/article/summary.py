@@ -5,6 +5,7 @@ from importlib.resources import files
 
 from asperity._core import __version__
 from asperity.article import compounds, inputs
+from asperity.article.flash import TREAD
 from asperity.article.inputs import Inputs
 from asperity.article.readings import PRINTED
 from asperity.article.statement import VERDICTS, Findings, fill
@@ -49,6 +50,9 @@ def markdown(given: Inputs, found: Findings, statements: Rows) -> str:
         printed=PRINTED.values(),
         inputs=inputs,
         compounds=compounds,
+        flash=TREAD,
+        diameter=1e3 * TREAD.contact_diameter,
+        share=100 * TREAD.interface_share,
     )
     parts = [f"{OPENING}{__version__} article`. {opening.strip()}"]
     tested = [row for row in statements if row["criterion"]]

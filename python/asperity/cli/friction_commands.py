@@ -23,6 +23,7 @@ from asperity.io.fields import MOST_ROWS, rename_in_errors
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
+from asperity.plot import friction as plot_friction
 from asperity.plot import surface as plot_surface
 from asperity.plot.style import drawn_in
 from asperity.scene import scan
@@ -34,23 +35,23 @@ from asperity.surface import HeightMap
 
 
 def demo(args: Namespace) -> None:
-    """Write the shipped scan and scene, compute and draw them, show the curve."""
+    """Write the shipped scan and scenes, compute and draw the hot one, show the curve."""
     directory = FilePath(args.output)
     check_directory(directory, FILES, force=args.force)
     files = input_files()
     with TemporaryDirectory() as aside:
         write_files({FilePath(aside) / name: data for name, data in files.items()})
-        scene = load_scene(FilePath(aside) / "scene.toml")
-    scene = replace(scene, path=directory / "scene.toml")
+        scene = load_scene(FilePath(aside) / "hot.toml", for_friction=True)
+    scene = replace(scene, path=directory / "hot.toml")
     table, curves = _friction_table([scene], bands=True)
     files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
         with drawn_in(args.style):
-            files[picture.name] = plot.friction_figure([scene], curves, picture)
+            files[picture.name] = plot_friction.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
-    shown = ("velocity_m_s", "mu", "hysteresis", "adhesion", "contact_area")
+    shown = ("velocity_m_s", "mu", "mu_cold", "hysteresis", "adhesion", "hot_temperature_k")
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
@@ -70,7 +71,7 @@ def friction(args: Namespace) -> None:
     scenes = [scene for file in files for scene in (file, *file.others)]
     refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = _friction_table(scenes, bands=args.plot is not None)
-    write_outputs(args, table, lambda path: plot.friction_figure(scenes, curves, path))
+    write_outputs(args, table, lambda path: plot_friction.friction_figure(scenes, curves, path))
 
 
 def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
@@ -114,7 +115,7 @@ def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str
 
 def _curves(scene: Scene, *, band: bool) -> Curves:
     curves = scene.friction(progress(f"{scene.path}"))
-    if not (band and scene.has_errors) or scene.heating is not None:
+    if not (band and scene.has_errors):
         return curves
     return curves.within(scene.band(curves.mu, band_progress(scene)))
 

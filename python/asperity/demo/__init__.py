@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 
-FILES = ("scan.npy", "scene.toml", "friction.csv", "friction.png")
+FILES = ("scan.npy", "scene.toml", "hot.toml", "friction.csv", "friction.png")
 PIXEL_SIZE = (110e-6, 90e-6)  # dy, dx [m]
 SHAPE = (480, 640)
 
@@ -30,11 +30,21 @@ def scan() -> NDArray[np.float32]:
 
 def scene_text() -> str:
     """The scene file, as it ships."""
-    return files(__package__).joinpath("scene.toml").read_text(encoding="utf-8")
+    return _shipped("scene.toml")
+
+
+def hot_scene_text() -> str:
+    """The same scene with the heat of sliding."""
+    return f"{scene_text()}\n{_shipped('heating.toml')}"
+
+
+def _shipped(name: str) -> str:
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def input_files() -> dict[str, bytes]:
-    """Content of the scan and of the scene, by file name."""
+    """Content of the scan and of the scenes, by file name."""
     out = io.BytesIO()
     np.save(out, scan())
-    return {"scan.npy": out.getvalue(), "scene.toml": scene_text().encode()}
+    scenes = {"scene.toml": scene_text(), "hot.toml": hot_scene_text()}
+    return {"scan.npy": out.getvalue(), **{name: one.encode() for name, one in scenes.items()}}

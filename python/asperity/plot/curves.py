@@ -1,7 +1,6 @@
-"""Figures for a paper: friction over velocity, area over magnification (matplotlib)."""
+"""Figures for a paper: what all have in common, and area over magnification (matplotlib)."""
 
 import io
-import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.plot.labels import MOST_NAMED, legend_beside, legend_inside, name_curves
+from asperity.plot.labels import MOST_NAMED, legend_inside, name_curves
 from asperity.plot.style import colours, grey, narrow, palette, shades
-from asperity.scene.scene import Curves, Scene
+from asperity.scene.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,12 +20,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMATS = (".png", ".svg", ".pdf")
-_MOST_SHADED = 3  # curves whose model error can be told apart
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
 _COLUMN = 3.4  # inches, of a journal of two columns
 _DASHES = ("-", "--", ":", "-.")
-_PRESSURE, _VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
+PRESSURE, VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
 
 
 def check_plot(path: Path) -> None:
@@ -41,131 +39,6 @@ def check_plot(path: Path) -> None:
         ) from error
 
 
-def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
-    """mu over velocity (over pressure, where only that varies), a colour a pressure or scene; with
-    heat also mu without it, and a panel of the rise of the temperature."""
-    heated = any(result.mu_cold is not None for result in results)
-    figure, (axes, *beside) = new_figure(2 if heated else 1)
-    over_pressure = all(s.velocity.size == 1 and s.pressure.size > 1 for s in scenes)
-    adhesive = any(scene.adhesion is not None for scene in scenes)
-    kinds = {"total": "-", "hysteresis": "--", "adhesion": ":"} if adhesive else {"total": "-"}
-    names = _names(scenes)
-    curves: list[tuple[str, NDArray[np.float64], list[NDArray[np.float64]], Any]] = []
-    off: list[NDArray[np.float64]] = []  # of each curve, how far the model may be
-    numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
-    for name, scene, result in zip(names, scenes, results, strict=True):
-        values = [result.mu, result.hysteresis, result.adhesion, *(result.band or ())]
-        assert result.model_error is not None
-        model = result.model_error * result.hysteresis
-        off += list(model.T if over_pressure else model)
-        loads = [pressure_text(float(pressure)) for pressure in scene.pressure]
-        if over_pressure:
-            values = [array.T for array in values]
-            loads = [f"{float(scene.velocity[0]):.4g} m/s"]
-        for row, load in enumerate(loads):
-            label = f"{_plain(name)}, {load}" if name else load
-            x = scene.pressure if over_pressure else scene.velocity
-            lines = [array[row] for array in values]
-            curves.append((label, x, lines[:3], lines[3:]))
-    many = len(curves) > MOST_ENTRIES
-    tints: Sequence[Any] = colours(len(curves))
-    if many and len(scenes) == 1:
-        tints = list(shaded(axes, scenes[0].pressure, _PRESSURE))
-    elif many:
-        named(axes, [label for label, *_ in curves])
-    hatched = len(curves) <= _MOST_SHADED and any(np.isfinite(one).any() for one in off)
-    for (label, x, lines, band), model, colour in zip(curves, off, tints, strict=True):
-        order = np.argsort(x)
-        if hatched:
-            mu = lines[0][order]
-            around = (np.fmax(mu - model[order], 0), mu + model[order])
-            axes.fill_between(x[order], *around, **_hatch(colour))
-        if band:
-            low, high = (bound[order] for bound in band)
-            axes.fill_between(x[order], low, high, color=colour, alpha=0.2, linewidth=0)
-        for y, (kind, dashes) in zip(lines, kinds.items(), strict=False):
-            axes.plot(
-                x[order],
-                y[order],
-                dashes,
-                color=colour,
-                linewidth=1.8 if kind == "total" else 1.2,
-                marker="o" if x.size == 1 else None,
-                label=label if kind == "total" and not many else None,
-            )
-    for rise_axes in beside:
-        _draw_heat(axes, rise_axes, scenes, results, tints, over_pressure)
-    if adhesive:
-        for kind, dashes in kinds.items():
-            axes.plot([], [], dashes, color=grey(0.3), label=kind)
-    drawn = zip(scenes, results, strict=True)
-    for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
-        label = band_text(level)
-        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
-    if hatched:
-        axes.fill_between(
-            [], [], **_hatch(grey(0.3)), label="model error, from exact\nsliding contacts"
-        )
-        label = f"numerical error below {_power_above(numerical)},\ntoo small to see"
-        axes.plot([], [], linestyle="", label=label)
-    axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
-    axes.set_ylabel("Friction coefficient $\\mu$ [-]")
-    if axes.get_legend_handles_labels()[1]:
-        legend_beside(figure)
-    return picture(figure, path)
-
-
-def _power_above(error: float) -> str:
-    """The power of ten above an error."""
-    return f"$10^{{{math.ceil(math.log10(max(error, 1e-16)))}}}$"
-
-
-def _hatch(colour: Any) -> dict[str, Any]:
-    return {"facecolor": "none", "edgecolor": colour, "hatch": "////", "alpha": 0.4, "linewidth": 0}
-
-
-def _names(scenes: Sequence[Scene]) -> list[str]:
-    """What tells scenes apart: their files, and temperatures where a file has several."""
-    paths = {scene.path for scene in scenes}
-    short = len({path.name for path in paths}) == len(paths)
-    names = []
-    for scene in scenes:
-        file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
-        several = sum(other.path == scene.path for other in scenes) > 1
-        names.append(", ".join(file + ([f"{scene.temperature:.4g} K"] if several else [])))
-    return names
-
-
-def _draw_heat(
-    axes: "Axes",
-    beside: "Axes",
-    scenes: Sequence[Scene],
-    results: Sequence[Curves],
-    tints: Sequence[Any],
-    over_pressure: bool,
-) -> None:
-    """mu without heat, and the rise of the temperature beside it, in the colours of the curves."""
-    row = iter(tints)
-    for scene, result in zip(scenes, results, strict=True):
-        x = scene.pressure if over_pressure else scene.velocity
-        order = np.argsort(x)
-        lines = scene.velocity.size if over_pressure else scene.pressure.size
-        for i, colour in zip(range(lines), row, strict=False):
-            if result.mu_cold is None or result.hot_temperature is None:
-                continue
-            rise = result.hot_temperature - (scene.temperature or 0.0)
-            cold, risen = (a[:, i] if over_pressure else a[i] for a in (result.mu_cold, rise))
-            axes.plot(x[order], cold[order], "-.", color=colour, linewidth=1.0)
-            beside.plot(x[order], risen[order], color=colour, linewidth=1.8)
-    axes.plot([], [], "-.", color=grey(0.3), linewidth=1.0, label="without heat")
-    beside.set_xscale("log")
-    beside.set_ylim(bottom=0)
-    beside.set_xlabel(_PRESSURE if over_pressure else _VELOCITY)
-    beside.set_ylabel("Rise of the temperature at $q_1$ [K]")
-
-
 def area_figure(
     scene: Scene, wavenumber: NDArray[np.float64], area: NDArray[np.float64], path: Path
 ) -> bytes:
@@ -174,8 +47,8 @@ def area_figure(
     magnifications, as in the article's Fig. 1. Of more than four line styles four are drawn."""
     figure, (axes, right) = new_figure(2)
     sweeps = [
-        (scene.velocity, _VELOCITY, "{:.3g} m/s".format),
-        (scene.pressure, _PRESSURE, pressure_text),
+        (scene.velocity, VELOCITY, "{:.3g} m/s".format),
+        (scene.pressure, PRESSURE, pressure_text),
     ]
     if scene.pressure.size > scene.velocity.size:
         sweeps.reverse()
@@ -294,12 +167,6 @@ def picture(figure: "Figure", path: Path) -> bytes:
         warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
         figure.savefig(out, format=kind, dpi=300, metadata=undated)
     return out.getvalue()
-
-
-def _plain(name: str) -> str:
-    """A file name as a legend shows it: no formula, not hidden, nothing that is no text."""
-    name = name.encode(errors="backslashreplace").decode().replace("$", r"\$")
-    return f"./{name}" if name.startswith("_") else name
 
 
 def band_text(level: float) -> str:

@@ -1,6 +1,5 @@
 """Temperatures of a scene, and what heat needs to start from."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +29,7 @@ def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None
     return [float(one) for one in kelvin]
 
 
-def check_heated(
-    path: Path, tables: Mapping[str, Any], temperature: float | None, rubber: BuiltRubber
-) -> None:
+def check_heated(path: Path, temperature: float | None, rubber: BuiltRubber) -> None:
     """Refuse heat where it has nothing to start from, or where nothing follows it."""
     if temperature is None:
         problem = "needs [conditions] temperature_k or temperature_c, from which the rubber warms"
@@ -42,5 +39,3 @@ def check_heated(
             problem = "must be left out where [heating] is given: its model has no b_T"
             refuse(path, "[rubber] vertical_shift", problem)
         refuse(path, "[heating]", "needs [rubber] shift, or wlf_c1 and wlf_c2_k")
-    if "uncertainty" in tables:
-        refuse(path, "[uncertainty]", "must be left out where [heating] is given: bands are cold")

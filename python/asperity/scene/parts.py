@@ -1,7 +1,6 @@
 """Correction and adhesion of a scene, each built from its table."""
 
 from collections.abc import Mapping
-from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -76,19 +75,15 @@ _HEATING = {
     "residence": Field(text, "residence"),
     "interface_share": Field(number, "interface_share"),
 }
+HEATING_NAMES = names_of("heating", _HEATING)
 
 
 def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
     values = read_table(path, "heating", table, _HEATING)
     require(path, "heating", values, tuple(_HEATING)[:4])
-    with heating_in_errors(path):
+    with rename_in_errors(path, HEATING_NAMES):
         heating = Heating(**arguments(values, _HEATING))
     return heating, _with_defaults(values, _HEATING, heating)
-
-
-def heating_in_errors(path: Path) -> AbstractContextManager[None]:
-    """Let errors of the core name the keys of [heating]."""
-    return rename_in_errors(path, names_of("heating", _HEATING))
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:

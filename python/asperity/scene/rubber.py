@@ -33,7 +33,13 @@ from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.shift_factors import WLF, ShiftFactors, TemperatureShift
-from asperity.uncertainty.draws import Drawn, Generator, draw_build
+from asperity.uncertainty.draws import (
+    Drawn,
+    Generator,
+    ShiftedRubber,
+    draw_build,
+    drawn_shifted,
+)
 
 Values = dict[str, Any]
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
@@ -93,6 +99,8 @@ class BuiltRubber:
     drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
     shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
     at_reference: Rubber | None = None
+    temperature: float | None = None  # [K], at which the rubber is wanted
+    drawn_at_reference: Drawn[ShiftedRubber] | None = None  # with its shift
 
 
 def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
@@ -105,14 +113,15 @@ def build_rubber(path: Path, table: object, temperature: float | None = None) ->
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
     if temperature is None:
         with _blaming_celsius(values):
-            return _build(path, source, _in_kelvin(path, values))
+            kelvin = _in_kelvin(path, values)
+            return replace(_build(path, source, kelvin), temperature=kelvin.get("temperature_k"))
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
     with _blaming_celsius(values), _blaming_conditions():
         built = _build(path, source, {**_in_kelvin(path, values), "temperature_k": temperature})
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
-    return replace(built, values=used)
+    return replace(built, values=used, temperature=temperature)
 
 
 def _build(path: Path, source: str, values: Values) -> BuiltRubber:
@@ -142,7 +151,12 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
         return _without_errors(rubber, values)
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: shift holds a_T of several")
     shifted = rubber.shifted(_shift_factor(path, shifts, values))
-    return replace(_without_errors(shifted, values), shift=shifts, at_reference=rubber)
+    return replace(
+        _without_errors(shifted, values),
+        shift=shifts,
+        at_reference=rubber,
+        drawn_at_reference=drawn_shifted(rubber, shifts),
+    )
 
 
 def _in_kelvin(path: Path, values: Values) -> Values:
@@ -217,15 +231,16 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
         return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
 
-    heatable = values.get("vertical_shift") is None  # the model of heat has no b_T
-    return BuiltRubber(
-        rubber,
-        values,
-        [*build.notes, *notes],
-        Drawn[Rubber](rubber, draw),
-        build if heatable else None,
-        _at_temperature(path, _at_reference(values), build, extrapolation)[0] if heatable else None,
-    )
+    made = BuiltRubber(rubber, values, [*build.notes, *notes], Drawn[Rubber](rubber, draw))
+    if values.get("vertical_shift") is not None:  # the model of heat has no b_T
+        return made
+
+    def shifted(build: MasterCurveBuild, beyond: str | None) -> ShiftedRubber:
+        return ShiftedRubber(_at_temperature(path, _at_reference(values), build, beyond)[0], build)
+
+    plain = shifted(build, extrapolation)
+    drawn = Drawn(plain, lambda rng: shifted(draw_build(build, rng), "prony"))
+    return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
 
 
 def _at_reference(values: Values) -> Values:

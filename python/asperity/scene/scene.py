@@ -16,7 +16,7 @@ from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import path_of
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
-from asperity.friction import Friction, friction
+from asperity.friction import ROUGHLY, Friction, friction
 from asperity.heating import Heating
 from asperity.io import plausible
 from asperity.io.fields import (
@@ -35,18 +35,20 @@ from asperity.io.fields import (
     text,
 )
 from asperity.io.files import check_file
+from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.parts import (
+    HEATING_NAMES,
     build_adhesion,
     build_correction,
     build_heating,
-    heating_in_errors,
 )
 from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
 from asperity.scene.surface import Surface, build_surface
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
+from asperity.uncertainty.draws import Drawn, ShiftedRubber
 
 _POINTS = {
     "pressure_pa": Field(sweep, "pressure", plausible.PRESSURE),
@@ -165,11 +167,10 @@ class Scene:
                 shift=self.built_rubber.shift,
                 heating=self.heating,
             )
-        with heating_in_errors(self.path) if self.heating else nullcontext():
-            parts: list[Friction] = self._at_points(compute, progress)
+        parts: list[Friction] = self._at_points(compute, progress)
         shape = (self.pressure.size, self.velocity.size)
-        notes = dict.fromkeys(self.notes)
-        notes |= dict.fromkeys(note for part in parts for note in part.notes)
+        found = dict.fromkeys(note for part in parts for note in part.notes)
+        notes = dict.fromkeys([*self.notes, *self._with_size_of_heat([*found])])
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in (*COLUMNS, "model_error")
@@ -179,6 +180,51 @@ class Scene:
             columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
             columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
         return Curves(notes=list(notes), band=None, **columns)
+
+    def _with_size_of_heat(self, notes: Sequence[str]) -> Sequence[str]:
+        """Let the note on heat that is left out say how much that is, where a_T is known."""
+        built = self.built_rubber
+        shift, rubber, temperature = built.shift, built.at_reference, built.temperature
+        if shift is None or rubber is None or temperature is None:
+            return notes
+        pressure, velocity = self.points
+
+        def heated_at(i: int, heating: Heating) -> Friction:
+            return friction(
+                self.spectrum,
+                rubber,
+                pressure=pressure[i],
+                velocity=velocity[i],
+                temperature=temperature,
+                shift=shift,
+                heating=heating,
+                correction=self.correction,
+                adhesion=self.adhesion,
+                **{**self.options, "rtol": ROUGHLY},
+            )
+
+        return with_size_of_heat(notes, velocity, self.adhesion is not None, heated_at)
+
+    def rise_over_roughness(
+        self, velocity: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Wavenumbers [1/m], and T(q) - T0 [K] there at each velocity and the first pressure."""
+        built = self.built_rubber
+        assert built.at_reference is not None
+        found = friction(
+            self.spectrum,
+            built.at_reference,
+            pressure=self.pressure[0],
+            velocity=velocity,
+            temperature=self.temperature,
+            shift=built.shift,
+            heating=self.heating,
+            correction=self.correction,
+            adhesion=self.adhesion,
+            contributions=True,
+            **{**self.options, "rtol": ROUGHLY},
+        )
+        return _known(found.wavenumber), _known(found.temperature_profile) - self.temperature
 
     @property
     def asks_for_band(self) -> bool:
@@ -201,18 +247,20 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
+        options = {name: self.options[name] for name in ("poisson_ratio", "form")}
+        options["correction"] = self.correction
+        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
+        if self.heating is not None:
+            options |= {"temperature": self.temperature, "heating": self.heating}
+            rubber = _known(self.built_rubber.drawn_at_reference)
         with rename_in_errors(self.path, {**_NAMES, **names_of("uncertainty", _UNCERTAINTY)}):
             band = swept_band(
                 self.surface.drawn,
-                self.built_rubber.drawn,
+                rubber,
                 self.adhesion,
                 self.pressure,
                 self.velocity,
-                {
-                    "poisson_ratio": self.options["poisson_ratio"],
-                    "form": self.options["form"],
-                    "correction": self.correction,
-                },
+                options,
                 progress=progress,
                 refit=refit,
                 **self.sampling,
@@ -239,7 +287,8 @@ class Scene:
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
         rubber = self.built_rubber.at_reference if self.heating else self.rubber
-        with progress(chunks) as shown, rename_in_errors(self.path, _NAMES):
+        names = _NAMES | (HEATING_NAMES if self.heating else {})
+        with progress(chunks) as shown, rename_in_errors(self.path, names):
             return [
                 compute(
                     self.spectrum,
@@ -336,7 +385,7 @@ def _load(path: Path, for_friction: bool) -> Scene:
     heating = None
     if "heating" in tables:
         heating, inputs["heating"] = build_heating(path, tables["heating"])
-        check_heated(path, tables, temperatures[0], rubber)
+        check_heated(path, temperatures[0], rubber)
     inputs["solver"] = solver
     sampling = {"samples": 100, "seed": 0, "level": 0.95}
     if "uncertainty" in tables:

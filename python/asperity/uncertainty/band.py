@@ -15,12 +15,22 @@ from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Correction
 from asperity.dma import MasterCurveBuild
-from asperity.friction import friction
+from asperity.friction import Branch, friction, known_shift
+from asperity.heating import Heating
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.self_affine_fit import SelfAffineFit
+from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
-from asperity.uncertainty.draws import Drawn, Generator, draw_adhesion, drawn_rubber, drawn_spectrum
+from asperity.uncertainty.draws import (
+    Drawn,
+    Generator,
+    ShiftedRubber,
+    draw_adhesion,
+    drawn_rubber,
+    drawn_shifted,
+    drawn_spectrum,
+)
 
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
 
@@ -99,6 +109,10 @@ def friction_band(
     seed: int = 0,
     level: float = 0.95,
     threads: int = 1,
+    temperature: ArrayLike | None = None,
+    shift: TemperatureShift | None = None,
+    heating: Heating | None = None,
+    branch: Branch = "cold",
 ) -> FrictionBand:
     """Return a band on mu, from the standard errors of its measured inputs.
 
@@ -127,6 +141,9 @@ def friction_band(
         Share of the draws between the two curves, in (0, 1).
     threads : int
         As many at most compute the curves of the draws. The band is the same for any of them.
+    temperature, shift, heating, branch
+        As for `friction`. The shift of a build is drawn with its master curve, unless `shift` gives
+        another, which is held; so are the constants of the heating, which have no errors here.
 
     Returns
     -------
@@ -150,31 +167,38 @@ def friction_band(
             "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
             "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
         )
-    shape, columns = broadcast(pressure=pressure, velocity=velocity)
-    points = [np.atleast_1d(column) for column in columns]
-    p, v = (shaped(column, shape) for column in points)
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {
         "poisson_ratio": poisson_ratio,
         "correction": correction,
         "form": form,
+        "heating": heating,
+        "branch": branch,
     }
-    mu = friction(plain, solid.plain, pressure=p, velocity=v, adhesion=adhesion, **options).mu
+    given_at: dict[str, Any] = {"pressure": pressure, "velocity": velocity}
+    if temperature is not None:
+        given_at["temperature"] = temperature
+    found = friction(plain, solid.plain, adhesion=adhesion, shift=shift, **given_at, **options)
+    shape, columns = broadcast(**given_at)
+    drawn: Drawn[Rubber] | Drawn[ShiftedRubber] = solid
+    if temperature is not None:
+        known = shift if isinstance(rubber, MasterCurveBuild) else known_shift(rubber, shift)
+        drawn = drawn_shifted(rubber, known)
     band = relative_band(
         surface,
-        solid,
+        drawn,
         adhesion,
-        {**options, "pressure": points[0], "velocity": points[1]},
+        options | dict(zip(given_at, map(np.atleast_1d, columns), strict=True)),
         samples=samples,
         seed=seed,
         level=level,
         threads=threads,
     )
     return FrictionBand(
-        lower=mu * shaped(band.lower, shape),
-        upper=mu * shaped(band.upper, shape),
-        pressure=p,
-        velocity=v,
+        lower=found.mu * shaped(band.lower, shape),
+        upper=found.mu * shaped(band.upper, shape),
+        pressure=found.pressure,
+        velocity=found.velocity,
         level=float(level),
         samples=int(samples),
         notes=band.notes,
@@ -183,7 +207,7 @@ def friction_band(
 
 def relative_band(
     spectrum: Drawn[Spectrum],
-    rubber: Drawn[Rubber],
+    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
     options: dict[str, Any],
     *,
@@ -205,15 +229,18 @@ def relative_band(
         raise InvalidInput(f"level = {level}: must be in (0, 1)")
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
-    centre = friction(spectrum.plain, rubber.plain, adhesion=adhesion, **options).mu
 
-    def draw() -> tuple[Spectrum, Rubber, Adhesion | None]:
+    def draw() -> tuple[Spectrum, Rubber | ShiftedRubber, Adhesion | None]:
         surface, solid = spectrum(rng), rubber(rng)
-        of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, solid, rng)
+        plain = solid.rubber if isinstance(solid, ShiftedRubber) else solid
+        of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, plain, rng)
         return surface, solid, of_draw
 
-    def curve(surface: Spectrum, solid: Rubber, of_draw: Adhesion | None) -> Any:
-        return friction(surface, solid, adhesion=of_draw, **options).mu
+    def curve(surface: Spectrum, solid: Rubber | ShiftedRubber, of_draw: Adhesion | None) -> Any:
+        plain, shift = solid if isinstance(solid, ShiftedRubber) else (solid, None)
+        return friction(surface, plain, shift=shift, adhesion=of_draw, **options).mu
+
+    centre = curve(spectrum.plain, rubber.plain, adhesion)
 
     found: list[Any] = []
     problem: Exception | None = None
@@ -240,7 +267,7 @@ def _left_out(failed: int, samples: int, problem: Exception) -> str:
 
 def swept_band(
     spectrum: Drawn[Spectrum],
-    rubber: Drawn[Rubber],
+    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
     pressure: NDArray[np.float64],
     velocity: NDArray[np.float64],

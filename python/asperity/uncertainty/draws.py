@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -11,13 +11,23 @@ from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.dma import MasterCurveBuild, draw_master_curve
 from asperity.rubber import MasterCurve, Rubber
 from asperity.self_affine_fit import SelfAffineFit
+from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 
 if TYPE_CHECKING:
     Generator = np.random.Generator  # which NumPy loads when it is asked for
 else:
     Generator = "numpy.random.Generator"
-Input = TypeVar("Input", Spectrum, Rubber)
+
+
+class ShiftedRubber(NamedTuple):
+    """A rubber at the reference of its shift."""
+
+    rubber: Rubber
+    shift: TemperatureShift
+
+
+Input = TypeVar("Input", Spectrum, Rubber, ShiftedRubber)
 
 _ROWS_PER_DECADE = 10.0  # of a measured spectrum whose errors are carried through
 
@@ -90,6 +100,20 @@ def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
         return draw_build(source, rng).master_curve
 
     return Drawn[Rubber](source.master_curve, draw)
+
+
+def drawn_shifted(
+    source: Rubber | MasterCurveBuild, shift: TemperatureShift | None
+) -> Drawn[ShiftedRubber]:
+    """A rubber with a shift; of a build, which has one, both are drawn together."""
+    if not isinstance(source, MasterCurveBuild):
+        assert shift is not None
+        return Drawn(ShiftedRubber(source, shift))
+
+    def of(build: MasterCurveBuild) -> ShiftedRubber:
+        return ShiftedRubber(build.master_curve, build if shift is None else shift)
+
+    return Drawn(of(source), lambda rng: of(draw_build(source, rng)))
 
 
 def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:

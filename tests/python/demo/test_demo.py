@@ -48,7 +48,7 @@ def test_its_spectrum_is_table_1s() -> None:
 
 
 def test_demo_leaves_what_it_says(finished: Path) -> None:
-    wanted = {"scan.npy", "scene.toml", "friction.csv"}
+    wanted = {"scan.npy", "scene.toml", "hot.toml", "friction.csv"}
     if importlib.util.find_spec("matplotlib") is not None:
         wanted.add("friction.png")
     assert {path.name for path in finished.iterdir()} == wanted
@@ -68,6 +68,12 @@ def test_demo_curve_is_a_friction_curve(finished: Path) -> None:
     assert 0 < peak < 28  # bell-shaped
     assert 0.3 < table["mu"][peak] < 3
     assert np.all(np.diff(table["contact_area"]) < 0)  # stiffer with speed
+    rise = table["hot_temperature_k"] - table["temperature_k"]
+    assert np.all(np.diff(rise) > 0)
+    assert 5 < rise[-1] < 50
+    assert table["mu"][-1] < 0.95 * table["mu_cold"][-1]  # at 10 m/s
+    assert table["mu"][0] == pytest.approx(table["mu_cold"][0], rel=1e-3)
+    assert "not modelled" not in text
 
 
 def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -78,7 +84,7 @@ def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.Mon
         drawn.extend(results)  # the band is narrower than the line: no pixel shows it
         return b""
 
-    monkeypatch.setattr("asperity.plot.curves.friction_figure", watch)
+    monkeypatch.setattr("asperity.plot.friction.friction_figure", watch)
     assert main(["demo", "--output", str(tmp_path)]) == 0
     (curves,) = drawn
     assert curves.band is not None
@@ -101,7 +107,7 @@ def test_demo_runs_twice_and_prints_where(
 def test_demo_overwrites_nothing_unless_told_to(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ("scan.npy", "scene.toml", "friction.csv", "friction.png"):
+    for name in ("scan.npy", "scene.toml", "hot.toml", "friction.csv", "friction.png"):
         (tmp_path / name).write_text("mine\n")
         assert main(["demo", "--output", str(tmp_path)]) == 2
         out, err = capsys.readouterr()
@@ -132,7 +138,7 @@ def test_demo_that_fails_leaves_what_was_there(
 
     monkeypatch.setattr("asperity.scene.scene.friction", fail)
     assert main(["demo", "--output", str(directory), "--force"]) == 1
-    line = f"asperity: {directory / 'scene.toml'}: mu = 1 with error 2\n"
+    line = f"asperity: {directory / 'hot.toml'}: mu = 1 with error 2\n"
     assert capsys.readouterr().err == line
     assert contents(tmp_path) == held
 
@@ -153,7 +159,7 @@ def test_demo_on_a_full_disk_leaves_no_half_of_a_file(
     line = f"asperity: {directory / 'friction.csv'}: cannot be written: No space left on device\n"
     assert capsys.readouterr().err == line
     # those before it are whole, and no part of it is left
-    assert {path.name for path in directory.iterdir()} == {"scan.npy", "scene.toml"}
+    assert {path.name for path in directory.iterdir()} == {"scan.npy", "scene.toml", "hot.toml"}
 
 
 @pytest.mark.parametrize("name", ["taken", "taken/below"])

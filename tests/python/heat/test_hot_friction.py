@@ -1,21 +1,13 @@
 """Friction that heats its rubber: values of two other programs, limits, honesty, refusals."""
 
-from functools import cache
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import asperity
 from helpers.cases import case, each
 from helpers.examples import TREAD
+from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
 
-REFERENCE = Path(__file__).parents[2] / "reference"
-LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-HEATING = asperity.Heating(**TREAD)
-STICKY = asperity.Adhesion(shear_stress=8.3e6, reference_velocity=6e-3, width=0.1)
-ASPHALT = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-CUT = ASPHALT.truncated(q1=23339.76848083597)
 KINDS = {
     "s_factor": {"correction": asperity.SFactor(gamma=0.5)},
     "interpolated": {"form": "interpolated"},
@@ -23,32 +15,6 @@ KINDS = {
     "macro_area_0.2": {"heating": asperity.Heating(**TREAD | {"macro_area": 0.2})},
     "adhesion": {"adhesion": STICKY},
 }
-
-
-@cache
-def rubber():
-    """The rubber that the comments of the table have."""
-    text = (REFERENCE / "flash.csv").read_text(encoding="utf-8").splitlines()
-    columns = {
-        line.split()[1]: [float(x) for x in line.split()[2:]]
-        for line in text
-        if line.startswith(("# moduli", "# relaxation_times"))
-    }
-    return asperity.PronySeries(equilibrium_modulus=2e6, **columns)
-
-
-def hot(spectrum=CUT, *, velocity, pressure=2e5, temperature=293.15, shift=LAW, **more):
-    given = {"heating": HEATING, "rtol": 1e-9} | more
-    compound = given.pop("rubber", None) or rubber()
-    return asperity.friction(
-        spectrum,
-        compound,
-        pressure=pressure,
-        velocity=velocity,
-        temperature=temperature,
-        shift=shift,
-        **given,
-    )
 
 
 def of_row(row, **more):
@@ -265,10 +231,6 @@ def test_points_do_not_depend_on_the_threads_that_share_them():
     [
         ({"shift": None, "temperature": None}, "heating: needs temperature="),
         ({"method": "qag"}, "method: must be gauss where heating is given"),
-        (
-            {"correction": asperity.GreenwoodWilliamson(z_max=1e-3, z_min=-1e-3)},
-            "correction: must be None, SFactor",
-        ),
         (
             {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})},
             "interface_share = 0.2: must be 1, its default, where there is no adhesion",

@@ -152,18 +152,18 @@ def test_the_hatched_band_is_the_model_error_of_the_hysteresis(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("matplotlib")
-    from asperity.plot import curves
+    from asperity.plot import friction
     from asperity.scene.scene import load_scene
 
     drawn: list[Any] = []
-    monkeypatch.setattr(curves, "picture", lambda figure, path: drawn.append(figure))
+    monkeypatch.setattr(friction, "picture", lambda figure, path: drawn.append(figure))
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     scene = load_scene(tmp_path / "scene.toml")
     found = scene.friction()
     assert found.model_error is not None
     known = np.isfinite(found.model_error[0])
     assert known.any()
-    curves.friction_figure([scene], [found], tmp_path / "mu.png")
+    friction.friction_figure([scene], [found], tmp_path / "mu.png")
     (axes,) = drawn[0].axes
     hatched = [shape for shape in axes.collections if shape.get_hatch() and shape.get_paths()]
     corners = np.concatenate([path.vertices for path in hatched[0].get_paths()])

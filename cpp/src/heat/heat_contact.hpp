@@ -1,0 +1,85 @@
+// Which part each node has in the friction, by the theory of the contact.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "contact/s_factor.hpp"
+#include "contact/solver/contact_integral.hpp"
+#include "heat/grid.hpp"
+
+namespace asperity {
+
+/// What the nodes' temperatures make of the rubber there.
+struct NodeModulus {
+  Eigen::VectorXd i2, ratio;  // I2 [Pa^2], I1 / I2 [1/Pa]
+};
+
+/// Slopes of their logarithms along directions in which the temperature changes, a column each, and that of the scale
+/// of G.
+struct ModulusSlopes {
+  Eigen::MatrixXd i2, ratio;
+  Eigen::RowVectorXd scale;
+};
+
+/// The same of the result.
+struct ContactSlopes {
+  Eigen::MatrixXd part;            // of each node, not of its logarithm
+  Eigen::RowVectorXd area, macro;  // dA / A0, dP_m
+};
+
+/// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
+class HeatContact {
+ public:
+  explicit HeatContact(const HeatGrid& grid) : grid_(grid) {}
+  HeatContact(const HeatContact&) = delete;
+  HeatContact(HeatContact&&) = delete;
+  HeatContact& operator=(const HeatContact&) = delete;
+  HeatContact& operator=(HeatContact&&) = delete;
+  virtual ~HeatContact() = default;
+
+  /// A new point, whose numbers shall not depend on the one before.
+  virtual void start() {}
+  /// `scale` is 1 / (sigma0 p_T)^2.
+  virtual void evaluate(const NodeModulus& modulus, double scale) = 0;
+  /// Of the last evaluation.
+  virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
+  /// dmu_H / dln q over 4 (1 - nu^2) sigma0 where G has the slope `rate` over ln q, at u in [-1, 1] of a panel.
+  [[nodiscard]] virtual double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
+                                       double rate) const = 0;
+
+  [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
+  [[nodiscard]] double area() const { return area_; }                              // A / A0 at q1
+  [[nodiscard]] double macro_area() const { return macro_; }                       // P at q_m
+  [[nodiscard]] double g() const { return g_edge_.empty() ? 0 : g_edge_.back(); }  // at q1
+
+ protected:
+  /// G at the nodes, the ends of cells and q_m.
+  void add_up(const NodeModulus& modulus, double scale);
+  /// The same of slopes of ln I2; its own scale's are added.
+  struct GSlopes {
+    Eigen::MatrixXd node;  // of the band
+    Eigen::MatrixXd edge;  // a row an end of a cell, the first at G = 0
+    Eigen::RowVectorXd macro;
+  };
+  void add_up(const ModulusSlopes& along, GSlopes& slopes) const;
+  /// G at u on a panel.
+  [[nodiscard]] double g_on(std::size_t panel, double u) const;
+
+  const HeatGrid& grid_;
+  double scale_ = 0, area_ = 0, macro_ = 1, g_macro_ = 0;
+  Eigen::VectorXd i2_, ratio_, g_, part_;
+  std::vector<double> g_edge_;
+};
+
+/// Persson's P with S, or the rule of PartialContact.
+std::unique_ptr<HeatContact> heat_contact(const ContactModel& model, const Spectrum& spectrum,
+                                          std::span<const Segment> surface, const HeatGrid& grid);
+
+/// The rule of PartialContact.
+std::unique_ptr<HeatContact> partial_heat_contact(const HeatGrid& grid);
+
+}  // namespace asperity

@@ -1,0 +1,185 @@
+// The rule of PartialContact (contact/partial_contact_rule.hpp) where each node has a temperature of its own: kappa is
+// a function of all of them by the sum rule, and so are the stresses of all waves. Slopes come from that rule
+// implicitly. The stress beyond the end of the spectrum heats and is heated too.
+#include <cmath>
+#include <numbers>
+
+#include "contact/partial_contact_rule.hpp"
+#include "contact/solver/partial_solver.hpp"
+#include "heat/heat_contact.hpp"
+
+namespace asperity {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+namespace {
+
+class PartialHeat final : public HeatContact {
+ public:
+  explicit PartialHeat(const HeatGrid& grid) : HeatContact(grid) {}
+  void start() override { kappa_ = usual_kappa; }
+  void evaluate(const NodeModulus& modulus, double scale) override;
+  void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
+  [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
+                               double rate) const override;
+
+ private:
+  [[nodiscard]] partial_contact::AtEnd rule(double log_g, double excess) const {
+    return {std::exp(log_g) * kappa_ * g_unit_ * scale_,
+            kappa_,
+            {partial_contact::end_factor(grid_.beyond().share_of_end), excess}};
+  }
+  [[nodiscard]] Index end_node() const { return static_cast<Index>(grid_.beyond().first + grid_.beyond().count); }
+
+  double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0;
+  VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q1) of those beyond
+};
+
+double share_of(double g) { return g > 0 ? std::erf(0.5 / std::sqrt(g)) : 1; }
+
+/// d ln A / d ln G
+double share_slope(double g, double share) {
+  if (!(g > 0)) return 0;
+  const double s = 0.5 / std::sqrt(g);
+  return -s * std::exp(-s * s) * std::numbers::inv_sqrtpi / share;
+}
+
+void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
+  add_up(modulus, 1);
+  scale_ = scale;
+  const HeatGrid::Beyond& beyond = grid_.beyond();
+  const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
+  const double i2_at_end = i2_[end_node()];
+  g_unit_ = g_edge_.back();
+  part_.setZero(i2_.size());
+  if (g_unit_ == 0) {
+    area_ = macro_ = 1;
+    return;
+  }
+  // rho is 1 or more where the modulus rises with the wavenumber; heat may make it fall, and then nothing is stiff
+  excess_ = std::fmax(0, 1 - g_unit_ / (beyond.whole * i2_at_end));
+  in_tail_.resize(count);
+  for (Index t = 0; t < count; ++t)
+    in_tail_[t] =
+        beyond.weight[t] * i2_[first + t] * std::pow(i2_[first + t] / i2_at_end, partial_contact::tail_excess);
+
+  VectorXd floored = g_.cwiseMax(1e-300 / scale);
+  const VectorXd weight = grid_.weight().cwiseProduct(i2_.head(n));
+  VectorXd steepness(n), stress(n);
+  for (Index j = 0; j < n; ++j) steepness[j] = beyond.window[static_cast<std::size_t>(j)] * i2_[j];
+  PartialEnd end;
+  end.g = g_unit_;
+  end.window = beyond.window_at_end;
+  end.band = {partial_contact::end_factor(beyond.share_of_end), excess_};
+  end.tail.i2 = in_tail_.sum();
+  end.tail.i1 = in_tail_.dot(ratio_.segment(first, count));
+  const PartialNodes nodes{floored.data(), steepness.data(), weight.data(), ratio_.data(), static_cast<std::size_t>(n)};
+  constexpr double to_rounding = 1e-15;
+  kappa_ = partial_root(nodes, end, scale, to_rounding, kappa_, stress.data()).kappa;
+
+  const partial_contact::AtEnd at = rule(0, excess_);
+  edges_ = at.edges.value;
+  obstacle_ = at.obstacle.value;
+  share_.resize(n);
+  of_waves_.resize(n);
+  for (Index j = 0; j < n; ++j) {
+    const double a = share_[j] = share_of(kappa_ * scale * g_[j]);
+    of_waves_[j] = obstacle_ * scale * steepness[j] * a * a;
+    part_[j] = scale * weight[j] * ratio_[j] * partial_contact::stress(a, of_waves_[j]);
+  }
+  part_.segment(first, count) =
+      scale * edges_ * beyond.window_at_end * in_tail_.cwiseProduct(ratio_.segment(first, count));
+  area_ = at.share;
+  macro_ = share_of(kappa_ * scale * g_macro_);
+  // as the others have it, at the load
+  g_ *= scale;
+  g_macro_ *= scale;
+  for (double& g : g_edge_) g *= scale;
+}
+
+void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
+  const HeatGrid::Beyond& beyond = grid_.beyond();
+  const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
+  const Index directions = along.i2.cols();
+  result.part.setZero(part_.size(), directions);
+  result.area = result.macro = RowVectorXd::Zero(directions);
+  if (g_unit_ == 0) return;
+  GSlopes slopes;
+  add_up(along, slopes);
+  const double g1 = kappa_ * g_edge_.back();
+  const RowVectorXd log_g1 = slopes.edge.bottomRows(1) / g_edge_.back(), at_end = along.i2.row(end_node());
+  const RowVectorXd excess = (excess_ > 0 ? excess_ - 1 : 0) * (log_g1 - at_end);
+
+  // the rule at a fixed kappa, by differences over ln G1 and the excess
+  constexpr double step = 1e-4;
+  const partial_contact::AtEnd at = rule(0, excess_), more = rule(step, excess_), less = rule(-step, excess_);
+  const auto by_g = [&](const partial_contact::Factor& upper, const partial_contact::Factor& lower) {
+    return upper.value > 0 && lower.value > 0 ? std::log(upper.value / lower.value) / (2 * step) : 0;
+  };
+  const double obstacle_by_g = by_g(more.obstacle, less.obstacle), edges_by_g = by_g(more.edges, less.edges),
+               spread_by_g = by_g(more.spread, less.spread);
+  const double spread_by_excess =
+      std::log(rule(0, excess_ + step).spread.value / rule(0, excess_ - step).spread.value) / (2 * step);
+
+  // d ln R of each node: along the directions at a fixed kappa, and over ln kappa
+  MatrixXd log_stress(n, directions);
+  VectorXd by_kappa(n);
+  RowVectorXd variance = RowVectorXd::Zero(directions);
+  double sum = 0, variance_by_kappa = 0;
+  for (Index j = 0; j < n; ++j) {
+    const double slope = share_slope(kappa_ * g_[j], share_[j]), z = of_waves_[j], passed = 2 * z / (1 + z);
+    by_kappa[j] = slope - passed * (at.obstacle.log_slope + 2 * slope);
+    if (g_[j] > 0)
+      log_stress.row(j) = (slope * (1 - 2 * passed) / g_[j]) * slopes.node.row(j);
+    else
+      log_stress.row(j).setZero();
+    log_stress.row(j) -= passed * (obstacle_by_g * log_g1 + along.i2.row(j));
+    const double part = ratio_[j] > 0 ? part_[j] / ratio_[j] : 0;  // R dG
+    variance += part * (along.i2.row(j) + log_stress.row(j));
+    variance_by_kappa += part * by_kappa[j];
+    sum += part;
+  }
+  constexpr double tail = partial_contact::tail_excess;
+  const double per_tail = scale_ * edges_ * beyond.window_at_end;
+  for (Index t = 0; t < count; ++t) {
+    const double part = per_tail * in_tail_[t];
+    variance += part * (edges_by_g * log_g1 + (1 + tail) * along.i2.row(first + t) - tail * at_end);
+    variance_by_kappa += part * at.edges.log_slope;
+    sum += part;
+  }
+  // ln(F spread) - ln variance stays 0
+  const double integral_by_g = g1 * at.share / at.integral;
+  const RowVectorXd residual = (integral_by_g + spread_by_g) * log_g1 + spread_by_excess * excess - variance / sum;
+  const double residual_by_kappa = integral_by_g + at.spread.log_slope - variance_by_kappa / sum;
+  const RowVectorXd log_kappa = residual / -residual_by_kappa;
+
+  for (Index j = 0; j < n; ++j)
+    result.part.row(j) =
+        part_[j] * (along.ratio.row(j) + along.i2.row(j) + log_stress.row(j) + by_kappa[j] * log_kappa);
+  for (Index t = first; t < first + count; ++t)
+    result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end +
+                                     edges_by_g * log_g1 + at.edges.log_slope * log_kappa);
+  result.area = at.share_slope * (log_g1 + log_kappa);
+  if (g_macro_ > 0)
+    result.macro = macro_ * share_slope(kappa_ * g_macro_, macro_) * (slopes.macro / g_macro_ + log_kappa);
+}
+
+double PartialHeat::density(std::size_t panel, double u, double wavenumber, double i1, double i2, double rate) const {
+  const HeatGrid::Beyond& beyond = grid_.beyond();
+  const double end = beyond.ends.front();
+  if (g_unit_ == 0) return 0;
+  if (wavenumber > end)
+    return scale_ * edges_ * beyond.window_at_end * i1 * std::pow(i2 / i2_[end_node()], partial_contact::tail_excess) *
+           std::pow(wavenumber / end, -partial_contact::tail_power);
+  const double a = share_of(kappa_ * g_on(panel, u));
+  return rate * (i1 / i2) * partial_contact::stress(a, obstacle_ * scale_ * beyond.window_at(wavenumber) * i2 * a * a);
+}
+
+}  // namespace
+
+std::unique_ptr<HeatContact> partial_heat_contact(const HeatGrid& grid) { return std::make_unique<PartialHeat>(grid); }
+
+}  // namespace asperity

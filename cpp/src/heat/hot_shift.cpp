@@ -1,0 +1,53 @@
+// p_T2 of Eqs 16 to 21 depends on the temperature by E* = |E(q0 v a_T(T))| / (1 - nu^2) alone.
+#include "heat/hot_shift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/correction.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double hottest = 1000;  // [K], to which a search for a temperature may go
+
+}  // namespace
+
+ShiftValue held_shift(const TemperatureShift& shift, double temperature) {
+  double at = std::fmin(temperature, hottest);
+  if (const auto* table = std::get_if<ShiftTable>(&shift))
+    at = std::clamp(at, table->temperature().front(), table->temperature().back());
+  ShiftValue value = shift_at(shift, at);
+  if (at != temperature) value.slope = 0;
+  return value;
+}
+
+HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
+                   const TemperatureShift& law, double poisson_ratio, double pressure, double velocity,
+                   double temperature) {
+  HotShift result;
+  const auto at_velocity = [&](double v) {
+    return affine_shift(correction, spectrum, rubber, pressure, v, poisson_ratio);
+  };
+  const std::optional<double> q0 = asperity_wavenumber(correction, spectrum);
+  if (!q0) {
+    result.shift = at_velocity(velocity);
+    return result;
+  }
+  const ShiftValue value = held_shift(law, temperature);
+  const double reduced = velocity * std::pow(10.0, value.log10_a_T);
+  const std::optional<FrequencyRange> known = known_range(rubber);
+  const auto inside = [&](double v) { return known ? std::clamp(v, known->lowest / *q0, known->highest / *q0) : v; };
+  result.shift = at_velocity(inside(reduced));
+  constexpr double step = 1e-4;
+  const double upper = inside(reduced * (1 + step)), lower = inside(reduced * (1 - step));
+  if (!(upper > lower) || result.shift.state == ContactState::no_contact) return result;
+  const Shift more = at_velocity(upper), less = at_velocity(lower);
+  if (more.state != ContactState::no_contact && less.state != ContactState::no_contact)
+    result.slope = std::log(more.p / less.p) / std::log(upper / lower) * std::numbers::ln10 * value.slope;
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,255 @@
+"""Friction over velocity, pressure or temperature; beside it what heat makes of it."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.plot.curves import (
+    MOST_ENTRIES,
+    PRESSURE,
+    VELOCITY,
+    band_text,
+    named,
+    new_figure,
+    picture,
+    pressure_text,
+    shaded,
+)
+from asperity.plot.labels import legend_beside
+from asperity.plot.style import colours, grey, shades
+from asperity.scene.scene import Curves, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_MOST_SHADED = 3  # curves whose model error can be told apart
+_PROFILES = 5  # velocities at which the temperature of each roughness is drawn
+_TEMPERATURE = "Temperature $T_0$ [K]"
+_KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
+_COLD = "-."  # mu without heat
+
+
+@dataclass(frozen=True, eq=False)
+class _Curve:
+    """One curve of the picture, arrays along its abscissa."""
+
+    label: str
+    x: NDArray[np.float64]
+    kinds: Sequence[NDArray[np.float64]]  # mu, hysteresis, adhesion
+    band: Sequence[NDArray[np.float64]]  # lower and upper mu, or nothing
+    off: NDArray[np.float64]  # how far the model may be
+    heat: Sequence[NDArray[np.float64]]  # mu without heat and the rise at q1, or nothing
+
+
+def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
+    """mu over velocity, or over what else alone varies, a colour a pressure, temperature or scene;
+    with heat also mu without it, a panel of the rise of the temperature, and over velocity one of
+    the rise that each roughness feels."""
+    abscissa = _abscissa(scenes)
+    curves = list(_curves(scenes, results, abscissa))
+    heated = any(curve.heat for curve in curves)
+    profiled = next((s for s in scenes if s.heating is not None and s.velocity.size > 1), None)
+    figure, (axes, *beside) = new_figure(1 + heated + (profiled is not None))
+    many = len(curves) > MOST_ENTRIES
+    tints: Sequence[Any] = colours(len(curves))
+    if many and len(scenes) == 1:
+        tints = list(shaded(axes, scenes[0].pressure, PRESSURE))
+    elif many:
+        named(axes, [curve.label for curve in curves])
+    kinds = _KINDS if any(scene.adhesion is not None for scene in scenes) else {"total": "-"}
+    hatched = len(curves) <= _MOST_SHADED and any(np.isfinite(c.off).any() for c in curves)
+    for curve, colour in zip(curves, tints, strict=True):
+        _draw(axes, curve, colour, kinds, labelled=not many, hatched=hatched)
+    if beside:
+        axes.plot([], [], linestyle=_COLD, color=grey(0.3), linewidth=1.2, label="without heat")
+        _draw_rises(beside[0], curves, tints)
+    if len(kinds) > 1:
+        for kind, dashes in kinds.items():
+            axes.plot([], [], dashes, color=grey(0.3), label=kind)
+    drawn = zip(scenes, results, strict=True)
+    for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
+        label = band_text(level)
+        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+    if hatched:
+        _tell_errors(axes, results)
+    _label(axes, abscissa)
+    axes.set_ylabel("Friction coefficient $\\mu$ [-]")
+    if beside:
+        _label(beside[0], abscissa)
+        beside[0].set_ylabel("Rise of the temperature at $q_1$ [K]")
+    if profiled is not None:
+        _draw_profiles(beside[1], profiled)
+    entries = axes.get_legend_handles_labels()
+    if entries[1]:
+        legend_beside(figure, *entries)
+    return picture(figure, path)
+
+
+def _abscissa(scenes: Sequence[Scene]) -> str:
+    """What the picture is drawn over: the velocity, or what alone varies."""
+    if any(scene.velocity.size > 1 for scene in scenes):
+        return VELOCITY
+    files = {scene.path for scene in scenes}
+    if all(sum(s.path == file for s in scenes) > 1 for file in files):
+        return _TEMPERATURE
+    return PRESSURE if all(scene.pressure.size > 1 for scene in scenes) else VELOCITY
+
+
+def _curves(scenes: Sequence[Scene], results: Sequence[Curves], abscissa: str) -> Iterator[_Curve]:
+    """The curves of all scenes, each in the order of its abscissa."""
+    if abscissa != _TEMPERATURE:
+        for name, scene, result in zip(_names(scenes), scenes, results, strict=True):
+            over_pressure = abscissa == PRESSURE
+            x = scene.pressure if over_pressure else scene.velocity
+            loads = [pressure_text(float(pressure)) for pressure in scene.pressure]
+            if over_pressure:
+                loads = [f"{float(scene.velocity[0]):.4g} m/s"]
+            columns = _columns(scene, result)
+            for row, load in enumerate(loads):
+                lines = [c.T[row] if over_pressure else c[row] for c in columns]
+                yield _curve(f"{_plain(name)}, {load}" if name else load, x, lines, result)
+        return
+    for file in dict.fromkeys(scene.path for scene in scenes):
+        of_file = [(s, r) for s, r in zip(scenes, results, strict=True) if s.path == file]
+        columns = [np.stack(one) for one in zip(*(_columns(s, r) for s, r in of_file), strict=True)]
+        x = np.array([scene.temperature for scene, _ in of_file])
+        first, result = of_file[0]
+        several = len({scene.path for scene in scenes}) > 1
+        for row, pressure in enumerate(first.pressure):
+            load = f"{pressure_text(float(pressure))}, {float(first.velocity[0]):.3g} m/s"
+            label = f"{_plain(file.name)}, {load}" if several else load
+            yield _curve(label, x, [c[:, row, 0] for c in columns], result)
+
+
+def _columns(scene: Scene, result: Curves) -> list[NDArray[np.float64]]:
+    """Everything that a curve takes from a result, of shape (pressures, velocities)."""
+    assert result.model_error is not None
+    columns = [result.mu, result.hysteresis, result.adhesion]
+    columns += [result.model_error * result.hysteresis, *(result.band or ())]
+    if result.mu_cold is not None and result.hot_temperature is not None:
+        columns += [result.mu_cold, result.hot_temperature - (scene.temperature or 0.0)]
+    return columns
+
+
+def _curve(
+    label: str, x: NDArray[np.float64], lines: Sequence[NDArray[np.float64]], result: Curves
+) -> _Curve:
+    order = np.argsort(x)
+    mu, hysteresis, adhesion, off, *rest = (line[order] for line in lines)
+    band = [rest.pop(0), rest.pop(0)] if result.band else []
+    return _Curve(label, x[order], (mu, hysteresis, adhesion), band, off, rest)
+
+
+def _draw(
+    axes: "Axes",
+    curve: _Curve,
+    colour: Any,
+    kinds: dict[str, str],
+    *,
+    labelled: bool,
+    hatched: bool,
+) -> None:
+    mu = curve.kinds[0]
+    if hatched:
+        around = (np.maximum(mu - curve.off, 0), mu + curve.off)
+        axes.fill_between(curve.x, *around, **_hatch(colour))
+    if curve.band:
+        low, high = curve.band
+        axes.fill_between(curve.x, low, high, color=colour, alpha=0.2, linewidth=0)
+    for y, (kind, dashes) in zip(curve.kinds, kinds.items(), strict=False):
+        axes.plot(
+            curve.x,
+            y,
+            dashes,
+            color=colour,
+            linewidth=1.8 if kind == "total" else 1.2,
+            marker="o" if curve.x.size == 1 else None,
+            label=curve.label if kind == "total" and labelled else None,
+        )
+    if curve.heat:
+        axes.plot(curve.x, curve.heat[0], linestyle=_COLD, color=colour, linewidth=1.2)
+
+
+def _draw_rises(axes: "Axes", curves: Sequence[_Curve], tints: Sequence[Any]) -> None:
+    """How much warmer the rubber is at q1, in the colours of the curves."""
+    for curve, colour in zip(curves, tints, strict=True):
+        if curve.heat:
+            axes.plot(
+                curve.x,
+                curve.heat[1],
+                color=colour,
+                linewidth=1.8,
+                marker="o" if curve.x.size == 1 else None,
+            )
+
+
+def _draw_profiles(axes: "Axes", scene: Scene) -> None:
+    """The rise that each roughness feels, at some of the velocities and the first pressure."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    fastest = float(np.max(scene.velocity))
+    slowest = max(float(np.min(scene.velocity)), 1e-4 * fastest)  # slower ones are cold
+    velocity = np.geomspace(slowest, fastest, _PROFILES)
+    q, rise = scene.rise_over_roughness(velocity)
+    tints = shades()(np.linspace(0, 1, _PROFILES))
+    for v, line, colour in zip(velocity[::-1], rise[::-1], tints[::-1], strict=True):
+        axes.plot(q, line, color=colour, label=f"{v:.2g} m/s")
+    axes.set_xscale("log")
+    decades = math.log10(scene.spectrum.q1 / scene.spectrum.q0)
+    axes.xaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2 else (1, 2, 5)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("Wavenumber $q$ [1/m]")
+    axes.set_ylabel("Rise of the temperature $T(q) - T_0$ [K]")
+    at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.5g} K"]
+    axes.legend(loc="upper left", fontsize="small", title=", ".join(at), title_fontsize="small")
+
+
+def _label(axes: "Axes", abscissa: str) -> None:
+    if abscissa != _TEMPERATURE:
+        axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(abscissa)
+
+
+def _tell_errors(axes: "Axes", results: Sequence[Curves]) -> None:
+    """Entries of the legend for the error of the model and that of the numbers."""
+    label = "model error, from exact\nsliding contacts"
+    axes.fill_between([], [], **_hatch(grey(0.3)), label=label)
+    numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
+    power = f"$10^{{{math.ceil(math.log10(max(numerical, 1e-16)))}}}$"
+    label = f"numerical error below {power},\ntoo small to see"
+    axes.plot([], [], linestyle="", label=label)
+
+
+def _hatch(colour: Any) -> dict[str, Any]:
+    return {
+        "facecolor": "none",
+        "edgecolor": colour,
+        "hatch": "//////",
+        "alpha": 0.4,
+        "linewidth": 0,
+    }
+
+
+def _names(scenes: Sequence[Scene]) -> list[str]:
+    """What tells scenes apart: their files, and temperatures where a file has several."""
+    paths = {scene.path for scene in scenes}
+    short = len({path.name for path in paths}) == len(paths)
+    names = []
+    for scene in scenes:
+        file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
+        several = sum(other.path == scene.path for other in scenes) > 1
+        names.append(", ".join(file + ([f"{scene.temperature:.5g} K"] if several else [])))
+    return names
+
+
+def _plain(name: str) -> str:
+    """A file name as a legend shows it: no formula, not hidden, nothing that is no text."""
+    name = name.encode(errors="backslashreplace").decode().replace("$", r"\$")
+    return f"./{name}" if name.startswith("_") else name

@@ -1,0 +1,1 @@
+"""What friction returns, and what its notes say."""

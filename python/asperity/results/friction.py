@@ -1,0 +1,245 @@
+"""What `friction` returns: a table of points, with pictures of them."""
+
+from dataclasses import field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import Array, brief, real_array
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+
+
+def column(unit: str, meaning: str) -> Any:
+    """Return a field that is a number a point, with what tables say of it."""
+    return field(metadata={"unit": unit, "meaning": meaning})
+
+
+class _WhenAsked:
+    """A field that is computed when it is first asked for: its value, or a function for it."""
+
+    def __init__(self, default: Any) -> None:
+        self.default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        if instance is None:
+            return self.default
+        found = instance.__dict__.get(self.name)
+        if callable(found):
+            found = instance.__dict__[self.name] = found()
+        return found
+
+    def __set__(self, instance: object, given: Any) -> None:
+        instance.__dict__[self.name] = given
+
+
+@value
+class Friction(Table):
+    """What `friction` returns. Scalars for scalar arguments, else arrays.
+
+    Attributes
+    ----------
+    mu : float or ndarray
+        Total friction coefficient, hysteresis + adhesion [-].
+    hysteresis, adhesion : float or ndarray
+        mu_H of Eq. 22, mu_A of Eq. 23 [-].
+    contact_area : float or ndarray
+        A/A0 at q1 [-].
+    shift_factor : float or ndarray
+        p_T [-]; 1 where nothing is shifted, infinite without contact.
+    pressure, velocity : float or ndarray
+        As given, broadcast [Pa], [m/s].
+    error_estimate : float or ndarray
+        Absolute error of mu [-].
+    extrapolated_share : float or ndarray
+        Share of the hysteresis, as it is weighted, whose modulus lies outside of the measured
+        frequencies [-], to 1e-4.
+    model_error : float or ndarray
+        Relative rms error of mu_H that this correction had on exact sliding contacts of Gaussian
+        surfaces at such speeds and loads [-]; NaN where nothing is known: for other corrections
+        than None, SFactor with gamma 0.4 or 0.5, NayakSFactor and PartialContact, for q1/q0 outside
+        of 8 to 128, for loads sigma0 / (E* h') outside of 0.0015 to 0.6.
+    temperature : float or ndarray, or None
+        As given, broadcast [K]; with heating that of the roughness at q1. None without.
+    notes : tuple of str
+        Where the theory or its input leaves its range.
+    wavenumber : ndarray, shape (n,), or None
+        Where the contributions were asked for [1/m]; None without contributions=True, as the others
+        below.
+    dmu_dlnq : ndarray, shape (..., n), or None
+        d mu_H / d ln q.
+    decade_edges : ndarray, shape (m + 1,), or None
+        Angular frequencies v q, powers of ten [rad/s].
+    decade_share : ndarray, shape (..., m), or None
+        Share of the hysteresis from each decade of v q; sums to 1.
+    cold : Friction or None
+        The same without the heat that friction makes; its `temperature` is the one given. None
+        without heating, as the others below.
+    macro_area : float or ndarray, or None
+        P_m [-], the share of the surface that is heated.
+    gain : float or ndarray, or None
+        How much a rise of the temperature makes of itself [-]: the eigenvalue of largest size of
+        the heat's fixed point. Below -1 plain iteration diverges.
+    branches : int or ndarray, or None
+        How many steady states there are, 1 but for a thermal runaway.
+    temperature_profile : ndarray, shape (..., n), or None
+        T [K] over `wavenumber`.
+    sliding_length : float or ndarray, or None
+        s0 [m], how far the rubber slides from rest until mu has come to within 1 / e of the heated
+        one, by the history of the heat at a velocity that is held; to about 1 % of the contact's
+        diameter. Computed when it is first asked for, some ten milliseconds a point.
+    """
+
+    # in the order of the core's `friction_columns`
+    mu: Any = column("1", "friction coefficient")
+    hysteresis: Any = column("1", "hysteresis")
+    adhesion: Any = column("1", "adhesion")
+    contact_area: Any = column("1", "real over nominal contact area")
+    shift_factor: Any = column("1", "p_T")
+    pressure: Any = column("Pa", "nominal pressure")
+    velocity: Any = column("m/s", "sliding velocity")
+    error_estimate: Any = column("1", "error estimate of mu")
+    extrapolated_share: Any = column("1", "share of the hysteresis beyond the measured frequencies")
+    model_error: Any = column("1", "relative error of mu seen in exact sliding contacts")
+    temperature: Any = None
+    notes: Any = _WhenAsked(())
+    wavenumber: Array | None = None
+    dmu_dlnq: Array | None = None
+    decade_edges: Array | None = None
+    decade_share: Array | None = None
+    cold: "Friction | None" = None
+    macro_area: Any = None
+    gain: Any = None
+    branches: Any = None
+    temperature_profile: Array | None = None
+    sliding_length: Any = _WhenAsked(None)
+
+    def mu_at(self, distance: ArrayLike) -> Any:
+        """Return the friction coefficient [-] after a `distance` s [m] slid from rest.
+
+        mu + (mu_cold - mu) exp(-s / s0), s0 the `sliding_length`: the law of B. N. J. Persson
+        (Rubber friction and tire dynamics, arXiv:1007.2713), both mu at
+        the velocity of the point. It leaves out an undershoot of some per cent of the difference.
+        Distances broadcast with the points. Without heating mu does not depend on it.
+        """
+        s = real_array(distance, "distance")
+        if not (s >= 0).all():
+            raise InvalidInput(f"distance = {brief(distance)}: must be 0 or more")
+        if self.cold is None:
+            mu = self.mu + 0 * s
+        else:
+            mu = self.mu + (self.cold.mu - self.mu) * np.exp(-s / self.sliding_length)
+        return mu if np.ndim(mu) else float(mu)
+
+    def _summary(self) -> dict[str, Any]:
+        names = ("mu", "pressure", "velocity", "temperature", "contact_area", "error_estimate")
+        shown = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        shape = {"shape": np.shape(self.mu)} if np.shape(self.mu) else {}
+        return shape | shown | ({"notes": self.notes} if self.notes else {})
+
+    def _columns(self) -> Columns:
+        axes, sweeps = _axes(self)
+        coordinates = {
+            name: Column(*one, *_said(name)) for name, one in sweeps.items() if name in axes
+        }
+        variables = {
+            name: Column(axes, getattr(self, name), *_said(name))
+            for name in (*COLUMNS, *HEAT)
+            if name not in coordinates and getattr(self, name) is not None
+        }
+        if self.cold is not None:
+            variables["mu_cold"] = Column(axes, self.cold.mu, "1", "friction without its heat")
+            if "temperature" not in coordinates:
+                given = "temperature of the background"
+                variables["background"] = Column(axes, self.cold.temperature, "K", given)
+        if self.wavenumber is not None:
+            coordinates["wavenumber"] = Column(("wavenumber",), self.wavenumber, "1/m")
+            variables["dmu_dlnq"] = Column((*axes, "wavenumber"), _known(self.dmu_dlnq), "1")
+            if self.temperature_profile is not None:
+                profile = self.temperature_profile
+                variables["temperature_profile"] = Column((*axes, "wavenumber"), profile, "K")
+        return Columns(coordinates, variables, {"notes": list(self.notes)})
+
+    def _draw(self, axes: Any) -> None:
+        given = self if self.cold is None else self.cold  # whose temperature is the one given
+        velocity, pressure, mu = (np.atleast_1d(a) for a in (self.velocity, self.pressure, self.mu))
+        at = None if given.temperature is None else np.atleast_1d(given.temperature)
+        over_temperature = at is not None and np.ptp(velocity) == 0 < np.ptp(at)
+        x = at if at is not None and over_temperature else velocity
+        sweeps = {"Pa": pressure} | ({} if at is None or over_temperature else {"K": at})
+        points = np.stack([sweep.ravel() for sweep in sweeps.values()], axis=-1)
+        curves, of_curve = np.unique(points, axis=0, return_inverse=True)
+        told = [unit for unit, sweep in sweeps.items() if np.ptp(sweep) > 0] or ["Pa"]
+        for i, curve in enumerate(curves):
+            here = np.flatnonzero(of_curve.ravel() == i)
+            here = here[np.argsort(x.flat[here])]
+            values = zip(sweeps, curve, strict=True)
+            label = ", ".join(f"{found:.4g} {unit}" for unit, found in values if unit in told)
+            [line] = axes.plot(x.flat[here], mu.flat[here], label=label)
+            if self.cold is not None:
+                cold = np.atleast_1d(self.cold.mu).flat[here]
+                axes.plot(x.flat[here], cold, "--", color=line.get_color())
+        if self.cold is not None:
+            axes.plot([], [], "--", color="0.3", label="without heat")
+        axes.set_ylabel("friction coefficient")
+        if over_temperature:
+            axes.set_xlabel("temperature [K]")
+        else:
+            axes.set(xscale="log", xlabel="velocity [m/s]")
+        if 1 < len(curves) <= 8 or self.cold is not None:
+            axes.legend()
+
+
+SWEPT = ("pressure", "velocity", "temperature")
+HEAT = {
+    "temperature": ("K", "temperature"),
+    "macro_area": ("1", "share of the surface that is heated"),
+    "gain": ("1", "gain of the heat"),
+    "branches": ("1", "number of steady states"),
+}
+COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if one.metadata)
+
+
+def _said(name: str) -> tuple[str, str]:
+    if name in HEAT:
+        return HEAT[name]
+    metadata = Friction.__dataclass_fields__[name].metadata
+    return metadata["unit"], metadata["meaning"]
+
+
+def _known(array: Array | None) -> Array:
+    assert array is not None
+    return array
+
+
+def _axes(result: Friction) -> tuple[tuple[str, ...], dict[str, tuple[tuple[str, ...], Array]]]:
+    """Return names for the axes of a result, and the sweeps along those that sweep one thing."""
+    shape = np.shape(result.mu)
+    names = [f"axis_{i}" for i in range(len(shape))]
+    sweeps: dict[str, tuple[tuple[str, ...], Array]] = {}
+    result = result if result.cold is None else result.cold  # whose temperature is the one given
+    swept = [name for name in SWEPT if getattr(result, name) is not None]
+    for name in swept:
+        values = np.asarray(getattr(result, name))
+        moving = [i for i in range(len(shape)) if not _constant(values, i)]
+        if len(moving) == 1 and names[moving[0]].startswith("axis"):
+            [axis] = moving
+            line: Array = np.moveaxis(values, axis, -1).reshape(-1, shape[axis])[0]
+            names[axis] = name
+            sweeps[name] = ((name,), line)
+    both = [i for i, name in enumerate(names) if name in sweeps]
+    for i in both:  # an axis along which another moves too sweeps neither of them
+        others = [name for name in swept if name != names[i]]
+        if not all(_constant(np.asarray(getattr(result, other)), i) for other in others):
+            del sweeps[names[i]]
+            names[i] = f"axis_{i}"
+    return tuple(names), sweeps
+
+
+def _constant(values: NDArray[Any], axis: int) -> bool:
+    return bool((values == values.take([0], axis=axis)).all())

@@ -1,0 +1,147 @@
+"""Notes on heat: the size of what is left out, laws beyond their fit, rubbers that carry a_T."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.main import main
+from helpers import scenes
+from helpers.cases import case, each
+from helpers.examples import BUILD, ROAD, RUBBER, TREAD
+
+LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+FIT = asperity.ShiftFactors(
+    reference_temperature=293.0,
+    temperature=[263.0, 283.0, 293.0, 303.0],
+    log10_a_T=[3.2, 0.9, 0.0, -0.8],
+).fit_wlf()
+AT = {"pressure": 1e5, "temperature": 290.0, "shift": LAW}
+
+
+def note_of(result, text):
+    return next((note for note in result.notes if text in note), None)
+
+
+def test_the_note_on_heat_says_its_size():
+    """That of the fastest point, by the model itself with typical constants."""
+    v = [1e-3, 10.0, 0.1]
+    cold = asperity.friction(ROAD, RUBBER, velocity=v, **AT)
+    hot = asperity.friction(ROAD, RUBBER, velocity=v, heating=asperity.Heating(**TREAD), **AT)
+    rise = hot.temperature[1] - 290.0
+    assert rise > 1
+    told = note_of(cold, "not modelled")
+    assert f"at 10 m/s it would warm the rubber by {rise:.2g} K" in told
+    assert f"take mu from {hot.cold.mu[1]:.3g} to {hot.mu[1]:.3g}" in told
+    assert note_of(hot, "not modelled") is None
+    single = asperity.friction(ROAD, RUBBER, velocity=10.0, **AT)
+    assert note_of(single, "not modelled") == told
+
+
+def test_nothing_is_computed_for_a_note_that_nobody_reads(monkeypatch):
+    calls = []
+    whole = asperity._core.flash_friction
+    monkeypatch.setattr(
+        asperity._core, "flash_friction", lambda *given: calls.append(1) or whole(*given)
+    )
+    found = asperity.friction(ROAD, RUBBER, velocity=[1e-3, 10.0], **AT)
+    assert found.mu.shape == (2,)
+    assert not calls
+    assert found.notes == found.notes
+    assert len(calls) == 1
+    slow = asperity.friction(ROAD, RUBBER, velocity=1e-3, **AT)
+    assert slow.notes == ()
+    assert len(calls) == 1
+
+
+def test_where_heat_cannot_be_computed_the_note_stays_as_it_was():
+    without = asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=10.0)
+    refused = asperity.friction(
+        ROAD,
+        RUBBER,
+        velocity=10.0,
+        shift=asperity.ShiftFactors(
+            reference_temperature=290.0,
+            temperature=[289.9, 290.0, 290.1],
+            log10_a_T=[1e-2, 0.0, -1e-2],
+        ),
+        **{name: AT[name] for name in ("pressure", "temperature")},
+    )
+    for found in (without, refused):
+        assert note_of(found, "flash heating, which is not modelled") is not None
+
+
+def test_a_scene_says_the_size_once(folder, capsys):
+    law = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
+    at = law + "temperature_k = 300\n"
+    (folder / "s.toml").write_text(scenes.SURFACE + scenes.RUBBER + at + scenes.CONDITIONS)
+    assert main(["friction", "s.toml", "--output", "s.csv"]) == 0
+    told = [line for line in capsys.readouterr().err.splitlines() if "not modelled" in line]
+    assert len(told) == 1
+    assert "it would warm the rubber by" in told[0]
+
+
+@each("heated", [False, True])
+def test_a_fitted_law_beyond_its_temperatures_is_noted(heated):
+    given = {"pressure": 1e5, "velocity": 1e-3, "shift": FIT}
+    more = {"heating": asperity.Heating(**TREAD)} if heated else {}
+    assert (FIT.lowest_temperature, FIT.highest_temperature) == (263.0, 303.0)
+    inside = asperity.friction(ROAD, RUBBER, temperature=280.0, **given, **more)
+    assert note_of(inside, "the WLF law") is None
+    outside = asperity.friction(ROAD, RUBBER, temperature=[280.0, 310.0], **given, **more)
+    assert "it was fitted on 263 to 303 K" in note_of(outside, "the WLF law")
+    if heated:  # from inside of them out, by its own heat
+        given["velocity"] = 1.0
+        warm = asperity.friction(ROAD, RUBBER, temperature=290.0, **given, **more)
+        assert note_of(warm, f"from 290 to {warm.temperature:.5g} K") is not None
+        assert note_of(warm.cold, "the WLF law") is None
+
+
+def test_a_fitted_law_knows_both_ends_or_none():
+    constants = {
+        "c1": 8.0,
+        "c2": 100.0,
+        "reference_temperature": 293.0,
+        "standard_errors": {"c1": 0.1, "c2": 1.0},
+        "residual": 0.01,
+    }
+    plain = asperity.WlfFit(**constants)
+    assert plain.lowest_temperature is None
+    cold = asperity.friction(
+        ROAD, RUBBER, pressure=1e5, velocity=1e-3, temperature=250.0, shift=plain
+    )
+    assert cold.notes == ()
+    with pytest.raises(asperity.InvalidInput, match="highest_temperature: must be given where low"):
+        asperity.WlfFit(**constants, lowest_temperature=270.0)
+    with pytest.raises(asperity.InvalidInput, match="lowest_temperature = 300: must be positive"):
+        asperity.WlfFit(**constants, lowest_temperature=300.0, highest_temperature=280.0)
+
+
+def test_rubbers_of_a_build_carry_its_shift_into_friction():
+    road = ROAD.truncated(q1=3e4)
+    at = {"pressure": 1e5, "velocity": 2e-3, "temperature": 288.0}
+    fit = asperity.fit_prony(BUILD, extrapolation="prony")
+    for name, rubber in (("curve", BUILD.master_curve), ("Prony fit", fit)):
+        with case(name=name):
+            carried = asperity.friction(road, rubber, **at)
+            by_hand = asperity.friction(road, rubber, shift=BUILD, **at)
+            assert carried == by_hand
+            assert carried.mu != asperity.friction(road, rubber, **at | {"temperature": 293.0}).mu
+    with pytest.raises(asperity.InvalidInput, match="needs shift="):
+        asperity.friction(road, fit.shifted(2.0), **at)
+
+
+def test_friction_over_temperature_is_drawn_over_temperature():
+    pytest.importorskip("matplotlib").use("agg")
+    t = np.linspace(273.0, 313.0, 5)
+    given = {"pressure": 1e5, "shift": LAW, "heating": asperity.Heating(**TREAD)}
+    over_t = asperity.friction(ROAD, RUBBER, velocity=1.0, temperature=t, **given)
+    axes = over_t.plot()
+    assert axes.get_xlabel() == "temperature [K]"
+    hot, cold = axes.lines[:2]
+    np.testing.assert_array_equal(hot.get_xdata(), t)
+    np.testing.assert_array_equal(hot.get_ydata(), over_t.mu)
+    np.testing.assert_array_equal(cold.get_ydata(), over_t.cold.mu)
+    grid = asperity.friction(ROAD, RUBBER, velocity=[1e-2, 1.0], temperature=t[:, None], **given)
+    axes = grid.plot()
+    assert axes.get_xlabel() == "velocity [m/s]"
+    assert len(axes.lines) == 2 * 5 + 1  # a curve a temperature, hot and cold, and the legend's
