@@ -48,6 +48,8 @@ struct RingGrid {
   std::size_t cells;
 };
 
+struct BlockSums;
+
 class RingSurface {
  public:
   RingSurface(std::span<const Segment> surface, const RingGrid& grid);
@@ -76,8 +78,8 @@ class RingSurface {
     }
   };
   [[nodiscard]] std::span<const Group> groups() const { return {groups_.get(), count_}; }
-  /// The block that is all of a group, and the halves of a part of it, made when first asked for. Of threads that come
-  /// at once the first leaves its own.
+  /// The block that is all of a group, made of its halves, and the halves of a part of it, when first asked for. Of
+  /// threads that come at once the first leaves its own.
   [[nodiscard]] const RingTree& root(const Group& group) const;
   [[nodiscard]] const std::array<RingTree, 2>& halves(const Group& group, const RingTree& tree) const;
 
@@ -87,7 +89,9 @@ class RingSurface {
     const Segment* segment;
     double start, linear, square, upper;
   };
-  void make(const Group& group, double lower, double upper, double m_lower, RingBlock& block) const;
+  [[nodiscard]] BlockSums sums(const Group& group, double lower, double upper, double m_lower) const;
+  /// Where a block is halved: in the middle, or at a row near it.
+  [[nodiscard]] double middle(double lower, double upper) const;
   /// Sets what is known of the cells of a group. Returns the growth of m.
   double measure_cells(Group& group) const;
   [[nodiscard]] FineRule points_of(const Group& group, double lower, double upper, double m_lower) const;

@@ -4,6 +4,7 @@
 
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/ring_blocks.hpp"
+#include "spectrum/ring_sums.hpp"
 
 namespace asperity {
 
@@ -59,30 +60,55 @@ RingSurface::~RingSurface() {
     }
 }
 
-const RingTree& RingSurface::root(const Group& group) const {
-  if (const RingTree* const made = group.root.load(std::memory_order_acquire)) return *made;
-  auto mine = std::make_unique<RingTree>();
-  make(group, group.lower, group.upper, group.m_lower, mine->block);
-  const RingTree* first = nullptr;
-  return group.root.compare_exchange_strong(first, mine.get(), std::memory_order_acq_rel) ? *mine.release() : *first;
+BlockSums RingSurface::sums(const Group& group, double lower, double upper, double m_lower) const {
+  return sums_of(points_of(group, lower, upper, m_lower), lower, upper, m_lower, group.edge(1) - group.lower);
 }
 
-const std::array<RingTree, 2>& RingSurface::halves(const Group& group, const RingTree& tree) const {
-  if (const auto* const made = tree.halves.load(std::memory_order_acquire)) return *made;
-  const RingBlock& whole = tree.block;
-  const double middle = (whole.lower + whole.upper) / 2, quarter = (whole.upper - whole.lower) / 4;
-  // at a row, where there is one near
-  double at = middle;
+double RingSurface::middle(double lower, double upper) const {
+  const double middle = (lower + upper) / 2;
+  double at = middle, nearest = (upper - lower) / 4;
   const auto above = std::ranges::lower_bound(start_, middle);
-  double nearest = quarter;
   for (auto row = above == start_.begin() ? above : above - 1; row != start_.end() && row <= above; ++row)
     if (std::fabs(*row - middle) < nearest) {
       at = *row;
       nearest = std::fabs(*row - middle);
     }
+  return at;
+}
+
+namespace {
+
+RingBlock block_in(const RingSurface::Group& group, const BlockSums& of) {
+  return block_of(of, group.edge(of.first_cell + of.cells.size() - 1), group.edge(1) - group.lower);
+}
+
+}  // namespace
+
+const RingTree& RingSurface::root(const Group& group) const {
+  if (const RingTree* const made = group.root.load(std::memory_order_acquire)) return *made;
+  const double lower = group.lower, upper = group.upper, at = middle(lower, upper), m_lower = group.m_lower;
+  const BlockSums first = sums(group, lower, at, m_lower);
+  const BlockSums second = sums(group, at, upper, m_lower + first.m_part);
+  const bool both_rough = first.m_part > 0 && second.m_part > 0;
+  auto mine = std::make_unique<RingTree>();
+  mine->block = block_in(group, both_rough ? joined(first, second) : sums(group, lower, upper, m_lower));
+  auto halves = std::make_unique<std::array<RingTree, 2>>();
+  (*halves)[0].block = block_in(group, first);
+  (*halves)[1].block = block_in(group, second);
+  mine->halves = halves.release();
+  const RingTree* made = nullptr;
+  if (group.root.compare_exchange_strong(made, mine.get(), std::memory_order_acq_rel)) return *mine.release();
+  release(*mine);
+  return *made;
+}
+
+const std::array<RingTree, 2>& RingSurface::halves(const Group& group, const RingTree& tree) const {
+  if (const auto* const made = tree.halves.load(std::memory_order_acquire)) return *made;
+  const RingBlock& whole = tree.block;
+  const double at = middle(whole.lower, whole.upper);
   auto mine = std::make_unique<std::array<RingTree, 2>>();
-  make(group, whole.lower, at, whole.m_lower, (*mine)[0].block);
-  make(group, at, whole.upper, whole.m_lower + (*mine)[0].block.m_part, (*mine)[1].block);
+  (*mine)[0].block = block_in(group, sums(group, whole.lower, at, whole.m_lower));
+  (*mine)[1].block = block_in(group, sums(group, at, whole.upper, whole.m_lower + (*mine)[0].block.m_part));
   const std::array<RingTree, 2>* first = nullptr;
   return tree.halves.compare_exchange_strong(first, mine.get(), std::memory_order_acq_rel) ? *mine.release() : *first;
 }
