@@ -5,13 +5,13 @@
 With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2), dG = K I2 c dy:
     A(q) = erf(1 / (2 sqrt(kappa G)))                   and A1 = A(q1)
     R = A / (1 + Z)^2,   Z = Q A^2 K I2 w,              w = (M(y + 1) - M(y - 1)) / 2
-    Q = obstacle (2 e)^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
-    T = edges A1 (1 - A1^(1/4)) K I2(q1) w(q1) (I2 / I2(q1))^(5/4) x^-3,   x = q / q1 from 1 to 33
+    Q = obstacle (4 w(q_e) / M(q1))^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
+    T = edges A1 (1 - A1^(1/4)) K I2(q_e) w(q_e) (I2 / I2(q_e))^(5/4) x^-3,  x = q / q_e to 33
     int R dG + int T d ln x = F(kappa G1) B,            F(g) = int_0^g erf(1 / (2 sqrt(u))) du
-    B = 1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8),   rho = K I2(q1) M(q1) / G1
+    B = 1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8),   rho = K I2(q_e) M(q1) / G1
     mu = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln x)
-where e is the share of M that lies in the last unit of ln q. Least squares in ln A and ln mu, with
-a soft loss, over the rows fit of exact_sliding.csv, sliding_contacts.csv and the elastic areas of
+where ln q_e is the mean of ln q over the last tenth of M. Least squares in ln A and ln mu, with a
+soft loss, over the rows fit of exact_sliding.csv, sliding_contacts.csv and the elastic areas of
 bem_area.csv; each contact is weighed by how far maps scatter at its load and how fine its mesh is.
 Prints the five numbers, what leaving out a rubber, an H or a bandwidth does, and with `judge` the
 errors of the stated constants on the rows that no fit saw.
@@ -89,9 +89,10 @@ class Contacts:
         step = np.diff(mass(edges))
         y = (edges[:, 1:] + edges[:, :-1]) / 2
         self.window = (mass(y + 1) - mass(y - 1)) / 2
-        end = band[:, None]
-        self.last = 1 - (mass(end - 1) / mass(end))[:, 0]
-        self.end_window = ((mass(end) - mass(end - 1)) / 2)[:, 0]
+        last = 1 - 0.1 * (np.arange(100) + 0.5) / 100  # of M, and where it is reached
+        end = np.log1p(last * np.expm1(rise * band[:, None])) / rise
+        end = end.mean(1)[:, None]
+        self.end_window = ((mass(end + 1) - mass(end - 1)) / 2)[:, 0]
         self.k = 1 / (8 * ((1 - NU**2) * pressure) ** 2)
         self.i1, self.i2 = np.empty_like(y), np.empty_like(y)
         self.t1, self.t2 = np.empty((len(rows), TAIL.size)), np.empty((len(rows), TAIL.size))
@@ -99,8 +100,9 @@ class Contacts:
         for i, name in enumerate(self.rubber):
             made, speed = make_exact_sliding.RUBBERS[name], 2 * np.pi * velocity[i]
             self.i1[i], self.i2[i] = angular(made, speed * self.k0[i] * np.exp(y[i]))
-            self.t1[i], self.t2[i] = angular(made, speed * self.k1[i] * np.exp(TAIL))
-            self.end_i2[i] = angular(made, speed * self.k1[i : i + 1])[1][0]
+            at_end = speed * self.k0[i] * np.exp(end[i])
+            self.t1[i], self.t2[i] = angular(made, at_end * np.exp(TAIL))
+            self.end_i2[i] = angular(made, at_end)[1][0]
         self.dg = self.k[:, None] * self.i2 * step
         self.g = np.cumsum(self.dg, 1) - self.dg / 2
         self.g1 = self.dg.sum(1)
@@ -122,7 +124,7 @@ class Contacts:
         g = kappa * self.g1
         s = 0.5 / np.sqrt(g)
         a1, rest = erf(s), erfc(s)
-        q = obstacle * (2 * self.last) ** 0.2 * kappa**0.25 * rest**0.125
+        q = obstacle * (8 * np.pi * self.end_window) ** 0.2 * kappa**0.25 * rest**0.125
         q *= 1 + light * (1 - a1**0.1) ** 3
         r = share / (1 + (q * self.k)[:, None] * self.i2 * self.window * share**2) ** 2
         t = edges * a1 * (1 - a1**0.25) * self.k * self.end_i2 * self.end_window

@@ -1,22 +1,25 @@
 """Area and friction by the rule of PartialContact, from its definition.
 
 With y = ln q, c = q^4 C, K = 1 / (8 ((1 - nu^2) sigma0)^2), G = K int c I2 dy, M = int c dy, c_w
-half of the integral of c over [y - 1, y + 1] (c is 0 off the band), e1 the share of the last unit
-of y in M(q1) and rho = K I2(v q1) M(q1) / G(q1):
+half of the integral of c over [y - 1, y + 1] (c is 0 off the band), ln q_e the mean of y over that
+last part of the band that has a tenth of M(q1), and rho = K I2(v q_e) M(q1) / G(q1):
   A = erf(1 / (2 sqrt(kappa G))), A1 = A(q1), R = A / (1 + Z)^2,
-  Z = OBSTACLE (2 e1)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3) A^2 K I2 c_w,
-  T = EDGES A1 (1 - A1^(1/4)) K c_w(q1) I2(v q1) (I2(v q) / I2(v q1))^1.25 x^-3,
-  x = q / q1 from 1 to 33,
+  Z = OBSTACLE (4 c_w(q_e) / M(q1))^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3)
+      A^2 K I2 c_w,
+  T = EDGES A1 (1 - A1^(1/4)) K c_w(q_e) I2(v q_e) (I2(v q) / I2(v q_e))^1.25 x^-3,
+  x = q / q_e from 1 to 33,
   2 (int R dG + int T dln x) = m (1 + (SPREAD A1 + STIFF (1 - 1 / rho)^4) (1 - A1^8)) with
   m = (1 + 2 g) erf(s) + 2 sqrt(g / pi) exp(-s^2) - 1, g = kappa G(q1), s = 1 / (2 sqrt g): the
   variance of Persson's pressure over sigma0^2. This fixes kappa, and
   mu_H = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T dln x).
 Above the last frequency of a table I1 and I2 keep their last values.
 Method one: Gauss panels of 20 nodes that end at every row, a unit of ln q beside every row and
-at every frequency of the table, and grow from the front on; windows from closed moments; closed I1
-and I2 (a table's by Gauss rules in z); the root in ln kappa.
-Method two: 28 nodes on other panels, windows by Gauss rules, I1 and I2 by their definition (a
-table's by Gauss rules in phi), the tail in 1 / x^3, the root in 1 / (2 sqrt(kappa G1)).
+at every frequency of the table, and grow from the front on; windows from closed moments, the end
+as y1 - int (M - 0.9 M(q1)) dy / (0.1 M(q1)); closed I1 and I2 (a table's by Gauss rules in z); the
+root in ln kappa.
+Method two: 28 nodes on other panels, windows by Gauss rules, the end as int y c dy, I1 and I2 by
+their definition (a table's by Gauss rules in phi), the tail in 1 / x^3, the root in
+1 / (2 sqrt(kappa G1)).
 """
 
 from functools import cache
@@ -29,6 +32,7 @@ from scipy.special import erf, erfc
 
 OBSTACLE, LIGHT, EDGES, SPREAD, STIFF = 0.67, 6.3, 3.55, 0.105, 0.45
 TAIL_END = 33.0
+LAST = 0.1  # of M(q1), about the end
 SBR = {
     "equilibrium_modulus": 1e6,
     "moduli": [1e6, 1e6, 1e6, 1e7, 1e7, 1e7, 3e8, 3e8],
@@ -70,6 +74,17 @@ SCENES = {
     "levels": {"surface": rings(48, 2, lambda k: 1000.0 ** (k // 8 % 2)), "pressure": 1e5},
     "lines": {"surface": rings(48, 3, lambda k: np.where(np.isin(k, LINES), 1e3, 1.0))},
     "zero rows": {"surface": rings(40, 4, lambda k: (k > 6) & ((k < 15) | (k > 19)))},
+    "blurred rings": {
+        "surface": rings(60, 6, lambda k: np.exp(-((k / 16) ** 2.0))),
+        "pressure": 3e3,
+    },
+    "nearly empty rows": {"surface": rings(60, 1, lambda k: np.where(k > 20, 1e-6, 1.0))},
+    "faint rows after a gap": {
+        "surface": rings(60, 7, lambda k: np.where(k > 15, np.where(k > 40, 0.02, 0.0), 1.0)),
+        "pressure": 1e5,
+    },
+    "steep end": {"surface": [[1e3, 1e4, 1e6], [1e-15, 1e-18, 1e-30]], "pressure": 2e4},
+    "ramp to zero": {"surface": [[1e3, 1e4, 1e6], [1e-15, 1e-18, 0.0]], "pressure": 1e5},
     "two rows": {"surface": [[1e3, 4e4], [1e-15, 1e-21]], "pressure": 3e4},
     "table": {"table": sampled(-4, 10, 5), "velocity": 1e-3},
     "light table": {"table": sampled(-4, 10, 5), "velocity": 1e-3, "pressure": 1e3},
@@ -164,6 +179,34 @@ def summed_moment(q, c):
     return between
 
 
+def closed_end(q, c):
+    """Return ln q_e from closed moments."""
+    between, places = closed_moment(q, c), np.log(q)
+    end = places[-1:]
+    whole = between(places[:1], end)[0]
+    start = brentq(
+        lambda y: between(np.array([y]), end)[0] - LAST * whole, places[0], end[0], xtol=1e-15
+    )
+    y, weights, _ = nodes_on(np.array([start, *places[places > start]]), gauss(20))
+    risen = between(np.full(y.shape, start), y)
+    return end[0] - (weights * risen).sum() / (LAST * whole)
+
+
+def summed_end(q, c):
+    """Return the same by Gauss rules over y c."""
+    between, places = summed_moment(q, c), np.log(q)
+    end = places[-1:]
+    whole = between(places[:1], end)[0]
+    start = brentq(
+        lambda y: between(np.array([y]), end)[0] / whole - LAST, places[0], end[0], xtol=1e-15
+    )
+    edges = np.array([start, *places[places > start]])
+    i = np.searchsorted(places, (edges[:-1] + edges[1:]) / 2, side="right") - 1
+    y, weights, _ = nodes_on(edges, gauss(28))
+    mass = weights * roughness(q, c)[0](y, i[:, None])
+    return (mass * y).sum() / mass.sum()
+
+
 def held(integrals, highest):
     """Return I1, I2 of frequencies that are held at `highest`."""
 
@@ -180,8 +223,8 @@ def nodes_on(edges, rule):
     return edges[:-1, None] + half * (1 + rule[0]), half * rule[1], half
 
 
-def band(scene, integrals, between, rule, first, growth, longest):
-    """Return G, its weights, g' and I1 / I2 at nodes of the band, G(q1), 2 e1 and 1 - 1 / rho."""
+def band(scene, integrals, between, last, rule, first, growth, longest):
+    """Return G, its weights, g' and I1 / I2 on the band, G(q1), 4 c_w(q_e) / M, 1 - 1 / rho."""
     q, c = rows_of(scene["surface"])
     at, _, _ = roughness(q, c)
     places = np.log(q)
@@ -204,47 +247,47 @@ def band(scene, integrals, between, rule, first, growth, longest):
     before = np.cumsum([0.0, *whole])
     g = before[:-1, None] + half * (rate @ rule[2].T)
     steepness = stiff**2 / 8 * i2 * between(y - 1, y + 1) / 2
-    end = np.array([end])
-    last, whole = (between(end - back, end)[0] for back in (1, 2 * (end - start)))
-    at_end = stiff**2 / 8 * whole * integrals(scene["velocity"] * np.exp(end))[1][0]
+    last = np.array([last])
+    window, whole = between(last - 1, last + 1)[0] / 2, between(places[:1], places[-1:])[0]
+    at_end = stiff**2 / 8 * whole * integrals(scene["velocity"] * np.exp(last))[1][0]
     return (
         g,
         rate * weights,
         steepness,
         i1 / i2,
         before[-1],
-        2 * last / whole,
+        4 * window / whole,
         1 - before[-1] / at_end,
     )
 
 
-def tail_in_logarithm(scene, integrals, between):
-    """Return int K c_w I (I2 / I2(v q1))^0.25 x^-3 dln x for I2 and I1."""
-    q1 = rows_of(scene["surface"])[0][-1]
-    knots = np.log(np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q1))
+def tail_in_logarithm(scene, integrals, between, last):
+    """Return int K c_w I (I2 / I2(v q_e))^0.25 x^-3 dln x for I2 and I1."""
+    q_e = np.exp(last)
+    knots = np.log(np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q_e))
     edges = np.unique(np.concatenate([np.linspace(0, np.log(TAIL_END), 40), knots]))
     edges = edges[(edges >= 0) & (edges <= np.log(TAIL_END))]
     z, weights, _ = nodes_on(edges, gauss(20))
-    i1, i2 = integrals(scene["velocity"] * q1 * np.exp(z))
+    i1, i2 = integrals(scene["velocity"] * q_e * np.exp(z))
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
-    excess = (i2 / integrals(np.array([scene["velocity"] * q1]))[1]) ** 0.25
-    end = np.log(np.array([q1]))
-    factor = stiff**2 / 16 * between(end - 1, end)[0] * excess * weights * np.exp(-3 * z)
+    excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
+    end = np.array([last])
+    factor = stiff**2 / 16 * between(end - 1, end + 1)[0] * excess * weights * np.exp(-3 * z)
     return (factor * i2).sum(), (factor * i1).sum()
 
 
-def tail_in_power(scene, integrals, between):
+def tail_in_power(scene, integrals, between, last):
     """Return the same in u = x^-3."""
-    q1 = rows_of(scene["surface"])[0][-1]
-    knots = (np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q1)) ** -3.0
+    q_e = np.exp(last)
+    knots = (np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q_e)) ** -3.0
     edges = np.unique(np.concatenate([np.geomspace(TAIL_END**-3, 1, 60), knots]))
     edges = edges[(edges >= TAIL_END**-3) & (edges <= 1)]
     u, weights, _ = nodes_on(edges, gauss(28))
-    i1, i2 = integrals(scene["velocity"] * q1 * u ** (-1 / 3))
+    i1, i2 = integrals(scene["velocity"] * q_e * u ** (-1 / 3))
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
-    excess = (i2 / integrals(np.array([scene["velocity"] * q1]))[1]) ** 0.25
-    end = np.log(np.array([q1]))
-    factor = stiff**2 / 16 * between(end - 1, end)[0] * excess * weights / 3
+    excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
+    end = np.array([last])
+    factor = stiff**2 / 16 * between(end - 1, end + 1)[0] * excess * weights / 3
     return (factor * i2).sum(), (factor * i1).sum()
 
 
@@ -325,16 +368,18 @@ def row(case, changes):
     first, second = held(first, highest), held(second, highest)
     q, c = rows_of(scene["surface"])
     moments, summed = closed_moment(q, c), summed_moment(q, c)
+    ends = closed_end(q, c), summed_end(q, c)
+    tables.agree("partial_contact", *ends, 1e-13)
     found = []
     for nodes, tail, root in (
         (
-            band(scene, first, moments, gauss(20), 1e-12, 1.5, 0.5),
-            tail_in_logarithm(scene, first, moments),
+            band(scene, first, moments, ends[0], gauss(20), 1e-12, 1.5, 0.5),
+            tail_in_logarithm(scene, first, moments, ends[0]),
             by_kappa,
         ),
         (
-            band(scene, second, summed, gauss(28), 1e-13, 1.7, 0.37),
-            tail_in_power(scene, second, summed),
+            band(scene, second, summed, ends[1], gauss(28), 1e-13, 1.7, 0.37),
+            tail_in_power(scene, second, summed, ends[1]),
             by_inverse,
         ),
     ):

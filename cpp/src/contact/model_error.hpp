@@ -1,6 +1,8 @@
 // How far friction was off exact sliding contacts, by correction, speed and load.
 #pragma once
 
+#include <optional>
+
 #include "asperity/correction.hpp"
 
 namespace asperity {
@@ -23,7 +25,8 @@ class ModelError {
  private:
   const double (*table_)[4] = nullptr;
   const Rubber& rubber_;
-  double q0_ = 0, q1_ = 0;
+  std::optional<Rubber> unlimited_;  // instead of it: a series without the range that it was fitted on
+  double q0_ = 0, q1_ = 0, lightest_ = 0;
   bool known_ = false;
   SpeedRegime regime_ = SpeedRegime::slow;
 };

@@ -1,10 +1,12 @@
-// The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond its end.
-// With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M(q1) = int c d ln q over the band, e1 the share of its last unit
-// of ln q in M, rho = K I2(v q1) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
+// The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond the end
+// of its roughness. With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M = int c d ln q over the band, w(q) = (int c d
+// ln q from q / e to e q) / 2, c being 0 off the band, ln q_e the mean of ln q over that last part of the band that has
+// a tenth of M, rho = K I2(v q_e) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
 //   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
-//     Z = obstacle (2 e1)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
-//     g' = K I2(v q) (int c d ln q from q / e to e q) / 2, c being 0 off the band;
-//   T(x) = edges A1 (1 - A1^(1/4)) g'(q1) (I2(v q) / I2(v q1))^1.25 x^-3 beyond it, x = q / q1 from 1 to tail_end.
+//     Z = obstacle (4 w(q_e) / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
+//     g' = K I2(v q) w(q);
+//   T(x) = edges A1 (1 - A1^(1/4)) g'(q_e) (I2(v q) / I2(v q_e))^1.25 x^-3, x = q / q_e from 1 to tail_end, that of the
+//     edges of contacts.
 // kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
 // for a factor near 1:
 //   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8)).
@@ -17,19 +19,16 @@
 namespace asperity::partial_contact {
 
 inline constexpr double obstacle = 0.67, light = 6.3, edges = 3.55, spread = 0.105, stiff = 0.45;
-/// Beyond the band: its end, the power of x, and that of I2 beside the one in G.
+/// Beyond q_e: where it ends, the power of x, and that of I2 beside the one in G.
 inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
 
 /// R of A and Z; partial_loops.inc has the same for many nodes.
 inline double stress(double share, double of_waves) { return share / ((1 + of_waves) * (1 + of_waves)); }
 
-/// What the surface and the rubber have beside G: (2 e1)^0.2, and 1 - 1 / rho.
+/// What the surface and the rubber have beside G: (4 w(q_e) / M)^0.2, and 1 - 1 / rho.
 struct Band {
   double end_factor = 1, excess = 0;
 };
-
-/// (2 e1)^0.2
-inline double end_factor(double share_of_end) { return std::pow(2 * share_of_end, 0.2); }
 
 /// A factor, and the slope of its logarithm over ln kappa.
 struct Factor {
@@ -41,7 +40,7 @@ struct AtEnd {
   double share, share_slope;  // A1, and d A1 / d ln kappa
   double integral;            // F(g)
   Factor obstacle;            // Z / (A^2 g')
-  Factor edges;               // T x^3 / g'(q1) where I2 is that at q1
+  Factor edges;               // T x^3 / g'(q_e) where I2 is that at q_e
   Factor spread;              // beside F
 
   AtEnd(double g, double kappa, const Band& band);

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "numerics/arguments.hpp"
-#include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -51,16 +50,6 @@ std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correctio
   return alpha;
 }
 
-/// Where a spectrum goes on far beyond its roughness: the last unit of ln q has a hundredth of the slope variance at
-/// most, where a self-affine one has a tenth of it or more.
-std::optional<double> empty_end(const Spectrum& spectrum) {
-  constexpr double empty = 0.01, nearly_all = 0.9995;
-  const SurfaceSegments kept(spectrum);
-  const RoughnessWindow window(kept.get());
-  if (window.total() == 0 || window.share_of_end() > empty) return {};
-  return window.end_of(nearly_all);
-}
-
 /// Velocities at which a spectrum asks a fitted Prony series for nothing but the frequencies it was fitted on.
 std::optional<FrequencyRange> fitted_velocities(const Spectrum& spectrum, const Rubber& rubber) {
   const auto* series = std::get_if<PronySeries>(&rubber);
@@ -94,9 +83,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       fitted_(fitted_velocities(spectrum, rubber)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
-                  (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {
-  if (by_sliding_) empty_from_ = empty_end(spectrum);
-}
+                  (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
 void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags) {
   fast_ |= velocity > flash_velocity;
@@ -162,18 +149,14 @@ std::vector<std::string> Notes::texts(bool heated) const {
                      show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
   for (const auto& [flag, regime, error] : {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5"},
                                             {constant_, "about constant loss tangents", "3 to 7"},
-                                            {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 11"}})
+                                            {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 14"}})
     if (flag)
       result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
                        ": mu +-" + error + " % rms, the more the lighter the load: see model_error");
   if (unmeasured_)
     result.emplace_back(
         "the model error of PartialContact is not known where model_error is NaN: exact sliding contacts were solved "
-        "for q1/q0 from 8 to 128 and sigma0 / (E* h') from 0.0015 to 0.6");
-  if (empty_from_)
-    result.push_back("PartialContact takes the end of the spectrum for that of the roughness, but from " +
-                     show(*empty_from_, 4) +
-                     " 1/m on there is hardly any: end the spectrum there (.truncated(q1=...))");
+        "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5");
   if (worse_)
     result.emplace_back(
         "the affine shift takes the contact area further from that of boundary elements than no correction would at "

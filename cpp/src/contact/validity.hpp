@@ -55,7 +55,6 @@ class Notes {
   std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
   std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
   bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
-  std::optional<double> empty_from_;        // [1/m]: hardly any slope beyond it, so that its rule for the end misses
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,

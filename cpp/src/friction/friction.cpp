@@ -21,6 +21,7 @@
 #include "friction/before_heating.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
+#include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -188,9 +189,16 @@ Contributions empty_contributions(const Spectrum& spectrum, std::span<const Segm
   double end = q1;
   std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
   if (std::holds_alternative<PartialContact>(model.correction)) {
-    end = q1 * partial_contact::tail_end;
-    const double first = std::nextafter(q1, end);  // the density jumps at q1
-    for (const double q : contribution_wavenumbers(first, end, 1)) wavenumber.push_back(q);
+    // the density jumps where the edges begin, and at q1
+    const double edges = RoughnessWindow(surface).end(), last = edges * partial_contact::tail_end;
+    for (const double q : {std::nextafter(edges, q0), edges}) {
+      const auto above = std::ranges::lower_bound(wavenumber, q);
+      if (above != wavenumber.end() && *above != q) wavenumber.insert(above, q);
+    }
+    if (last > q1) {
+      end = last;
+      for (const double q : contribution_wavenumbers(std::nextafter(q1, end), end, 1)) wavenumber.push_back(q);
+    }
   }
   Contributions c{std::move(wavenumber), {}, decades(slowest * q0, fastest * end), {}};
   c.dmu_dlnq.assign(velocity.size() * c.wavenumber.size(), 0.0);

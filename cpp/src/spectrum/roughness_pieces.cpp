@@ -32,49 +32,6 @@ FewPoints four_points() {
 const FewPoints four = four_points(),
                 two_points{.n = 2, .node = {-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}, .weight = {1, 1}};
 
-struct Integrals {
-  double zeroth, first;
-};
-
-/// int_0^s exp(a t) dt and int_0^s t exp(a t) dt.
-Integrals of_power(double a, double s) {
-  const double x = a * s;
-  if (std::fabs(x) > 1) {
-    const double e = std::exp(x);
-    return {(e - 1) / a, s * s * ((x - 1) * e + 1) / (x * x)};
-  }
-  double term = 1, zeroth = 0, first = 0;  // sum x^k / (k! (k + 1)), sum x^k / (k! (k + 2))
-  for (int k = 0; k < 18; ++k) {
-    zeroth += term / (k + 1);
-    first += term / (k + 2);
-    term *= x / (k + 1);
-  }
-  return {s * zeroth, s * s * first};
-}
-
-/// int c dt and int c (t - from) dt from one place of a segment on, in ln q, to another.
-Integrals of_segment(const Segment& segment, double from, double to) {
-  const double q = segment.a * std::exp(from), square = q * q, length = to - from;
-  if (!segment.straight) {
-    const double c = square * square * segment.density_at(from);
-    const auto [zeroth, first] = of_power(4 + segment.slope, length);
-    return {c * zeroth, c * first};
-  }
-  Integrals sum{};  // a polynomial in q: two rules on a short piece
-  for (int half = 0; half < 2; ++half)
-    for (std::size_t i = 0; i < four.n; ++i) {
-      const double t = length / 4 * (1 + 2 * half + four.node[i]), k = q * std::exp(t);
-      const double part = length / 4 * four.weight[i] * (k * k) * (k * k) * segment.density_at(from + t);
-      sum.zeroth += part;
-      sum.first += part * t;
-    }
-  return sum;
-}
-
-}  // namespace
-
-namespace {
-
 /// In y at level 0; near the foot in sqrt(y), in which functions of sqrt(G) are smooth.
 constexpr double longest = 0.12, beside_foot = 0.25;
 /// By which part of itself the window may grow along a piece, and the root of int c dy from a unit before on, of which
@@ -118,6 +75,8 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
     nodes_.wavenumber.push_back(surface.back().b);
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
   }
+  cells_ = RoughnessCells(12, foot_, surface.back().b, nodes_.wavenumber);
+  coarse_cells_ = RoughnessCells(4, foot_, surface.back().b, nodes_.wavenumber);
 }
 
 std::size_t RoughnessPieces::segment_at(double y) const {
@@ -126,7 +85,7 @@ std::size_t RoughnessPieces::segment_at(double y) const {
 
 double RoughnessPieces::m_at(double y) const {
   const std::size_t i = segment_at(y);
-  return before_[i] + of_segment(surface_[i], 0, std::fmin(y - start_[i], surface_[i].length())).zeroth;
+  return before_[i] + roughness_moments(surface_[i], 0, std::fmin(y - start_[i], surface_[i].length())).zeroth;
 }
 
 bool RoughnessPieces::short_enough(double lower, double upper, std::size_t level) const {
@@ -189,7 +148,7 @@ RoughnessPieces::Points RoughnessPieces::points_of(double lower, double upper) c
       const double s = from + (to - from) * (k / atoms), half = (to - from) / atoms / 2;
       for (std::size_t j = 0; j < rule.n; ++j) {
         const double at = s + half * (1 + rule.node[j]), q = segment.a * std::exp(at), square = q * q;
-        const Integrals up_to = of_segment(segment, s, at);
+        const RoughnessMoments up_to = roughness_moments(segment, s, at);
         result.y.push_back(start + at);
         result.weight.push_back(half * rule.weight[j] * square * square * segment.density_at(at));
         result.window.push_back(window_(std::fmin(q, surface_.back().b)));
@@ -197,7 +156,7 @@ RoughnessPieces::Points RoughnessPieces::points_of(double lower, double upper) c
         result.zeroth.push_back(up_to.zeroth);
         result.first.push_back(up_to.first);
       }
-      const Integrals whole = of_segment(segment, s, s + 2 * half);
+      const RoughnessMoments whole = roughness_moments(segment, s, s + 2 * half);
       result.atoms.push_back({start + s, whole.zeroth, whole.first, rule.n});
       m += whole.zeroth;
     }

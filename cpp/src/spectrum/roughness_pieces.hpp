@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "spectrum/roughness_cells.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
 
@@ -27,6 +28,10 @@ class RoughnessPieces {
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
   };
   [[nodiscard]] const Nodes& nodes() const { return nodes_; }
+  /// Over the band from where roughness begins.
+  [[nodiscard]] const RoughnessCells& cells() const { return cells_; }
+  /// With a third of the points.
+  [[nodiscard]] const RoughnessCells& coarse_cells() const { return coarse_cells_; }
   [[nodiscard]] const RoughnessWindow& window() const { return window_; }
 
  private:
@@ -55,6 +60,7 @@ class RoughnessPieces {
   std::vector<double> start_, before_;  // of each segment: where it starts in y, and m there
   std::vector<double> bends_;           // where the window meets a row at which c bends sharply, in y
   Nodes nodes_;
+  RoughnessCells cells_, coarse_cells_;
   double foot_ = 0;
 };
 

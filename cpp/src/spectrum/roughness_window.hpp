@@ -8,6 +8,12 @@
 
 namespace asperity {
 
+/// int c dt and int c (t - from) dt, c = q^4 C, from one place of a segment on, in ln q, to another.
+struct RoughnessMoments {
+  double zeroth, first;
+};
+RoughnessMoments roughness_moments(const Segment& segment, double from, double to);
+
 /// The mean of c = q^4 C over a window of ln q about the wavenumber, c being 0 off the band: it depends on the surface
 /// alone, and single rows of a measured spectrum have a small part in it.
 class RoughnessWindow {
@@ -17,11 +23,11 @@ class RoughnessWindow {
 
   explicit RoughnessWindow(std::span<const Segment> surface);
   [[nodiscard]] double operator()(double wavenumber) const;
-  /// int c d ln q over the band, and the share of the last unit of ln q in it.
-  [[nodiscard]] double total() const;
-  [[nodiscard]] double share_of_end() const;
-  /// The end of the segment up to which this share of the integral over the band lies [1/m].
-  [[nodiscard]] double end_of(double share) const;
+  /// int c d ln q over the band.
+  [[nodiscard]] double total() const { return total_; }
+  /// Where the roughness ends [1/m]: the mean of ln q over the last tenth of the integral. Rows with hardly any
+  /// roughness beyond it do not count.
+  [[nodiscard]] double end() const { return end_; }
   /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
   [[nodiscard]] std::vector<double> ends() const;
 
@@ -30,9 +36,11 @@ class RoughnessWindow {
   [[nodiscard]] double between(double lower, double upper) const;
   [[nodiscard]] double up_to(std::size_t index, double wavenumber) const;
   [[nodiscard]] std::size_t segment_at(double wavenumber) const;
+  [[nodiscard]] double mean_of_last() const;
 
   std::span<const Segment> surface_;
   std::vector<double> before_, at_start_;  // of each segment: the integral up to it, and c where it starts
+  double total_ = 0, end_;
 };
 
 }  // namespace asperity

@@ -35,7 +35,6 @@ CORRECTIONS: dict[str, Correction | None] = {
 }
 _DRAWN = {"none": ":", "Nayak S": "--", "partial contact": "-"}
 _POINTS = 60  # of a curve
-_ALL = 0.9995  # of the slope variance
 _PAUSE = 0.2  # s between two looks of a progress line
 _COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
 
@@ -189,18 +188,11 @@ def _line_on(bar: Any) -> Callable[[SlidingStep], object] | None:
 
 
 def _spectrum(solved: HeightMap) -> Spectrum:
-    """Rings of the modes of the map, at the rms slope of its modes.
-
-    They end where all but 1/2000 of the slope variance is: a map of random phases has nothing in
-    its last rings, and PartialContact would take their end for that of the roughness.
-    """
+    """Rings of the modes of the map, at the rms slope of its modes."""
     (ny, nx), (dy, dx) = solved.heights.shape, solved.pixel_size
     q = np.hypot(
         np.fft.fftfreq(ny, dy / (2 * np.pi))[:, None], np.fft.fftfreq(nx, dx / (2 * np.pi))
     )
     power = np.abs(np.fft.fft2(solved.heights.astype(float)) / solved.heights.size) ** 2
     spectrum = power_spectrum(solved, window="none", detrend=None)
-    spectrum = spectrum.scaled(float(np.sum(q**2 * power)) / spectrum.rms_slope**2)
-    radii = spectrum.wavenumber
-    variance = np.cumsum(np.histogram(q, np.append(0, radii), weights=q**2 * power)[0])
-    return spectrum.truncated(q1=radii[np.searchsorted(variance, _ALL * variance[-1])])
+    return spectrum.scaled(float(np.sum(q**2 * power)) / spectrum.rms_slope**2)

@@ -19,6 +19,7 @@ from helpers.scenes import SCENE
 
 FRICTION = (
     "pressure_pa,velocity_m_s,mu,hysteresis,adhesion,contact_area,shift_factor,error_estimate"
+    ",model_error"
 )
 
 

@@ -26,7 +26,9 @@ GslPartialSolver::GslPartialSolver(std::span<const Segment> surface, const Rubbe
       model_(model),
       stops_(stops),
       window_(surface),
-      rule_(adaptive_rule(model.method)) {}
+      rule_(adaptive_rule(model.method)),
+      stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
+      end_(window_, stiffening_ * stiffening_ / 8) {}
 
 Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const {
   Integral sum{};
@@ -58,9 +60,9 @@ Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector
   return sum;
 }
 
-/// Beyond the spectrum, over the factor of T; from x = `lower` to `upper`.
+/// Of the edges, over the factor of T; from x = `lower` to `upper`.
 Integral GslPartialSolver::beyond(double lower, double upper, Of of) const {
-  const double frequency = velocity_ * surface_.back().b;
+  const double frequency = velocity_ * end_.wavenumber;
   std::vector<double> edges{std::log(lower), std::log(upper)};
   const std::optional<FrequencyRange> known = known_range(rubber_);
   const double held = known ? known->highest : std::numeric_limits<double>::infinity();
@@ -91,9 +93,9 @@ Integral GslPartialSolver::beyond(double lower, double upper, Of of) const {
 
 void GslPartialSolver::solve(double pressure, double velocity) {
   velocity_ = velocity;
-  const double stiffening = 1 / (1 - model_.poisson_ratio * model_.poisson_ratio), ratio = stiffening / pressure;
-  g_factor_ = ratio * ratio / 8;
-  mu_factor_ = 4 * pressure / stiffening;
+  const double scale = 1 / pressure / pressure;
+  g_factor_ = stiffening_ * stiffening_ / 8 * scale;
+  mu_factor_ = 4 * pressure / stiffening_;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
   std::vector<double> stops = window_.ends();
@@ -109,9 +111,8 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   if (g1_ == 0) return;
   check_g(g1_, pressure);
 
-  const double window_at_end = g_factor_ * window_(surface_.back().b);
-  const double full_g = g_factor_ * window_.total() * angular_integrals(rubber_, velocity * surface_.back().b).i2;
-  const partial_contact::Band band{partial_contact::end_factor(window_.share_of_end()), 1 - g1_ / full_g};
+  window_at_end_ = end_.window * scale;
+  const partial_contact::Band band = end_.band(g1_ / scale, angular_integrals(rubber_, velocity * end_.wavenumber).i2);
   const Integral tail = beyond(1, partial_contact::tail_end, Of::variance);
   Integral variance{};
   const auto at_root = [&](double x) {
@@ -123,7 +124,7 @@ void GslPartialSolver::solve(double pressure, double velocity) {
     root_.obstacle = rule.obstacle.value;
     root_.variance = rule.integral * rule.spread.value;  // as it will be at the root
     variance = over_band(root_, Of::variance, nullptr);
-    root_.variance = variance.value + root_.edges * window_at_end * tail.value;
+    root_.variance = variance.value + root_.edges * window_at_end_ * tail.value;
     return std::log(rule.integral * rule.spread.value / root_.variance);
   };
   double lower = -0.3, upper = -0.3, step = 0.1;
@@ -137,8 +138,8 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   const auto friction_at = [&](std::vector<double>* by_panel) {
     Integral f = over_band(root_, Of::friction, by_panel);
     const Integral in_tail = beyond(1, partial_contact::tail_end, Of::friction);
-    f.value += root_.edges * window_at_end * in_tail.value;
-    f.error += root_.edges * window_at_end * in_tail.error;
+    f.value += root_.edges * window_at_end_ * in_tail.value;
+    f.error += root_.edges * window_at_end_ * in_tail.error;
     return f;
   };
   const double rise = at_root(x + apart), f_beside = friction_at(nullptr).value;
@@ -147,7 +148,7 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   by_panel_.clear();
   const Integral friction = friction_at(&by_panel_);
   root_.friction = friction.value;
-  const double of_kappa = ((variance.error + root_.edges * window_at_end * tail.error) / root_.variance +
+  const double of_kappa = ((variance.error + root_.edges * window_at_end_ * tail.error) / root_.variance +
                            std::fabs(here) + 2 * g_->relative_error()) /
                           root_.slope;
   const double friction_slope = friction.value > 0 ? std::fabs(std::log(f_beside / friction.value)) / apart : 0;
@@ -155,7 +156,7 @@ void GslPartialSolver::solve(double pressure, double velocity) {
   const auto* series = std::get_if<PronySeries>(&rubber_);
   if (series == nullptr || series->fitted_range())
     outside = over_band(root_, Of::outside, nullptr).value +
-              root_.edges * window_at_end * beyond(1, partial_contact::tail_end, Of::outside).value;
+              root_.edges * window_at_end_ * beyond(1, partial_contact::tail_end, Of::outside).value;
   hysteresis_ = {
       mu_factor_ * friction.value,
       mu_factor_ * (friction.error + friction.value * (friction_slope * of_kappa + 2 * g_->relative_error())),
@@ -170,13 +171,13 @@ double GslPartialSolver::stress(double wavenumber) const {
 
 double GslPartialSolver::hysteresis_density(double wavenumber) const {
   if (g1_ == 0) return 0;
-  const double q1 = surface_.back().b;
-  if (wavenumber > q1)
-    return mu_factor_ * g_factor_ * window_(q1) * partial_edges(root_, rubber_, velocity_ * q1, wavenumber / q1);
+  const double q_e = end_.wavenumber;
+  const double edges = mu_factor_ * window_at_end_ * partial_edges(root_, rubber_, velocity_ * q_e, wavenumber / q_e);
+  if (wavenumber > surface_.back().b) return edges;
   const auto segment = std::ranges::lower_bound(surface_, wavenumber, {}, &Segment::b);
   const double square = wavenumber * wavenumber;
-  return mu_factor_ * g_factor_ * square * square * segment->density(wavenumber) *
-         angular_integrals(rubber_, velocity_ * wavenumber).i1 * stress(wavenumber);
+  return edges + mu_factor_ * g_factor_ * square * square * segment->density(wavenumber) *
+                     angular_integrals(rubber_, velocity_ * wavenumber).i1 * stress(wavenumber);
 }
 
 std::vector<PanelSolver::PanelShare> GslPartialSolver::shares() const {
@@ -185,11 +186,9 @@ std::vector<PanelSolver::PanelShare> GslPartialSolver::shares() const {
   for (std::size_t i = 0; i < by_panel_.size(); ++i)
     result.push_back({panels[i][0], panels[i][1], mu_factor_ * by_panel_[i]});
   if (g1_ == 0) return result;
-  const double q1 = surface_.back().b;
-  for (const auto& [lower, upper] : tail_stretches(q1, stop_wavenumbers_))
-    result.push_back(
-        {lower, upper,
-         mu_factor_ * root_.edges * g_factor_ * window_(q1) * beyond(lower / q1, upper / q1, Of::friction).value});
+  const double q_e = end_.wavenumber, in_tail = mu_factor_ * root_.edges * window_at_end_;
+  for (const auto& [lower, upper] : tail_stretches(q_e, stop_wavenumbers_))
+    result.push_back({lower, upper, in_tail * beyond(lower / q_e, upper / q_e, Of::friction).value});
   return result;
 }
 

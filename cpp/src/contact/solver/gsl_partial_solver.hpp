@@ -22,7 +22,7 @@ class GslPartialSolver : public PartialProfileSolver {
   [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const override;
 
  private:
-  /// Of a function f(R, dG / d ln q, I1 / I2 or I1 outside / I2) over the band at some root.
+  /// Over the band at some root: R dG times 1, I1 / I2, or the part of it from outside of the measured range.
   enum class Of { variance, friction, outside };
   [[nodiscard]] Integral over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const;
   [[nodiscard]] Integral beyond(double lower, double upper, Of of) const;
@@ -33,7 +33,9 @@ class GslPartialSolver : public PartialProfileSolver {
   std::span<const double> stops_;
   RoughnessWindow window_;
   Adaptive rule_;
-  double g_factor_ = 0, mu_factor_ = 0, velocity_ = 0;
+  double stiffening_, g_factor_ = 0, mu_factor_ = 0, velocity_ = 0;
+  RoughnessEnd end_;          // at unit load
+  double window_at_end_ = 0;  // of it, at the load
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> g_;
   std::vector<double> by_panel_;

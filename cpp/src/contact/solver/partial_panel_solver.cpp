@@ -39,6 +39,7 @@ PartialPanelSolver::PartialPanelSolver(std::span<const Segment> surface, const R
     : surface_(surface),
       rubber_(rubber),
       panels_(surface, rubber, model.poisson_ratio, model.rtol),
+      tail_(rubber, for_tail * model.rtol),
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
       rtol_(model.rtol),
       stops_(stops) {}
@@ -48,8 +49,8 @@ void PartialPanelSolver::start(double velocity) {
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
   panels_.start(velocity, stop_wavenumbers_);
-  end_.window = panels_.window_at_end();
-  end_.tail = tail_integrals(rubber_, velocity * surface_.back().b, 1, partial_contact::tail_end, for_tail * rtol_);
+  end_.window = panels_.end().window;
+  end_.tail = tail_(velocity * panels_.end().wavenumber, 1, partial_contact::tail_end);
 }
 
 /// The numbers of the active panels side by side.
@@ -76,7 +77,7 @@ void PartialPanelSolver::gather() {
     g += p.g_total;
   }
   end_.g = g;
-  end_.band = panels_.band(g);
+  end_.band = panels_.end().band(g, end_.tail.i2_at_end);
   stress_.resize(g_.size());
 }
 
@@ -208,10 +209,11 @@ double PartialPanelSolver::stress(double wavenumber) const {
 
 double PartialPanelSolver::hysteresis_density(double wavenumber) const {
   if (active_.empty()) return 0;
-  const double q1 = surface_.back().b;
-  if (wavenumber > q1) return mu_factor_ * end_.window * partial_edges(root_, rubber_, velocity_ * q1, wavenumber / q1);
+  const double q_e = panels_.end().wavenumber;
+  const double edges = mu_factor_ * end_.window * partial_edges(root_, rubber_, velocity_ * q_e, wavenumber / q_e);
+  if (wavenumber > surface_.back().b) return edges;
   const PartialPanels::Place here = panels_.at(wavenumber);
-  return mu_factor_ * here.rate * here.ratio * stress(wavenumber);
+  return edges + mu_factor_ * here.rate * here.ratio * stress(wavenumber);
 }
 
 std::vector<PanelSolver::PanelShare> PartialPanelSolver::shares() const {
@@ -225,9 +227,9 @@ std::vector<PanelSolver::PanelShare> PartialPanelSolver::shares() const {
     result.push_back({panels_.wavenumber_at(p.lower), panels_.wavenumber_at(p.upper), mu_factor_ * sum});
   }
   if (active_.empty()) return result;
-  const double q1 = surface_.back().b;
-  for (const auto& [lower, upper] : tail_stretches(q1, stop_wavenumbers_)) {
-    const TailIntegrals part = tail_integrals(rubber_, velocity_ * q1, lower / q1, upper / q1, for_tail * rtol_);
+  const double q_e = panels_.end().wavenumber;
+  for (const auto& [lower, upper] : tail_stretches(q_e, stop_wavenumbers_)) {
+    const TailIntegrals part = tail_(velocity_ * q_e, lower / q_e, upper / q_e);
     result.push_back({lower, upper, mu_factor_ * root_.edges * end_.window * part.i1});
   }
   return result;

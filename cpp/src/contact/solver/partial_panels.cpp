@@ -26,12 +26,12 @@ bool rough(const Segment& segment) { return segment.at_a > 0 || segment.at_b > 0
 }  // namespace
 
 PartialPanels::PartialPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
-    : surface_(surface), rubber_(rubber), window_(surface), nodes_(rtol < 1e-8 ? 16 : 12) {
-  const double stiffening = 1 / (1 - poisson_ratio * poisson_ratio);
-  g_factor_ = stiffening * stiffening / 8;
-  window_at_end_ = g_factor_ * window_(surface.back().b);
-  full_g_ = g_factor_ * window_.total();
-  end_power_ = partial_contact::end_factor(window_.share_of_end());
+    : surface_(surface),
+      rubber_(rubber),
+      window_(surface),
+      g_factor_(1 / (8 * (1 - poisson_ratio * poisson_ratio) * (1 - poisson_ratio * poisson_ratio))),
+      end_(window_, g_factor_),
+      nodes_(rtol < 1e-8 ? 16 : 12) {
   const auto first = std::ranges::find_if(surface, rough);
   foot_ = first == surface.end() ? surface.back().b : first->a;
   start_.reserve(surface.size());
@@ -154,10 +154,7 @@ void PartialPanels::start(double velocity, std::span<const double> stops) {
   ++starts_;
   if (!laid_out_ || !stops.empty()) lay_out(stops);
   for (const std::size_t root : roots_) fill(panels_[root]);
-  i2_at_end_ = angular_integrals(rubber_, velocity * surface_.back().b).i2;
 }
-
-partial_contact::Band PartialPanels::band(double g) const { return {end_power_, 1 - g / (full_g_ * i2_at_end_)}; }
 
 PartialPanels::Place PartialPanels::at(double wavenumber) const {
   const auto above = std::ranges::lower_bound(surface_, wavenumber, {}, &Segment::b);

@@ -7,6 +7,7 @@
 
 #include "asperity/rubber.hpp"
 #include "contact/partial_contact_rule.hpp"
+#include "contact/solver/partial_solver.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
@@ -57,9 +58,7 @@ class PartialPanels {
   [[nodiscard]] Place at(double wavenumber) const;
   /// int dG from the panel's lower end to a wavenumber in it.
   [[nodiscard]] double g_to(const PartialPanel& panel, double wavenumber) const;
-  /// The end of the spectrum at the velocity, where G is `g` at unit load; without what lies beyond.
-  [[nodiscard]] double window_at_end() const { return window_at_end_; }
-  [[nodiscard]] partial_contact::Band band(double g) const;
+  [[nodiscard]] const RoughnessEnd& end() const { return end_; }
   [[nodiscard]] double y_of(double wavenumber) const;
 
  private:
@@ -71,7 +70,8 @@ class PartialPanels {
   std::span<const Segment> surface_;
   const Rubber& rubber_;
   RoughnessWindow window_;
-  double g_factor_, window_at_end_, end_power_, full_g_, velocity_ = 0, i2_at_end_ = 0;
+  double g_factor_, velocity_ = 0;
+  RoughnessEnd end_;
   std::size_t nodes_;
   double foot_ = 0;            // qf [1/m]
   std::vector<double> start_;  // of each segment, in y

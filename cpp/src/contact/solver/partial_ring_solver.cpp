@@ -27,7 +27,46 @@ PartialRingSolver::PartialRingSolver(const TabulatedSpectrum& table, std::span<c
       surface_(surface),
       rubber_(rubber),
       model_(model),
-      stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)) {}
+      stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
+      end_(table.surface().pieces(table, 0).window(), stiffening_ * stiffening_ / 8),
+      tail_of_(rubber, for_tail * model.rtol) {
+  if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
+    known_in_part_ = series->fitted_range().has_value();
+    analytic_.emplace(PronySeries(series->equilibrium_modulus(), series->moduli(), series->relaxation_times()));
+  }
+}
+
+/// I1 and I2 at the nodes: by polynomials where they are analytic, which takes far fewer values.
+void PartialRingSolver::take_moduli(Level& level, double velocity) {
+  const RoughnessPieces::Nodes& nodes = level.pieces->nodes();
+  const std::size_t n = nodes.weight.size();
+  if (!analytic_) {
+    for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity * nodes.wavenumber[i];
+    const bool tell = &level == &levels_.front();
+    if (tell) i1_outside_.resize(n);
+    const bool any = angular_integrals(rubber_, level.frequency, level.i1, level.i2,
+                                       tell ? std::span<double>(i1_outside_) : std::span<double>());
+    if (tell) any_outside_ = any;
+    return;
+  }
+  const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside) {
+    const std::size_t points = cells.wavenumber().size();
+    for (auto* const row : {&frequency_, &i1_, &i2_}) row->resize(points);
+    for (std::size_t i = 0; i < points; ++i) frequency_[i] = velocity * cells.wavenumber()[i];
+    return angular_integrals(rubber, frequency_, i1_, i2_, outside);
+  };
+  if (&level == &levels_.front() && known_in_part_) {
+    const RoughnessCells& cells = level.pieces->coarse_cells();
+    i1_outside_.resize(n);
+    outside_at_points_.resize(cells.wavenumber().size());
+    any_outside_ = take(cells, rubber_, outside_at_points_);
+    if (any_outside_) cells.at_nodes(outside_at_points_, i1_outside_);
+  }
+  const RoughnessCells& cells = level.pieces->cells();  // of the same points at each level
+  if (&level == &levels_.front()) (void)take(cells, *analytic_, {});
+  cells.at_nodes(i1_, level.i1);
+  cells.at_nodes(i2_, level.i2);
+}
 
 PartialRingSolver::Level& PartialRingSolver::at_velocity(std::size_t number, double velocity) {
   Level& level = levels_[number];
@@ -35,15 +74,14 @@ PartialRingSolver::Level& PartialRingSolver::at_velocity(std::size_t number, dou
   if (!level.pieces) {
     level.pieces = &table_.surface().pieces(table_, number);
     const std::size_t n = level.pieces->nodes().weight.size();
-    for (auto* const row : {&level.frequency, &level.i1, &level.i2, &level.i1_outside, &level.g, &level.steepness,
-                            &level.weight, &level.ratio, &level.outside, &level.stress})
+    for (auto* const row : {&level.frequency, &level.i1, &level.i2, &level.g, &level.steepness, &level.weight,
+                            &level.ratio, &level.stress})
       row->resize(n);
   }
   level.velocity = velocity;
+  take_moduli(level, velocity);
   const RoughnessPieces::Nodes& nodes = level.pieces->nodes();
   const std::size_t n = nodes.weight.size();
-  for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity * nodes.wavenumber[i];
-  level.any_outside = angular_integrals(rubber_, level.frequency, level.i1, level.i2, level.i1_outside);
   const double factor = stiffening_ * stiffening_ / 8;
   double g = 0;
   for (std::size_t i = 0; i < n; i += 2) {
@@ -57,13 +95,9 @@ PartialRingSolver::Level& PartialRingSolver::at_velocity(std::size_t number, dou
     g += level.weight[i] + level.weight[i + 1];
   }
   for (std::size_t i = 0; i < n; ++i) level.ratio[i] = level.i1[i] / level.i2[i];
-  if (level.any_outside)
-    for (std::size_t i = 0; i < n; ++i) level.outside[i] = level.i1_outside[i] / level.i2[i];
-  const double i2_at_end = angular_integrals(rubber_, velocity * surface_.back().b).i2;
   level.end.g = g;
-  level.end.window = factor * level.pieces->window()(surface_.back().b);
-  level.end.band = {partial_contact::end_factor(level.pieces->window().share_of_end()),
-                    1 - g / (factor * level.pieces->window().total() * i2_at_end)};
+  level.end.window = end_.window;
+  level.end.band = end_.band(g, tail_.i2_at_end);
   level.end.tail = tail_;
   return level;
 }
@@ -74,6 +108,15 @@ PartialRoot PartialRingSolver::root(Level& level, double scale, double start) co
   return partial_root(nodes, level.end, scale, model_.rtol, start, level.stress.data());
 }
 
+/// The share of friction from frequencies outside of the measured range.
+double PartialRingSolver::outside_share(const Level& level, const PartialRoot& root) const {
+  double sum = root.edges * level.end.window * tail_.i1_outside;
+  if (any_outside_)
+    for (std::size_t i = 0; i < level.g.size(); ++i)
+      sum += level.weight[i] * level.stress[i] * i1_outside_[i] / level.i2[i];
+  return root.friction > 0 ? sum / root.friction : 0;
+}
+
 void PartialRingSolver::by_panels(double pressure, double velocity) {
   if (!panels_) panels_.emplace(surface_, rubber_, model_, std::span<const double>{});
   panels_->solve(pressure, velocity);
@@ -81,9 +124,9 @@ void PartialRingSolver::by_panels(double pressure, double velocity) {
 }
 
 void PartialRingSolver::solve(double pressure, double velocity) {
-  if (velocity != tail_velocity_) {
-    tail_velocity_ = velocity;
-    tail_ = tail_integrals(rubber_, velocity * surface_.back().b, 1, partial_contact::tail_end, for_tail * model_.rtol);
+  if (velocity != velocity_) {
+    velocity_ = velocity;
+    tail_ = tail_of_(velocity * end_.wavenumber, 1, partial_contact::tail_end);
   }
   const double scale = 1 / pressure / pressure, mu_factor = 4 / (stiffening_ * pressure);
   const auto difference = [](double a, double b) { return b == 0 ? 0 : std::fabs(a / b - 1); };
@@ -92,6 +135,7 @@ void PartialRingSolver::solve(double pressure, double velocity) {
   if (g1_ == 0) return by_panels(pressure, velocity);
   check_g(g1_, pressure);
   PartialRoot before = root(*coarse, scale, usual_kappa);
+  const double outside = outside_share(*coarse, before);
   for (std::size_t number = 1; number < RoughnessPieces::levels; ++number) {
     Level& level = at_velocity(number, velocity);
     root_ = root(level, scale, before.kappa);
@@ -106,11 +150,9 @@ void PartialRingSolver::solve(double pressure, double velocity) {
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;
     g1_ = level.end.g * scale;
-    double outside = root_.edges * level.end.window * tail_.i1_outside;
-    if (level.any_outside)
-      for (std::size_t i = 0; i < level.g.size(); ++i) outside += level.weight[i] * level.stress[i] * level.outside[i];
     area_error_ = std::fmax(error, least_error * model_.rtol);
-    hysteresis_ = {mu_factor * root_.friction, mu_factor * root_.friction * area_error_, mu_factor * outside};
+    hysteresis_ = {mu_factor * root_.friction, mu_factor * root_.friction * area_error_,
+                   mu_factor * root_.friction * outside};
     return;
   }
   by_panels(pressure, velocity);

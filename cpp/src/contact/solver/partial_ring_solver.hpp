@@ -29,11 +29,12 @@ class PartialRingSolver : public PartialSolver {
   struct Level {
     const RoughnessPieces* pieces = nullptr;
     double velocity = 0;
-    PartialEnd end;  // at unit load, without what lies beyond
-    std::vector<double> frequency, i1, i2, i1_outside, g, steepness, weight, ratio, outside, stress;
-    bool any_outside = false;
+    PartialEnd end;  // at unit load
+    std::vector<double> frequency, i1, i2, g, steepness, weight, ratio, stress;
   };
   Level& at_velocity(std::size_t level, double velocity);
+  void take_moduli(Level& level, double velocity);
+  [[nodiscard]] double outside_share(const Level& level, const PartialRoot& root) const;
   [[nodiscard]] PartialRoot root(Level& level, double scale, double start) const;
   void by_panels(double pressure, double velocity);
 
@@ -42,9 +43,15 @@ class PartialRingSolver : public PartialSolver {
   const Rubber& rubber_;
   const ContactModel& model_;
   double stiffening_;
+  RoughnessEnd end_;
   std::array<Level, RoughnessPieces::levels> levels_;
-  double tail_velocity_ = 0;
+  double velocity_ = 0;
+  PartialTail tail_of_;
   TailIntegrals tail_;
+  std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
+  std::vector<double> frequency_, i1_, i2_, outside_at_points_;  // at the points of cells
+  std::vector<double> i1_outside_;                               // at the nodes of the coarsest level, to a hundredth
+  bool known_in_part_ = false, any_outside_ = false;
   std::optional<PartialPanelSolver> panels_;
 };
 

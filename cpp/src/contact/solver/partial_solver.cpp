@@ -25,10 +25,16 @@ std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Seg
   return std::make_unique<GslPartialSolver>(surface, rubber, model, stops);
 }
 
-std::vector<std::array<double, 2>> tail_stretches(double q1, std::span<const double> stops) {
-  const double end = q1 * partial_contact::tail_end;
+RoughnessEnd::RoughnessEnd(const RoughnessWindow& roughness, double g_factor)
+    : wavenumber(roughness.end()),
+      window(g_factor * roughness(wavenumber)),
+      total(g_factor * roughness.total()),
+      factor(total > 0 ? std::pow(4 * (window / total), 0.2) : 1) {}
+
+std::vector<std::array<double, 2>> tail_stretches(double q_e, std::span<const double> stops) {
+  const double end = q_e * partial_contact::tail_end;
   std::vector<std::array<double, 2>> result;
-  double from = q1;
+  double from = q_e;
   for (const double q : stops) {
     if (!(q > from && q < end)) continue;
     result.push_back({from, q});
@@ -44,6 +50,7 @@ double partial_stress(const PartialRoot& root, double g, double steepness) {
 }
 
 double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x) {
+  if (!(x >= 1 && x <= partial_contact::tail_end)) return 0;
   double w = frequency * x, end = frequency;
   if (const auto known = known_range(rubber)) {
     w = std::fmin(w, known->highest);

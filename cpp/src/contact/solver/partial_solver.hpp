@@ -12,6 +12,7 @@
 #include "contact/solver/panel_solver.hpp"
 #include "contact/solver/partial_loops.hpp"
 #include "contact/solver/partial_tail.hpp"
+#include "spectrum/roughness_window.hpp"
 
 namespace asperity {
 
@@ -25,7 +26,15 @@ struct PartialRoot {
   double slope = 0;                            // of ln F - ln variance, which is 0 at the root
 };
 
-/// The end of a band at a velocity, at unit load: G1, the window's g' / I2, and what lies beyond.
+/// The end of the roughness, at unit load: q_e [1/m], K w(q_e) and K M, and the first factor of Z.
+struct RoughnessEnd {
+  double wavenumber, window, total, factor;
+  RoughnessEnd(const RoughnessWindow& window, double g_factor);
+  /// What is known of a velocity with G(q1) and I2(v q_e).
+  [[nodiscard]] partial_contact::Band band(double g, double i2) const { return {factor, 1 - g / (total * i2)}; }
+};
+
+/// The same at a velocity: G1, the window's g' / I2, and what lies beyond.
 struct PartialEnd {
   double g = 0, window = 0;
   partial_contact::Band band;
@@ -78,9 +87,9 @@ class PartialProfileSolver : public PartialSolver {
  public:
   /// R at a wavenumber of the band.
   [[nodiscard]] virtual double stress(double wavenumber) const = 0;
-  /// dmu_H / dln q, beyond the end of the spectrum too.
+  /// dmu_H / dln q, beyond the end of the roughness with that of the edges.
   [[nodiscard]] virtual double hysteresis_density(double wavenumber) const = 0;
-  /// Stretches of ln q in order, those beyond the spectrum too; their hysteresis sums to the whole.
+  /// Stretches of ln q in order, then those of the edges; their hysteresis sums to the whole.
   [[nodiscard]] virtual std::vector<PanelSolver::PanelShare> shares() const = 0;
 };
 
@@ -95,9 +104,9 @@ std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Seg
 
 /// R at a place of a band, and T beyond it: what the solvers share.
 double partial_stress(const PartialRoot& root, double g, double steepness);
-/// What lies beyond the end q1 of a band, cut at those of the rising `stops` that lie there [1/m].
-std::vector<std::array<double, 2>> tail_stretches(double q1, std::span<const double> stops);
-/// d mu_H / dln q at unit load and window roughness 1 beyond the end, at x = q / q1; `frequency` is v q1.
+/// What lies beyond the end q_e of the roughness, cut at those of the rising `stops` that lie there [1/m].
+std::vector<std::array<double, 2>> tail_stretches(double q_e, std::span<const double> stops);
+/// d mu_H / dln q of the edges at unit load and window roughness 1, at x = q / q_e; `frequency` is v q_e.
 double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x);
 
 }  // namespace asperity

@@ -1,15 +1,15 @@
-// int I (I2 / I2(v q1))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q1, on Gauss-Legendre panels of ln x that are
+// int I (I2 / I2(v q_e))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q_e, on Gauss-Legendre panels of ln x that are
 // halved until both are known well enough.
 #include "contact/solver/partial_tail.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_error.hpp"
+#include "contact/unlimited_rubber.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {
@@ -23,7 +23,7 @@ struct Piece {
   double lower, upper;  // in ln x
 };
 
-/// (I2 / I2(v q1))^(1/4) x^-3
+/// (I2 / I2(v q_e))^(1/4) x^-3
 double factor(double of_i2, double x) {
   static_assert(power == 3 && partial_contact::tail_excess == 0.25);
   return std::sqrt(std::sqrt(of_i2)) / (x * x * x);
@@ -32,14 +32,12 @@ double factor(double of_i2, double x) {
 TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
-  std::array<double, nodes> w, i1, i2, outside{}, weight;
+  std::array<double, nodes> w, i1, i2, weight;
   for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
-  const bool any_outside = angular_integrals(rubber, w, i1, i2, outside);
+  (void)angular_integrals(rubber, w, i1, i2, {});
   for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / i2_at_end, w[k] / frequency);
   TailIntegrals result;
   double tail[LegendreRule::kept];
-  if (any_outside)
-    for (std::size_t k = 0; k < nodes; ++k) result.i1_outside += rule.weight[k] * weight[k] * outside[k];
   for (std::size_t k = 0; k < nodes; ++k) {
     i1[k] *= weight[k];
     i2[k] *= weight[k];
@@ -55,27 +53,47 @@ TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end,
 void add(TailIntegrals& to, const TailIntegrals& part) {
   to.i1 += part.i1;
   to.i2 += part.i2;
-  to.i1_outside += part.i1_outside;
   to.i1_error += part.i1_error;
   to.i2_error += part.i2_error;
 }
 
 }  // namespace
 
-TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lower, double upper, double rtol) {
+PartialTail::PartialTail(const Rubber& rubber, double rtol)
+    : rubber_(rubber), unlimited_(unlimited(rubber)), highest_(std::numeric_limits<double>::infinity()), rtol_(rtol) {
+  limited_ = unlimited_ || std::holds_alternative<MasterCurve>(rubber);
+  if (const auto known = known_range(rubber)) highest_ = known->highest;
+}
+
+/// By the Gauss rule of four nodes in x^-3.
+double PartialTail::outside(double frequency, double lower, double upper, double i2_at_end) const {
+  constexpr std::array node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
+      weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  const double from = std::pow(upper, -power), to = std::pow(lower, -power);
+  std::array<double, 4> w, i1, i2, i1_outside{};
+  for (std::size_t k = 0; k < 4; ++k)
+    w[k] = frequency * std::pow((from + to) / 2 + (to - from) / 2 * node[k], -1 / power);
+  if (!angular_integrals(rubber_, w, i1, i2, i1_outside)) return 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * factor(i2[k] / i2_at_end, 1) * i1_outside[k];
+  return sum * (to - from) / (2 * power);
+}
+
+TailIntegrals PartialTail::operator()(double frequency, double lower, double upper) const {
+  const Rubber& rubber = unlimited_ ? *unlimited_ : rubber_;
   double from = std::log(lower), to = std::log(upper);
-  const std::optional<FrequencyRange> known = known_range(rubber);
-  const double highest = known ? known->highest : std::numeric_limits<double>::infinity();
-  const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest)).i2;
+  const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest_)).i2;
   TailIntegrals held;
-  if (highest < frequency * upper) {
-    const double at = std::fmax(lower, highest / frequency);
-    const AngularIntegrals last = angular_integrals(rubber, highest);
+  held.i2_at_end = i2_at_end;
+  if (highest_ < frequency * upper) {
+    const double at = std::fmax(lower, highest_ / frequency);
+    const AngularIntegrals last = angular_integrals(rubber, highest_);
     const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
-    held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0};
+    held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0, i2_at_end};
     to = std::log(at);
   }
   if (!(to > from)) return held;
+  if (limited_) held.i1_outside += outside(frequency, std::exp(from), std::exp(to), i2_at_end);
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   std::vector<Piece> pieces{{from, to}};
   std::vector<TailIntegrals> values{on_piece(rubber, frequency, i2_at_end, pieces.front())};
@@ -83,7 +101,7 @@ TailIntegrals tail_integrals(const Rubber& rubber, double frequency, double lowe
   for (;;) {
     TailIntegrals sum = held;
     for (const TailIntegrals& value : values) add(sum, value);
-    const double allowed1 = rtol * sum.i1, allowed2 = rtol * sum.i2;
+    const double allowed1 = rtol_ * sum.i1, allowed2 = rtol_ * sum.i2;
     if ((sum.i1_error <= allowed1 && sum.i2_error <= allowed2) || pieces.size() > most_pieces) return sum;
     const auto share = 0.5 / static_cast<double>(pieces.size());
     const std::size_t count = pieces.size();
