@@ -2,7 +2,7 @@
 
 With y = ln q, c = q^4 C, K = 1 / (8 ((1 - nu^2) sigma0)^2), G = K int c I2 dy, M = int c dy, c_w
 half of the integral of c over [y - 1, y + 1] (c is 0 off the band), ln q_e the mean of y over that
-last part of the band that has a tenth of M(q1), and rho = K I2(v q_e) M(q1) / G(q1):
+last part of the band that has a tenth of M(q1), and rho = K I2(v q_e) M(q1) / G(q1), at least 1:
   A = erf(1 / (2 sqrt(kappa G))), A1 = A(q1), R = A / (1 + Z)^2,
   Z = OBSTACLE (4 c_w(q_e) / M(q1))^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3)
       A^2 K I2 c_w,
@@ -85,6 +85,12 @@ SCENES = {
     },
     "steep end": {"surface": [[1e3, 1e4, 1e6], [1e-15, 1e-18, 1e-30]], "pressure": 2e4},
     "ramp to zero": {"surface": [[1e3, 1e4, 1e6], [1e-15, 1e-18, 0.0]], "pressure": 1e5},
+    "stiff beyond the end": {
+        "surface": [[1e3, 4e3, 4.1e3, 1e6], [1e-15, 3.9e-18, 3.5e-20, 1e-29]],
+        "rubber": SOLID,
+        "velocity": 0.1,
+        "pressure": 1e5,
+    },
     "two rows": {"surface": [[1e3, 4e4], [1e-15, 1e-21]], "pressure": 3e4},
     "table": {"table": sampled(-4, 10, 5), "velocity": 1e-3},
     "light table": {"table": sampled(-4, 10, 5), "velocity": 1e-3, "pressure": 1e3},
@@ -257,7 +263,7 @@ def band(scene, integrals, between, last, rule, first, growth, longest):
         i1 / i2,
         before[-1],
         4 * window / whole,
-        1 - before[-1] / at_end,
+        max(0.0, 1 - before[-1] / at_end),
     )
 
 

@@ -1,7 +1,7 @@
 // The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond the end
 // of its roughness. With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M = int c d ln q over the band, w(q) = (int c d
 // ln q from q / e to e q) / 2, c being 0 off the band, ln q_e the mean of ln q over that last part of the band that has
-// a tenth of M, rho = K I2(v q_e) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
+// a tenth of M, rho = K I2(v q_e) M / G(q1), at least 1, A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
 //   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
 //     Z = obstacle (4 w(q_e) / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
 //     g' = K I2(v q) w(q);

@@ -176,18 +176,19 @@ double FlashMap::hysteresis_density(double wavenumber, double temperature) const
   double w = reduced_frequency(wavenumber, temperature);
   if (known_) w = std::clamp(w, known_->lowest, known_->highest);
   const AngularIntegrals at = angular_integrals(scene_.rubber, w);
-  const double end = scene_.surface.back().b;
-  if (wavenumber > end) return mu_factor_ * contact_->density(0, 0, wavenumber, at.i1, at.i2, 0);
+  const double edges = mu_factor_ * contact_->density_of_edges(wavenumber, at.i1, at.i2);
+  if (wavenumber > scene_.surface.back().b) return edges;
   const std::vector<HeatGrid::Cell>& cells = grid_.cells();
   std::size_t cell = 0;
   while (cell + 1 < cells.size() && wavenumber > cells[cell].end) ++cell;
   const HeatGrid::Cell& in = cells[cell];
-  if (wavenumber < in.segment->a || wavenumber > in.segment->b) return 0;  // in an empty bin
+  if (wavenumber < in.segment->a || wavenumber > in.segment->b) return edges;  // in an empty bin
   const double u = 2 * (grid_.t_at(wavenumber) - in.lower) / (in.upper - in.lower) - 1;
   const double square = wavenumber * wavenumber, stiff = 1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio;
   const double unit = square * square * in.segment->density(wavenumber) * at.i2 / (8 * stiff * stiff);
   const double root = 1 / (point_.pressure * shift_.shift.p);
-  return mu_factor_ * contact_->density(cell, std::clamp(u, -1.0, 1.0), wavenumber, at.i1, at.i2, unit * root * root);
+  return edges +
+         mu_factor_ * contact_->density(cell, std::clamp(u, -1.0, 1.0), wavenumber, at.i1, at.i2, unit * root * root);
 }
 
 }  // namespace asperity

@@ -150,17 +150,14 @@ void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOption
   } else {
     for (const double q : wavenumber_) beyond_.window.push_back(g_factor_ * window(std::fmin(q, end_of_band_)));
   }
-  beyond_.window_at_end = g_factor_ * window(end_of_band_);
-  beyond_.whole = g_factor_ * window.total();
-  beyond_.share_of_end = window.share_of_end();
+  const double q_e = beyond_.end.emplace(window, g_factor_).wavenumber, end = q_e * partial_contact::tail_end;
   beyond_.first = wavenumber_.size();
-  const double end = end_of_band_ * partial_contact::tail_end;
-  std::vector<double> ends{end_of_band_, end};
+  std::vector<double> ends{q_e, end};
   for (const double q : options.stops)
-    if (q > end_of_band_ * (1 + same) && q < end * (1 - same)) ends.push_back(q);
+    if (q > q_e * (1 + same) && q < end * (1 - same)) ends.push_back(q);
   std::ranges::sort(ends);
   std::vector<double> weight;
-  beyond_.ends.push_back(end_of_band_);
+  beyond_.ends.push_back(q_e);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double length = std::log(ends[i + 1] / ends[i]);
     const double pieces = pieces_for(length, options.tabulated ? 0.5 : 2, options.level, options.tabulated);
@@ -170,7 +167,7 @@ void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOption
       for (std::size_t j = 0; j < rule.n; ++j) {
         const double q = std::exp(lower + half * (1 + rule.node[j]));
         wavenumber_.push_back(q);
-        weight.push_back(half * rule.weight[j] * std::pow(q / end_of_band_, -partial_contact::tail_power));
+        weight.push_back(half * rule.weight[j] * std::pow(q / q_e, -partial_contact::tail_power));
       }
       beyond_.panel_nodes.push_back(rule.n);
       beyond_.ends.push_back(k + 1 == pieces ? ends[i + 1] : std::exp(lower + 2 * half));
@@ -178,8 +175,8 @@ void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOption
   }
   beyond_.count = weight.size();
   beyond_.weight = Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
-  wavenumber_.push_back(end_of_band_);
-  highest_ = std::log(end);
+  wavenumber_.push_back(q_e);
+  highest_ = std::fmax(highest_, std::log(end));
   macro_weights_.resize(wavenumber_.size());
 }
 

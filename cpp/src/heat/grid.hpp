@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/solver/partial_solver.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/roughness_pieces.hpp"
 #include "spectrum/segments.hpp"
@@ -19,15 +20,16 @@ struct HeatGridOptions {
   bool tabulated = false;                          // the rubber has knots: panels are shorter
   double macro_wavenumber = 0;                     // at which G is asked for [1/m]
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
-  bool beyond_end = false;                         // PartialContact carries stress beyond the end of the spectrum
+  bool beyond_end = false;                         // PartialContact carries stress beyond the end of the roughness
   std::optional<double> also_felt = std::nullopt;  // a temperature point that may lie outside of the band [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
 };
 
 /// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root
 /// that F(G) has behind the front is smooth, or pieces of rings with two nodes each. Behind the nodes of the band
-/// follow those beyond its end, and those that G at q_m is taken from. The temperature is an unknown at Chebyshev's
-/// points in ln q, both ends among them, as it is analytic within pi of the real axis.
+/// follow those of the edges of contacts, from the end of the roughness on, and those that G at q_m is taken from. The
+/// temperature is an unknown at Chebyshev's points in ln q, both ends among them, as it is analytic within pi of the
+/// real axis.
 class HeatGrid {
  public:
   struct Cell {
@@ -63,13 +65,14 @@ class HeatGrid {
   [[nodiscard]] double wavenumber_at(double t) const;
   [[nodiscard]] double t_at(double wavenumber) const;
 
-  /// What PartialContact asks for. c is q^4 C with the factor of dG / dln q.
+  /// What PartialContact asks for. c is q^4 C with the factor of dG / dln q. The edges begin at q_e, where the
+  /// roughness ends, inside of the band.
   struct Beyond {
-    std::size_t first = 0, count = 0;  // of the nodes beyond the end; the one behind them is the end itself
-    Eigen::VectorXd weight;            // dln x x^-3 of them, x = q / q1
+    std::size_t first = 0, count = 0;  // of the edges' nodes; the one behind them is q_e itself
+    Eigen::VectorXd weight;            // dln x x^-3 of them, x = q / q_e
     std::vector<double> window;        // mean of c about each node of the band
-    double window_at_end = 0, whole = 0, share_of_end = 0;  // whole: int c dln q
-    std::vector<double> ends;                               // of panels, from q1 on [1/m]
+    std::optional<RoughnessEnd> end;   // with PartialContact
+    std::vector<double> ends;          // of panels, from q_e on [1/m]
     std::vector<std::size_t> panel_nodes;
     std::optional<RoughnessWindow> of_surface;  // with panels
     [[nodiscard]] double window_at(double q) const { return g_factor * (*of_surface)(q); }

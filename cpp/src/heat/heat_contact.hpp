@@ -50,6 +50,8 @@ class HeatContact {
   /// dmu_H / dln q over 4 (1 - nu^2) sigma0 where G has the slope `rate` over ln q, at u in [-1, 1] of a panel.
   [[nodiscard]] virtual double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                        double rate) const = 0;
+  /// The same of the edges of contacts, which PartialContact has from the end of the roughness on.
+  [[nodiscard]] virtual double density_of_edges(double /*wavenumber*/, double /*i1*/, double /*i2*/) const { return 0; }
 
   [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
   [[nodiscard]] double area() const { return area_; }                              // A / A0 at q1

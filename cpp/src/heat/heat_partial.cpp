@@ -1,6 +1,6 @@
 // The rule of PartialContact (contact/partial_contact_rule.hpp) where each node has a temperature of its own: kappa is
 // a function of all of them by the sum rule, and so are the stresses of all waves. Slopes come from that rule
-// implicitly. The stress beyond the end of the spectrum heats and is heated too.
+// implicitly. The stress of the edges, which begins at the end q_e of the roughness, heats and is heated too.
 #include <cmath>
 #include <numbers>
 
@@ -25,17 +25,16 @@ class PartialHeat final : public HeatContact {
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
+  [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
 
  private:
   [[nodiscard]] partial_contact::AtEnd rule(double log_g, double excess) const {
-    return {std::exp(log_g) * kappa_ * g_unit_ * scale_,
-            kappa_,
-            {partial_contact::end_factor(grid_.beyond().share_of_end), excess}};
+    return {std::exp(log_g) * kappa_ * g_unit_ * scale_, kappa_, {grid_.beyond().end->factor, excess}};
   }
   [[nodiscard]] Index end_node() const { return static_cast<Index>(grid_.beyond().first + grid_.beyond().count); }
 
   double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0;
-  VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q1) of those beyond
+  VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q_e) of the edges'
 };
 
 double share_of(double g) { return g > 0 ? std::erf(0.5 / std::sqrt(g)) : 1; }
@@ -59,8 +58,7 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
     area_ = macro_ = 1;
     return;
   }
-  // rho is 1 or more where the modulus rises with the wavenumber; heat may make it fall, and then nothing is stiff
-  excess_ = std::fmax(0, 1 - g_unit_ / (beyond.whole * i2_at_end));
+  excess_ = beyond.end->band(g_unit_, i2_at_end).excess;
   in_tail_.resize(count);
   for (Index t = 0; t < count; ++t)
     in_tail_[t] =
@@ -72,8 +70,8 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
   for (Index j = 0; j < n; ++j) steepness[j] = beyond.window[static_cast<std::size_t>(j)] * i2_[j];
   PartialEnd end;
   end.g = g_unit_;
-  end.window = beyond.window_at_end;
-  end.band = {partial_contact::end_factor(beyond.share_of_end), excess_};
+  end.window = beyond.end->window;
+  end.band = {beyond.end->factor, excess_};
   end.tail.i2 = in_tail_.sum();
   end.tail.i1 = in_tail_.dot(ratio_.segment(first, count));
   const PartialNodes nodes{floored.data(), steepness.data(), weight.data(), ratio_.data(), static_cast<std::size_t>(n)};
@@ -91,7 +89,7 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
     part_[j] = scale * weight[j] * ratio_[j] * partial_contact::stress(a, of_waves_[j]);
   }
   part_.segment(first, count) =
-      scale * edges_ * beyond.window_at_end * in_tail_.cwiseProduct(ratio_.segment(first, count));
+      scale * edges_ * beyond.end->window * in_tail_.cwiseProduct(ratio_.segment(first, count));
   area_ = at.share;
   macro_ = share_of(kappa_ * scale * g_macro_);
   // as the others have it, at the load
@@ -143,7 +141,7 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
     sum += part;
   }
   constexpr double tail = partial_contact::tail_excess;
-  const double per_tail = scale_ * edges_ * beyond.window_at_end;
+  const double per_tail = scale_ * edges_ * beyond.end->window;
   for (Index t = 0; t < count; ++t) {
     const double part = per_tail * in_tail_[t];
     variance += part * (edges_by_g * log_g1 + (1 + tail) * along.i2.row(first + t) - tail * at_end);
@@ -168,14 +166,18 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
 }
 
 double PartialHeat::density(std::size_t panel, double u, double wavenumber, double i1, double i2, double rate) const {
-  const HeatGrid::Beyond& beyond = grid_.beyond();
-  const double end = beyond.ends.front();
   if (g_unit_ == 0) return 0;
-  if (wavenumber > end)
-    return scale_ * edges_ * beyond.window_at_end * i1 * std::pow(i2 / i2_[end_node()], partial_contact::tail_excess) *
-           std::pow(wavenumber / end, -partial_contact::tail_power);
   const double a = share_of(kappa_ * g_on(panel, u));
-  return rate * (i1 / i2) * partial_contact::stress(a, obstacle_ * scale_ * beyond.window_at(wavenumber) * i2 * a * a);
+  return rate * (i1 / i2) *
+         partial_contact::stress(a, obstacle_ * scale_ * grid_.beyond().window_at(wavenumber) * i2 * a * a);
+}
+
+double PartialHeat::density_of_edges(double wavenumber, double i1, double i2) const {
+  const RoughnessEnd& end = *grid_.beyond().end;
+  const double x = wavenumber / end.wavenumber;
+  if (g_unit_ == 0 || !(x >= 1 && x <= partial_contact::tail_end)) return 0;
+  return scale_ * edges_ * end.window * i1 * std::pow(i2 / i2_[end_node()], partial_contact::tail_excess) *
+         std::pow(x, -partial_contact::tail_power);
 }
 
 }  // namespace

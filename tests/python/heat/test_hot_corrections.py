@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers import table_rows
 from helpers.cases import case, each
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, STICKY, hot
@@ -20,22 +21,22 @@ CORRECTIONS = {
     "peaks then gw": asperity.PeaksThenGreenwoodWilliamson(PEAKS, **HEIGHTS),
     "nayak": asperity.NayakSFactor(),
 }
+STILL = asperity.ArrheniusFit(
+    activation_energy=0.0,
+    reference_temperature=293.15,
+    standard_errors={"activation_energy": 0.0},
+    residual=0.0,
+)
 SPEEDS = np.array([1e-3, 0.1, 10.0])
 
 
 @each("name", list(CORRECTIONS))
 def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
-    still = asperity.ArrheniusFit(
-        activation_energy=0.0,
-        reference_temperature=293.15,
-        standard_errors={"activation_energy": 0.0},
-        residual=0.0,
-    )
     for spectrum in (CUT, ASPHALT):
         found = hot(
             spectrum,
             velocity=[1e-3, 0.3],
-            shift=still,
+            shift=STILL,
             correction=CORRECTIONS[name],
             adhesion=STICKY,
             rtol=1e-8,
@@ -95,3 +96,53 @@ def test_no_contact_makes_no_heat():
     found = hot(velocity=1.0, pressure=1e3, correction=aloft, adhesion=STICKY)
     assert (found.mu, found.contact_area, found.temperature) == (0, 0, 293.15)
     assert np.isinf(found.shift_factor)
+
+
+def of_row(row, **more):
+    """The scene of a row of hot_partial_contact.csv."""
+    spectrum = table_rows.tabulated if row["rms_height"] is None else table_rows.self_affine
+    at = {name: row[name] for name in ("pressure", "velocity", "temperature", "poisson_ratio")}
+    tread = TREAD | {name: row[name] for name in ("heat_capacity", "residence")}
+    given = {"heating": asperity.Heating(**tread), "correction": asperity.PartialContact()}
+    return hot(spectrum(row), rubber=table_rows.prony(row), **at, **given | more)
+
+
+@each("rtol", [1e-3, 1e-6, 1e-9])
+def test_partial_contact_is_that_of_its_definition(reference_table, rtol):
+    for row in reference_table("hot_partial_contact"):
+        with case(case=row["case"], rtol=rtol):
+            found = of_row(row, rtol=rtol)
+            off = abs(found.hysteresis - row["hysteresis"])
+            assert off <= found.error_estimate + row["rtol"] * row["hysteresis"]
+            assert found.error_estimate <= rtol * found.mu
+            rise = found.temperature - row["temperature"]
+            near = pytest.approx
+            assert rise == near(row["rise"], rel=3 * rtol + row["rtol"], abs=2e-13)
+            assert found.contact_area == near(row["contact_area"], rel=3 * rtol + row["rtol"])
+            assert found.macro_area == near(row["macro_area"], rel=3 * rtol + row["rtol"])
+
+
+def test_partial_contact_heats_beyond_the_end_of_its_roughness(reference_table):
+    """The edges begin at q_e, inside of the band or not; all the friction is in the density."""
+    inside = 0
+    for row in reference_table("hot_partial_contact"):
+        with case(case=row["case"]):
+            found = of_row(row, contributions=True, rtol=1e-6)
+            q, density = found.wavenumber, found.dmu_dlnq
+            assert q[-1] == pytest.approx(33 * row["end"], rel=1e-9) or q[-1] > 33 * row["end"]
+            assert (density[q > 1.001 * row["end"]][:3] > 0).all()
+            assert np.trapezoid(density, np.log(q)) == pytest.approx(found.hysteresis, rel=0.03)
+            np.testing.assert_allclose(found.decade_share.sum(), 1, rtol=1e-12)
+            at_end = np.interp(np.log(row["end"]), np.log(q), found.temperature_profile)
+            assert at_end - row["temperature"] == pytest.approx(row["rise_at_end"], rel=0.01)
+            top = row["q1"] if row["q1"] is not None else row["table_wavenumber"][-1]
+            inside += row["end"] < top / 2
+    assert inside >= 4
+
+
+def test_partial_contact_that_heat_does_not_change_is_the_cold_one_to_rounding(reference_table):
+    for row in reference_table("hot_partial_contact"):
+        with case(case=row["case"]):
+            found = of_row(row, shift=STILL, rtol=1e-12)
+            np.testing.assert_allclose(found.mu, found.cold.mu, rtol=1e-12)
+            np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=1e-12)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -31,7 +32,9 @@ struct RoughnessEnd {
   double wavenumber, window, total, factor;
   RoughnessEnd(const RoughnessWindow& window, double g_factor);
   /// What is known of a velocity with G(q1) and I2(v q_e).
-  [[nodiscard]] partial_contact::Band band(double g, double i2) const { return {factor, 1 - g / (total * i2)}; }
+  [[nodiscard]] partial_contact::Band band(double g, double i2) const {
+    return {factor, std::fmax(0, 1 - g / (total * i2))};
+  }
 };
 
 /// The same at a velocity: G1, the window's g' / I2, and what lies beyond.
