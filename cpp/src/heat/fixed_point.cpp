@@ -180,11 +180,17 @@ class March {
   Place at_;
 };
 
+/// What a step that is not taken any more would do to mu, at most: slopes of an earlier pass may cancel where those of
+/// the solution do not.
+double effect_on_mu(const Tangent& tangent, const VectorXd& step) {
+  return tangent.slope_of_mu.cwiseAbs().dot(step.cwiseAbs());
+}
+
 FixedPoint finished(const FlashMap& map, const VectorXd& theta, const Tangent& tangent) {
   FixedPoint found;
   found.theta = theta;
   found.residual = map.rise() - theta;
-  found.mu_error = std::fabs(tangent.slope_of_mu * tangent.lu.solve(found.residual));
+  found.mu_error = effect_on_mu(tangent, tangent.lu.solve(found.residual));
   return found;
 }
 
@@ -264,7 +270,7 @@ FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, 
     map(found.theta);
     found.residual = map.rise() - found.theta;
     const VectorXd coarse = down * found.residual, step = tangent.lu.solve(coarse);
-    found.mu_error = std::fabs(tangent.slope_of_mu * step);
+    found.mu_error = effect_on_mu(tangent, step);
     const double size = size_of(found.residual, found.theta);
     if (size <= tolerance || (size < 1e-12 && size >= before)) return found;
     if (size > 0.5 * before) break;
