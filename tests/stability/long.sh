@@ -2,6 +2,7 @@
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
+#   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
@@ -47,6 +48,8 @@ rings() {
     "$python" tests/stability/random_scenes.py --scenes 3000 --seed 7 --tables 1 --rings 1 --curves 0.3
 }
 
+heat() { "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1; }
+
 maps() {
   "$python" tests/stability/random_maps.py --maps 200 &&
     "$python" tests/stability/random_maps.py --maps 5 --points 1000000 --tables 0 --seed 2
@@ -90,13 +93,13 @@ memcheck() {
   done
 }
 
-[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings maps tests properties files interrupts fuzz \
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings heat maps tests properties files interrupts fuzz \
   sanitize threads memcheck
 for step; do
   case $step in
-    catalogue | isotherms | coverage | scenes | rings | maps | tests | properties | files | interrupts | fuzz) ;;
+    catalogue | isotherms | coverage | scenes | rings | heat | maps | tests | properties | files | interrupts | fuzz) ;;
     sanitize | threads | memcheck) ;;
-    *) sed -n '2,16s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,17s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -1,0 +1,158 @@
+"""Random rubbers that heat themselves: is the error estimate of mu kept?
+
+    python tests/stability/random_heat.py [--scenes 2000] [--seed 1] [--rings 0.1]
+
+Roads, Prony series, conditions, thermal constants, corrections and adhesion are drawn wide, four
+velocities a scene; rubbers run away, melt, or stay cold. What rtol 1e-11 gives is the truth, and
+results at 1e-3 to 1e-8 must be as near to it as their estimates say. A share of the roads are
+tables of rings with scatter, jumps and empty rows, whose truth is of rtol 1e-9 on panels. Printed:
+how many results were compared, the errors over their estimates, the scenes that went above 700 K
+or were not solved, and each scene that exceeded. Exit status 1 where one did.
+"""
+
+import argparse
+import sys
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+import asperity
+
+LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+RTOLS = (1e-3, 1e-4, 1e-6, 1e-8)
+RINGS_RTOLS = (1e-3, 1e-5, 1e-6)
+
+
+@dataclass
+class Outcome:
+    """Errors over estimates by rtol; why there is no truth, and which rtol was not reached."""
+
+    ratios: dict[float, float] = field(default_factory=dict)
+    untold: str = ""
+    refused: list[float] = field(default_factory=list)
+    branches: int = 1
+
+
+def draw_road(rng: Any) -> asperity.SelfAffineSpectrum:
+    q1 = 2000 * np.exp(rng.uniform(np.log(1.5), np.log(3e3)))
+    rolloff = 2000 * (q1 / 2000) ** rng.uniform(0.05, 0.6) if rng.random() < 0.3 else None
+    return asperity.SelfAffineSpectrum(
+        rms_height=10 ** rng.uniform(-6, -3.5),
+        hurst=rng.uniform(0.2, 1),
+        q0=2000,
+        q1=q1,
+        rolloff=rolloff,
+    )
+
+
+def draw_rings(rng: Any) -> asperity.TabulatedSpectrum:
+    road = draw_road(rng)
+    q = np.geomspace(road.q0, road.q1, int(rng.integers(20, 300)))
+    density = road.at(q) * np.exp(rng.uniform(0, 0.6) * rng.normal(size=q.size))
+    if rng.random() < 0.3:
+        density = density * np.where((np.arange(q.size) // 10) % 2, 1.0, 10 ** rng.uniform(-3, 0))
+    if rng.random() < 0.3:
+        empty = rng.integers(0, q.size // 2)
+        density[empty : empty + rng.integers(1, 8)] = 0
+    return asperity.TabulatedSpectrum(wavenumber=q, density=density)
+
+
+def draw_rubber(rng: Any) -> asperity.PronySeries:
+    terms = int(rng.integers(1, 21))
+    return asperity.PronySeries(
+        equilibrium_modulus=10 ** rng.uniform(5, 7),
+        moduli=10 ** rng.uniform(5, 9, terms),
+        relaxation_times=10 ** rng.uniform(-11, 2, terms),
+    )
+
+
+def draw_correction(rng: Any, road: Any) -> Any:
+    rms = road.rms_height() if callable(getattr(road, "rms_height", None)) else road.rms_height
+    tops = {"z_max": rms * rng.uniform(1.5, 4), "z_min": -rms * rng.uniform(1.5, 4)}
+    return [
+        None,
+        asperity.SFactor(gamma=rng.uniform(0, 1), applies_to="both"),
+        asperity.NayakSFactor(),
+        asperity.AffineShift(rng.uniform(1, 3)),
+        asperity.PartialContact(),
+        asperity.GreenwoodWilliamson(
+            **tops, rms_height=rms, reading=("implicit", "added")[int(rng.integers(2))]
+        ),
+    ][int(rng.integers(6))]
+
+
+def compute(seed: int, scene: int, *, rings: float = 0.0) -> Outcome:
+    rng = np.random.default_rng([seed, scene])
+    of_rings = rng.random() < rings
+    road = draw_rings(rng) if of_rings else draw_road(rng)
+    correction = draw_correction(rng, road)
+    exact = isinstance(correction, asperity.PartialContact) or rng.random() < 0.85
+    heating = asperity.Heating(
+        density=1200,
+        heat_capacity=1650,
+        conductivity=10 ** rng.uniform(-1, 0.5),
+        contact_diameter=10 ** rng.uniform(-4.5, -2),
+        residence=("disc", "box")[int(rng.integers(2))],
+        macro_area=10 ** rng.uniform(-2, 0) if rng.random() < 0.2 else None,
+    )
+    sticky = asperity.Adhesion(shear_stress=10 ** rng.uniform(5, 7), reference_velocity=6e-3)
+    at = {
+        "pressure": 10 ** rng.uniform(3.5, 7),
+        "velocity": 10 ** rng.uniform(-6, 1.3, 4),
+        "temperature": rng.uniform(250, 343),
+        "shift": LAW,
+        "heating": heating,
+        "correction": correction,
+        "form": "exact" if exact else "interpolated",
+        "adhesion": sticky if rng.random() < 0.5 else None,
+    }
+    compound = draw_rubber(rng)
+    outcome = Outcome()
+    try:
+        truth = asperity.friction(road, compound, **at, rtol=1e-9 if of_rings else 1e-11)
+    except asperity.Error as error:
+        outcome.untold = type(error).__name__
+        return outcome
+    outcome.branches = int(truth.branches.max())
+    for rtol in RINGS_RTOLS if of_rings else RTOLS:
+        try:
+            found = asperity.friction(road, compound, **at, rtol=rtol)
+        except asperity.NotConverged:
+            outcome.refused.append(rtol)
+            continue
+        stated = found.error_estimate + truth.error_estimate
+        outcome.ratios[rtol] = float(np.max(np.abs(found.mu - truth.mu) / np.maximum(stated, 1e-300)))
+    return outcome
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scenes", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--rings", type=float, default=0.1, help="share of roads that are tables")
+    given = parser.parse_args()
+    untold: dict[str, int] = {}
+    ratios: dict[float, list[float]] = {}
+    exceeded = refused = several = 0
+    for scene in range(given.scenes):
+        outcome = compute(given.seed, scene, rings=given.rings)
+        if outcome.untold:
+            untold[outcome.untold] = untold.get(outcome.untold, 0) + 1
+        several += outcome.branches > 1
+        refused += len(outcome.refused)
+        for rtol, ratio in outcome.ratios.items():
+            ratios.setdefault(rtol, []).append(ratio)
+            if not ratio <= 1:
+                exceeded += 1
+                print(f"scene {scene}, rtol {rtol:g}: {ratio:.3g} times its estimate", flush=True)
+    for rtol, of_rtol in sorted(ratios.items()):
+        median, most = np.median(of_rtol), np.max(of_rtol)
+        print(f"rtol {rtol:g}: {len(of_rtol)} scenes, median {median:.2g}, most {most:.3g}")
+    print(f"no truth: {untold}; not reached: {refused}; with several states: {several}")
+    print(f"{exceeded} exceeded")
+    return exceeded > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
