@@ -17,7 +17,7 @@ from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.style import colours
 from asperity.rubber import Rubber
-from asperity.scene.scene import Progress
+from asperity.scene.model import Progress
 from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
 from asperity.validation.sliding import SlidingStep, continued, slide
