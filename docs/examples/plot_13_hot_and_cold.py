@@ -2,9 +2,10 @@
 Hot and cold, with their bands
 ==============================
 
-Friction heats the rubber in the contact spots. Cold is the friction of a rubber that stays at 20 °C,
-hot that of the same rubber as it heats itself: softer, with more friction below 0.2 m/s and less
-above. The bands show what the errors of the scan, only four of its longest waves wide, make of mu.
+Friction heats the rubber in the contact spots. Cold is the friction of a rubber that stays at
+20 °C, hot that of the same rubber as it heats itself: softer, with more friction below 0.2 m/s and
+less above. The bands show what the errors of the scan, only four of its longest waves wide, make of
+mu.
 """
 
 import tomllib
