@@ -1,7 +1,6 @@
 // Prints friction and area of some scenes to the last bit, to compare two machines: tests/stability/aarch64.sh.
-#include <asperity/friction.hpp>
-
 #include <array>
+#include <asperity/friction.hpp>
 #include <cmath>
 #include <cstdio>
 #include <vector>
