@@ -1,6 +1,6 @@
 """
-Hot and cold, with a band
-=========================
+Two temperatures, with bands
+============================
 
 The same rubber at 10 and 50 °C. The bands show what the errors of the measurement make of mu, drawn
 at random 100 times: 5 % of noise on the DMA sweeps, and a scan only four of the longest waves wide.

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers import scenes
+from helpers import made_files, scenes
+from helpers.measured import present
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 LISTS = {
@@ -85,3 +86,18 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         "matplotlib.figure.Figure.savefig", lambda _, file, **__: file.write(b"picture")
     )
+
+
+@pytest.fixture(scope="session")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of files as instruments write them."""
+    folder = tmp_path_factory.mktemp("made")
+    made_files.write_scans(folder)
+    return folder
+
+
+@pytest.fixture
+def file_of(made: Path) -> Callable[[str, str], Path]:
+    """A scan of a source, made or measured; the test skips where SurfaceTopography is absent."""
+    pytest.importorskip("SurfaceTopography", reason="reading it needs asperity[io]")
+    return lambda source, name: made / name if source == "made" else present("topography", name)

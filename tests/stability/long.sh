@@ -15,6 +15,7 @@
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
+#   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
 # JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
 set -u
 cd "$(dirname "$0")/../.."
@@ -93,12 +94,14 @@ memcheck() {
   done
 }
 
+aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
+
 [ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings heat maps tests properties files interrupts fuzz \
   sanitize threads memcheck
 for step; do
   case $step in
     catalogue | isotherms | coverage | scenes | rings | heat | maps | tests | properties | files | interrupts | fuzz) ;;
-    sanitize | threads | memcheck) ;;
+    sanitize | threads | memcheck | aarch64) ;;
     *) sed -n '2,17s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from asperity import build_master_curve, read_isotherms
+from helpers import made_files
 
 COLUMNS = {"frequency": "freq_hz", "temperature": "temperature_C"}
 COLUMNS |= {"storage": "G_storage_pa", "loss": "G_loss_pa"}
@@ -20,6 +21,16 @@ POLYISOPRENE = {
 # polyisoprene of RepTate/tools/CreateMaterialsDatabaseFile.py, the law in theories/TheoryWLF.py;
 # b_T has the density, proportional to 1 / (1 + alpha T)
 B1, B2, ALPHA = 691.6245, 114.3, 10**-3.2147
+
+
+# measured files go through the same tests as made ones, where there are any
+SOURCES = ("made", "measured") if os.environ.get("ASPERITY_DATA") else ("made",)
+
+
+def scans_of(measured):
+    """Pairs of a source and a name, for tests that all scans go through."""
+    pairs = [("made", name) for name in made_files.FILES]
+    return pairs + [("measured", name) for name in measured if "measured" in SOURCES]
 
 
 def present(*parts):

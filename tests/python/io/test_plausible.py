@@ -14,7 +14,7 @@ from asperity.io import plausible
 from asperity.io.read_friction import read_friction
 from asperity.scene.scene import load_scene
 from helpers.cases import each
-from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
+from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present, scans_of
 
 ASPHALT = "rms_height_m = 265.7e-6\nhurst = 0.87\nq0_per_m = 2000\nq1_per_m = 1e6"
 RUBBER = (
@@ -122,11 +122,10 @@ def test_scans_from_microscopes_to_roads(tmp_path, pixel_size, rms):
         asperity.read_surface(tmp_path / "in.npy", pixel_size=pixel_size, unit=unit)
 
 
-@each("name", ["opd-1.opd", "al3d-1.al3d", "frt-2.frt", "dektak-1.csv"])
+@each(("source", "name"), scans_of(["opd-1.opd", "al3d-1.al3d", "frt-2.frt", "dektak-1.csv"]))
 @pytest.mark.usefixtures("silent")
-def test_measured_scans(name):
-    pytest.importorskip("SurfaceTopography", reason="files of instruments need asperity[io]")
-    asperity.read_surface(present("topography", name))
+def test_scans_of_instruments(source, name, file_of):
+    asperity.read_surface(file_of(source, name))
 
 
 @pytest.mark.usefixtures("silent")

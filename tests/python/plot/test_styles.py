@@ -192,3 +192,38 @@ def test_a_picture_of_a_single_column_is_as_wide_as_one(
 def test_a_style_goes_with_a_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["friction", "scene.toml", "--style", "dark"]) == 2
     assert "--style: goes with --plot" in capsys.readouterr().err
+
+
+def test_the_article_and_the_demo_are_drawn_in_a_style(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from matplotlib.image import imread
+
+    from asperity.cli import article_command
+    from asperity.plot.style import grey, palette
+
+    seen: list[tuple[str, str]] = []
+
+    def remake() -> tuple[dict[str, bytes], list[object]]:
+        seen.append((palette()[0], grey(0)))
+        return {}, []
+
+    monkeypatch.setattr(article_command, "remake", remake)
+    monkeypatch.setattr(article_command, "counted", lambda _: "")
+    assert main(["article", "--output", "remade", "--style", "dark"]) == 0
+    assert main(["article", "--output", "remade"]) == 0
+    assert seen == [("#56B4E9", "1"), ("#0072B2", "0")]
+    assert main(["demo", "--output", "dark", "--style", "dark"]) == 0
+    assert imread("dark/friction.png")[:3, :3, :3].max() <= 0.15
+
+
+def test_validate_is_drawn_in_a_style(folder: Path) -> None:
+    from importlib.resources import files
+
+    from matplotlib.image import imread
+
+    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
+    (folder / "few.csv").write_text("\n".join(rows[:12]))
+    assert main(["validate", "--rows", "few.csv", "--output", "dark", "--style", "dark"]) == 0
+    for name in ("area_error.png", "shift.png"):
+        assert imread(f"dark/{name}")[:3, :3, :3].max() <= 0.15

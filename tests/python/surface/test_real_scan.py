@@ -1,8 +1,10 @@
-"""Measured scans from public sources: as they are, damaged, and through the shell command."""
+"""Files of instruments, made and measured: as they are, damaged, and through the shell command."""
 
+import re
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,8 @@ import pytest
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
 from asperity.cli.main import main
 from asperity.demo import scene_text
-from helpers.measured import present
+from helpers import made_files
+from helpers.measured import SOURCES, scans_of
 
 SCENE = """
 [surface]
@@ -27,32 +30,53 @@ velocity_m_s = {{from = 1e-6, to = 1e-2, points = 9}}
 """
 
 
-SCANS = {  # shape, distance of the points [m], rms height without tilt [m], share of drop-outs
+MEASURED = {  # shape, distance of the points [m], rms height without tilt [m], share of drop-outs
     "opd-1.opd": ((480, 640), (1.9673303e-7, 1.9673303e-7), 6.7112e-9, 116 / 307200),
     "al3d-1.al3d": ((296, 200), (4.38027e-7, 4.38027e-7), 2.89822e-7, 0.0),
     "frt-2.frt": ((300, 150), (2e-4, 2e-4), 8.71655e-6, 12314 / 45000),
     "dektak-1.csv": ((9600,), 1499.8e-6 / 9599, 9.4243e-8, 0.0),
 }
+SCANS = scans_of(MEASURED)
+MAPS = {"made": "opd-1.opd", "measured": "opd-1.opd"}
+LINES = {"made": "line-1.csv", "measured": "dektak-1.csv"}
+HOLES = {"made": ("holes.al3d", "30"), "measured": ("frt-2.frt", "27.36")}
+
+scans = pytest.mark.parametrize(("source", "name"), SCANS)
+sources = pytest.mark.parametrize("source", SOURCES)
 
 
-def measured(name: str) -> Path:
-    """A measured scan; the test skips where it is absent or cannot be read."""
-    pytest.importorskip("SurfaceTopography", reason="reading it needs asperity[io]")
-    return present("topography", name)
-
-
-def scene(folder: Path, name: str) -> Path:
-    """A scene of a measured scan and the shipped rubber."""
-    file = measured(name).as_posix()
+def scene(folder: Path, scan: Path) -> Path:
+    """A scene of a scan and the shipped rubber."""
     path = folder / "scene.toml"
-    path.write_text(SCENE.format(file=file, **tomllib.loads(scene_text())["rubber"]))
+    rubber = tomllib.loads(scene_text())["rubber"]
+    path.write_text(SCENE.format(file=scan.as_posix(), **rubber))
     return path
 
 
-@pytest.mark.parametrize("name", SCANS)
-def test_scan_as_it_is(name: str) -> None:
-    shape, distance, rms_height, dropouts = SCANS[name]
-    scan = read_surface(measured(name))
+def untilted(heights: np.ndarray) -> float:
+    """rms height [m] about the plane or line through the points, by NumPy's least squares."""
+    there = np.isfinite(heights)
+    where = [np.ones(there.sum()), *(axis[there] for axis in np.indices(heights.shape))]
+    left = (
+        heights[there]
+        - np.column_stack(where)
+        @ np.linalg.lstsq(np.column_stack(where), heights[there], rcond=None)[0]
+    )
+    return float(np.sqrt(np.mean(left**2)))
+
+
+@scans
+def test_scan_as_it_is(source: str, name: str, file_of: Callable[[str, str], Path]) -> None:
+    scan = read_surface(file_of(source, name))
+    if source == "made":
+        truth = made_files.heights_of(name)
+        shape, rms_height = truth.shape, untilted(truth)
+        distance = (made_files.PIXEL,) * 2 if truth.ndim == 2 else made_files.PIXEL
+        dropouts = float(np.mean(np.isnan(truth)))
+        tolerance = 1e-6 if truth.ndim == 2 else 6e-12  # floats; digits of the profile's file
+        np.testing.assert_allclose(scan.heights, truth, rtol=tolerance, atol=6e-12)
+    else:
+        shape, distance, rms_height, dropouts = MEASURED[name]
     assert isinstance(scan, HeightMap if len(shape) == 2 else LineScan)
     assert scan.heights.shape == shape
     found = scan.pixel_size if isinstance(scan, HeightMap) else scan.spacing
@@ -61,14 +85,19 @@ def test_scan_as_it_is(name: str) -> None:
     assert scan.dropout_fraction == pytest.approx(dropouts, rel=1e-12, abs=0)
 
 
-def test_scan_states_its_own_unit() -> None:
+@sources
+def test_scan_states_its_own_unit(source: str, file_of: Callable[[str, str], Path]) -> None:
     with pytest.raises(InvalidInput, match=r"csv: unit = 'um': must be left out"):
-        read_surface(measured("dektak-1.csv"), unit="um")
+        read_surface(file_of(source, LINES[source]), unit="um")
 
 
-def test_dropouts_are_not_filled_where_they_are_many() -> None:
-    with pytest.raises(InvalidInput, match=r"27\.36 % of the points are drop-outs"):
-        read_surface(measured("frt-2.frt")).fill_dropouts()
+@sources
+def test_dropouts_are_not_filled_where_they_are_many(
+    source: str, file_of: Callable[[str, str], Path]
+) -> None:
+    name, share = HOLES[source]
+    with pytest.raises(InvalidInput, match=rf"{re.escape(share)} % of the points are drop-outs"):
+        read_surface(file_of(source, name)).fill_dropouts()
 
 
 def read_if_sound(path: Path) -> HeightMap | LineScan | None:
@@ -83,9 +112,16 @@ def read_if_sound(path: Path) -> HeightMap | LineScan | None:
     return None
 
 
-@pytest.mark.parametrize("name", SCANS)
-def test_truncated_scan(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
-    content, whole = measured(name).read_bytes(), read_surface(measured(name)).heights
+@scans
+def test_truncated_scan(
+    source: str,
+    name: str,
+    file_of: Callable[[str, str], Path],
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    file = file_of(source, name)
+    content, whole = file.read_bytes(), read_surface(file).heights
     path = tmp_path / name
     shares = (0, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99)
     refused = 0
@@ -101,9 +137,15 @@ def test_truncated_scan(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[
     assert capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize("name", SCANS)
-def test_corrupt_scan(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
-    content = measured(name).read_bytes()
+@scans
+def test_corrupt_scan(
+    source: str,
+    name: str,
+    file_of: Callable[[str, str], Path],
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    content = file_of(source, name).read_bytes()
     path = tmp_path / name
     random = np.random.default_rng(3)
     refused = 0
@@ -117,9 +159,12 @@ def test_corrupt_scan(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[st
     assert capfd.readouterr() == ("", "")
 
 
-def test_parsers_do_not_print(tmp_path: Path) -> None:
+@sources
+def test_parsers_do_not_print(
+    source: str, file_of: Callable[[str, str], Path], tmp_path: Path
+) -> None:
     path = tmp_path / "scan.opd"
-    path.write_bytes(measured("opd-1.opd").read_bytes()[:500])
+    path.write_bytes(file_of(source, MAPS[source]).read_bytes()[:500])
     code = f"import asperity; asperity.read_surface({str(path)!r})"
     run = [sys.executable, "-c", f"try:\n {code}\nexcept ValueError as error: print(error)"]
     done = subprocess.run(run, capture_output=True, text=True, check=True)
@@ -127,15 +172,23 @@ def test_parsers_do_not_print(tmp_path: Path) -> None:
     assert done.stderr == ""
 
 
-def test_interferometer_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@sources
+def test_interferometer_map(
+    source: str,
+    file_of: Callable[[str, str], Path],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     pytest.importorskip("matplotlib", reason="its picture needs asperity[plot]")
-    path = scene(tmp_path, "opd-1.opd")
+    scan = file_of(source, MAPS[source])
+    path = scene(tmp_path, scan)
     outputs = ["--output", str(tmp_path / "mu.csv"), "--plot", str(tmp_path / "mu.png")]
     assert main(["friction", str(path), *outputs]) == 0
     lines = (tmp_path / "mu.csv").read_text().splitlines()
     header = [line for line in lines if line.startswith("#")]
-    assert "# derived.shape = [480, 640]" in header
-    assert any(line.startswith("# derived.dropout_fraction = 0.000377") for line in header)
+    read = read_surface(scan)
+    assert f"# derived.shape = {list(read.heights.shape)}" in header
+    assert f"# derived.dropout_fraction = {read.dropout_fraction!r}" in header
     rows = np.array([line.split(",") for line in lines[len(header) + 1 :]], float)
     assert rows.shape == (9, 8)
     assert np.all(np.isfinite(rows))
@@ -150,14 +203,21 @@ def test_interferometer_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
         assert line.startswith("note: ")
 
 
-def test_scan_with_too_many_dropouts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = scene(tmp_path, "frt-2.frt")
+@sources
+def test_scan_with_too_many_dropouts(
+    source: str,
+    file_of: Callable[[str, str], Path],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    name, share = HOLES[source]
+    path = scene(tmp_path, file_of(source, name))
     before = sorted(tmp_path.iterdir())
     assert main(["friction", str(path), "--output", str(tmp_path / "mu.csv")]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert len(err.splitlines()) == 1
     assert err.startswith(f"asperity: {path}: ")
-    assert "frt-2.frt" in err
-    assert "27.36 % of the points are drop-outs: must be at most 10 %" in err
+    assert name in err
+    assert f"{share} % of the points are drop-outs: must be at most 10 %" in err
     assert sorted(tmp_path.iterdir()) == before
