@@ -81,10 +81,11 @@ RingBlock block_of(const BlockSums& of, double last_cell, double width) {
   for (const BlockSums::OfCell& cell : of.cells) append_columns(cell, by_degree, block);
   CellPolynomials end;
   legendre_in_cell(2 * (of.upper - last_cell) / width - 1, end);
-  const std::size_t last = of.cells.size() - 1;
-  for (std::size_t k = 0; k < nodes; ++k)
-    for (std::size_t j = 0; j < nodes; ++j)
-      block.to_slope[last * nodes + k].data[RingBlock::end] += end[j] * legendre_of_nodes()[k][j];
+  RowsOf24* const columns = &block.to_slope[(of.cells.size() - 1) * nodes];
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const CellPolynomials& of_node = legendre_of_nodes()[k];
+    for (std::size_t j = 0; j < nodes; ++j) columns[k].data[RingBlock::end] += end[j] * of_node[j];
+  }
   return block;
 }
 

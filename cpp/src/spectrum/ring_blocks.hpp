@@ -39,6 +39,7 @@ struct RingBlock {
 /// A block with the two halves that it is split into when they are first asked for.
 struct RingTree {
   RingBlock block;
+  const RingTree* finer = nullptr;  // that it comes from, where the grid comes from a finer one
   mutable std::atomic<const std::array<RingTree, 2>*> halves{nullptr};
 };
 
@@ -48,17 +49,30 @@ struct RingGrid {
   std::size_t cells;
 };
 
+/// Segments, and of each of them where it starts in y and int c dy over it.
+struct RingRows {
+  std::span<const Segment> segments;
+  std::vector<double> start, m_part;
+  explicit RingRows(std::span<const Segment> surface);
+};
+
 struct BlockSums;
 
 class RingSurface {
  public:
-  RingSurface(std::span<const Segment> surface, const RingGrid& grid);
+  /// The rows must outlive it, and so must the surface of a finer grid: one whose groups are as long and have twice as
+  /// many cells, so that all matrices are had from its.
+  RingSurface(const RingRows& rows, const RingGrid& grid, const RingSurface* finer = nullptr);
   ~RingSurface();
   RingSurface(const RingSurface&) = delete;
   RingSurface(RingSurface&&) = delete;
   RingSurface& operator=(const RingSurface&) = delete;
   RingSurface& operator=(RingSurface&&) = delete;
 
+  /// int P_k dm and int P_k du over a cell, the latter twice; P_k Legendre's.
+  struct Moments {
+    std::array<double, RingBlock::nodes> of_m{}, of_u{};
+  };
   /// The growth of m, and the integrals of a Legendre polynomial of high degree over m and over u in units of theirs.
   struct Cell {
     double m_part, roughness_of_m, roughness_of_u;
@@ -68,7 +82,8 @@ class RingSurface {
     std::vector<double> wavenumber;  // at which I1 and I2 are wanted, those of a cell after those of another [1/m]
     std::vector<double> to_g;        // of each of them: int c L_k dy over its cell
     std::vector<Cell> cells;
-    double m_lower = 0;  // m at the lower end
+    std::vector<Moments> moments;  // of each cell
+    double m_lower = 0;            // m at the lower end
     mutable std::atomic<const RingTree*> root{nullptr};
     /// Where a cell begins, and the last one ends, in y.
     [[nodiscard]] double edge(std::size_t cell) const {
@@ -92,8 +107,17 @@ class RingSurface {
   [[nodiscard]] BlockSums sums(const Group& group, double lower, double upper, double m_lower) const;
   /// Where a block is halved: in the middle, or at a row near it.
   [[nodiscard]] double middle(double lower, double upper) const;
-  /// Sets what is known of the cells of a group. Returns the growth of m.
-  double measure_cells(Group& group) const;
+  /// The integrals over the cells of a group, from points or from those of a finer grid.
+  void take_moments(Group& group) const;
+  void take_moments(const Group& finer, Group& group) const;
+  /// Sets what follows from them. Returns the growth of m.
+  static double measure_cells(Group& group);
+  [[nodiscard]] const Group& finer(const Group& group) const;
+  [[nodiscard]] std::unique_ptr<RingTree> root_of(const Group& group) const;
+  [[nodiscard]] std::unique_ptr<std::array<RingTree, 2>> halves_of(const Group& group, const RingTree& tree) const;
+  [[nodiscard]] std::unique_ptr<RingTree> root_of_finer(const Group& group) const;
+  [[nodiscard]] std::unique_ptr<std::array<RingTree, 2>> halves_of_finer(const Group& group,
+                                                                         const RingTree& tree) const;
   [[nodiscard]] FineRule points_of(const Group& group, double lower, double upper, double m_lower) const;
   void add_points(const Piece& piece, const PieceRule& rule, std::size_t first, std::size_t last, double begin,
                   double end, FineRule& fine) const;
@@ -102,8 +126,8 @@ class RingSurface {
   static void cut(const Segment& segment, double begin, double end, double m, double longest,
                   std::vector<Piece>& pieces);
 
-  std::vector<Segment> surface_;
-  std::vector<double> start_, m_part_;  // of each segment: where it starts in y, and int c dy over it
+  const RingRows& rows_;
+  const RingSurface* finer_;
   std::size_t count_;
   std::unique_ptr<Group[]> groups_;
 };

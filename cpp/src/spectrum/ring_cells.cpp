@@ -44,14 +44,9 @@ void legendre_in_cell(double z, CellPolynomials& p) {
 
 namespace {
 
-/// int P_k dm and int P_k du over a cell, the latter twice.
-struct Moments {
-  CellPolynomials of_m{}, of_u{};
-};
-
-Moments moments(const FineRule& fine, std::size_t cell, double m_lower) {
+RingSurface::Moments moments(const FineRule& fine, std::size_t cell, double m_lower) {
   constexpr std::size_t chunk = 64;
-  Moments result;
+  RingSurface::Moments result;
   for (std::size_t from = fine.begin(cell); from < fine.ends[cell]; from += chunk) {
     const std::size_t n = std::min(chunk, fine.ends[cell] - from);
     const double* const z = &fine.z[from];
@@ -82,18 +77,25 @@ double roughness(const CellPolynomials& moment) {
 
 }  // namespace
 
-double RingSurface::measure_cells(Group& group) const {
+void RingSurface::take_moments(Group& group) const {
   const FineRule fine = points_of(group, group.lower, group.upper, group.m_lower);
+  for (std::size_t cell = 0; cell < group.cells.size(); ++cell)
+    group.moments.push_back(moments(fine, cell, group.m_lower));
+}
+
+double RingSurface::measure_cells(Group& group) {
+  double m = 0;
   for (std::size_t cell = 0; cell < group.cells.size(); ++cell) {
-    const Moments of = moments(fine, cell, group.m_lower);
+    const Moments& of = group.moments[cell];
     group.cells[cell] = {of.of_m[0], roughness(of.of_m), roughness(of.of_u)};
+    m += of.of_m[0];
     for (const CellPolynomials& of_node : legendre_of_nodes()) {
       double sum = 0;
       for (std::size_t k = 0; k < nodes; ++k) sum += of.of_m[k] * of_node[k];
       group.to_g.push_back(sum);
     }
   }
-  return fine.m_part;
+  return m;
 }
 
 }  // namespace asperity

@@ -93,16 +93,16 @@ double m_before(const Segment& segment, double s) {
 }  // namespace
 
 double RingSurface::cut(double lower, double upper, double m_lower, double longest, std::vector<Piece>& pieces) const {
-  auto i = static_cast<std::size_t>(std::ranges::upper_bound(start_, lower) - start_.begin()) - 1;
+  auto i = static_cast<std::size_t>(std::ranges::upper_bound(rows_.start, lower) - rows_.start.begin()) - 1;
   double m = m_lower;
-  for (; i < surface_.size() && start_[i] < upper; ++i) {
-    const Segment& segment = surface_[i];
-    const double begin = std::fmax(0, lower - start_[i]);
-    const bool whole = i + 1 < surface_.size() && start_[i + 1] <= upper;
-    const double end = (whole ? start_[i + 1] : upper) - start_[i];
+  for (; i < rows_.segments.size() && rows_.start[i] < upper; ++i) {
+    const Segment& segment = rows_.segments[i];
+    const double begin = std::fmax(0, lower - rows_.start[i]);
+    const bool whole = i + 1 < rows_.segments.size() && rows_.start[i + 1] <= upper;
+    const double end = (whole ? rows_.start[i + 1] : upper) - rows_.start[i];
     if (!(end > begin)) continue;
     cut(segment, begin, end, m, longest, pieces);
-    m += (whole ? m_part_[i] : m_before(segment, end)) - m_before(segment, begin);
+    m += (whole ? rows_.m_part[i] : m_before(segment, end)) - m_before(segment, begin);
   }
   return m;
 }
@@ -144,6 +144,12 @@ FineRule RingSurface::points_of(const Group& group, double lower, double upper, 
   constexpr double most = 0.15, pieces_of_cell = 8;  // polynomials over a cell have a wave in two pieces at the most
   const double longest = std::fmin(most, std::fmin(upper - lower, group.edge(1) - group.lower) / pieces_of_cell);
   FineRule fine;
+  const auto rows = std::ranges::lower_bound(rows_.start, upper) - std::ranges::lower_bound(rows_.start, lower);
+  const auto expected =
+      static_cast<std::size_t>(2 * static_cast<double>(rows) + 2 * points * (upper - lower) / longest);
+  for (std::vector<double>* const of_points : {&fine.z, &fine.weight, &fine.rate, &fine.m})
+    of_points->reserve(expected);
+  fine.rules.reserve(expected / points);
   std::vector<Piece> pieces;
   double m = m_lower;
   for (std::size_t cell = 0; cell < group.cells.size(); ++cell) {
@@ -178,7 +184,7 @@ void RingSurface::add_points(const Piece& piece, const PieceRule& rule, std::siz
                              double begin, double end, FineRule& fine) const {
   const Segment& segment = *piece.segment;
   const double a4 = (segment.a * segment.a) * (segment.a * segment.a);
-  const double start = start_[static_cast<std::size_t>(&segment - surface_.data())];
+  const double start = rows_.start[static_cast<std::size_t>(&segment - rows_.segments.data())];
   for (std::size_t i = first; i < last; ++i) {
     const double t = piece.upper * (1 + rule.node[i]) / 2;
     const double s = piece.start + t * (piece.linear + piece.square * t);

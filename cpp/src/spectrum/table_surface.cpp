@@ -9,6 +9,8 @@ namespace {
 /// axis of ln q.
 constexpr std::array<RingGrid, TableSurface::grids> grids_of_rings{
     {{2, 1}, {2, 2}, {1, 2}, {1, 4}, {0.5, 4}, {0.5, 8}, {0.25, 8}}};
+/// Smooth master curves often want both of these: the first one comes from the second.
+constexpr std::size_t of_pairs = 2, finer = of_pairs + 1;
 
 }  // namespace
 
@@ -29,8 +31,11 @@ double TableSurface::nayak_parameter(const TabulatedSpectrum& table) {
 }
 
 const RingSurface& TableSurface::rings(const TabulatedSpectrum& table, std::size_t grid) {
-  std::call_once(rings_made_[grid],
-                 [&] { rings_[grid] = std::make_unique<RingSurface>(segments(table), grids_of_rings[grid]); });
+  std::call_once(rings_made_[grid], [&] {
+    std::call_once(rows_made_, [&] { rows_ = std::make_unique<RingRows>(segments(table)); });
+    rings_[grid] =
+        std::make_unique<RingSurface>(*rows_, grids_of_rings[grid], grid == of_pairs ? &rings(table, finer) : nullptr);
+  });
   return *rings_[grid];
 }
 
