@@ -9,6 +9,8 @@
 // with the pressure p where the bristle is, and w the velocity at which its tip slides, of the sliding distance D just
 // behind it: a contact that slides is a new one, with another mu, after about the length of the largest asperities.
 // Where mu falls with the velocity this holds the bristle back from stick-slip, as long as k D > p |d mu / d ln v|.
+//
+// A bristle comes into contact cold. The distance that its tip has slid since tells how far its rubber has heated up.
 #ifndef BRUSH_HPP
 #define BRUSH_HPP
 
@@ -38,14 +40,14 @@ inline double pressure_at(const Tire& tire, double x) {
   return 6 * tire.mean_pressure * part * (1 - part);
 }
 
-/// The steady state at one slip. `friction(pressure, velocity, mu)` fills in mu [-] of every bristle from its pressure
-/// [Pa] and its sliding velocity [m/s], in one call a step.
+/// The steady state at one slip. `friction(pressure, velocity, distance, mu)` fills in mu [-] of every bristle from its
+/// pressure [Pa], its sliding velocity [m/s] and the distance that it slid since it came in [m], in one call a step.
 template <class Friction>
 SlipPoint roll(const Tire& tire, double slip, const Friction& friction) {
   const std::size_t n = tire.bristles;
   const double spacing = tire.length / static_cast<double>(n), step = spacing / tire.velocity;
   const double rolling = (1 - slip) * tire.velocity, slipping = slip * tire.velocity;
-  std::vector<double> x(n), deflection(n, 0.0), contact(n), pressure(n), velocity(n, slipping), mu(n);
+  std::vector<double> x(n), deflection(n, 0.0), contact(n), pressure(n), velocity(n, slipping), distance(n, 0.0), mu(n);
   for (std::size_t i = 0; i < n; ++i) x[i] = (static_cast<double>(i) + 0.5) * spacing;
 
   // Two patch lengths of travel until nothing changes any more, and a third one to take the mean over.
@@ -59,14 +61,16 @@ SlipPoint roll(const Tire& tire, double slip, const Friction& friction) {
         contact[i] = x[i] / rolling;
         deflection[i] = 0;
         velocity[i] = slipping;
+        distance[i] = 0;
       }
       pressure[i] = pressure_at(tire, x[i]);
     }
-    friction(pressure, velocity, mu);
+    friction(pressure, velocity, distance, mu);
     for (std::size_t i = 0; i < n; ++i) {
       const double stuck = deflection[i] + slipping * contact[i];
       deflection[i] = std::min(stuck, mu[i] * pressure[i] / tire.stiffness);
       const double slid = stuck - deflection[i];
+      distance[i] += slid;
       if (slid > 0) velocity[i] += std::min(1.0, slid / tire.renewal) * (slid / contact[i] - velocity[i]);
       if (k < 2 * n) continue;
       force += tire.stiffness * deflection[i];

@@ -1,11 +1,11 @@
-"""The slip curve of the tire models in this folder: by the full theory and by the map.
+"""The slip curve of the tire models in this folder: by the full theory and the map, cold and hot.
 
     cmake -S cpp/examples/brush_full -B build/brush_full \\
         -DASPERITY_SOURCE_DIR=$PWD -DCMAKE_BUILD_TYPE=Release
     cmake --build build/brush_full
     python cpp/examples/slip.py build/brush_full/brush_full docs/embedding/slip.png
 
-Runs the built example, which takes some seconds, and draws what it prints. Needs NumPy and
+Runs the built example, which takes some fifteen seconds, and draws what it prints. Needs NumPy and
 matplotlib.
 """
 
@@ -47,7 +47,7 @@ def run(example: str) -> tuple[np.ndarray, float]:
 def draw(path: str, columns: np.ndarray, allowed: float) -> None:
     import matplotlib.pyplot as plt
 
-    slip, force, sliding, by_map = columns
+    slip, force, _, by_map, hot, memory = columns
     percent = 100 * slip
     figure, (curve, apart) = plt.subplots(
         1, 2, figsize=(7, 2.8), width_ratios=(3, 2), layout="constrained"
@@ -55,32 +55,25 @@ def draw(path: str, columns: np.ndarray, allowed: float) -> None:
     for axes, name in ((curve, "(a)"), (apart, "(b)")):
         axes.set_title(name, loc="left", fontsize=8, fontweight="bold")
         axes.set_xlabel("slip [%]")
+        axes.spines.right.set_visible(False)
 
-    linear = np.linspace(0, 0.0295, 30)
+    linear = np.linspace(0, 0.043, 30)
     stiff = STIFFNESS * linear / (1 - linear)
     curve.plot(100 * linear, stiff, "--", color="0.5", lw=0.9, label="bristle stiffness")
-    curve.plot([0, *percent], [0, *force], color=BLUE, label="full theory at every bristle")
     near = percent < 40
     ring = {"ms": 3.5, "mfc": "none", "mew": 0.9}
-    curve.plot(percent[near], by_map[near], "o", color=ORANGE, label="friction map", **ring)
-    curve.set(xlim=(0, 40), ylim=(0, 0.65), ylabel="braking force / load [-]")
-    share = curve.twinx()
-    share.spines.top.set_visible(False)
-    label = "sliding bristles (right)"
-    share.plot([0, *percent], [0, *(100 * sliding)], ":", color=GREEN, label=label)
-    share.set_ylim(0, 108)
-    share.set_ylabel("sliding bristles [%]", color=GREEN)
-    share.tick_params(axis="y", colors=GREEN)
-    lines = [*curve.get_lines(), *share.get_lines()]
-    labels = [str(line.get_label()) for line in lines]
-    curve.legend(lines, labels, loc="lower right", bbox_to_anchor=(1, 0.1))
+    curve.plot([0, *percent], [0, *force], color=BLUE, label="cold, full theory at every bristle")
+    curve.plot(percent[near], by_map[near], "o", color=BLUE, label="cold, friction map", **ring)
+    curve.plot([0, *percent], [0, *memory], color=GREEN, label="heats up as it slides, map")
+    curve.plot([0, *percent], [0, *hot], "-.", color=ORANGE, label="hot from the start, map")
+    curve.set(xlim=(0, 40), ylim=(0, 0.9), ylabel="braking force / load [-]")
+    curve.legend(loc="lower right")
 
     off = np.abs(by_map / force - 1)
-    apart.loglog(percent, off, "o-", color=ORANGE, ms=3, lw=0.8, label="map against theory")
+    apart.loglog(percent, off, "o-", color=BLUE, ms=3, lw=0.8, label="cold map against theory")
     apart.axhline(allowed, color="0.3", lw=0.9, ls="--", label="allowed by max_error")
     apart.set(ylabel="relative difference of the force [-]", ylim=(off.min() / 100, 5 * allowed))
     apart.xaxis.set_major_formatter("{x:g}")
-    apart.spines.right.set_visible(False)
     apart.legend(loc="lower right")
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=200)

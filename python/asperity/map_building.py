@@ -151,7 +151,7 @@ def built(
     parts = surface_and_rubber(spectrum, rubber)
     model = contact_model(poisson_ratio, correction, form, 1e-6, method)
     added = adhesion_core(adhesion)
-    made_of = {
+    made_of: dict[str, Any] = {
         "spectrum": spectrum,
         "rubber": rubber,
         "correction": correction,

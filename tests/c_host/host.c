@@ -32,7 +32,18 @@ int main(int count, char** arguments) {
   /* second order in h, and rounding over it: both below 1e-7 */
   check(fabs((above - below) / (2 * h) - out[4]) < 1e-6, "d mu / d ln p");
   check(asperity_map_mu(map, p, -v, 1, 0) == out[0], "even in the velocity");
-  check(asperity_map_mu(map, p, v, 2, 0) != out[0], "another temperature, another mu");
+
+  /* the map has heat, of one temperature of the background */
+  const double hot = out[0], after = asperity_map_hot_mu(map, p, v, 293.15, 1e-4, 0);
+  const double cold = asperity_map_hot_mu(map, p, v, 293.15, 0, 0);
+  check(asperity_map_hot_mu(map, p, v, 293.15, 1e300, 0) == hot, "slid long ago");
+  check(asperity_map_hot_mu(map, p, v, 0, 1e300, 0) == hot, "its only temperature need not be given");
+  check(cold > 0 && cold != hot && (after - cold) * (hot - after) > 0, "after a distance between cold and hot");
+  check(asperity_map_hot_at(map, p, v, 293.15, 1e-4, 0, out) == 0 && out[0] == after, "and its parts");
+  check(asperity_map_hot_at(map, p, v, 400, 1e-4, 0, out) == 4 && isnan(out[0]), "the temperature outside");
+  check(asperity_map_hot_at(map, p, v, 293.15, -1, 0, out) == 3 && isnan(out[0]), "a negative distance");
+  check(asperity_map_at(map, p, v, 2, 1, out) == 5 && isnan(out[0]), "no a_T on a map with heat");
+  asperity_map_at(map, p, v, 1, 0, out);
 
   check(isnan(asperity_map_mu(map, 1, v, 1, 0)), "NaN outside of the box");
   check(asperity_map_at(map, 1, v, 1, 1, out) == 1 && out[0] > 0 && out[4] == 0, "or the value at its side");

@@ -386,14 +386,19 @@ class FrictionMap {
     return slid < 40 ? Memory{map_detail::exp(-slid), slid * slope} : Memory{0, 0};
   }
 
-  /// The place on the map without heat.
+  /// ln of a_T v on the map without heat.
+  [[nodiscard]] double cold_x(const Where& at) const noexcept {
+    if (steps_ == 0) return at.x;
+    double slope = 0;
+    const double x =
+        at.x + cubic(shift_.data(), shift_.size() / 2, steps_per_T_, at.background - info_.temperature[0], slope);
+    const double first = cold_->offset_x_, last = cold_->last_x_;
+    return x < first ? first : x > last ? last : x;  // by rounding
+  }
+
   [[nodiscard]] Where cold_place(const Where& at) const noexcept {
     Where cold = at;
-    double slope = 0;
-    if (steps_ > 0)
-      cold.x += cubic(shift_.data(), shift_.size() / 2, steps_per_T_, at.background - info_.temperature[0], slope);
-    const double first = cold_->offset_x_, last = cold_->last_x_;
-    cold.x = cold.x < first ? first : cold.x > last ? last : cold.x;  // by rounding
+    cold.x = cold_x(at);
     const double z = at.ln_p - cold_->log_modulus_offset(cold.x, cold.slope);
     cold.cell = cold_->cell_at(cold.x, z);
     cold.dx = cold.x - cold.cell[0];

@@ -22,6 +22,9 @@ struct MapLoops {
                   std::size_t n, std::int32_t* entry);
   void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
+  void (*warm_polynomials)(const double* cells, std::size_t cell_size, const std::int32_t* cell,
+                           const std::int32_t* step, const double* x, const double* z, const double* t, std::size_t n,
+                           double* h, double* a);
   void (*exponentials)(const double* x, double* e, std::size_t n);
   void (*add_adhesion)(const double* ln_area, const double* ln_p, const double* ln_v, double ln_shear_stress,
                        double ln_reference, double fall, std::size_t n, double* mu);
@@ -58,55 +61,91 @@ class FrictionMapBatch {
     const double* const pressure = column(points.pressure, begin, n, pressure_);
     const double* const velocity = column(points.velocity, begin, n, velocity_);
     const double* const a_T = column(points.a_T, begin, n, a_T_);
-    const auto one = [&](std::span<const double> all, std::size_t i, double otherwise) {
-      return all.empty() ? otherwise : all[all.size() > 1 ? begin + i : 0];
-    };
-    const bool plain = points.background.empty() && points.distance.empty() &&
-                       (!map_.info_.heat || (is_one(points.a_T) && !shifts_adhesion_));
-    const bool within = plain && map_.steps_ == 0 && !map_.cells_.empty() &&
+    const double* const background = optional(points.background, 0, begin, n, background_);
+    const double* const distance = optional(points.distance, map_detail::long_slid, begin, n, distance_);
+    const bool within = !map_.cells_.empty() && plain(points, background, distance, n) &&
                         loops_.prepare(map_.info_, pressure, velocity, a_T, n, speed_, x_);
-    if (!within) {  // outside of the box, or over the temperature: one by one
+    if (!within) {  // rare: one by one
       std::size_t good = n;
       for (std::size_t i = n; i-- > 0;) {
-        mu[i] = map_.mu(
-            pressure[i], velocity[i], outside_,
-            {a_T[i], shifts_adhesion_, one(points.background, i, 0), one(points.distance, i, map_detail::long_slid)});
+        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {a_T[i], shifts_adhesion_, background[i], distance[i]});
         if (std::isnan(mu[i])) good = i;
       }
       return good;
     }
     loops_.logarithms_of_both(x_, pressure, x_, ln_p_, n);
-    find_cells(n);
-    loops_.polynomials(map_.cells_.data(), cell_, x_, z_, n, h_, a_);
-    if (map_.info_.hysteresis) {
-      loops_.exponentials(h_, mu, n);
-    } else {
-      std::fill_n(mu, n, 0.0);
-    }
-    if (map_.info_.shear_stress == 0) return n;
     const bool unshifted = shifts_adhesion_ || is_one(points.a_T);
-    if (!unshifted) loops_.logarithms(speed_, speed_, n);
-    loops_.add_adhesion(a_, ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n,
-                        mu);
+    if (!unshifted && map_.info_.shear_stress > 0) loops_.logarithms(speed_, speed_, n);
+    find_mu(map_, x_, unshifted ? x_ : speed_, n, mu);
+    if (map_.info_.heat && !points.distance.empty()) blend_cold(background, distance, n, mu);
     return n;
   }
 
  private:
   static bool is_one(std::span<const double> a_T) { return a_T.size() == 1 && a_T[0] == 1; }
 
-  /// z_ and cell_ of x_ and ln_p_.
-  void find_cells(std::size_t n) {
-    if (map_.offset_.empty()) {
+  /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
+  bool plain(const MapColumns& points, const double* background, const double* distance, std::size_t n) {
+    if (!points.distance.empty() && !std::all_of(distance, distance + n, [](double s) { return s >= 0; })) return false;
+    if (!map_.info_.heat) return points.background.empty();
+    if (!is_one(points.a_T) || shifts_adhesion_) return false;
+    const bool only = map_.steps_ == 0 && points.background.empty();
+    const auto [lowest, highest] = map_.info_.temperature;
+    if (!only && !std::all_of(background, background + n, [&](double t) { return t >= lowest && t <= highest; }))
+      return false;
+    for (std::size_t i = 0; map_.steps_ > 0 && i < n; ++i) {
+      FrictionMap::Where at;
+      map_.set_step(background[i], at);
+      step_[i] = static_cast<std::int32_t>(at.step);
+      dT_[i] = at.dT;
+    }
+    return true;
+  }
+
+  /// mu of a map at ln p and these ln v; ln_v is that which the adhesion takes.
+  void find_mu(const FrictionMap& map, const double* x, const double* ln_v, std::size_t n, double* mu) {
+    find_cells(map, x, n);
+    if (map.steps_ == 0)
+      loops_.polynomials(map.cells_.data(), cell_, x, z_, n, h_, a_);
+    else
+      loops_.warm_polynomials(map.cells_.data(), map.cell_size_, cell_, step_, x, z_, dT_, n, h_, a_);
+    if (map.info_.hysteresis)
+      loops_.exponentials(h_, mu, n);
+    else
+      std::fill_n(mu, n, 0.0);
+    if (map.info_.shear_stress == 0) return;
+    loops_.add_adhesion(a_, ln_p_, ln_v, map.ln_shear_stress_, map.ln_reference_, map.width_, n, mu);
+  }
+
+  /// z_ and cell_ of x and ln_p_.
+  void find_cells(const FrictionMap& map, const double* x, std::size_t n) {
+    if (map.offset_.empty()) {
       std::copy_n(ln_p_, n, z_);
     } else {
       double slope = 0;
-      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map_.log_modulus_offset(x_[i], slope);
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], slope);
     }
-    const bool one_band = map_.cuts_.size() == 2;
-    if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;
+    const bool one_band = map.cuts_.size() == 2;
+    if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z_, n, cell_)) return;
     for (std::size_t i = 0; i < n; ++i)
-      cell_[i] = static_cast<std::int32_t>((map_.cell_at(x_[i], z_[i]) - map_.cells_.data()) /
-                                           static_cast<std::ptrdiff_t>(map_.cell_size_));
+      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z_[i]) - map.cells_.data()) /
+                                           static_cast<std::ptrdiff_t>(map.cell_size_));
+  }
+
+  /// Adds to the hot mu at x_ the share of the cold one that is left after a distance.
+  void blend_cold(const double* background, const double* distance, std::size_t n, double* mu) {
+    bool any = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      FrictionMap::Where at;
+      at.x = x_[i];
+      at.background = background[i];
+      share_[i] = map_.remember(at, distance[i]).share;
+      any = any || share_[i] > 0;
+      speed_[i] = map_.cold_x(at);
+    }
+    if (!any) return;
+    find_mu(*map_.cold_, speed_, x_, n, cold_);
+    for (std::size_t i = 0; i < n; ++i) mu[i] += share_[i] * (cold_[i] - mu[i]);
   }
 
   /// A column's part, or its only entry as often as it is needed.
@@ -115,14 +154,19 @@ class FrictionMapBatch {
     std::fill_n(room, n, all[0]);
     return room;
   }
+  static const double* optional(std::span<const double> all, double otherwise, std::size_t begin, std::size_t n,
+                                double* room) {
+    return column(all.empty() ? std::span<const double>(&otherwise, 1) : all, begin, n, room);
+  }
 
   const FrictionMap& map_;
   FrictionMap::Outside outside_;
   bool shifts_adhesion_;
   const MapLoops& loops_;
-  double pressure_[block], velocity_[block], a_T_[block];
+  double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
-  std::int32_t cell_[block];
+  double dT_[block], share_[block], cold_[block];
+  std::int32_t cell_[block], step_[block];
 };
 
 std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,

@@ -22,6 +22,7 @@ from asperity.io.table import input_lines
 from asperity.map_building import built
 from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in
+from asperity.rubber import Rubber
 from asperity.scene.model import Scene
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import load_scene
@@ -44,7 +45,8 @@ def friction_map_of(args: Namespace) -> None:
         _tell(args, _read(FilePath(args.info)))
         return
     outputs = check_outputs(args)
-    scene = load_scene(args.scene)
+    scene = load_scene(args.scene, for_friction=True)
+    heat = _heat(scene)
     refuse_overwrite(outputs, scene.sources)
     with plausible.collected() as unusual:
         _check_sides(args, scene)
@@ -69,6 +71,7 @@ def friction_map_of(args: Namespace) -> None:
             velocity=velocity,
             adhesion=scene.adhesion,
             text=_plain("".join(f"{line}\n" for line in lines)),
+            **heat,
             **({} if args.checked is None else {"checked": args.checked}),
             **options,
         )
@@ -94,7 +97,33 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
             while done < int(share * len(steps)):
                 done = next(left).stop
 
-        return built(scene.spectrum, scene.rubber, tell, **asked)
+        return built(scene.spectrum, _rubber(scene), tell, **asked)
+
+
+def _heat(scene: Scene) -> dict[str, Any]:
+    """What a map takes of a scene's heat: a list of temperatures is the range of the map's."""
+    temperatures = [one.temperature for one in (scene, *scene.others)]
+    if scene.heating is None:
+        if len(temperatures) > 1:
+            problem = "must be one temperature where no [heating] is given; a_T leads to others"
+            raise InvalidInput(f"{scene.path}: [conditions] temperature: {problem}")
+        return {}
+    lowest, highest = min(map(_known, temperatures)), max(map(_known, temperatures))
+    law = scene.built_rubber.shift
+    return {"temperature": (lowest, highest), "shift": law, "heating": scene.heating}
+
+
+def _known(temperature: float | None) -> float:
+    assert temperature is not None  # seen to where the scene is read
+    return temperature
+
+
+def _rubber(scene: Scene) -> Rubber:
+    """The one that a map is made of: with heat that at the reference of its shift."""
+    at_reference = scene.built_rubber.at_reference
+    if scene.heating is None or at_reference is None:
+        return scene.rubber
+    return at_reference
 
 
 def _check_sides(args: Namespace, scene: Scene) -> None:
@@ -123,15 +152,19 @@ def _errors(
 ) -> NDArray[np.float64]:
     """|mu of the map / mu of the solver - 1|, of the arguments' shape."""
     options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
+    heat, at = _heat(scene), {}
+    if heat:  # of several temperatures the lowest, as the picture of mu
+        at = {"temperature": heat["temperature"][0]}
     truth = friction(
         scene.spectrum,
-        scene.rubber,
+        _rubber(scene),
         pressure=pressure,
         velocity=velocity,
         adhesion=scene.adhesion,
         **options,
+        **heat | at,
     )
-    mu: NDArray[np.float64] = made.mu(pressure, velocity)
+    mu: NDArray[np.float64] = made.mu(pressure, velocity, **at)
     # a rubber without loss and without adhesion has no friction to be off by
     ratio = np.divide(mu, truth.mu, out=np.ones_like(mu), where=truth.mu > 0)
     return np.asarray(np.abs(ratio - 1))
@@ -156,6 +189,8 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
         "cells": made.cells,
         "bytes": len(made.to_bytes()),
     }
+    if made.temperature is not None:
+        found |= {"temperature_k": made.temperature, "memory_error": made.memory_error}
     if made.adhesion_law is not None:
         law = made.adhesion_law
         found |= {

@@ -15,12 +15,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _VELOCITIES, _PRESSURES = 241, 161
+_COARSER = 5  # of errors with heat
 _Errors = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 
 
 def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
-    """mu with its level lines on the left; on the right its relative error, which `errors` gives at
-    pressures and velocities, in colours that end at the error it was certified for."""
+    """mu with its level lines on the left, of several temperatures at the lowest; on the right its
+    relative error, which `errors` gives at pressures and velocities, in colours that end at the
+    error it was certified for."""
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import MaxNLocator
 
@@ -32,7 +34,8 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
         _label(axes)
         axes.set_xlim(made.velocity)
         axes.set_ylim(made.pressure)
-    mu = made.mu(pressure, velocity)
+    lowest = None if made.temperature is None else made.temperature[0]
+    mu = made.mu(pressure, velocity, temperature=lowest)
     ticks = MaxNLocator(8).tick_values(float(mu.min()), float(mu.max()))
     filled = left.contourf(velocity[0], pressure[:, 0], mu, 200, cmap=shades())
     filled.set_edgecolor("face")  # no hairlines between the fills of a vector picture
@@ -41,9 +44,14 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     # light lines where the fill is dark, and the other way
     middle = (float(mu.min()) + float(mu.max())) / 2
     inks = ["white" if level < middle else "black" for level in ticks]
+    if made.temperature is not None:
+        left.set_title(f"hot, background {lowest:.6g} K", fontsize="small")
     lines = left.contour(velocity[0], pressure[:, 0], mu, ticks, colors=inks, linewidths=0.7)
     left.clabel(lines, fmt="%.3g", fontsize="x-small")
-    off = np.broadcast_to(errors(pressure, velocity), mu.shape)
+    if made.temperature is not None:  # a point of the solver takes a hundred times as long
+        pressure, velocity = pressure[::_COARSER], velocity[:, ::_COARSER]
+    shape = pressure.size, velocity.size
+    off = np.broadcast_to(errors(pressure, velocity), shape)
     worst = max(made.max_error, 1e-15)
     norm = LogNorm(worst * 1e-4, worst)
     drawn = right.pcolormesh(

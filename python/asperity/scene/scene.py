@@ -45,7 +45,8 @@ _TABLES = dict.fromkeys(
 def load_scene(path: str | Path, *, for_friction: bool = False) -> Scene:
     """Read a scene file and build the parts that it names.
 
-    `for_friction`: it may ask for heat and for several temperatures, which friction alone knows.
+    `for_friction`: it may ask for heat and for several temperatures, which only friction and its
+    map know.
 
     Raises
     ------
@@ -76,10 +77,12 @@ def _load(path: Path, for_friction: bool) -> Scene:
     temperatures = temperatures_of(path, conditions)
     if not for_friction:
         if len(temperatures) > 1:
-            problem = "several are for asperity friction alone: must be one"
+            problem = "several are for asperity friction and map alone: must be one"
             refuse(path, "[conditions] temperature", problem)
         if "heating" in tables:
-            refuse(path, "[heating]", "is known to asperity friction alone: must be left out")
+            refuse(
+                path, "[heating]", "is known to asperity friction and map alone: must be left out"
+            )
     rubbers = [build_rubber(path, tables["rubber"], t) for t in temperatures]
     rubber = rubbers[0]
     where = f"{path}: [conditions] pressure_pa"

@@ -11,12 +11,12 @@ using Values = std::vector<double>;
 const brush::Tire tire;
 const double slope = tire.stiffness * tire.length / (2 * tire.mean_pressure);  // of F / F_z over v_s / v_r
 
-const auto constant = [](const Values&, const Values&, Values& mu) { mu.assign(mu.size(), 0.8); };
+const auto constant = [](const Values&, const Values&, const Values&, Values& mu) { mu.assign(mu.size(), 0.8); };
 
 /// Falls with the pressure, and with the velocity from 1.2 to 0.4 about 1 m/s: p |d mu / d ln v| below a third of k D.
 double falling(double p, double v) { return std::pow(p / 1e5, -0.1) * (0.4 + 0.8 / (1 + v)); }
 
-const auto own = [](const Values& p, const Values& v, Values& mu) {
+const auto own = [](const Values& p, const Values& v, const Values&, Values& mu) {
   for (std::size_t i = 0; i < mu.size(); ++i) mu[i] = falling(p[i] > 0 ? p[i] : 1, v[i]);
 };
 
@@ -63,4 +63,23 @@ TEST_CASE("friction that falls with the velocity gives one peak, and more bristl
   CHECK(peak - force.begin() > 5);
   CHECK(std::is_sorted(force.begin(), peak + 1));
   CHECK(std::is_sorted(force.rbegin(), std::reverse_iterator(peak)));
+}
+
+TEST_CASE("the distance slid since a bristle came in is that of its tip") {
+  // slides from the front on: with no friction each bristle has slid s / (1 - s) times the way of its root
+  const double slip = 0.2;
+  double furthest = 0;
+  brush::roll(tire, slip, [&](const Values&, const Values&, const Values& slid, Values& mu) {
+    mu.assign(mu.size(), 0.0);
+    furthest = std::fmax(furthest, *std::max_element(slid.begin(), slid.end()));
+  });
+  const double spacing = tire.length / static_cast<double>(tire.bristles);
+  CHECK(std::fabs(furthest - slip / (1 - slip) * tire.length) < 2 * spacing);
+  // and with friction that nothing overcomes none
+  furthest = 0;
+  brush::roll(tire, slip, [&](const Values&, const Values&, const Values& slid, Values& mu) {
+    mu.assign(mu.size(), 1e9);
+    furthest = std::fmax(furthest, *std::max_element(slid.begin(), slid.end()));
+  });
+  CHECK(furthest < 2 * spacing);  // at its very ends the patch has no pressure
 }

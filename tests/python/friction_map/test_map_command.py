@@ -14,6 +14,14 @@ from asperity.scene.scene import load_scene
 from helpers.cases import each
 from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
 
+HEAT = """
+[heating]
+density_kg_m3 = 1200
+heat_capacity_j_kg_k = 1650
+conductivity_w_m_k = 0.23
+contact_diameter_m = 1e-3
+"""
+LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
 QUICK = ["--checked", "2000"]
 
 
@@ -155,3 +163,45 @@ def test_interrupt_leaves_no_half_of_a_map(scene):
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
     assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]
+
+
+def with_heat(temperature, heat=HEAT):
+    conditions = f"{CONDITIONS}\ntemperature_k = {temperature}\n"
+    return SURFACE + RUBBER + LAW + conditions + ADHESION + heat
+
+
+@each("temperature", ["300", "[298, 302]"])
+def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
+    scene.write_text(with_heat(temperature), encoding="utf-8")
+    box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2"]
+    given = ["--output", "road.fmap", "--checked", "400", *box]
+    given += ["--plot", "map.png"] if temperature == "300" else []
+    assert run("map", scene, *given) in (0, None)
+    told = capsys.readouterr().out
+    found = asperity.FrictionMap.load("road.fmap")
+    assert found.temperature == ((300, 300) if temperature == "300" else (298, 302))
+    assert "temperature_k = " in told
+    assert "memory_error = " in told
+    parts = load_scene(scene, for_friction=True)
+    exact = asperity.friction(
+        parts.spectrum,
+        parts.built_rubber.at_reference,
+        pressure=1.5e5,
+        velocity=0.3,
+        adhesion=parts.adhesion,
+        temperature=300,
+        shift=parts.built_rubber.shift,
+        heating=parts.heating,
+    )
+    assert found.mu(1.5e5, 0.3, temperature=300) == pytest.approx(exact.mu, rel=found.max_error)
+    cold = found.mu(1.5e5, 0.3, temperature=300, distance=0)
+    assert cold == pytest.approx(exact.cold.mu, rel=found.max_error)
+    assert (scene.parent / "map.png").exists() == (temperature == "300")
+
+
+def test_several_temperatures_need_heat(scene, capsys):
+    scene.write_text(with_heat("[298, 302]", heat=""), encoding="utf-8")
+    assert run("map", scene, "--output", "road.fmap") == 2
+    told = capsys.readouterr().err
+    assert "[conditions] temperature: must be one temperature where no [heating] is given" in told
+    assert not (scene.parent / "road.fmap").exists()
