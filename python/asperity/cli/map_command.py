@@ -39,7 +39,7 @@ def friction_map_of(args: Namespace) -> None:
     if args.info is not None:
         if given:
             raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
-        _tell(args, _read(FilePath(args.info)))
+        _tell(args, read_map(FilePath(args.info)))
         return
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
@@ -135,7 +135,8 @@ def _errors(
     return np.asarray(np.abs(ratio - 1))
 
 
-def _read(path: Path) -> FrictionMap:
+def read_map(path: Path) -> FrictionMap:
+    """The map of a file, or one line that says why there is none."""
     try:
         return FrictionMap.load(path)
     except OSError as error:
