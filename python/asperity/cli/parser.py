@@ -248,6 +248,11 @@ def parser() -> argparse.ArgumentParser:
         help="random points that the map is checked on (default: 1000000)",
     )
     mapped.add_argument("--output", metavar="FILE", help="where to write the map")
+    mapped.add_argument(
+        "--export",
+        metavar="GRID",
+        help="write mu on a grid for simulators that interpolate, .mat (MATLAB) or .csv",
+    )
     pictures(mapped)
     mapped.add_argument("--json", action="store_true", help="tell it as JSON")
 
