@@ -1,6 +1,7 @@
-"""Friction maps for simulators: built to a tolerance, certified, looked up in nanoseconds."""
+"""Friction maps for simulators: certified, looked up in nanoseconds."""
 
 import os
+import struct
 from collections.abc import Callable
 from dataclasses import field
 from functools import cached_property
@@ -11,35 +12,30 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
-from asperity.adhesion import Adhesion, adhesion_core
+from asperity.adhesion import Adhesion
 from asperity.base.arguments import (
-    MOST_THREADS,
     Array,
     brief,
     broadcast,
     choice,
     flag,
-    number,
     path_of,
     real_array,
-    whole,
 )
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.contact import Form, Method, contact_model, surface_and_rubber
-from asperity.correction import Correction
 from asperity.io.files import check_file, write_whole
-from asperity.rubber import Rubber
-from asperity.spectrum import Spectrum
 
-__all__ = ["FrictionMap", "FrictionSlopes", "friction_map"]
+__all__ = ["FrictionMap", "FrictionSlopes"]
 
 Outside = Literal["error", "nan", "clamp"]
 POLICIES = ("error", "nan", "clamp")
 # of the core's look-ups, and of their status
 _NAN, _CLAMP = 0, 1
-_PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE = 1, 2
+_PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE, _TEMPERATURE_OUTSIDE = 1, 2, 4
 _MAGIC, _HEAD = b"ASPERMAP", 512
+# of a file's head, bytes from its beginning
+_TEXT_AT, _COLD_AT = 144, 176
 
 
 @value
@@ -69,6 +65,30 @@ class FrictionSlopes(Table):
         axes.legend()
 
 
+def _look_up(name: str, row: int, told: str, of: str = "points") -> Callable[..., Any]:
+    """Return the method of a map that gives a row of one of the core's look-ups."""
+
+    def look_up(
+        self: "FrictionMap",
+        pressure: ArrayLike,
+        velocity: ArrayLike,
+        *,
+        a_T: ArrayLike = 1.0,  # noqa: N803
+        temperature: ArrayLike | None = None,
+        distance: ArrayLike | None = None,
+        shift_adhesion: bool = False,
+        outside: Outside = "error",
+    ) -> Any:
+        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
+        more = {"temperature": temperature, "distance": distance}
+        return self._query(of, given | more, shift_adhesion, outside)[row]
+
+    look_up.__name__ = name
+    look_up.__qualname__ = f"FrictionMap.{name}"
+    look_up.__doc__ = told
+    return look_up
+
+
 @value
 class FrictionMap(Table):
     """A friction map: mu over pressure and velocity, to a known error (made by `friction_map`).
@@ -77,7 +97,13 @@ class FrictionMap(Table):
 
     a_T : array_like
         Shift factor of another temperature than that which the map was made for: hysteresis and
-        area are those at the velocity a_T v.
+        area are those at the velocity a_T v. A map with heat has none: a_T leads from no
+        background to another there.
+    temperature : array_like, optional
+        T0 of the background [K], of a map with heat; needed where it holds more than one.
+    distance : array_like, optional
+        Slid since rest [m]; by default long ago. A map with heat gives mu_hot + (mu_cold - mu_hot)
+        exp(-s / s0) after it, as `Friction.mu_at`, without heat mu does not depend on it.
     shift_adhesion : bool
         Shift the adhesion too, as if v0 were v0 / a_T.
     outside : {"error", "nan", "clamp"}
@@ -107,6 +133,11 @@ class FrictionMap(Table):
         The largest relative error among them [-].
     cells : int
         Number of polynomials.
+    temperature : (float, float) or None
+        T0 of the background [K], equal ends where the map is for one. None without heat.
+    memory_error : float or None
+        The largest relative error that the table of s0 makes in mu after a distance, seen at 200
+        random points. None without heat.
     """
 
     content: bytes = field(repr=False)
@@ -118,6 +149,8 @@ class FrictionMap(Table):
     exceeded: int = field(init=False)
     largest_checked_error: float = field(init=False)
     cells: int = field(init=False)
+    temperature: tuple[float, float] | None = field(init=False)
+    memory_error: float | None = field(init=False)
 
     def __post_init__(self) -> None:
         self._read("content")
@@ -185,73 +218,53 @@ class FrictionMap(Table):
             return None
         return Adhesion(shear_stress=stress, reference_velocity=velocity, width=width)
 
+    @cached_property
+    def cold(self) -> "FrictionMap | None":
+        """The map without heat that lies in one with it, at its lowest temperature.
+
+        Over the velocity a_T v, a_T that from the lowest temperature to another.
+        """
+        if self.temperature is None:
+            return None
+        [text] = struct.unpack_from("<I", self.content, _TEXT_AT)
+        [size] = struct.unpack_from("<Q", self.content, _COLD_AT)
+        end = len(self.content) - 8 - -(-text // 8) * 8
+        return FrictionMap(content=self.content[end - size : end])
+
     def mu(
         self,
         pressure: ArrayLike,
         velocity: ArrayLike,
         *,
         a_T: ArrayLike = 1.0,  # noqa: N803  # the field's symbol
+        temperature: ArrayLike | None = None,
+        distance: ArrayLike | None = None,
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> Any:
         """Return the friction coefficient, hysteresis + adhesion [-]."""
         plain = type(pressure) is type(velocity) is type(a_T) is float and a_T == 1.0
+        plain = plain and temperature is distance is None
         if plain and shift_adhesion is False and type(outside) is str and outside in POLICIES:
             mu: float = self._core.mu_at(pressure, velocity)
             if mu == mu:  # what is outside takes the long way round
                 return mu
-        return self._query("mu", pressure, velocity, a_T, shift_adhesion, outside)
+        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
+        more = {"temperature": temperature, "distance": distance}
+        return self._query("mu", given | more, shift_adhesion, outside)
 
-    def hysteresis(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> Any:
-        """Return mu_H (Eq. 22) [-]."""
-        return self._query("points", pressure, velocity, a_T, shift_adhesion, outside)[1]
-
-    def adhesion(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> Any:
-        """Return mu_A (Eq. 23) [-]."""
-        return self._query("points", pressure, velocity, a_T, shift_adhesion, outside)[2]
-
-    def contact_area(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> Any:
-        """Return A/A0 at q1 [-]."""
-        return self._query("points", pressure, velocity, a_T, shift_adhesion, outside)[3]
-
-    def traction(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> Any:
+    hysteresis = _look_up("hysteresis", 1, "Return mu_H (Eq. 22) [-].")
+    adhesion = _look_up("adhesion", 2, "Return mu_A (Eq. 23) [-].")
+    contact_area = _look_up("contact_area", 3, "Return A/A0 at q1 [-].")
+    traction = _look_up(
+        "traction",
+        0,
         """Return the shear traction sign(v) mu p [Pa].
 
         It is 0 where v = 0 or p <= 0, whatever the map covers.
-        """
-        return self._query("traction", pressure, velocity, a_T, shift_adhesion, outside)
+        """,
+        of="traction",
+    )
 
     def derivatives(
         self,
@@ -259,51 +272,105 @@ class FrictionMap(Table):
         velocity: ArrayLike,
         *,
         a_T: ArrayLike = 1.0,  # noqa: N803
+        temperature: ArrayLike | None = None,
+        distance: ArrayLike | None = None,
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> FrictionSlopes:
         """Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."""
-        rows = self._query("points", pressure, velocity, a_T, shift_adhesion, outside)
+        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
+        more = {"temperature": temperature, "distance": distance}
+        rows = self._query("points", given | more, shift_adhesion, outside)
         return FrictionSlopes(dmu_dlnp=rows[4], dmu_dlnv=rows[5])
+
+    def sliding_length(
+        self,
+        velocity: ArrayLike,
+        *,
+        temperature: ArrayLike | None = None,
+        outside: Outside = "error",
+    ) -> Any:
+        """Return s0 [m] of a map with heat, as `Friction.sliding_length` at a middle pressure."""
+        if self.temperature is None:
+            raise InvalidInput("sliding_length: needs a map with heat; this one has none")
+        middle = {"pressure": self.pressure[0], "velocity": velocity, "a_T": 1.0}
+        given = middle | {"temperature": temperature, "distance": None}
+        return self._query("sliding_length", given, False, outside)[0]
 
     def _query(
         self,
         name: str,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        a_T: ArrayLike,  # noqa: N803
+        given: dict[str, Any],
         shift_adhesion: bool,
         outside: Outside,
     ) -> Any:
         """Return one of the core's look-ups: its last axis in the shape of the arguments."""
         policy = choice(outside, "outside", POLICIES)
-        shape, columns = _columns_of(pressure=pressure, velocity=velocity, a_T=a_T)
-        options = flag(shift_adhesion, "shift_adhesion"), _CLAMP if policy == 2 else _NAN
-        found, first = getattr(self._core, name)(*columns, *options)
+        shifts = flag(shift_adhesion, "shift_adhesion")
+        asked = {key: one for key, one in given.items() if one is not None}
+        self._check(asked, shifts)
+        shape, flat = _columns_of(**asked)
+        columns = dict(zip(asked, flat, strict=True))
+        ordered = [columns.get(key) for key in given]
+        options = shifts, _CLAMP if policy == 2 else _NAN
+        if name == "sliding_length":
+            found, first = self._core.sliding_length(ordered[1], ordered[3], options[1])
+        else:
+            found, first = getattr(self._core, name)(*ordered, *options)
         if policy != 1 and first < found.shape[-1]:
-            point = [column[first if column.size > 1 else 0].item() for column in columns]
+            point = {
+                key: column[first if np.size(column) > 1 else 0].item()
+                for key, column in ((key, np.atleast_1d(one)) for key, one in columns.items())
+            }
             self._refuse(point, options, f"[{first}]" if shape else "")
         if not shape:
             return found[..., 0].item() if found.ndim == 1 else found[:, 0].tolist()
         return found.reshape(*found.shape[:-1], *shape)
 
-    def _refuse(self, point: list[float], options: tuple[bool, int], index: str) -> None:
-        """Say why a point has no value."""
-        status = self._core.status(*point, *options)
-        if status == _PRESSURE_OUTSIDE:
-            lo, hi = self.pressure
-            allowed = f"the map covers [{lo:.12g}, {hi:.12g}] Pa"
-            raise OutOfRange(f"pressure{index} = {point[0]:.12g}: {allowed}")
-        if status == _VELOCITY_OUTSIDE:
-            lo, hi = self.velocity
-            rule = "the map covers" if point[2] == 1 else "a_T times it must be in"
-            raise OutOfRange(
-                f"velocity{index} = {point[1]:.12g}: {rule} [{lo:.12g}, {hi:.12g}] m/s"
+    def _check(self, asked: dict[str, Any], shifts: bool) -> None:
+        """Refuse what this map has not, wherever the points are."""
+        if self.temperature is None:
+            if "temperature" in asked:
+                found = brief(asked["temperature"])
+                raise InvalidInput(
+                    f"temperature = {found}: must be left out, this map has no heat; give a_T"
+                )
+            return
+        if shifts:
+            raise InvalidInput("shift_adhesion = True: must be False on a map with heat")
+        if np.any(real_array(asked["a_T"], "a_T") != 1):
+            allowed = "must be 1 on a map with heat, which no a_T takes to another background"
+            raise InvalidInput(f"a_T = {brief(asked['a_T'])}: {allowed}; give temperature")
+        lo, hi = self.temperature
+        if "temperature" not in asked and lo != hi:
+            raise InvalidInput(
+                f"temperature: must be given, the map covers [{lo:.12g}, {hi:.12g}] K"
             )
-        for name, found in zip(("pressure", "velocity"), point[:2], strict=True):
-            if np.isnan(found):
+
+    def _refuse(self, point: dict[str, float], options: tuple[bool, int], index: str) -> None:
+        """Say why a point has no value."""
+        places = point["pressure"], point["velocity"], point["a_T"]
+        heat = point.get("temperature", 0.0), point.get("distance", 0.0)
+        status = self._core.status(*places, *heat, *options)
+        outside = {
+            _PRESSURE_OUTSIDE: ("pressure", "Pa"),
+            _VELOCITY_OUTSIDE: ("velocity", "m/s"),
+            _TEMPERATURE_OUTSIDE: ("temperature", "K"),
+        }
+        if status in outside:
+            name, unit = outside[status]
+            lo, hi = getattr(self, name)
+            shifted = name == "velocity" and point["a_T"] != 1
+            rule = "a_T times it must be in" if shifted else "the map covers"
+            raise OutOfRange(
+                f"{name}{index} = {point[name]:.12g}: {rule} [{lo:.12g}, {hi:.12g}] {unit}"
+            )
+        for name, found in point.items():
+            if name != "a_T" and np.isnan(found):
                 raise InvalidInput(f"{name}{index} = nan: must be a number")
-        raise InvalidInput(f"a_T{index} = {point[2]:.12g}: must be positive and finite")
+        if heat[1] < 0:
+            raise InvalidInput(f"distance{index} = {heat[1]:.12g}: must be 0 or more")
+        raise InvalidInput(f"a_T{index} = {point['a_T']:.12g}: must be positive and finite")
 
     def _summary(self) -> dict[str, Any]:
         return {
@@ -312,13 +379,17 @@ class FrictionMap(Table):
 
     def _columns(self) -> Columns:
         p, v = np.geomspace(*self.pressure, 61), np.geomspace(*self.velocity, 121)
-        rows = self._query("points", p[:, None], v, 1.0, False, "clamp")
+        # of several temperatures the lowest
+        at = None if self.temperature is None else self.temperature[0]
+        given = {"pressure": p[:, None], "velocity": v, "a_T": 1.0, "temperature": at}
+        rows = self._query("points", given | {"distance": None}, False, "clamp")
         axes = ("pressure", "velocity")
         names = ("mu", "hysteresis", "adhesion", "contact_area")
         return Columns(
             {"pressure": Column(axes[:1], p, "Pa"), "velocity": Column(axes[1:], v, "m/s")},
             {name: Column(axes, row, "1") for name, row in zip(names, rows[:4], strict=True)},
-            {"max_error": self.max_error, "notes": list(self.notes)},
+            {"max_error": self.max_error, "notes": list(self.notes)}
+            | ({} if at is None else {"temperature_k": at}),
         )
 
     def _draw(self, axes: Any) -> None:
@@ -341,143 +412,3 @@ def _columns_of(**given: ArrayLike) -> tuple[tuple[int, ...], list[Array]]:
         shape = shapes.pop() if shapes else ()
         return shape, [np.ascontiguousarray(array).ravel() for array in arrays.values()]
     return broadcast(**given)
-
-
-def friction_map(
-    spectrum: Spectrum,
-    rubber: Rubber,
-    *,
-    pressure: tuple[float, float],
-    velocity: tuple[float, float],
-    rtol: float = 1e-4,
-    poisson_ratio: float = 0.5,
-    correction: Correction | None = None,
-    adhesion: Adhesion | None = None,
-    form: Form = "exact",
-    method: Method = "gauss",
-    checked: int = 1_000_000,
-    text: str = "",
-    threads: int | None = None,
-) -> FrictionMap:
-    """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
-
-    Cells are halved until hysteresis and contact area keep rtol / 2 on lattices of 5 x 5 and on
-    random points that nothing was made from, 12 a cell. There they are held against polynomials
-    through 12 x 12 points of the solver each, halved until they keep rtol / 20 on random points of
-    their own. Then the finished map is checked against the solver itself on more random points,
-    where a mistake of the polynomials would show. Where a Greenwood-Williamson correction changes
-    its state (full contact, beyond its range) the map is split along the boundary, where mu has a
-    kink.
-
-    Parameters
-    ----------
-    spectrum, rubber, poisson_ratio, correction, adhesion, form, method
-        As for `friction`.
-    pressure, velocity : (lo, hi)
-        The map's box [Pa], [m/s].
-    rtol : float
-        Relative, of hysteresis and area and so of mu, 1e-12 to 0.1. Cells grow in number as
-        rtol^(-1/2).
-    checked : int
-        Random points of the last check, 200 random pressures at each of as many random velocities
-        as make them up; a million take a second with a Prony series.
-    text : str
-        Lines to keep in the file, for whoever reads it; unless given, what stands for the
-        arguments.
-    threads : int, optional
-        At most; by default as many as the machine has. The map is the same for any of them.
-
-    Returns
-    -------
-    FrictionMap
-
-    Raises
-    ------
-    InvalidInput
-        Also where a part of the box has no contact.
-    OutOfRange
-        The box asks for the modulus outside of a measured master curve.
-    NotConverged
-        rtol is not met, with 100,000 cells or on a point of the last check; the message has what
-        was.
-
-    Examples
-    --------
-    >>> import asperity
-    >>> road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=2e4)
-    >>> rubber = asperity.PronySeries(
-    ...     equilibrium_modulus=3e6, moduli=[1e9], relaxation_times=[1e-6]
-    ... )
-    >>> box = {"pressure": (5e4, 5e5), "velocity": (1e-4, 1)}
-    >>> fmap = asperity.friction_map(road, rubber, **box, checked=1000)
-    >>> round(fmap.mu(81e3, 1e-2), 4)
-    0.0205
-    """
-    return built(
-        spectrum,
-        rubber,
-        None,
-        pressure=pressure,
-        velocity=velocity,
-        rtol=rtol,
-        poisson_ratio=poisson_ratio,
-        correction=correction,
-        adhesion=adhesion,
-        form=form,
-        method=method,
-        checked=checked,
-        text=text,
-        threads=threads,
-    )
-
-
-def built(
-    spectrum: Spectrum,
-    rubber: Rubber,
-    told: Callable[[float], None] | None,
-    *,
-    pressure: tuple[float, float],
-    velocity: tuple[float, float],
-    rtol: float = 1e-4,
-    poisson_ratio: float = 0.5,
-    correction: Correction | None = None,
-    adhesion: Adhesion | None = None,
-    form: Form = "exact",
-    method: Method = "gauss",
-    checked: int = 1_000_000,
-    text: str = "",
-    threads: int | None = None,
-) -> FrictionMap:
-    """`friction_map`, which calls `told` with the share of the work that is done, now and then."""
-    if not isinstance(text, str):
-        raise InvalidInput(f"text = {brief(text)}: must be a str")
-    parts = surface_and_rubber(spectrum, rubber)
-    model = contact_model(poisson_ratio, correction, form, 1e-6, method)
-    added = adhesion_core(adhesion)
-    made_of = {
-        "spectrum": spectrum,
-        "rubber": rubber,
-        "correction": correction,
-        "adhesion": adhesion,
-    }
-    lines = text or "".join(f"{name} = {part!r}\n" for name, part in made_of.items())
-    content = _core.build_friction_map(
-        *parts,
-        model,
-        added,
-        _sides(pressure, "pressure"),
-        _sides(velocity, "velocity"),
-        number(rtol, "rtol"),
-        whole(checked, "checked"),
-        lines,
-        0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
-        told,
-    )
-    return FrictionMap(content=content)
-
-
-def _sides(found: Any, name: str) -> list[float]:
-    sides = real_array(found, name)
-    if sides.shape != (2,):
-        raise InvalidInput(f"{name} = {brief(found)}: must be (lo, hi)")
-    return [float(side) for side in sides]

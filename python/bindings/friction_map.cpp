@@ -1,6 +1,8 @@
 // Friction maps: built, read and looked up.
 #include "asperity/friction_map.hpp"
 
+#include <tuple>
+
 #include "arrays.hpp"
 #include "asperity/build_friction_map.hpp"
 #include "topics.hpp"
@@ -22,39 +24,59 @@ FrictionMap read(const py::bytes& content, const std::string& name) {
   return map;
 }
 
+/// (shift, heating, temperatures) of a map with heat.
+using Heat = std::tuple<TemperatureShift, Heating, std::array<double, 2>>;
+
 py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::array<double, 2> pressure, std::array<double, 2> velocity,
-                double rtol, std::size_t checked, const std::string& text, unsigned threads, const py::object& told) {
+                double rtol, std::size_t checked, const std::string& text, unsigned threads, const py::object& told,
+                const std::optional<Heat>& heat) {
   MapRequest request{pressure, velocity, rtol, checked, text, threads};
   if (!told.is_none())
     request.progress = [&told](double share) {
       const py::gil_scoped_acquire held;
       told(share);
     };
-  const auto file = released([&] { return build_friction_map(spectrum, rubber, model, adhesion, request); });
+  const auto file = released([&] {
+    if (!heat) return build_friction_map(spectrum, rubber, model, adhesion, request);
+    const auto& [shift, heating, temperature] = *heat;
+    return build_friction_map(spectrum, rubber, shift, heating, model, adhesion, temperature, request);
+  });
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
-/// Points to look up: columns as long as the result, or of one entry for all.
+/// Points to look up: columns as long as the result, or of one entry for all; temperature and distance or none.
 struct Points {
   MapColumns columns;
   std::size_t size;
 
-  Points(const Array& p, const Array& v, const Array& a_T)
-      : columns{span_of(p), span_of(v), span_of(a_T)},
-        size(std::max({columns.pressure.size(), columns.velocity.size(), columns.a_T.size()})) {}
+  Points(const Array& p, const Array& v, const Array& a_T, const std::optional<Array>& background,
+         const std::optional<Array>& distance)
+      : columns{span_of(p), span_of(v), span_of(a_T), background ? span_of(*background) : std::span<const double>{},
+                distance ? span_of(*distance) : std::span<const double>{}},
+        size(0) {
+    for (const auto& column :
+         {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance})
+      size = std::max(size, column.size());
+  }
   [[nodiscard]] static double of(std::span<const double> column, std::size_t i) {
     return column[column.size() > 1 ? i : 0];
   }
   [[nodiscard]] double pressure(std::size_t i) const { return of(columns.pressure, i); }
   [[nodiscard]] double velocity(std::size_t i) const { return of(columns.velocity, i); }
-  [[nodiscard]] double a_T(std::size_t i) const { return of(columns.a_T, i); }
+  [[nodiscard]] MapTemperature temperature(std::size_t i, bool shifts_adhesion) const {
+    MapTemperature result{of(columns.a_T, i), shifts_adhesion};
+    if (!columns.background.empty()) result.background = of(columns.background, i);
+    if (!columns.distance.empty()) result.distance = of(columns.distance, i);
+    return result;
+  }
 };
 
 /// (mu, the first point without a value or how many points there are).
-py::tuple mu_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T, bool shifts_adhesion,
+py::tuple mu_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
+                const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
                 int outside) {
-  const Points points(p, v, a_T);
+  const Points points(p, v, a_T, background, distance);
   // not cleared: of 1e8 points that takes a second in which no signal is heeded
   py::array_t<double> mu(static_cast<py::ssize_t>(points.size));
   const std::span<double> to(mu.mutable_data(), points.size);
@@ -63,44 +85,58 @@ py::tuple mu_of(const FrictionMap& map, const Array& p, const Array& v, const Ar
   return py::make_tuple(mu, first);
 }
 
-/// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv: a row each; the first point without a value).
-py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T, bool shifts_adhesion,
-                    int outside) {
-  const Points points(p, v, a_T);
+/// Rows of numbers at each point, and the first point whose first number is none.
+template <std::size_t rows, class Numbers>
+py::tuple rows_of(const Points& points, const Numbers& numbers) {
   const std::size_t n = points.size;
-  py::array_t<double> rows({std::size_t{6}, n});
-  double* const to = rows.mutable_data();
+  py::array_t<double> found({rows, n});
+  double* const to = found.mutable_data();
   std::size_t first = n;
   released([&] {
     for (std::size_t i = 0; i < n; ++i) {
       heed_at(i);
-      MapPoint at;
-      map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
-             {points.a_T(i), shifts_adhesion});
-      if (std::isnan(at.mu) && first == n) first = i;
-      const double values[] = {at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
-      for (std::size_t k = 0; k < 6; ++k) to[k * n + i] = values[k];
+      const std::array<double, rows> values = numbers(i);
+      if (std::isnan(values[0]) && first == n) first = i;
+      for (std::size_t k = 0; k < rows; ++k) to[k * n + i] = values[k];
     }
   });
-  return py::make_tuple(rows, first);
+  return py::make_tuple(found, first);
 }
 
-/// (traction, the first point without a value): there is one without load and at rest too.
-py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T, bool shifts_adhesion,
-                      int outside) {
-  const Points points(p, v, a_T);
-  py::array_t<double> traction(static_cast<py::ssize_t>(points.size));
-  double* const to = traction.mutable_data();
-  std::size_t first = points.size;
-  released([&] {
-    for (std::size_t i = 0; i < points.size; ++i) {
-      heed_at(i);
-      to[i] = map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
-                           {points.a_T(i), shifts_adhesion});
-      if (std::isnan(to[i]) && first == points.size) first = i;
-    }
+/// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv: a row each; the first point without a value).
+py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
+                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
+                    int outside) {
+  const Points points(p, v, a_T, background, distance);
+  return rows_of<6>(points, [&](std::size_t i) {
+    MapPoint at;
+    map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
+           points.temperature(i, shifts_adhesion));
+    return std::array{at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
   });
-  return py::make_tuple(traction, first);
+}
+
+/// A row of tractions: there is one without load and at rest too.
+py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
+                      const std::optional<Array>& background, const std::optional<Array>& distance,
+                      bool shifts_adhesion, int outside) {
+  const Points points(p, v, a_T, background, distance);
+  return rows_of<1>(points, [&](std::size_t i) {
+    return std::array{map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
+                                   points.temperature(i, shifts_adhesion))};
+  });
+}
+
+/// A row of s0 over velocity and temperature.
+py::tuple sliding_length_of(const FrictionMap& map, const Array& v, const std::optional<Array>& background,
+                            int outside) {
+  const double one = 1;
+  Points points(v, v, v, background, {});
+  points.columns.a_T = {&one, 1};
+  return rows_of<1>(points, [&](std::size_t i) {
+    return std::array{map.sliding_length(points.velocity(i), points.temperature(i, false).background,
+                                         static_cast<Outside>(outside))};
+  });
 }
 
 py::dict info_of(const FrictionMap& map) {
@@ -115,6 +151,9 @@ py::dict info_of(const FrictionMap& map) {
   info["largest_checked_error"] = i.largest_checked_error;
   info["cells"] = i.cells;
   info["text"] = py::bytes(i.text);
+  info["temperature"] = i.heat ? py::object(py::make_tuple(i.temperature[0], i.temperature[1])) : py::none();
+  info["temperatures"] = i.temperatures;
+  info["memory_error"] = i.heat ? py::object(py::float_(i.memory_error)) : py::none();
   info["adhesion"] = py::make_tuple(i.shear_stress, i.reference_velocity, i.width);
   return info;
 }
@@ -135,9 +174,12 @@ void bind_friction_map(py::module_& m) {
            })
       .def("points", &points_of)
       .def("traction", &traction_of)
-      .def("status", [](const FrictionMap& map, double p, double v, double a_T, bool shifts_adhesion, int outside) {
+      .def("sliding_length", &sliding_length_of)
+      .def("status", [](const FrictionMap& map, double p, double v, double a_T, double background, double distance,
+                        bool shifts_adhesion, int outside) {
         MapPoint at;
-        return static_cast<int>(map.at(p, v, at, static_cast<Outside>(outside), {a_T, shifts_adhesion}));
+        return static_cast<int>(
+            map.at(p, v, at, static_cast<Outside>(outside), {a_T, shifts_adhesion, background, distance}));
       });
   m.def("build_friction_map", &build);
 }

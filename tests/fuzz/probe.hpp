@@ -21,6 +21,12 @@ inline void require(bool holds, const char* what) {
   std::abort();
 }
 
+/// Whether a temperature is one that the map can be asked for, with Outside::clamp.
+inline bool known(const asperity::FrictionMap& map, const asperity::MapTemperature& temperature) {
+  const auto [lo, hi] = map.info().temperature;
+  return !map.info().heat || temperature.background > 0 || (lo == hi && temperature.background == 0);
+}
+
 inline void query(const asperity::FrictionMap& map, double p, double v, const asperity::MapTemperature& temperature) {
   using Outside = asperity::FrictionMap::Outside;
   using Status = asperity::FrictionMap::Status;
@@ -28,7 +34,7 @@ inline void query(const asperity::FrictionMap& map, double p, double v, const as
   const Status status = map.at(p, v, held, Outside::clamp, temperature);
   require(map.at(p, v, point, Outside::nan, temperature) == status, "one status, whatever is done outside of the box");
   const double clamped = map.mu(p, v, Outside::clamp, temperature), mu = map.mu(p, v, Outside::nan, temperature);
-  if (status == Status::not_a_number) {
+  if (status == Status::not_a_number || status == Status::not_on_this_map || !known(map, temperature)) {
     require(is_nan(held.mu) && is_nan(clamped) && is_nan(held.dmu_dlnv), "NaN where a number is NaN");
   } else {
     require(finite(clamped) && !(clamped < 0), "a finite mu at the side of the box");
@@ -39,7 +45,7 @@ inline void query(const asperity::FrictionMap& map, double p, double v, const as
   else
     require(is_nan(mu) && is_nan(point.mu), "NaN outside of the box");
   const double traction = map.traction(p, v, Outside::clamp, temperature);
-  require(!finite(p) || is_nan(v) || status == Status::not_a_number || !is_nan(traction), "a traction");
+  require(!finite(p) || is_nan(v) || is_nan(clamped) || !is_nan(traction), "a traction");
 }
 
 /// Points of the box, of its sides and corners, far outside, and what is no place at all.
@@ -68,9 +74,19 @@ inline void points(const asperity::FrictionMap& map) {
   };
   for (const double p : along(map.info().pressure))
     for (const double v : along(map.info().velocity)) query(map, p, v, {});
+  if (map.info().heat)
+    for (const double temperature : along(map.info().temperature))
+      for (const double v : along(map.info().velocity))
+        for (const double distance : {0.0, 1e-4, asperity::map_detail::long_slid})
+          query(map, map.info().pressure[0], v, {1, false, temperature, distance});
   const double lo = map.info().velocity[0], hi = map.info().velocity[1];
   for (const double shift : {0.5, 3e4, 1e-310, 0.0, -1.0, nan, infinity})
-    for (const double v : {lo, hi, 0.0, nan}) query(map, map.info().pressure[1], v, {shift, shift < 1});
+    for (const double v : {lo, hi, 0.0, nan}) {
+      query(map, map.info().pressure[1], v, {shift, shift < 1});
+      query(map, map.info().pressure[1], v, {1, false, shift, -shift});
+    }
+  const double length = map.sliding_length(hi, map.info().temperature[0], asperity::FrictionMap::Outside::clamp);
+  require(map.info().heat ? finite(length) && !(length < 0) : is_nan(length), "a sliding length where there is heat");
 }
 
 }  // namespace probe

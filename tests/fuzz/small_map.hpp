@@ -19,13 +19,13 @@ struct Kind {
   std::uint32_t nodes = 0;  // of s(x)
   bool nested = false;      // a grid of its own in the corner of each band's
   std::string text = {};
+  std::uint32_t temperatures = 0;  // at which cells of a map with heat have polynomials
 };
 
 inline std::vector<Kind> kinds() {
-  return {{true, true, 1, 0, false, ""},
-          {true, false, 1, 0, true, "{\"made\": \"by hand\"}"},
-          {false, true, 2, 2, false, "9 letters"},
-          {true, true, 3, 5, true, "8 are one"}};
+  return {{true, true, 1, 0, false, ""},           {true, false, 1, 0, true, "{\"made\": \"by hand\"}"},
+          {false, true, 2, 2, false, "9 letters"}, {true, true, 3, 5, true, "8 are one"},
+          {true, true, 1, 0, true, "hot", 1},      {true, true, 1, 0, false, "from cold to hot", 4}};
 }
 
 constexpr double pressure[] = {1e4, 1e6}, velocity[] = {1e-3, 10}, max_error = 2e-4;
@@ -45,18 +45,31 @@ inline double taylor(const double* c, int n, double t) {
   return sum;
 }
 
+/// With heat, temperatures [K], and ln mu_H and ln A/A0 times a cubic of those from the lowest.
+constexpr double coldest = 263.15, hottest = 323.15;
+constexpr double in_T[4] = {1.1, -1e-3, 2e-5, -1e-7};
+constexpr double memory_error = 0.01;
+
+inline double range(const Kind& kind) { return kind.temperatures == 1 ? 0 : hottest - coldest; }
+
+/// ln s0 of x and the temperature from the lowest, linear in both, and ln a_T of the map without heat.
+inline double log_length(double x, double warmer) { return -8 - 0.2 * x + 0.01 * warmer; }
+inline double log_shift(double warmer) { return -0.02 * warmer; }
+
 inline double value(int k, double x, double z) { return taylor(in_x[k], 0, x) * taylor(in_z[k], 0, z); }
 
-inline double contact_area(const Kind& kind, double p, double v) {
-  const double x = std::log(v);
-  return std::exp(value(1, x, std::log(p) - shear(kind, x)));
+/// At a temperature above the lowest, of a map with heat.
+inline double contact_area(const Kind& kind, double p, double v, double warmer = 0) {
+  const double x = std::log(v), heat = kind.temperatures > 0 ? taylor(in_T, 0, warmer) : 1;
+  return std::exp(heat * value(1, x, std::log(p) - shear(kind, x)));
 }
 
-inline double mu(const Kind& kind, double p, double v) {
+inline double mu(const Kind& kind, double p, double v, double warmer = 0) {
   const double x = std::log(v), decades = std::log10(v / reference_velocity);
-  const double hysteresis = kind.hysteresis ? std::exp(value(0, x, std::log(p) - shear(kind, x))) : 0;
+  const double heat = kind.temperatures > 0 ? taylor(in_T, 0, warmer) : 1;
+  const double hysteresis = kind.hysteresis ? std::exp(heat * value(0, x, std::log(p) - shear(kind, x))) : 0;
   const double pull = kind.adhesion ? shear_stress / p * std::exp(-width * decades * decades) : 0;
-  return hysteresis + pull * contact_area(kind, p, v);
+  return hysteresis + pull * contact_area(kind, p, v, warmer);
 }
 
 inline void put(Bytes& to, std::uint64_t value, int size) {
@@ -107,7 +120,7 @@ inline Bytes make(const Kind& kind) {
   Bytes out;
   for (const char letter : std::string("ASPERMAP")) out.push_back(static_cast<unsigned char>(letter));
   put(out, 0x01020304, 4);
-  put(out, 1, 4);
+  put(out, kind.temperatures > 0 ? 2 : 1, 4);
   put(out, 0, 8);
   for (const double side : {pressure[0], pressure[1], velocity[0], velocity[1]}) put(out, side);
   for (const double error : {1e-4, max_error, 1e-4}) put(out, error);
@@ -117,6 +130,25 @@ inline Bytes make(const Kind& kind) {
   const auto letters = static_cast<std::uint32_t>(kind.text.size());
   for (const std::uint32_t n : {kind.hysteresis ? 1u : 0u, bands, kind.nodes, grids, entries, cells, letters, 0u})
     put(out, n, 4);
+  const std::uint32_t nodes = kind.temperatures;
+  const double step = nodes > 1 ? range(kind) / (nodes - 1) : 0;
+  Bytes cold;
+  if (nodes > 0) {
+    cold = make({kind.hysteresis, kind.adhesion});
+    for (const double number : {coldest, coldest + range(kind), memory_error}) put(out, number);
+    put(out, cold.size(), 8);
+    const std::uint32_t lengths = 3, warm = nodes == 1 ? 1 : 2;
+    for (const std::uint32_t n : {nodes, lengths, warm, 0u}) put(out, n, 4);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+      put(out, log_shift(i * step));
+      put(out, -0.02);
+    }
+    for (std::uint32_t j = 0; j < warm; ++j)
+      for (std::uint32_t i = 0; i < lengths; ++i) {
+        put(out, log_length(x[0] + i * (x[1] - x[0]) / (lengths - 1), j * range(kind)));
+        put(out, -0.2);
+      }
+  }
   for (std::uint32_t k = 0; k <= bands; ++k) put(out, bottom + k * rows * high);
   for (std::uint32_t i = 0; i < kind.nodes; ++i) {
     put(out, shear(kind, x[0] + i * (x[1] - x[0]) / (kind.nodes - 1)));
@@ -137,9 +169,15 @@ inline Bytes make(const Kind& kind) {
       const double cx = x0 + i / rows * w, cz = z0 + i % rows * h;
       put(polynomials, cx);
       put(polynomials, cz);
-      for (int j = 0; j < 4; ++j)
-        for (int power = 0; power < 4; ++power)
-          for (int k = 0; k < 2; ++k) put(polynomials, taylor(in_x[k], power, cx) * taylor(in_z[k], j, cz));
+      const auto block = [&](double factor) {
+        for (int j = 0; j < 4; ++j)
+          for (int power = 0; power < 4; ++power)
+            for (int k = 0; k < 2; ++k) put(polynomials, factor * taylor(in_x[k], power, cx) * taylor(in_z[k], j, cz));
+      };
+      if (nodes == 0) block(1);
+      if (nodes == 1) block(taylor(in_T, 0, 0));
+      for (std::uint32_t at = 0; at + 1 < nodes; ++at)
+        for (int power = 0; power < 4; ++power) block(taylor(in_T, power, at * step));
     }
   };
   for (std::uint32_t k = 0; k < bands; ++k)
@@ -149,6 +187,7 @@ inline Bytes make(const Kind& kind) {
   out.insert(out.end(), table.begin(), table.end());
   out.resize((out.size() + 7) / 8 * 8);
   out.insert(out.end(), polynomials.begin(), polynomials.end());
+  out.insert(out.end(), cold.begin(), cold.end());
   out.insert(out.end(), kind.text.begin(), kind.text.end());
   out.resize((out.size() + 7) / 8 * 8 + 8);
   repair(out);

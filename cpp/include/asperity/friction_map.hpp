@@ -22,15 +22,25 @@
 //   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
 // The temperature shifts the velocity of mu_H and A/A0 by a_T; the adhesion takes the true velocity.
 //
+// A map with heat holds the friction of rubber that the friction warms, for one temperature T0 of the background or
+// for a range of them, over which each cell holds cubics in T0 as well. No a_T leads from one T0 to another there: it
+// is refused, as is a T0 on a map that knows none. Beside it lies the map without heat and the distance s0 over which
+// sliding that begins heats up, so that after a distance s slid since rest
+//   mu(s) = mu_hot + (mu_cold - mu_hot) exp(-s / s0),
+//   map.mu(2e5, 0.3, Outside::clamp, {.background = 293.15, .distance = 1e-3});   // T0 [K], s [m] (C++20's way to say)
+// B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006); arXiv:1007.2713. s0(v, T0) is that at the middle of the
+// box's pressures (geometric), of which it hardly depends.
+//
 // mu is even in v: mu(p, -v) = mu(p, v); the traction is odd, and 0 at v = 0 and where p <= 0, whatever the map's box.
 // Outside of the box, v = 0 and p <= 0 among it, the caller otherwise chooses (Outside): a status that names
 // what is outside, NaN, or the nearest point of the box, whose derivatives across the box's side are 0. Numbers that
-// are NaN give NaN (status not_a_number) always.
+// are NaN, or a negative distance, give NaN (status not_a_number) always, and so does what a map has not
+// (not_on_this_map).
 //
 // The file, little-endian, doubles as IEEE 754, offsets in bytes:
 //     0  8   "ASPERMAP"
 //     8  u32 0x01020304, which a file of the other byte order has reversed
-//    12  u32 version of this layout, 1
+//    12  u32 version of this layout, 1, or 2 with heat
 //    16  u64 size of the file
 //    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s]: the box
 //    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
@@ -51,6 +61,19 @@
 //        t   text, lines of UTF-8: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
+//
+// Version 2 differs so: s is 0. After the head, before the values of z,
+//   152  f64 T0 lo, hi [K], equal where the map is for one
+//   168  f64 largest relative error that s0 of this table makes in mu, seen at random points and distances
+//   176  u64 bytes of the map without heat
+//   184  u32 m temperatures between which cells have polynomials, 1 for one T0, else from 2 on; a columns, b rows of
+//            ln s0, from 2 on, b = 1 for one T0; 0
+//   200  f64 2 m: ln a_T, of the map without heat, and d ln a_T / dT0 at m equal steps from T0 lo to hi; cubic Hermite
+//            between them. Of one T0 0
+//        f64 2 a b: ln s0 and its slope over x at a equal steps of x, cubic Hermite between them, for each of b equal
+//            steps of T0, linear between them
+// then as above, a cell being 2 + 32 k doubles, k = 1 for one T0, else 4 (m - 1): 32 coefficients for each power 0 to 3
+// of T0 - T_i on each step i of T0. Before the text the map without heat, a whole file of version 1.
 #ifndef ASPERITY_FRICTION_MAP_HPP
 #define ASPERITY_FRICTION_MAP_HPP
 
@@ -162,8 +185,9 @@ struct Grid {
   std::uint32_t columns, rows, first;
 };
 
-constexpr std::size_t cell_size = 34, head_size = 152;
-constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
+constexpr std::size_t cell_size = 34, head_size = 152, heat_head_size = 48;  // of a cell without an axis of T0
+constexpr double long_slid = 1e300;                                          // [m]
+constexpr std::uint32_t most_bands = 64, most_nested = 64;                   // what a look-up goes through is bounded
 
 }  // namespace map_detail
 
@@ -176,12 +200,19 @@ struct FrictionMapInfo {
   bool hysteresis = false;                                     // false: mu_H is 0 everywhere
   std::size_t cells = 0;
   std::string text;  // lines: what the map was made of
+  bool heat = false;
+  std::array<double, 2> temperature{};  // T0 of a map with heat [K], equal ends where it is for one
+  std::size_t temperatures = 0;         // at which its cells have polynomials
+  double memory_error = 0;              // relative, that s0 makes in mu while the rubber heats up
 };
 
-/// Another temperature than the one that the map was made for.
+/// Another temperature than the one that the map was made for; of a map with heat that of the background, and how far
+/// the rubber slid.
 struct MapTemperature {
-  double a_T = 1;                // mu_H and A/A0 are those at the velocity a_T v
-  bool shifts_adhesion = false;  // the adhesion too, as if v0 were v0 / a_T
+  double a_T = 1;                           // mu_H and A/A0 are those at the velocity a_T v
+  bool shifts_adhesion = false;             // the adhesion too, as if v0 were v0 / a_T
+  double background = 0;                    // T0 [K]; 0: the only one that the map has
+  double distance = map_detail::long_slid;  // slid since rest [m]
 };
 
 struct MapPoint {
@@ -193,17 +224,14 @@ class FrictionMap {
  public:
   /// The treatment of points outside of the box. To treat them as errors, look at the status of `at`.
   enum class Outside { nan, clamp };
-  enum class Status { ok, pressure_outside, velocity_outside, not_a_number };
+  enum class Status { ok, pressure_outside, velocity_outside, not_a_number, temperature_outside, not_on_this_map };
 
   /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
   [[nodiscard]] double mu(double pressure, double velocity, Outside outside = Outside::nan,
                           const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);
     if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    const map_detail::Pair f = bicubic(at.cell + 2, at.dx, at.dz);
-    double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at));
-    return mu;
+    return temperature.distance >= map_detail::long_slid || !info_.heat ? mu(at) : mu_after(at, temperature.distance);
   }
 
   /// Everything at a point. The status says whether it lies outside of the box, whatever `outside` is.
@@ -215,24 +243,30 @@ class FrictionMap {
       point = {nan, nan, nan, nan, nan, nan};
       return at.status;
     }
-    double fx[2] = {0, 0}, fz[2] = {0, 0};
-    const double* const c = at.cell + 2;
-    const map_detail::Pair f = bicubic(c, at.dx, at.dz);
-    for (int j = 4; j-- > 0;)
-      for (int k = 0; k < 2; ++k) {
-        const double* const row = &c[8 * j + k];
-        fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
-        if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
-      }
-    for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
-    point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
-    point.contact_area = map_detail::exp(f[1]);
-    point.mu = point.hysteresis + point.adhesion;
-    const double falling = -2 * width_ * (at.ln_v - ln_reference_);
-    point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
-    point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
+    point = everything(at);
+    if (!info_.heat) return at.status;
+    if (const Memory memory = remember(at, temperature.distance); memory.share > 0) {
+      const MapPoint cold = cold_->everything(cold_place(at));
+      const double share = memory.share, by_v = at.free_v ? share * memory.slope * (cold.mu - point.mu) : 0;
+      const auto blend = [share](double hot, double other) { return hot + share * (other - hot); };
+      point = {blend(point.mu, cold.mu),
+               blend(point.hysteresis, cold.hysteresis),
+               blend(point.adhesion, cold.adhesion),
+               blend(point.contact_area, cold.contact_area),
+               blend(point.dmu_dlnp, cold.dmu_dlnp),
+               blend(point.dmu_dlnv, cold.dmu_dlnv) + by_v};
+    }
     return at.status;
+  }
+
+  /// s0 [m] of a map with heat, over which friction that begins to slide at a velocity comes to within 1 / e of that
+  /// with its heat; NaN where the map has none.
+  [[nodiscard]] double sliding_length(double velocity, double background = 0,
+                                      Outside outside = Outside::nan) const noexcept {
+    const Where at = where(info_.pressure[0], velocity, outside, {1, false, background, map_detail::long_slid});
+    if (at.cell == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
+    double slope = 0;
+    return map_detail::exp(log_sliding_length(at, slope));
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
@@ -245,6 +279,8 @@ class FrictionMap {
   }
 
   [[nodiscard]] const FrictionMapInfo& info() const noexcept { return info_; }
+  /// The map without heat of one with it, over a_T v, a_T that from its temperature to another; else nullptr.
+  [[nodiscard]] const FrictionMap* cold() const noexcept { return cold_.get(); }
 
   /// From the bytes of a file. False with the reason, and the map as it was, where they are not those of a map.
   bool read(const void* data, std::size_t size, std::string& why);
@@ -254,11 +290,116 @@ class FrictionMap {
  private:
   struct Where {
     const double* cell = nullptr;
-    double dx = 0, dz = 0, slope = 0;  // s'(x)
-    double ln_p = 0, ln_v = 0;         // as the adhesion takes them
+    double x = 0, dx = 0, dz = 0, slope = 0;  // s'(x)
+    double ln_p = 0, ln_v = 0;                // as the adhesion takes them
+    double background = 0, dT = 0;            // T0, and from the node below it
+    std::uint32_t step = 0;                   // of T0
     Status status = Status::ok;
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
+
+  struct Memory {
+    double share, slope;  // of what was without heat, and d ln of it / d ln v
+  };
+
+  [[nodiscard]] double mu(const Where& at) const noexcept {
+    const map_detail::Pair f = steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
+    double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at));
+    return mu;
+  }
+
+  [[nodiscard]] double mu_after(const Where& at, double distance) const noexcept {
+    const double hot = mu(at);
+    const Memory memory = remember(at, distance);
+    return memory.share > 0 ? hot + memory.share * (cold_->mu(cold_place(at)) - hot) : hot;
+  }
+
+  [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
+    double fx[2] = {0, 0}, fz[2] = {0, 0}, room[32];
+    const double* const c = coefficients(at, room);
+    const map_detail::Pair f = bicubic(c, at.dx, at.dz);
+    for (int j = 4; j-- > 0;)
+      for (int k = 0; k < 2; ++k) {
+        const double* const row = &c[8 * j + k];
+        fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
+        if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
+      }
+    for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
+    MapPoint point{};
+    point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
+    point.contact_area = map_detail::exp(f[1]);
+    point.mu = point.hysteresis + point.adhesion;
+    const double falling = -2 * width_ * (at.ln_v - ln_reference_);
+    point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
+    point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
+    return point;
+  }
+
+  /// Two coefficients, of ln mu_H and ln A/A0, at dT from a node of T0.
+  static map_detail::Pair at_temperature(const double* c, double t, double t2) noexcept {
+    using map_detail::pair;
+    return (pair(c) + pair(c + 32) * t) + (pair(c + 64) + pair(c + 96) * t) * t2;
+  }
+
+  static map_detail::Pair tricubic(const Where& at) noexcept {
+    const double x = at.dx, z = at.dz, x2 = x * x, z2 = z * z, t = at.dT, t2 = t * t;
+    const auto row = [=](const double* r) {
+      return (at_temperature(r, t, t2) + at_temperature(r + 2, t, t2) * x) +
+             (at_temperature(r + 4, t, t2) + at_temperature(r + 6, t, t2) * x) * x2;
+    };
+    const double* const c = at.cell + 2 + 128 * std::size_t{at.step};
+    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
+  }
+
+  /// The polynomials of a cell at T0, in `room` where they depend on it.
+  const double* coefficients(const Where& at, double* room) const noexcept {
+    if (steps_ == 0) return at.cell + 2;
+    const double* const c = at.cell + 2 + 128 * std::size_t{at.step};
+    for (int i = 0; i < 32; i += 2) {
+      const map_detail::Pair sum = at_temperature(c + i, at.dT, at.dT * at.dT);
+      room[i] = sum[0];
+      room[i + 1] = sum[1];
+    }
+    return room;
+  }
+
+  /// ln s0 and its slope over ln v.
+  double log_sliding_length(const Where& at, double& slope) const noexcept {
+    const double row = rows_ > 1 ? (at.background - info_.temperature[0]) * rows_per_T_ : 0;
+    const std::uint32_t j = rows_ > 1 ? index(row, rows_ - 1) : 0;
+    const std::size_t columns = sliding_.size() / (2 * std::size_t{rows_});
+    const double* const lower = &sliding_[2 * columns * j];
+    const double value = cubic(lower, columns, sliding_per_x_, at.x - offset_x_, slope);
+    if (rows_ == 1) return value;
+    double next = 0;
+    const double above = cubic(lower + 2 * columns, columns, sliding_per_x_, at.x - offset_x_, next), t = row - j;
+    slope += t * (next - slope);
+    return value + t * (above - value);
+  }
+
+  [[nodiscard]] Memory remember(const Where& at, double distance) const noexcept {
+    if (distance >= map_detail::long_slid) return {0, 0};
+    double slope = 0;
+    const double slid = distance * map_detail::exp(-log_sliding_length(at, slope));  // s / s0
+    return slid < 40 ? Memory{map_detail::exp(-slid), slid * slope} : Memory{0, 0};
+  }
+
+  /// The place on the map without heat.
+  [[nodiscard]] Where cold_place(const Where& at) const noexcept {
+    Where cold = at;
+    double slope = 0;
+    if (steps_ > 0)
+      cold.x += cubic(shift_.data(), shift_.size() / 2, steps_per_T_, at.background - info_.temperature[0], slope);
+    const double first = cold_->offset_x_, last = cold_->last_x_;
+    cold.x = cold.x < first ? first : cold.x > last ? last : cold.x;  // by rounding
+    const double z = at.ln_p - cold_->log_modulus_offset(cold.x, cold.slope);
+    cold.cell = cold_->cell_at(cold.x, z);
+    cold.dx = cold.x - cold.cell[0];
+    cold.dz = z - cold.cell[1];
+    return cold;
+  }
 
   /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
   static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
@@ -289,15 +430,62 @@ class FrictionMap {
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     double shifted = speed * temperature.a_T;
     const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
-    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return at;
-    const double x = map_detail::ln(shifted);
+    const bool only = steps_ == 0 && temperature.background == 0;
+    const bool usual = info_.heat ? (only || map_detail::within(temperature.background, info_.temperature)) &&
+                                        temperature.a_T == 1 && !temperature.shifts_adhesion
+                                  : temperature.background == 0;
+    const bool slid =
+        map_detail::bits(temperature.distance) <= map_detail::bits(map_detail::long_slid);  // and 0 or more
+    if (inside && usual && slid && !cells_.empty()) {
+      if (steps_ > 0) set_step(temperature.background, at);
+    } else if (!settle(pressure, speed, shifted, outside, temperature, at)) {
+      return at;
+    }
+    at.x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
-    at.ln_v = temperature.a_T == 1 || temperature.shifts_adhesion ? x : map_detail::ln(speed);
-    const double z = at.ln_p - log_modulus_offset(x, at.slope);
-    at.cell = cell_at(x, z);
-    at.dx = x - at.cell[0];
+    at.ln_v = temperature.a_T == 1 || temperature.shifts_adhesion ? at.x : map_detail::ln(speed);
+    const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
+    at.cell = cell_at(at.x, z);
+    at.dx = at.x - at.cell[0];
     at.dz = z - at.cell[1];
     return at;
+  }
+
+  /// What `where` does for a point that is not plainly in the box; false where there is no value.
+  bool settle(double& pressure, double& speed, double& shifted, Outside outside, const MapTemperature& temperature,
+              Where& at) const noexcept {
+    const bool number = !map_detail::is_nan(temperature.background) && !map_detail::is_nan(temperature.distance) &&
+                        temperature.distance >= 0;
+    at.status = number ? Status::not_on_this_map : Status::not_a_number;
+    if (!number || !has(temperature)) return false;
+    at.status = Status::ok;
+    const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
+    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return false;
+    return !info_.heat || warm(temperature.background, outside, at);
+  }
+
+  /// Whether it is a temperature as the map takes it: a_T without heat, T0 with it.
+  [[nodiscard]] bool has(const MapTemperature& temperature) const noexcept {
+    return info_.heat ? temperature.a_T == 1 && !temperature.shifts_adhesion : temperature.background == 0;
+  }
+
+  /// Finds the step of T0; false where the map has no value.
+  bool warm(double background, Outside outside, Where& at) const noexcept {
+    if (background == 0 && steps_ == 0) background = info_.temperature[0];
+    if (!map_detail::within(background, info_.temperature)) {
+      if (at.status == Status::ok) at.status = Status::temperature_outside;
+      if (outside == Outside::nan || !(background > 0)) return false;
+      background = info_.temperature[background > info_.temperature[0] ? 1 : 0];
+    }
+    if (steps_ > 0) set_step(background, at);
+    return true;
+  }
+
+  void set_step(double background, Where& at) const noexcept {
+    at.background = background;
+    const double scaled = (background - info_.temperature[0]) * steps_per_T_;
+    at.step = index(scaled, steps_);
+    at.dT = background - info_.temperature[0] - at.step / steps_per_T_;
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
@@ -318,17 +506,21 @@ class FrictionMap {
     return true;
   }
 
+  /// Values and slopes at equal steps, `from` away from the first, and the slope there.
+  static double cubic(const double* table, std::size_t nodes, double per_step, double from, double& slope) noexcept {
+    const double scaled = from * per_step, h = 1 / per_step;
+    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(nodes - 1));
+    const double* const s = &table[2 * std::size_t{i}];
+    const double t = scaled - i, rise = s[2] - s[0];
+    const double square = 3 * rise - h * (2 * s[1] + s[3]), cube = h * (s[1] + s[3]) - 2 * rise;
+    slope = s[1] + t * (2 * square + 3 * t * cube) * per_step;
+    return s[0] + t * (h * s[1] + t * (square + t * cube));
+  }
+
   /// s(x) and its slope.
   double log_modulus_offset(double x, double& slope) const noexcept {
     slope = 0;
-    if (offset_.empty()) return 0;
-    const double scaled = (x - offset_x_) * offset_per_x_, h = 1 / offset_per_x_;
-    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(offset_.size() / 2 - 1));
-    const double* const s = &offset_[2 * std::size_t{i}];
-    const double t = scaled - i, rise = s[2] - s[0];
-    const double square = 3 * rise - h * (2 * s[1] + s[3]), cube = h * (s[1] + s[3]) - 2 * rise;
-    slope = s[1] + t * (2 * square + 3 * t * cube) * offset_per_x_;
-    return s[0] + t * (h * s[1] + t * (square + t * cube));
+    return offset_.empty() ? 0 : cubic(offset_.data(), offset_.size() / 2, offset_per_x_, x - offset_x_, slope);
   }
 
   [[nodiscard]] const double* cell_at(double x, double z) const noexcept {
@@ -336,7 +528,7 @@ class FrictionMap {
     while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
     for (;;) {
       const std::int32_t entry = entries_[entry_of(grids_[g], x, z)];
-      if (entry >= 0) return &cells_[static_cast<std::size_t>(entry) * map_detail::cell_size];
+      if (entry >= 0) return &cells_[static_cast<std::size_t>(entry) * cell_size_];
       g = static_cast<std::size_t>(-1 - entry);
     }
   }
@@ -351,7 +543,12 @@ class FrictionMap {
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
   std::vector<double> cuts_, offset_;
-  double offset_x_ = 0, offset_per_x_ = 0;
+  double offset_x_ = 0, last_x_ = 0, offset_per_x_ = 0;  // ln of the box's velocities
+  std::size_t cell_size_ = map_detail::cell_size;
+  std::uint32_t steps_ = 0, rows_ = 1;  // of T0 in cells, 0 for one T0; of T0 in the table of ln s0
+  double steps_per_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
+  std::vector<double> shift_, sliding_;  // ln a_T over T0, ln s0 over x and T0
+  std::shared_ptr<const FrictionMap> cold_;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
   std::vector<double> cells_;
@@ -406,6 +603,34 @@ inline bool is_box(const std::array<double, 2>& sides) noexcept {
          sides[1] <= 1e300;
 }
 
+/// What the head of a map with heat has more.
+struct HeatHead {
+  std::uint64_t cold = 0;  // bytes of the map without heat
+  std::uint32_t nodes = 0, columns = 0, rows = 0;
+
+  /// From a file of that many bytes; false where it contradicts itself.
+  bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size) {
+    info.heat = true;
+    for (double& side : info.temperature) side = in.f64();
+    info.memory_error = in.f64();
+    cold = in.u64();
+    nodes = in.u32();
+    columns = in.u32();
+    rows = in.u32();
+    info.temperatures = nodes;
+    const auto [lo, hi] = info.temperature;
+    const bool one = nodes == 1;
+    const bool range = !is_nan(lo) && !is_nan(hi) && lo >= 1 && hi <= 1e6 && (one ? lo == hi : lo + 1e-3 <= hi);
+    return in.u32() == 0 && range && !is_nan(info.memory_error) && info.memory_error >= 0 &&
+           info.memory_error <= 1e300 && nodes > 0 && nodes < 10000 && columns > 1 && columns < 10000 && rows < 10000 &&
+           (one ? rows == 1 : rows > 1) && cold % 8 == 0 && cold < size;
+  }
+  [[nodiscard]] std::size_t blocks() const noexcept { return nodes < 2 ? 1 : 4 * (std::size_t{nodes} - 1); }
+  [[nodiscard]] std::uint64_t bytes() const noexcept {
+    return nodes == 0 ? 0 : heat_head_size + 16ull * nodes + 16ull * columns * rows + cold;
+  }
+};
+
 /// Every grid comes after those that it is in, and they are no more than look-ups shall go through.
 inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<std::int32_t>& entries) {
   std::vector<std::uint32_t> around(grids.size());  // how many grids each is in
@@ -421,8 +646,8 @@ inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<
 }
 
 /// Powers of the offsets from a cell's corner stay finite.
-inline bool corners_are_near(const std::vector<double>& cells) noexcept {
-  for (std::size_t i = 0; i < cells.size(); i += cell_size)
+inline bool corners_are_near(const std::vector<double>& cells, std::size_t size) noexcept {
+  for (std::size_t i = 0; i < cells.size(); i += size)
     if (!(std::fabs(cells[i]) < 1e4 && std::fabs(cells[i + 1]) < 1e4)) return false;
   return true;
 }
@@ -443,7 +668,10 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (order == 0x04030201) return refuse("was written in the other byte order: must be little-endian");
   if (order != 0x01020304) return refuse("is damaged: bytes 8 to 11");
   const std::uint32_t version = in.u32();
-  if (version != 1) return refuse("has layout version " + std::to_string(version) + ": must be 1");
+  if (version != 1 && version != 2) return refuse("has layout version " + std::to_string(version) + ": must be 1 or 2");
+  const bool heat = version == 2;
+  if (heat && size < map_detail::head_size + map_detail::heat_head_size + 8)
+    return refuse("is truncated: " + std::to_string(size) + " bytes");
   const std::uint64_t stated = in.u64();
   if (stated != size)
     return refuse(std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) +
@@ -474,12 +702,20 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   const auto [bands, nodes, grids, entries, cells, text] =
       std::array{count[0], count[1], count[2], count[3], count[4], count[5]};
   const auto padded = [](std::uint64_t n) { return (n + 7) / 8 * 8; };
-  const std::uint64_t needed = map_detail::head_size + 8 * (bands + 1ull) + 16ull * nodes + 48ull * grids +
-                               padded(4ull * entries) + 8ull * map_detail::cell_size * cells + padded(text) + 8;
+  good = good && in.u32() == 0;
+  map_detail::HeatHead warm;
+  if (heat) good = warm.read(in, info, size) && good && nodes == 0;
+  map.cell_size_ = 2 + 32 * warm.blocks();
+  const std::uint64_t needed = map_detail::head_size + warm.bytes() + 8 * (bands + 1ull) + 16ull * nodes +
+                               48ull * grids + padded(4ull * entries) + 8ull * map.cell_size_ * cells + padded(text) +
+                               8;
   good = good && flags < 2 && bands > 0 && bands <= map_detail::most_bands && nodes != 1 && grids >= bands &&
          entries > 0 && cells > 0 && needed == size;
-  if (!good || in.u32() != 0) return refuse("is damaged: its head contradicts itself");
+  if (!good) return refuse("is damaged: its head contradicts itself");
 
+  if (heat) good = in.numbers(map.shift_, 2 * std::size_t{warm.nodes}, 1e3);
+  if (heat) good = in.numbers(map.sliding_, 2 * std::size_t{warm.columns} * warm.rows, 1e3) && good;
+  if (!good) return refuse("is damaged: its tables contradict each other");
   good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
   for (std::size_t i = 0; i < bands; ++i) good = good && map.cuts_[i] < map.cuts_[i + 1];
   good = in.numbers(map.offset_, 2 * std::size_t{nodes}, 1e3) && good;
@@ -506,14 +742,33 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   }
   in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
   good = good && map_detail::no_grid_in_itself(map.grids_, map.entries_) &&
-         in.numbers(map.cells_, map_detail::cell_size * std::size_t{cells}, 1e100) &&
-         map_detail::corners_are_near(map.cells_);
+         in.numbers(map.cells_, map.cell_size_ * std::size_t{cells}, 1e100) &&
+         map_detail::corners_are_near(map.cells_, map.cell_size_);
   if (!good) return refuse("is damaged: its tables contradict each other");
   info.cells = cells;
+  if (heat) {
+    const auto cold_size = static_cast<std::size_t>(warm.cold);
+    const unsigned char* const inside = in.skip(cold_size);
+    if (cold_size < 16 || map_detail::Reader(inside + 12).u32() != 1)
+      return refuse("is damaged: its map without heat is none of version 1");
+    auto cold = std::make_shared<FrictionMap>();
+    std::string reason;
+    if (!cold->read(inside, cold_size, reason)) return refuse("is damaged: its map without heat " + reason);
+    map.cold_ = std::move(cold);
+  }
   info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
 
   map.offset_x_ = map_detail::ln(info.velocity[0]);
-  if (nodes != 0) map.offset_per_x_ = (nodes - 1) / (map_detail::ln(info.velocity[1]) - map.offset_x_);
+  map.last_x_ = map_detail::ln(info.velocity[1]);
+  if (heat) {
+    const double kelvin = info.temperature[1] - info.temperature[0];
+    map.steps_ = warm.nodes - 1;
+    map.rows_ = warm.rows;
+    if (map.steps_ > 0) map.steps_per_T_ = map.steps_ / kelvin;
+    if (map.rows_ > 1) map.rows_per_T_ = (map.rows_ - 1) / kelvin;
+    map.sliding_per_x_ = (warm.columns - 1) / (map.last_x_ - map.offset_x_);
+  }
+  if (nodes != 0) map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);
   map.ln_shear_stress_ = info.shear_stress > 0 ? map_detail::ln(info.shear_stress) : 0;
   map.ln_reference_ = info.shear_stress > 0 ? map_detail::ln(info.reference_velocity) : 0;
   map.width_ = info.width / (2.302585092994045684 * 2.302585092994045684);
@@ -573,8 +828,15 @@ void asperity_map_free(asperity_map* map);
 double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp);
 
 /// `out` receives mu, hysteresis, adhesion, contact area, dmu/dlnp, dmu/dlnv. Returns 0, 1 or 2 where the pressure or
-/// the velocity is outside of the box, 3 where a number is NaN.
+/// the velocity is outside of the box, 3 where a number is NaN, 5 (and NaN) where a_T is not 1 on a map with heat.
 int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]);
+
+/// The same of a map with heat, at a temperature [K] of the background (0: its only one), a distance [m] slid since
+/// rest (1e300: long ago). NaN and 5 on a map without heat, 4 where the temperature is outside of the box.
+double asperity_map_hot_mu(const asperity_map* map, double pressure, double velocity, double temperature,
+                           double distance, int clamp);
+int asperity_map_hot_at(const asperity_map* map, double pressure, double velocity, double temperature, double distance,
+                        int clamp, double out[6]);
 
 /// Relative error that the map was certified for.
 double asperity_map_max_error(const asperity_map* map);
@@ -606,19 +868,47 @@ asperity_map* asperity_map_load(const char* path, char* why, size_t size) {
 
 void asperity_map_free(asperity_map* map) { delete map; }
 
-double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp) {
-  using Outside = asperity::FrictionMap::Outside;
-  return map->map.mu(pressure, velocity, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
+namespace asperity::map_detail {
+
+inline FrictionMap::Outside outside_of(int clamp) noexcept {
+  return clamp != 0 ? FrictionMap::Outside::clamp : FrictionMap::Outside::nan;
 }
 
-int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]) {
-  using Outside = asperity::FrictionMap::Outside;
-  asperity::MapPoint point;
-  const auto status = map->map.at(pressure, velocity, point, clamp != 0 ? Outside::clamp : Outside::nan, {a_T, false});
+inline int numbers_at(const FrictionMap& map, double pressure, double velocity, const MapTemperature& temperature,
+                      int clamp, double out[6]) noexcept {
+  MapPoint point;
+  const auto status = map.at(pressure, velocity, point, outside_of(clamp), temperature);
   const double values[] = {point.mu,           point.hysteresis, point.adhesion,
                            point.contact_area, point.dmu_dlnp,   point.dmu_dlnv};
   for (int i = 0; i < 6; ++i) out[i] = values[i];
   return static_cast<int>(status);
+}
+
+/// A temperature of the background as a map with heat takes it, which one without refuses.
+inline MapTemperature hot(const FrictionMap& map, double temperature, double distance) noexcept {
+  return {1, false, map.info().heat ? temperature : -1, distance};
+}
+
+}  // namespace asperity::map_detail
+
+double asperity_map_mu(const asperity_map* map, double pressure, double velocity, double a_T, int clamp) {
+  return map->map.mu(pressure, velocity, asperity::map_detail::outside_of(clamp), {a_T, false});
+}
+
+int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]) {
+  return asperity::map_detail::numbers_at(map->map, pressure, velocity, {a_T, false}, clamp, out);
+}
+
+double asperity_map_hot_mu(const asperity_map* map, double pressure, double velocity, double temperature,
+                           double distance, int clamp) {
+  using namespace asperity::map_detail;
+  return map->map.mu(pressure, velocity, outside_of(clamp), hot(map->map, temperature, distance));
+}
+
+int asperity_map_hot_at(const asperity_map* map, double pressure, double velocity, double temperature, double distance,
+                        int clamp, double out[6]) {
+  using namespace asperity::map_detail;
+  return numbers_at(map->map, pressure, velocity, hot(map->map, temperature, distance), clamp, out);
 }
 
 double asperity_map_max_error(const asperity_map* map) { return map->map.info().max_error; }

@@ -1,17 +1,17 @@
 // Builds a friction map: checks of the request, refinement, and random points on which the finished file is checked.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <numbers>
+#include <thread>
 
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
 #include "asperity/version.hpp"
-#include "asperity/watch.hpp"
-#include "friction_map/format.hpp"
+#include "contact/correction.hpp"
+#include "friction_map/check.hpp"
 #include "friction_map/refine.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/parallel_for.hpp"
-#include "numerics/random.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
@@ -19,9 +19,7 @@ namespace {
 
 // Limits of the numbers in the file.
 constexpr double smallest = 1e-300, largest = 1e300;
-
-/// Of the whole work, as progress tells it: the points that cells are made from. The rest is the check.
-constexpr double sampling_share = 0.2;
+constexpr double least_range = 0.1;  // of temperatures [K]
 
 void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
   for (const auto& [name, box] : {std::pair{"pressure", request.pressure}, std::pair{"velocity", request.velocity}}) {
@@ -42,65 +40,107 @@ void check_request(const MapRequest& request, const std::optional<Adhesion>& adh
   if (adhesion->width > largest) refuse("width", adhesion->width, "at most 1e300 for a map");
 }
 
-/// Those at 81 points of the box, evenly in the logarithms, edges and corners too.
-std::vector<std::string> notes_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-                                  const std::optional<Adhesion>& adhesion, const MapRequest& request) {
+void check_temperature(const std::array<double, 2>& temperature) {
+  for (const double one : temperature) require_temperature(one);
+  const auto [lowest, highest] = temperature;
+  if (lowest != highest && !(lowest + least_range <= highest))
+    throw InvalidInput("temperature = (" + show(lowest) + ", " + show(highest) +
+                       "): must be one, or (lo, hi) with lo < hi, " + show(least_range) + " K apart or more");
+}
+
+struct Places {
+  std::vector<double> pressure, velocity, temperature;
+};
+
+/// 81 points of the box, evenly in the logarithms, edges and corners too.
+Places places_of(const MapRequest& request) {
   constexpr int steps = 8;
   const auto between = [](const std::array<double, 2>& box, int i) {
     const double share = static_cast<double>(i) / steps;
     return i == 0 ? box[0] : i == steps ? box[1] : std::exp((1 - share) * std::log(box[0]) + share * std::log(box[1]));
   };
-  std::vector<double> pressure, velocity;
+  Places places;
   for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
     for (int j = 0; j <= steps; ++j) {
-      velocity.push_back(between(request.velocity, i));
-      pressure.push_back(between(request.pressure, j));
+      places.velocity.push_back(between(request.velocity, i));
+      places.pressure.push_back(between(request.pressure, j));
     }
-  return friction(spectrum, rubber, model, adhesion, pressure, velocity).notes;
+  return places;
 }
 
-/// The finished map against the solver, whose own error counts too, on random velocities with 200 random pressures
-/// each.
-void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& request, unsigned threads,
-           MapCertificate& certificate) {
-  constexpr std::size_t block = 20'000, pressures = 200;
-  Random random(20261120);
-  const auto [x_lo, x_hi] = frame.x();
-  const double y_lo = frame.ln_pressure(0), y_hi = frame.ln_pressure(1);
-  std::vector<MapPlace> places;
-  std::vector<double> errors;
-  for (std::size_t done = 0; done < request.checked; done += places.size()) {
-    heed();
-    places.resize(std::min(block * threads, request.checked - done));
-    errors.resize(places.size());
-    double x = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (i % pressures == 0) x = x_lo + random() * (x_hi - x_lo);
-      places[i] = {x, y_lo + random() * (y_hi - y_lo) - frame.log_modulus_offset(x)};
-    }
-    in_parts(threads, places.size(), [&](unsigned, std::size_t begin, std::size_t end) {
-      const std::vector<MapSample> truth = frame.sample(std::span(places).subspan(begin, end - begin));
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto& [of_solver, error] = truth[i - begin];
-        const auto& [ln_hysteresis, ln_area] = of_solver;
-        const double y = places[i].z + frame.log_modulus_offset(places[i].x);
-        MapPoint found;
-        map.at(std::exp(y), std::exp(places[i].x), found, FrictionMap::Outside::clamp);
-        errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);
-        if (frame.hysteresis())
-          errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
-        errors[i] += error;
-      }
-    });
-    if (request.progress)
-      request.progress(sampling_share + (1 - sampling_share) * static_cast<double>(done + places.size()) /
-                                            static_cast<double>(request.checked));
-    for (const double error : errors) {
-      certificate.largest_checked_error = std::fmax(certificate.largest_checked_error, error);
-      if (!(error <= certificate.max_error)) ++certificate.exceeded;
-    }
+/// The same at both ends of the temperatures and in their middle.
+Places places_of(const MapRequest& request, const std::array<double, 2>& temperature) {
+  const auto [lowest, highest] = temperature;
+  const Places at_one = places_of(request);
+  Places places;
+  const std::vector<double> ends =
+      lowest == highest ? std::vector{lowest} : std::vector{lowest, highest, (lowest + highest) / 2};
+  for (const double one : ends) {
+    places.pressure.insert(places.pressure.end(), at_one.pressure.begin(), at_one.pressure.end());
+    places.velocity.insert(places.velocity.end(), at_one.velocity.begin(), at_one.velocity.end());
+    places.temperature.insert(places.temperature.end(), at_one.velocity.size(), one);
   }
-  certificate.checked = request.checked;
+  return places;
+}
+
+std::string text_of(const std::vector<std::string>& notes, const MapRequest& request) {
+  std::string text = "asperity " + std::string(version()) + "\n";
+  for (const std::string& note : notes) text.append("note: ").append(note).append("\n");
+  return text.append(request.text);
+}
+
+/// A part of the work as the whole of it, of which progress is told.
+std::function<void(double)> part_of(const std::function<void(double)>& progress, double begin, double end) {
+  if (!progress) return {};
+  return [=](double share) { progress(begin + share * (end - begin)); };
+}
+
+unsigned threads_of(const MapRequest& request) {
+  return request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// The share of the work that samples the solver, where there is a check after it.
+constexpr double sampling_share = 0.2;
+
+/// Refines a map, adds to it what goes with its heat, and checks the finished file.
+std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
+                                const MapRequest& request,
+                                const std::function<MapHeatTables(const std::vector<double>&)>& with_heat = {}) {
+  const unsigned threads = threads_of(request);
+  const double sampled = request.checked == 0 ? 1 : sampling_share;
+  const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, sampled));
+  std::optional<MapHeatTables> heat;
+  if (with_heat) heat = with_heat(refined.temperatures);
+  MapCertificate certificate{.max_error = refined.max_error};
+  const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, heat ? &*heat : nullptr); };
+  if (request.checked == 0) return file();
+  check(frame, file(), request, threads, part_of(request.progress, sampled, 1), certificate);
+  return file();
+}
+
+/// ln a_T from one temperature to others, with its slope over T.
+std::vector<double> shifts(const TemperatureShift& shift, const std::vector<double>& temperatures, double from) {
+  const double reference = shift_at(shift, from).log10_a_T;
+  std::vector<double> result;
+  for (const double one : temperatures) {
+    const ShiftValue found = shift_at(shift, one);
+    result.insert(result.end(), {std::numbers::ln10 * (found.log10_a_T - reference), std::numbers::ln10 * found.slope});
+  }
+  return result;
+}
+
+/// The velocities at which the rubber is at one temperature as it is at all of these at those of the box.
+std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vector<double>& shift, double step) {
+  double lowest = shift[0], highest = shift[0];
+  constexpr int parts = 16;  // of a step of the temperature
+  for (std::size_t i = 0; i + 2 < shift.size(); i += 2)
+    for (int k = 0; k <= parts; ++k) {
+      const double t = static_cast<double>(k) / parts;
+      const double found = hermite(shift[i], shift[i + 1], shift[i + 2], shift[i + 3], step, t).value;
+      lowest = std::fmin(lowest, found);
+      highest = std::fmax(highest, found);
+    }
+  return {velocity[0] * std::exp(lowest), velocity[1] * std::exp(highest)};
 }
 
 }  // namespace
@@ -108,30 +148,46 @@ void check(const MapFrame& frame, const FrictionMap& map, const MapRequest& requ
 std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   check_request(request, adhesion);
-  std::string text = "asperity " + std::string(version()) + "\n";
-  for (const std::string& note : notes_of(spectrum, rubber, model, adhesion, request))
-    text.append("note: ").append(note).append("\n");
-  text += request.text;
+  const Places at = places_of(request);
+  const std::string text =
+      text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);
+  MapRequest whole = request;
+  whole.text = text;
+  return made(MapFrame(spectrum, rubber, model, request), adhesion, whole);
+}
+
+std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
+                                              const TemperatureShift& shift, const Heating& heating,
+                                              const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                                              std::array<double, 2> temperature, const MapRequest& request) {
+  check_request(request, adhesion);
+  check_temperature(temperature);
+  if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
+    throw InvalidInput(
+        "correction: must be none of Greenwood-Williamson's in a map with heat, in which the kinks of its p_T would "
+        "move with the temperature of the contacts");
+  const Places at = places_of(request, temperature);
+  const FlashFriction found =
+      friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);
+  refuse_folds(found);
+  const std::string text = text_of(found.hot.notes, request);
   MapRequest whole = request;
   whole.text = text;
 
-  const unsigned threads = request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
-  const MapFrame frame(spectrum, rubber, model, request);
-  const auto sampled = [&](double share) {
-    if (request.progress) request.progress(share * (request.checked == 0 ? 1 : sampling_share));
+  const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
+  const auto tables = [&](const std::vector<double>& temperatures) {
+    MapHeatTables result;
+    result.shift = shifts(shift, temperatures, temperature[0]);
+    const double step = (temperature[1] - temperature[0]) / std::max(1.0, static_cast<double>(temperatures.size() - 1));
+    MapRequest cold = request;
+    cold.velocity = shifted_box(request.velocity, result.shift, step);
+    cold.progress = {};  // a second or two
+    const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
+    result.cold = build_friction_map(spectrum, at_lowest, model, adhesion, cold);
+    result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request));
+    return result;
   };
-  const RefinedMap refined = refine(frame, request.rtol, threads, sampled);
-  MapCertificate certificate{.max_error = refined.max_error};
-  std::vector<unsigned char> file = map_file(frame, refined.tree, adhesion, whole, certificate);
-  if (request.checked == 0) return file;
-  FrictionMap map;
-  std::string why;
-  if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
-  check(frame, map, request, threads, certificate);
-  if (certificate.largest_checked_error > request.rtol)
-    throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
-                       " was reached, on one of " + std::to_string(request.checked) + " random points");
-  return map_file(frame, refined.tree, adhesion, whole, certificate);
+  return made(MapFrame(spectrum, rubber, model, request, heat), adhesion, whole, tables);
 }
 
 }  // namespace asperity

@@ -24,7 +24,8 @@ void blend(const std::array<double, 2>& a, const std::array<double, 2>& da, cons
 
 }  // namespace
 
-MapTree::MapTree(std::array<double, 2> x, std::vector<double> cuts) : x_(x), cuts_(std::move(cuts)) {
+MapTree::MapTree(std::array<double, 2> x, std::vector<double> cuts, std::size_t planes)
+    : x_(x), cuts_(std::move(cuts)), planes_(planes) {
   for (std::uint32_t k = 0; k < bands(); ++k) nodes_.push_back({0, k * unit, unit, unit});
 }
 
@@ -91,7 +92,8 @@ std::vector<std::size_t> MapTree::holders(const Leaf& leaf) const {
   return result;
 }
 
-void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, std::uint32_t)>& free_corner) {
+void MapTree::interpolate(std::size_t plane,
+                          const std::function<const MapCorner&(std::uint32_t, std::uint32_t)>& free_corner) {
   std::unordered_map<std::uint64_t, MapCorner> known;
   // Halving makes no ring of corners that wait for each other.
   const std::function<const MapCorner&(std::uint32_t, std::uint32_t)> corner =
@@ -121,6 +123,7 @@ void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, st
   for (Leaf& leaf : nodes_) {
     if (leaf.child >= 0 || !leaf.needed) continue;
     const auto [hx, hz] = size(leaf);
+    leaf.polynomial.resize(planes_);
     for (std::size_t k = 0; k < 2; ++k) {
       // rows: value at both ends in x, slope in x at both; columns the same in z
       double m[4][4];
@@ -142,16 +145,16 @@ void MapTree::interpolate(const std::function<const MapCorner&(std::uint32_t, st
       double per_x = 1;
       for (std::size_t p = 0; p < 4; ++p, per_x /= hx) {
         double scale = per_x;
-        for (std::size_t j = 0; j < 4; ++j, scale /= hz) leaf.polynomial[8 * j + 2 * p + k] = m[p][j] * scale;
+        for (std::size_t j = 0; j < 4; ++j, scale /= hz) leaf.polynomial[plane][8 * j + 2 * p + k] = m[p][j] * scale;
       }
     }
   }
 }
 
-std::array<double, 2> MapTree::value(const Leaf& leaf, double dx, double dz) {
+std::array<double, 2> MapTree::value(const Leaf& leaf, std::size_t plane, double dx, double dz) {
   std::array<double, 2> result{};
   for (std::size_t k = 0; k < 2; ++k) {
-    const double* const c = &leaf.polynomial[k];
+    const double* const c = &leaf.polynomial[plane][k];
     for (std::size_t j = 4; j-- > 0;)
       result[k] = result[k] * dz + (((c[8 * j + 6] * dx + c[8 * j + 4]) * dx + c[8 * j + 2]) * dx + c[8 * j]);
   }

@@ -1,5 +1,5 @@
-// The cells of a friction map: a rectangle cut into bands, each halved again and again in x or in z, with a bicubic
-// polynomial a leaf and continuous first derivatives across every side that is not a cut between bands.
+// The cells of a friction map: a rectangle cut into bands, each halved again and again in x or in z, with bicubic
+// polynomials a leaf, one a plane, and continuous first derivatives across every side that is not a cut between bands.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ class MapTree {
     std::int32_t child = -1;  // the first of two; -1: a leaf indeed
     bool in_x = false;        // which way it was halved
     bool needed = true;
-    std::array<double, 32> polynomial{};  // as in the file
+    std::vector<std::array<double, 32>> polynomial = {};  // of each plane, as in the file
   };
 
-  MapTree(std::array<double, 2> x, std::vector<double> cuts);
+  MapTree(std::array<double, 2> x, std::vector<double> cuts, std::size_t planes);
 
   /// The key of a place in tables.
   static std::uint64_t key(std::uint32_t x, std::uint32_t z) { return std::uint64_t{x} << 32 | z; }
@@ -58,12 +58,14 @@ class MapTree {
   [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> free_corners() const;
   /// Leaves in the middle of whose sides a leaf has a corner.
   [[nodiscard]] std::vector<std::size_t> holders(const Leaf& leaf) const;
-  /// Makes the polynomial of every needed leaf. A corner in the middle of another leaf's side has its values from that
-  /// side, so that both leaves agree along it.
-  void interpolate(const std::function<const MapCorner&(std::uint32_t x, std::uint32_t z)>& free_corner);
+  [[nodiscard]] std::size_t planes() const { return planes_; }
+  /// Makes the polynomial of every needed leaf on a plane. A corner in the middle of another leaf's side has its values
+  /// from that side, so that both leaves agree along it.
+  void interpolate(std::size_t plane,
+                   const std::function<const MapCorner&(std::uint32_t x, std::uint32_t z)>& free_corner);
 
-  /// The two functions at a distance from a leaf's lower corner.
-  static std::array<double, 2> value(const Leaf& leaf, double dx, double dz);
+  /// The two functions on a plane at a distance from a leaf's lower corner.
+  static std::array<double, 2> value(const Leaf& leaf, std::size_t plane, double dx, double dz);
 
  private:
   struct Side {  // that a corner is in the middle of
@@ -74,6 +76,7 @@ class MapTree {
 
   std::array<double, 2> x_;
   std::vector<double> cuts_;
+  std::size_t planes_;
   std::vector<Leaf> nodes_;
 };
 

@@ -104,14 +104,41 @@ class Index {
 
 }  // namespace
 
-std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, const std::optional<Adhesion>& adhesion,
-                                    const MapRequest& request, const MapCertificate& certificate) {
+namespace {
+
+/// The polynomials of a leaf as the file has them: those of its only plane; or of each step between temperatures, on
+/// which planes hold values and slopes over T at the ends, the powers of T from the step's lower end.
+std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std::vector<double>& temperatures) {
+  if (temperatures.size() == 1) return leaf.polynomial;
+  std::vector<std::array<double, 32>> result;
+  const double h = (temperatures.back() - temperatures.front()) / static_cast<double>(temperatures.size() - 1);
+  for (std::size_t i = 0; i + 1 < temperatures.size(); ++i) {
+    const std::array<double, 32>* const p = &leaf.polynomial[2 * i];
+    std::array<std::array<double, 32>, 4> power;
+    for (std::size_t c = 0; c < 32; ++c) {
+      const double rise = p[2][c] - p[0][c], first = p[1][c], last = p[3][c];
+      power[0][c] = p[0][c];
+      power[1][c] = first;
+      power[2][c] = (3 * rise / h - 2 * first - last) / h;
+      power[3][c] = (first + last - 2 * rise / h) / (h * h);
+    }
+    result.insert(result.end(), power.begin(), power.end());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
+                                    const std::optional<Adhesion>& adhesion, const MapRequest& request,
+                                    const MapCertificate& certificate, const MapHeatTables* heat) {
+  const MapTree& tree = refined.tree;
   const Index index(tree);
   const Adhesion law = adhesion.value_or(Adhesion{.shear_stress = 0});
   Writer out;
   out.text("ASPERMAP");
   out.u32(0x01020304);
-  out.u32(1);
+  out.u32(heat == nullptr ? 1 : 2);
   out.u64(0);  // the size, when it is known
   for (const auto& box : {request.pressure, request.velocity})
     for (const double side : box) out.f64(side);
@@ -127,6 +154,15 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, 
   out.u32(static_cast<std::uint64_t>(index.cells));
   out.u32(request.text.size());
   out.u32(0);
+  if (heat != nullptr) {
+    for (const double side : frame.temperature()) out.f64(side);
+    out.f64(heat->sliding.error);
+    out.u64(heat->cold.size());
+    for (const std::size_t n : {refined.temperatures.size(), heat->sliding.columns, heat->sliding.rows, std::size_t{0}})
+      out.u32(n);
+    for (const std::vector<double>* const table : {&heat->shift, &heat->sliding.values})
+      for (const double x : *table) out.f64(x);
+  }
   for (const double z : tree.cuts()) out.f64(z);
   for (const double s : frame.log_modulus_nodes()) out.f64(s);
   for (const Index::Grid& grid : index.grids) {
@@ -143,8 +179,10 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, 
     if (leaf.child >= 0 || !leaf.needed) continue;
     out.f64(tree.x(leaf.x));
     out.f64(tree.z(leaf.z));
-    for (const double c : leaf.polynomial) out.f64(c);
+    for (const std::array<double, 32>& block : blocks(leaf, refined.temperatures))
+      for (const double c : block) out.f64(c);
   }
+  if (heat != nullptr) out.bytes.insert(out.bytes.end(), heat->cold.begin(), heat->cold.end());
   out.text(request.text);
   out.pad();
   Writer size;

@@ -1,11 +1,13 @@
 // The file of a friction map, whose layout stands in asperity/friction_map.hpp.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
-#include "friction_map/cells.hpp"
+#include "friction_map/refine.hpp"
 #include "friction_map/sampling.hpp"
+#include "friction_map/sliding_table.hpp"
 
 namespace asperity {
 
@@ -14,7 +16,15 @@ struct MapCertificate {
   std::size_t checked = 0, exceeded = 0;
 };
 
-std::vector<unsigned char> map_file(const MapFrame& frame, const MapTree& tree, const std::optional<Adhesion>& adhesion,
-                                    const MapRequest& request, const MapCertificate& certificate);
+/// What the file of a map with heat has beside its cells.
+struct MapHeatTables {
+  std::vector<unsigned char> cold;  // the file of the map without heat
+  std::vector<double> shift;        // ln a_T of that map and its slope, at each node of T0
+  SlidingTable sliding;
+};
+
+std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
+                                    const std::optional<Adhesion>& adhesion, const MapRequest& request,
+                                    const MapCertificate& certificate, const MapHeatTables* heat = nullptr);
 
 }  // namespace asperity

@@ -58,11 +58,19 @@ class FrictionMapBatch {
     const double* const pressure = column(points.pressure, begin, n, pressure_);
     const double* const velocity = column(points.velocity, begin, n, velocity_);
     const double* const a_T = column(points.a_T, begin, n, a_T_);
-    const bool within = !map_.cells_.empty() && loops_.prepare(map_.info_, pressure, velocity, a_T, n, speed_, x_);
-    if (!within) {  // rare: one by one
+    const auto one = [&](std::span<const double> all, std::size_t i, double otherwise) {
+      return all.empty() ? otherwise : all[all.size() > 1 ? begin + i : 0];
+    };
+    const bool plain = points.background.empty() && points.distance.empty() &&
+                       (!map_.info_.heat || (is_one(points.a_T) && !shifts_adhesion_));
+    const bool within = plain && map_.steps_ == 0 && !map_.cells_.empty() &&
+                        loops_.prepare(map_.info_, pressure, velocity, a_T, n, speed_, x_);
+    if (!within) {  // outside of the box, or over the temperature: one by one
       std::size_t good = n;
       for (std::size_t i = n; i-- > 0;) {
-        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {a_T[i], shifts_adhesion_});
+        mu[i] = map_.mu(
+            pressure[i], velocity[i], outside_,
+            {a_T[i], shifts_adhesion_, one(points.background, i, 0), one(points.distance, i, map_detail::long_slid)});
         if (std::isnan(mu[i])) good = i;
       }
       return good;
@@ -76,7 +84,7 @@ class FrictionMapBatch {
       std::fill_n(mu, n, 0.0);
     }
     if (map_.info_.shear_stress == 0) return n;
-    const bool unshifted = shifts_adhesion_ || (points.a_T.size() == 1 && points.a_T[0] == 1);
+    const bool unshifted = shifts_adhesion_ || is_one(points.a_T);
     if (!unshifted) loops_.logarithms(speed_, speed_, n);
     loops_.add_adhesion(a_, ln_p_, unshifted ? x_ : speed_, map_.ln_shear_stress_, map_.ln_reference_, map_.width_, n,
                         mu);
@@ -84,6 +92,8 @@ class FrictionMapBatch {
   }
 
  private:
+  static bool is_one(std::span<const double> a_T) { return a_T.size() == 1 && a_T[0] == 1; }
+
   /// z_ and cell_ of x_ and ln_p_.
   void find_cells(std::size_t n) {
     if (map_.offset_.empty()) {
@@ -96,7 +106,7 @@ class FrictionMapBatch {
     if (one_band && loops_.entries(map_.grids_[0], map_.entries_.data(), x_, z_, n, cell_)) return;
     for (std::size_t i = 0; i < n; ++i)
       cell_[i] = static_cast<std::int32_t>((map_.cell_at(x_[i], z_[i]) - map_.cells_.data()) /
-                                           static_cast<std::ptrdiff_t>(map_detail::cell_size));
+                                           static_cast<std::ptrdiff_t>(map_.cell_size_));
   }
 
   /// A column's part, or its only entry as often as it is needed.
@@ -120,6 +130,9 @@ std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMa
   for (const auto& [name, column] :
        {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity}, std::pair{"a_T", points.a_T}})
     if (column.size() != 1) require_same_size(name, column.size(), "mu", mu.size());
+  for (const auto& [name, column] :
+       {std::pair{"background", points.background}, std::pair{"distance", points.distance}})
+    if (column.size() > 1) require_same_size(name, column.size(), "mu", mu.size());
   FrictionMapBatch batch(map, outside, shifts_adhesion);
   std::size_t first_bad = mu.size();
   for (std::size_t i = 0; i < mu.size(); i += block) {

@@ -1,11 +1,11 @@
-// Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points.
-// L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM (2013), chapters 3 and 4.
+// Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points (chebyshev.hpp).
 #include "friction_map/patches.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "friction_map/chebyshev.hpp"
 
 namespace asperity {
 
@@ -89,35 +89,8 @@ void MapPatches::make(std::vector<std::size_t> wanted, const std::function<void(
   }
 }
 
-namespace {
-
-/// Chebyshev's extreme points, both ends among them: beyond the last of his zeros a kink would not be seen. The
-/// coefficient of T_m is the sum of transform[m][k] f(point[k]).
-template <std::size_t n>
-struct Points {
-  std::array<double, n> point;
-  std::array<std::array<double, n>, n> transform;
-  Points() {
-    const auto end = [](std::size_t k) { return k == 0 || k == n - 1 ? 0.5 : 1.0; };
-    for (std::size_t k = 0; k < n; ++k) {
-      const double angle = std::numbers::pi * static_cast<double>(k) / (n - 1);
-      point[k] = std::cos(angle);
-      for (std::size_t m = 0; m < n; ++m)
-        transform[m][k] = 2.0 / (n - 1) * end(m) * end(k) * std::cos(static_cast<double>(m) * angle);
-    }
-  }
-};
-
-template <std::size_t n>
-const Points<n>& points_of() {
-  static const Points<n> points;
-  return points;
-}
-
-}  // namespace
-
 void MapPatches::interpolate(std::span<const std::size_t> wanted) {
-  const Points<n>& points = points_of<n>();
+  const ChebyshevPoints<n>& points = chebyshev_points<n>();
   std::vector<MapPlace> places;
   places.reserve(wanted.size() * n * n);
   for (const std::size_t index : wanted) {
@@ -150,7 +123,7 @@ void MapPatches::interpolate(std::span<const std::size_t> wanted) {
 /// polynomials are off near it alone.
 std::vector<double> MapPatches::test(std::span<const std::size_t> wanted) {
   constexpr std::size_t tested = (n - 1) * test_z;
-  const Points<n>& points = points_of<n>();
+  const ChebyshevPoints<n>& points = chebyshev_points<n>();
   std::vector<MapPlace> places;
   places.reserve(wanted.size() * tested);
   for (const std::size_t index : wanted) {
@@ -219,26 +192,6 @@ const MapPatches::Patch& MapPatches::find(const MapPlace& place) {
 }
 
 namespace {
-
-/// T_i at t.
-template <std::size_t n>
-std::array<double, n> chebyshev(double t) {
-  std::array<double, n> value{1, t};
-  for (std::size_t i = 2; i < n; ++i) value[i] = 2 * t * value[i - 1] - value[i - 2];
-  return value;
-}
-
-/// T_i' and T_i'' at t.
-template <std::size_t n>
-std::array<std::array<double, n>, 2> chebyshev_slopes(double t) {
-  const std::array<double, n> value = chebyshev<n>(t);
-  std::array<double, n> slope{0, 1}, bend{};
-  for (std::size_t i = 2; i < n; ++i) {
-    slope[i] = 2 * value[i - 1] + 2 * t * slope[i - 1] - slope[i - 2];
-    bend[i] = 4 * slope[i - 1] + 2 * t * bend[i - 1] - bend[i - 2];
-  }
-  return {slope, bend};
-}
 
 template <std::size_t n>
 double dot(const std::array<double, n>& a, const std::array<double, n>& b) {

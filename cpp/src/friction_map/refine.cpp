@@ -1,6 +1,7 @@
 // Refinement of a map: cells are halved until ln mu_H and ln A/A0 keep the tolerance on lattices of 5 x 5 points and on
-// random points unseen before. The numbers that they are held against, and the derivatives at corners, are those of
-// polynomials through points of the solver (patches.hpp), whose error is added to the cell's.
+// random points unseen before, with heat at the nodes of temperature, between them, and at random. The numbers that
+// they are held against, and the derivatives at corners, are those of polynomials through points of the solver
+// (patches.hpp, slices.hpp), whose error is added to the cell's.
 #include "friction_map/refine.hpp"
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 #include <unordered_map>
 
 #include "asperity/watch.hpp"
-#include "friction_map/patches.hpp"
+#include "friction_map/slices.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
 #include "numerics/random.hpp"
 
 namespace asperity {
@@ -24,7 +26,10 @@ constexpr double lattice_share = 0.45;  // of rtol, allowed on lattices: between
 class Builder {
  public:
   Builder(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress)
-      : frame_(frame), rtol_(rtol), patches_(frame, rtol, threads, progress), tree_(frame.x(), frame.cuts()) {}
+      : frame_(frame),
+        rtol_(rtol),
+        slices_(frame, rtol, threads, progress),
+        tree_(frame.x(), frame.cuts(), slices_.planes()) {}
 
   /// Halves cells until lattices and unseen points agree; returns twice the largest error of both.
   double refine() {
@@ -40,11 +45,12 @@ class Builder {
     }
   }
   MapTree tree() && { return std::move(tree_); }
+  [[nodiscard]] const std::vector<double>& temperatures() const { return slices_.nodes(); }
 
  private:
   /// What was found of the polynomial that a cell has.
   struct Checked {
-    std::array<double, 32> polynomial{};
+    std::vector<std::array<double, 32>> polynomial;
     std::optional<double> on_lattice, unseen;  // errors
   };
 
@@ -55,28 +61,34 @@ class Builder {
 
   /// The polynomials of all cells; what was found of those that did not change holds.
   void interpolate() {
-    tree_.interpolate([this](std::uint32_t x, std::uint32_t z) -> const MapCorner& { return corner(x, z); });
+    for (std::size_t plane = 0; plane < tree_.planes(); ++plane) {
+      heed();
+      tree_.interpolate(plane,
+                        [&](std::uint32_t x, std::uint32_t z) -> const MapCorner& { return corners(x, z)[plane]; });
+    }
     checked_.resize(tree_.nodes().size());
     for (std::size_t n = 0; n < checked_.size(); ++n)
       if (wanted(n) && checked_[n].polynomial != tree_.nodes()[n].polynomial)
         checked_[n] = {tree_.nodes()[n].polynomial, {}, {}};
   }
 
-  /// Values and derivatives at a corner, on a cut those of either side.
-  const MapCorner& corner(std::uint32_t x, std::uint32_t z) {
-    const auto [at, is_new] = corners_.try_emplace(MapTree::key(x, z));
+  /// Values and derivatives at a corner on each plane, on a cut those of either side.
+  const std::vector<MapCorner>& corners(std::uint32_t x, std::uint32_t z) {
+    const auto [at, is_new] = corners_.try_emplace(MapTree::key(x, z), tree_.planes());
     if (!is_new) return at->second;
-    MapCorner& corner = at->second;
     const std::uint32_t above = std::min(z / MapTree::unit, tree_.bands() - 1);
     for (const std::uint32_t side : {0u, 1u}) {
       const std::uint32_t band = tree_.on_cut(z) && side == 0 ? above - 1 : above;
-      const MapSlopes found = patches_.slopes(band, {tree_.x(x), tree_.z(z)});
-      corner.f = found.f;
-      corner.x = found.x;
-      corner.z[side] = found.z;
-      corner.xz[side] = found.xz;
+      const std::vector<MapSlopes> found = slices_.slopes(band, {tree_.x(x), tree_.z(z)});
+      for (std::size_t plane = 0; plane < found.size(); ++plane) {
+        MapCorner& corner = at->second[plane];
+        corner.f = found[plane].f;
+        corner.x = found[plane].x;
+        corner.z[side] = found[plane].z;
+        corner.xz[side] = found[plane].xz;
+      }
     }
-    return corner;
+    return at->second;
   }
 
   /// Halves the leaves that are off by more than `allowed`, in the way in which their lattice bends more; whether there
@@ -132,28 +144,45 @@ class Builder {
         visit(i, j, MapPlace{tree_.x(leaf.x + leaf.wide / 4 * i), tree_.z(leaf.z + leaf.high / 4 * j)});
   }
 
-  /// Largest fourth difference of the functions on the lattice, in x and in z.
+  /// Largest fourth difference of the functions on the lattice, in x and in z, at any temperature.
   [[nodiscard]] std::array<double, 2> bending(const MapTree::Leaf& leaf) {
-    std::array<std::array<std::array<double, 2>, 5>, 5> f;
+    std::array<std::array<std::vector<MapSample>, 5>, 5> f;
     each_lattice_place(
-        leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) { f[i][j] = patches_.at(place).f; });
+        leaf, [&](std::uint32_t i, std::uint32_t j, const MapPlace& place) { f[i][j] = slices_.column(place); });
     std::array<double, 2> most{};
-    for (std::size_t i = 0; i < 5; ++i)
-      for (std::size_t k = 0; k < 2; ++k) {
-        const auto fourth = [&](auto at) { return std::fabs(at(0) - 4 * at(1) + 6 * at(2) - 4 * at(3) + at(4)); };
-        most[0] = std::fmax(most[0], fourth([&](std::size_t n) { return f[n][i][k]; }));
-        most[1] = std::fmax(most[1], fourth([&](std::size_t n) { return f[i][n][k]; }));
-      }
+    for (std::size_t t = 0; t < f[0][0].size(); ++t)
+      for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t k = 0; k < 2; ++k) {
+          const auto fourth = [&](auto at) { return std::fabs(at(0) - 4 * at(1) + 6 * at(2) - 4 * at(3) + at(4)); };
+          most[0] = std::fmax(most[0], fourth([&](std::size_t n) { return f[n][i][t].f[k]; }));
+          most[1] = std::fmax(most[1], fourth([&](std::size_t n) { return f[i][n][t].f[k]; }));
+        }
     return most;
   }
 
-  double error_at(const MapTree::Leaf& leaf, const MapPlace& place) {
-    const MapSample truth = patches_.at(place);
+  /// The functions of a leaf at a temperature, by the cubic between two nodes.
+  [[nodiscard]] std::array<double, 2> value(const MapTree::Leaf& leaf, const MapPlace& place,
+                                            double temperature) const {
+    const double dx = place.x - tree_.x(leaf.x), dz = place.z - tree_.z(leaf.z);
+    if (tree_.planes() == 1) return MapTree::value(leaf, 0, dx, dz);
+    const std::vector<double>& nodes = slices_.nodes();
+    const double step = (nodes.back() - nodes.front()) / static_cast<double>(nodes.size() - 1);
+    const double at = (temperature - nodes.front()) / step, last = static_cast<double>(nodes.size() - 2);
+    const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, last));
+    std::array<std::array<double, 2>, 4> f;
+    for (std::size_t k = 0; k < 4; ++k) f[k] = MapTree::value(leaf, 2 * i + k, dx, dz);
+    std::array<double, 2> result;
+    for (std::size_t k = 0; k < 2; ++k)
+      result[k] = hermite(f[0][k], f[1][k], f[2][k], f[3][k], step, at - static_cast<double>(i)).value;
+    return result;
+  }
+
+  double error_at(const MapTree::Leaf& leaf, const MapPlace& place, double temperature, const MapSample& truth) {
     if (truth.error > lattice_share * rtol_)  // no number of cells would help
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * truth.error, 3) +
                          " was reached, twice the error of what the solver and " + std::to_string(MapPatches::most) +
                          " polynomials through its points tell");
-    const auto found = MapTree::value(leaf, place.x - tree_.x(leaf.x), place.z - tree_.z(leaf.z));
+    const auto found = value(leaf, place, temperature);
     double error = 0;
     for (std::size_t k = 0; k < 2; ++k) error = std::fmax(error, std::fabs(std::expm1(found[k] - truth.f[k])));
     return error + truth.error;
@@ -166,7 +195,10 @@ class Builder {
     double largest = 0;
     const auto visit = [&](const MapPlace& place) {
       const double y = place.z + frame_.log_modulus_offset(place.x);
-      if (y >= frame_.ln_pressure(0) && y <= frame_.ln_pressure(1)) largest = std::fmax(largest, error_at(leaf, place));
+      if (!(y >= frame_.ln_pressure(0) && y <= frame_.ln_pressure(1))) return;
+      const std::vector<MapSample> truth = slices_.column(place);
+      for (std::size_t t = 0; t < truth.size(); ++t)
+        largest = std::fmax(largest, error_at(leaf, place, slices_.checked()[t], truth[t]));
     };
     each_lattice_place(leaf, [&](std::uint32_t, std::uint32_t, const MapPlace& place) { visit(place); });
     if (const auto x = frame_.least_smooth(tree_.x(leaf.x), tree_.x(leaf.x + leaf.wide)))
@@ -188,7 +220,10 @@ class Builder {
       const double from = std::fmax(z, frame_.ln_pressure(0) - s);
       const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);
       if (!(from < to)) continue;
-      largest = std::fmax(largest, error_at(leaf, {at_x, from + (row + random_()) / 3 * (to - from)}));
+      const MapPlace place{at_x, from + (row + random_()) / 3 * (to - from)};
+      const auto [coldest, hottest] = frame_.temperature();
+      const double temperature = coldest == hottest ? coldest : coldest + random_() * (hottest - coldest);
+      largest = std::fmax(largest, error_at(leaf, place, temperature, slices_.at(place, temperature)));
       ++taken;
     }
     return largest;
@@ -196,10 +231,10 @@ class Builder {
 
   const MapFrame& frame_;
   double rtol_;
-  MapPatches patches_;
+  MapSlices slices_;
   MapTree tree_;
-  std::vector<Checked> checked_;  // one a node of the tree
-  std::unordered_map<std::uint64_t, MapCorner> corners_;
+  std::vector<Checked> checked_;                                       // one a node of the tree
+  std::unordered_map<std::uint64_t, std::vector<MapCorner>> corners_;  // of each plane
   Random random_{20261121};
 };
 
@@ -208,7 +243,8 @@ class Builder {
 RefinedMap refine(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress) {
   Builder builder(frame, rtol, threads, progress);
   const double max_error = builder.refine();
-  return {std::move(builder).tree(), max_error};
+  std::vector<double> temperatures = builder.temperatures();
+  return {std::move(builder).tree(), std::move(temperatures), max_error};
 }
 
 }  // namespace asperity

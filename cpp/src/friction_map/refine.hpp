@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "friction_map/cells.hpp"
 #include "friction_map/sampling.hpp"
@@ -10,7 +11,8 @@ namespace asperity {
 
 struct RefinedMap {
   MapTree tree;
-  double max_error;  // twice the largest relative error on lattices and unseen points
+  std::vector<double> temperatures;  // at which the tree has planes, of a value and a slope each; or one
+  double max_error;                  // twice the largest relative error on lattices and unseen points
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed. `progress` hears of the share of the

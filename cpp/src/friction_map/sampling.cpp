@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "contact/correction.hpp"
@@ -36,8 +37,14 @@ std::array<double, 5> derivative_weights(std::size_t k) {
 
 }  // namespace
 
-MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request)
-    : spectrum_(spectrum), rubber_(rubber), model_(std::move(model)), rtol_(request.rtol), velocity_(request.velocity) {
+MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request,
+                   std::optional<MapHeat> heat)
+    : spectrum_(spectrum),
+      rubber_(rubber),
+      model_(std::move(model)),
+      rtol_(request.rtol),
+      velocity_(request.velocity),
+      heat_(std::move(heat)) {
   model_.rtol = std::clamp(request.rtol * 1e-2, 1e-12, 1e-6);
   x_lo_ = std::log(velocity_[0]);
   x_hi_ = std::log(velocity_[1]);
@@ -180,6 +187,26 @@ void MapFrame::cut_bands() {
   cuts_.push_back(top);
 }
 
+namespace {
+
+template <class Solve>
+auto solved(double rtol, const Solve& solve) {
+  try {
+    return solve();
+  } catch (const NotConverged& error) {
+    throw NotConverged("rtol = " + show(rtol) + " of the map: the solver, asked for a hundredth of it, found " +
+                       error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<double> MapFrame::velocities_of(std::span<const MapPlace> places) const {
+  std::vector<double> velocity;
+  for (const MapPlace& place : places) velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
+  return velocity;
+}
+
 std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsigned threads) const {
   std::vector<double> pressure;
   for (const MapPlace& place : places) pressure.push_back(std::exp(place.z + log_modulus_offset(place.x)));
@@ -195,26 +222,81 @@ std::vector<MapSample> MapFrame::sample_unshifted(std::span<const MapPlace> plac
 std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::vector<double>& pressure,
                                         std::span<const MapPlace> places, unsigned threads) const {
   if (places.empty()) return {};
-  std::vector<double> velocity;
-  for (const MapPlace& place : places) velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
-  const Friction f = [&] {
-    try {
-      return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads);
-    } catch (const NotConverged& error) {
-      throw NotConverged("rtol = " + show(rtol_) + " of the map: the solver, asked for a hundredth of it, found " +
-                         error.what());
-    }
-  }();
+  const std::vector<double> velocity = velocities_of(places);
+  if (heat_) return with_heat(pressure, velocity, std::vector<double>(places.size(), heat_->temperature), threads);
+  return samples_of(
+      solved(rtol_, [&] { return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads); }));
+}
+
+std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> temperature,
+                                           unsigned threads) const {
+  std::vector<double> pressure;
+  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z));
+  return with_heat(pressure, velocities_of(places), temperature, threads);
+}
+
+void refuse_folds(const FlashFriction& f) {
+  const auto fold = std::ranges::find_if(f.branches, [](int n) { return n > 1; });
+  if (fold == f.branches.end()) return;
+  const auto i = static_cast<std::size_t>(fold - f.branches.begin());
+  throw InvalidInput("temperature = " + show(f.cold.temperature[i], 6) +
+                     ": at velocity = " + show(f.cold.velocity[i], 6) +
+                     " and pressure = " + show(f.cold.pressure[i], 6) + " the heat has " + std::to_string(*fold) +
+                     " steady states, between which mu jumps: the map must leave out where it "
+                     "does");
+}
+
+std::vector<MapSample> MapFrame::with_heat(std::span<const double> pressure, std::span<const double> velocity,
+                                           std::span<const double> temperature, unsigned threads) const {
+  const FlashFriction f = solved(rtol_, [&] {
+    return friction(spectrum_, rubber_, *heat_->shift, *heat_->heating, model_, heat_->adhesion, pressure, velocity,
+                    temperature, Branch::coldest, false, threads);
+  });
+  refuse_folds(f);
+  return samples_of(f.hot);
+}
+
+std::vector<MapSample> MapFrame::samples_of(const Friction& f) const {
   std::vector<MapSample> result;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < f.mu.size(); ++i) {
     const double h = f.hysteresis[i], a = f.contact_area[i];
     for (const auto& [name, value] : {std::pair{"A/A0", a}, std::pair{"mu_H", hysteresis_ ? h : 1}})
       if (!std::isnormal(value))
-        throw InvalidInput("pressure = " + show(pressure[i]) + " at velocity = " + show(velocity[i]) + ": " + name +
+        throw InvalidInput("pressure = " + show(f.pressure[i]) + " at velocity = " + show(f.velocity[i]) + ": " + name +
                            " = " + show(value) + ", whose logarithm cannot be mapped");
     result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, h > 0 ? f.error_estimate[i] / h : model_.rtol});
   }
   return result;
+}
+
+std::vector<double> MapFrame::temperature_cuts() const {
+  const auto [lowest, highest] = heat_->range;
+  std::vector<double> cuts{lowest};
+  if (const auto* const table = std::get_if<ShiftTable>(heat_->shift))
+    for (const double row : table->temperature())
+      if (row > lowest && row < highest) cuts.push_back(row);
+  cuts.push_back(highest);
+  return cuts;
+}
+
+double MapFrame::error_of_shift(std::span<const double> nodes) const {
+  const auto at = [&](double temperature) {
+    const ShiftValue found = shift_at(*heat_->shift, temperature);
+    return ValueAndSlope{std::numbers::ln10 * found.log10_a_T, std::numbers::ln10 * found.slope};
+  };
+  double largest = 0;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const ValueAndSlope a = at(nodes[i]), b = at(nodes[i + 1]);
+    const double cubic = hermite(a.value, a.slope, b.value, b.slope, nodes[i + 1] - nodes[i], 0.5).value;
+    largest = std::fmax(largest, std::fabs(cubic - at((nodes[i] + nodes[i + 1]) / 2).value));
+  }
+  return largest;
+}
+
+MapFrame MapFrame::at_temperature(double temperature) const {
+  MapFrame other = *this;
+  other.heat_->temperature = temperature;
+  return other;
 }
 
 }  // namespace asperity

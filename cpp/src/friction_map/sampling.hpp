@@ -21,11 +21,32 @@ struct MapSample {
   double error;             // of f, the solver's estimate
 };
 
+/// Of a map with the heat that friction makes.
+struct MapHeat {
+  const TemperatureShift* shift;
+  const Heating* heating;
+  std::optional<Adhesion> adhesion;
+  std::array<double, 2> range;  // temperatures of the background that the map holds [K]
+  double temperature;           // the one of this frame
+};
+
+/// InvalidInput, with the temperature and the velocity, where the heat has more than one steady state at a point.
+void refuse_folds(const FlashFriction& friction);
+
 class MapFrame {
  public:
   /// Refuses a box in which a part has no contact.
-  MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request);
+  MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request,
+           std::optional<MapHeat> heat = {});
 
+  /// The temperatures of the background that the map holds [K]; 0 without heat.
+  [[nodiscard]] std::array<double, 2> temperature() const { return heat_ ? heat_->range : std::array<double, 2>{0, 0}; }
+  /// Those between which a_T is smooth: with the ends the rows of a table of shift factors.
+  [[nodiscard]] std::vector<double> temperature_cuts() const;
+  /// By how much ln a_T is off in the middles between nodes, over which cubics with its slopes go.
+  [[nodiscard]] double error_of_shift(std::span<const double> nodes) const;
+  /// The same at another one.
+  [[nodiscard]] MapFrame at_temperature(double temperature) const;
   [[nodiscard]] std::array<double, 2> x() const { return {x_lo_, x_hi_}; }
   [[nodiscard]] double ln_pressure(int side) const { return side == 0 ? y_lo_ : y_hi_; }
   /// Where bands of one state begin and end, in z, rising: all of the box lies between the first and the last.
@@ -50,6 +71,9 @@ class MapFrame {
   [[nodiscard]] double solver_rtol() const { return model_.rtol; }
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
+  /// With heat, at a temperature [K] for each.
+  [[nodiscard]] std::vector<MapSample> sample_at(std::span<const MapPlace> places, std::span<const double> temperature,
+                                                 unsigned threads) const;
   /// At a place (ln v, ln p) without the shift of a Greenwood-Williamson correction. With it mu_H and A are those at
   /// p p_T, and mu_H is divided by p_T.
   [[nodiscard]] std::vector<MapSample> sample_unshifted(std::span<const MapPlace> places, unsigned threads) const;
@@ -57,6 +81,10 @@ class MapFrame {
  private:
   [[nodiscard]] std::vector<MapSample> sample(const ContactModel& model, const std::vector<double>& pressure,
                                               std::span<const MapPlace> places, unsigned threads) const;
+  [[nodiscard]] std::vector<double> velocities_of(std::span<const MapPlace> places) const;
+  [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction) const;
+  [[nodiscard]] std::vector<MapSample> with_heat(std::span<const double> pressure, std::span<const double> velocity,
+                                                 std::span<const double> temperature, unsigned threads) const;
   void make_log_modulus_offset(double tolerance);
   void cut_bands();
 
@@ -68,6 +96,7 @@ class MapFrame {
   double x_lo_, x_hi_, y_lo_, y_hi_;
   std::vector<double> offset_, cuts_;
   LoadShift load_shift_;
+  std::optional<MapHeat> heat_;
   bool hysteresis_ = true;
 };
 

@@ -52,8 +52,11 @@ bool stands(Bytes bytes) {
   const auto [p, v] = std::pair{map.info().pressure, map.info().velocity};
   const double pressure[] = {p[0], p[1], std::sqrt(p[0]) * std::sqrt(p[1])};
   const double velocity[] = {v[1], v[0], -std::sqrt(v[0]) * std::sqrt(v[1])}, a_T[] = {1};
+  const double background[] = {map.info().temperature[1]};
   double mu[3];
-  look_up(map, {pressure, velocity, a_T}, FrictionMap::Outside::nan, false, mu);
+  MapColumns columns{pressure, velocity, a_T};
+  if (map.info().heat) columns.background = background;
+  look_up(map, columns, FrictionMap::Outside::nan, false, mu);
   for (const double one : mu) probe::require(probe::finite(one) && one >= 0, "mu of an array");
   return true;
 }
@@ -116,15 +119,126 @@ TEST_CASE("maps written by the layout that the header states are read, and give 
     CHECK(map.info().checked == 1000);
     CHECK(map.info().hysteresis == kind.hysteresis);
     for (int i = 0; i < 1000; ++i) {
+      const MapTemperature lowest{1, false, map.info().temperature[0]};
       const double p = small_map::pressure[0] * std::pow(small_map::pressure[1] / small_map::pressure[0], unit(random));
       const double v = small_map::velocity[0] * std::pow(small_map::velocity[1] / small_map::velocity[0], unit(random));
       MapPoint point{};
-      CHECK(map.at(p, v, point) == FrictionMap::Status::ok);
+      CHECK(map.at(p, v, point, FrictionMap::Outside::nan, lowest) == FrictionMap::Status::ok);
       // an error of ln mu of some units in the last place of its largest term, 14
-      CHECK(map.mu(p, v) == doctest::Approx(small_map::mu(kind, p, v)).epsilon(1e-13));
+      CHECK(map.mu(p, v, FrictionMap::Outside::nan, lowest) ==
+            doctest::Approx(small_map::mu(kind, p, v)).epsilon(1e-13));
       CHECK(point.contact_area == doctest::Approx(small_map::contact_area(kind, p, v)).epsilon(1e-13));
     }
   }
+}
+
+TEST_CASE("a map with heat gives hot friction, that without heat, and what lies between after a distance") {
+  using small_map::coldest;
+  std::minstd_rand random(2);
+  std::uniform_real_distribution<double> unit;
+  for (const std::uint32_t temperatures : {1u, 2u, 4u, 7u}) {
+    const small_map::Kind kind{.nested = temperatures == 4, .temperatures = temperatures}, plain{};
+    const Bytes bytes = small_map::make(kind);
+    FrictionMap map;
+    std::string why;
+    REQUIRE_MESSAGE(map.read(bytes.data(), bytes.size(), why), why);
+    CHECK(map.info().heat);
+    CHECK(map.info().temperature == std::array{coldest, coldest + small_map::range(kind)});
+    CHECK(map.info().temperatures == temperatures);
+    CHECK(map.info().memory_error == small_map::memory_error);
+    REQUIRE(map.cold() != nullptr);
+    CHECK_FALSE(map.cold()->info().heat);
+    for (int i = 0; i < 500; ++i) {
+      const double p = 1e4 * std::pow(100, unit(random)), v = 0.01 * std::pow(1000, unit(random));
+      const double warmer = unit(random) * small_map::range(kind), at = coldest + warmer;
+      const double hot = small_map::mu(kind, p, v, warmer);
+      CHECK(map.mu(p, v, FrictionMap::Outside::nan, {1, false, at}) == doctest::Approx(hot).epsilon(1e-12));
+      // hysteresis and area of the shifted velocity, the adhesion's law at the true one
+      const double shifted = v * std::exp(small_map::log_shift(warmer));
+      MapPoint other;
+      map.cold()->at(p, v, other, FrictionMap::Outside::nan, {std::exp(small_map::log_shift(warmer))});
+      CHECK(other.contact_area == doctest::Approx(small_map::contact_area(plain, p, shifted)).epsilon(1e-12));
+      CHECK(map.mu(p, v, FrictionMap::Outside::nan, {1, false, at, 0}) == doctest::Approx(other.mu).epsilon(1e-12));
+      const double length = std::exp(small_map::log_length(std::log(v), warmer)), slid = 3 * unit(random) * length;
+      CHECK(map.sliding_length(v, at) == doctest::Approx(length).epsilon(1e-12));
+      const double after = hot + (other.mu - hot) * std::exp(-slid / length);
+      CHECK(map.mu(p, v, FrictionMap::Outside::nan, {1, false, at, slid}) == doctest::Approx(after).epsilon(1e-12));
+      MapPoint point, above, below;
+      const MapTemperature heat{1, false, at, slid};
+      constexpr double h = 1e-5;  // differences of second order in it
+      CHECK(map.at(p, v, point, FrictionMap::Outside::nan, heat) == FrictionMap::Status::ok);
+      CHECK(point.mu == doctest::Approx(after).epsilon(1e-12));
+      CHECK(point.hysteresis + point.adhesion == doctest::Approx(point.mu).epsilon(1e-14));
+      map.at(p, v * std::exp(h), above, FrictionMap::Outside::clamp, heat);
+      map.at(p, v * std::exp(-h), below, FrictionMap::Outside::clamp, heat);
+      CHECK(point.dmu_dlnv == doctest::Approx((above.mu - below.mu) / (2 * h)).epsilon(1e-6).scale(point.mu));
+      map.at(p * std::exp(h), v, above, FrictionMap::Outside::clamp, heat);
+      map.at(p * std::exp(-h), v, below, FrictionMap::Outside::clamp, heat);
+      if (p > 1.01e4 && p < 0.99e6)
+        CHECK(point.dmu_dlnp == doctest::Approx((above.mu - below.mu) / (2 * h)).epsilon(1e-6).scale(point.mu));
+    }
+  }
+}
+
+TEST_CASE("a map refuses temperatures that are not its own") {
+  using Outside = FrictionMap::Outside;
+  using Status = FrictionMap::Status;
+  const auto made = [](std::uint32_t temperatures) {
+    const Bytes bytes = small_map::make({.temperatures = temperatures});
+    FrictionMap map;
+    std::string why;
+    REQUIRE_MESSAGE(map.read(bytes.data(), bytes.size(), why), why);
+    return map;
+  };
+  const FrictionMap cold = made(0), one = made(1), several = made(4);
+  const auto status = [](const FrictionMap& map, const MapTemperature& temperature) {
+    MapPoint point;
+    const Status found = map.at(1e5, 0.1, point, Outside::nan, temperature);
+    CHECK(std::isnan(point.mu) == (found != Status::ok));
+    CHECK(std::isnan(map.mu(1e5, 0.1, Outside::nan, temperature)) == (found != Status::ok));
+    return found;
+  };
+  const double nan = std::nan("");
+  for (const FrictionMap* const map : {&one, &several}) {
+    CHECK(status(*map, {1, false, small_map::coldest}) == Status::ok);
+    CHECK(status(*map, {2, false, small_map::coldest}) == Status::not_on_this_map);
+    CHECK(status(*map, {1, true, small_map::coldest}) == Status::not_on_this_map);
+    CHECK(std::isnan(map->mu(1e5, 0.1, Outside::clamp, {2, false, small_map::coldest})));
+    CHECK(status(*map, {1, false, 200}) == Status::temperature_outside);
+    CHECK(status(*map, {1, false, nan}) == Status::not_a_number);
+    for (const double distance : {-1.0, nan})
+      CHECK(status(*map, {1, false, small_map::coldest, distance}) == Status::not_a_number);
+    CHECK(map->mu(1e5, 0.1, Outside::clamp, {1, false, 200}) ==
+          map->mu(1e5, 0.1, Outside::clamp, {1, false, small_map::coldest}));
+  }
+  CHECK(status(one, {}) == Status::ok);
+  CHECK(status(several, {}) == Status::temperature_outside);  // none was given
+  CHECK(std::isnan(several.mu(1e5, 0.1, Outside::clamp)));
+  CHECK(status(cold, {1, false, 293}) == Status::not_on_this_map);
+  CHECK(std::isnan(cold.mu(1e5, 0.1, Outside::clamp, {1, false, 293})));
+  CHECK(status(cold, {2, false}) == Status::ok);
+  CHECK(cold.mu(1e5, 0.1, Outside::nan, {1, false, 0, 1e-3}) == cold.mu(1e5, 0.1));  // without heat, no memory
+  CHECK(status(cold, {1, false, 0, -1}) == Status::not_a_number);
+  CHECK(std::isnan(cold.sliding_length(0.1)));
+}
+
+TEST_CASE("a map without heat inside of one with it must be one") {
+  const Bytes good = small_map::make({.temperatures = 4});
+  constexpr std::size_t head = 152;
+  const auto altered = [&](std::size_t at, std::uint64_t value, int size) {
+    Bytes bytes = good;
+    small_map::overwrite(bytes, at, value, size);
+    small_map::repair(bytes);
+    return bytes;
+  };
+  const std::size_t cold = good.size() - 8 - small_map::make({}).size();  // there is no text
+  CHECK(says(altered(cold + 12, 2, 4), "its map without heat is none of version 1"));
+  CHECK(says(altered(cold + 300, 1, 1), "its map without heat is damaged: its checksum"));
+  CHECK(says(altered(head + 24, 0, 8), "its head contradicts itself"));
+  CHECK(says(altered(head + 32, 1, 4), "its head contradicts itself"));  // one temperature of a range
+  CHECK(says(altered(head + 40, 1, 4), "its head contradicts itself"));  // one row of s0
+  CHECK(says(altered(head, std::bit_cast<std::uint64_t>(400.0), 8), "its head contradicts itself"));
+  CHECK(says(altered(head + 48, std::bit_cast<std::uint64_t>(probe::nan()), 8), "its tables contradict each other"));
 }
 
 TEST_CASE("what is wrong with a file is named") {
@@ -135,8 +249,8 @@ TEST_CASE("what is wrong with a file is named") {
   small_map::overwrite(bytes, 8, 0x04030201, 4);
   CHECK(says(bytes, "the other byte order"));
   bytes = good;
-  small_map::overwrite(bytes, 12, 2, 4);
-  CHECK(says(bytes, "has layout version 2: must be 1"));
+  small_map::overwrite(bytes, 12, 3, 4);
+  CHECK(says(bytes, "has layout version 3: must be 1 or 2"));
   bytes = good;
   bytes.resize(good.size() - 100);
   CHECK(says(bytes, "is truncated: "));
@@ -234,7 +348,7 @@ TEST_CASE("altered where the checksum was made right, it is refused or answers")
   const auto count = [&](const Bytes& bytes) { ++(stands(bytes) ? accepted : refused); };
   for (const small_map::Kind& kind : small_map::kinds()) {
     const Bytes good = small_map::make(kind);
-    const std::size_t tables = std::min<std::size_t>(good.size() - 8, 900);  // of the cells the first ones will do
+    const std::size_t tables = std::min<std::size_t>(good.size() - 8, 1000);  // of the cells the first ones will do
     for (std::size_t i = 24; i < tables; ++i) {
       Bytes bytes = good;
       bytes[i] ^= 0x80;

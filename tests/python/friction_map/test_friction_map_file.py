@@ -4,6 +4,7 @@ import os
 import pickle
 import struct
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from asperity import (
     friction_map,
 )
 
+HERE = Path(__file__).parent
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(equilibrium_modulus=3e6, moduli=[1e9, 1e7], relaxation_times=[1e-8, 1e-4])
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
@@ -191,3 +193,15 @@ def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
         with pytest.raises(InvalidInput, match=r"cannot be written: \w"):
             found.save(path)
     assert sorted(os.listdir(tmp_path)) == ["other.fmap"]
+
+
+def test_maps_made_before_there_was_heat_still_load():
+    """One that version 0.2.0 wrote, with what it said at random points."""
+    old = FrictionMap.load(HERE / "map_version_1.fmap")
+    assert (old.temperature, old.memory_error, old.cold) == (None, None, None)
+    rows = np.genfromtxt(HERE / "map_version_1.csv", delimiter=",", names=True)
+    assert len(rows) > 20
+    point = {name: rows[name] for name in ("pressure", "velocity", "a_T")}
+    for name in ("mu", "hysteresis", "contact_area"):
+        np.testing.assert_allclose(getattr(old, name)(**point), rows[name], rtol=1e-13)
+    np.testing.assert_allclose(old.derivatives(**point).dmu_dlnv, rows["dmu_dlnv"], rtol=1e-11)

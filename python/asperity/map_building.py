@@ -1,0 +1,216 @@
+"""Friction maps for simulators, built to a tolerance and certified."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.adhesion import Adhesion, adhesion_core
+from asperity.base.arguments import MOST_THREADS, brief, number, of_kind, real_array, whole
+from asperity.contact import Form, Method, contact_model, surface_and_rubber
+from asperity.correction import Correction
+from asperity.friction_map import FrictionMap
+from asperity.heating import Heating
+from asperity.rubber import Rubber
+from asperity.shift_factors import TemperatureShift, temperature_shift_core
+from asperity.spectrum import Spectrum
+
+__all__ = ["friction_map"]
+
+
+def friction_map(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    *,
+    pressure: tuple[float, float],
+    velocity: tuple[float, float],
+    rtol: float = 1e-4,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    adhesion: Adhesion | None = None,
+    form: Form = "exact",
+    method: Method = "gauss",
+    checked: int = 1_000_000,
+    text: str = "",
+    threads: int | None = None,
+    temperature: float | tuple[float, float] | None = None,
+    shift: TemperatureShift | None = None,
+    heating: Heating | None = None,
+) -> FrictionMap:
+    """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
+
+    Cells are halved until hysteresis and contact area keep rtol / 2 on lattices of 5 x 5 and on
+    random points that nothing was made from, 12 a cell. There they are held against polynomials
+    through 12 x 12 points of the solver each, halved until they keep rtol / 20 on random points of
+    their own. Then the finished map is checked against the solver itself on more random points,
+    where a mistake of the polynomials would show. Where a Greenwood-Williamson correction changes
+    its state (full contact, beyond its range) the map is split along the boundary, where mu has a
+    kink.
+
+    With heating the map is of the friction with the heat that it makes, for one temperature of the
+    background or a range of them, over which its cells are cubics. Beside it lie the map without
+    heat, made to the same rtol, and the distance over which sliding that begins heats up.
+
+    Parameters
+    ----------
+    spectrum, rubber, poisson_ratio, correction, adhesion, form, method
+        As for `friction`.
+    pressure, velocity : (lo, hi)
+        The map's box [Pa], [m/s].
+    rtol : float
+        Relative, of hysteresis and area and so of mu, 1e-12 to 0.1. Cells grow in number as
+        rtol^(-1/2).
+    checked : int
+        Random points of the last check, 200 random pressures at each of as many random velocities
+        as make them up; a million take a second with a Prony series.
+    text : str
+        Lines to keep in the file, for whoever reads it; unless given, what stands for the
+        arguments.
+    threads : int, optional
+        At most; by default as many as the machine has. The map is the same for any of them.
+    temperature : float or (lo, hi), optional
+        T0 of the background [K]. A range needs heating; without it the rubber is shifted to one
+        temperature, and a look-up's a_T leads to others.
+    shift, heating
+        As for `friction`. With heating a point of the solver takes some 0.2 ms, the check of a
+        million some minutes. Corrections by Greenwood-Williamson's model are refused.
+
+    Returns
+    -------
+    FrictionMap
+
+    Raises
+    ------
+    InvalidInput
+        Also where a part of the box has no contact, or where the heat has several steady states,
+        between which mu jumps; the message has the temperature and the velocity.
+    OutOfRange
+        The box asks for the modulus outside of a measured master curve.
+    NotConverged
+        rtol is not met, with 100,000 cells or on a point of the last check; the message has what
+        was.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=2e4)
+    >>> rubber = asperity.PronySeries(
+    ...     equilibrium_modulus=3e6, moduli=[1e9], relaxation_times=[1e-6]
+    ... )
+    >>> box = {"pressure": (5e4, 5e5), "velocity": (1e-4, 1)}
+    >>> fmap = asperity.friction_map(road, rubber, **box, checked=1000)
+    >>> round(fmap.mu(81e3, 1e-2), 4)
+    0.0205
+    """
+    return built(
+        spectrum,
+        rubber,
+        None,
+        pressure=pressure,
+        velocity=velocity,
+        rtol=rtol,
+        poisson_ratio=poisson_ratio,
+        correction=correction,
+        adhesion=adhesion,
+        form=form,
+        method=method,
+        checked=checked,
+        text=text,
+        threads=threads,
+        temperature=temperature,
+        shift=shift,
+        heating=heating,
+    )
+
+
+def built(
+    spectrum: Spectrum,
+    rubber: Rubber,
+    told: Callable[[float], None] | None,
+    *,
+    pressure: tuple[float, float],
+    velocity: tuple[float, float],
+    rtol: float = 1e-4,
+    poisson_ratio: float = 0.5,
+    correction: Correction | None = None,
+    adhesion: Adhesion | None = None,
+    form: Form = "exact",
+    method: Method = "gauss",
+    checked: int = 1_000_000,
+    text: str = "",
+    threads: int | None = None,
+    temperature: float | tuple[float, float] | None = None,
+    shift: TemperatureShift | None = None,
+    heating: Heating | None = None,
+) -> FrictionMap:
+    """`friction_map`, which calls `told` with the share of the work that is done, now and then."""
+    if not isinstance(text, str):
+        raise InvalidInput(f"text = {brief(text)}: must be a str")
+    parts = surface_and_rubber(spectrum, rubber)
+    model = contact_model(poisson_ratio, correction, form, 1e-6, method)
+    added = adhesion_core(adhesion)
+    made_of = {
+        "spectrum": spectrum,
+        "rubber": rubber,
+        "correction": correction,
+        "adhesion": adhesion,
+    }
+    heat = None
+    if heating is not None or temperature is not None or shift is not None:
+        law, sides = _law(rubber, temperature, shift, heating)
+        made_of |= {"temperature": temperature, "shift": shift, "heating": heating}
+        if heating is not None:
+            heat = law, of_kind(heating, "heating", Heating)._core, sides
+        else:
+            [decades], _ = _core.shift_at(law, np.array(sides[:1]))
+            parts = surface_and_rubber(spectrum, rubber.shifted(10**decades))
+    lines = text or "".join(f"{name} = {part!r}\n" for name, part in made_of.items())
+    content = _core.build_friction_map(
+        *parts,
+        model,
+        added,
+        _sides(pressure, "pressure"),
+        _sides(velocity, "velocity"),
+        number(rtol, "rtol"),
+        whole(checked, "checked"),
+        lines,
+        0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
+        told,
+        heat,
+    )
+    return FrictionMap(content=content)
+
+
+def _law(
+    rubber: Rubber, temperature: Any, shift: TemperatureShift | None, heating: Heating | None
+) -> tuple[Any, list[float]]:
+    """Return the shift as the core takes it, and the ends of the temperatures."""
+    law = getattr(rubber, "shift_factors", None) if shift is None else shift
+    if temperature is None or law is None:
+        if heating is not None:
+            needs = "needs temperature= and shift=, from which the rubber is heated"
+            raise InvalidInput(f"heating: {needs}")
+        if temperature is None:
+            raise InvalidInput(f"shift = {brief(shift)}: needs temperature=, at which to take a_T")
+        raise InvalidInput(f"temperature = {brief(temperature)}: needs shift=, which gives a_T(T)")
+    sides = _temperatures(temperature)
+    if heating is None and sides[0] != sides[1]:
+        only = "must be a number where no heating is given; a look-up's a_T leads to others"
+        raise InvalidInput(f"temperature = {brief(temperature)}: {only}")
+    return temperature_shift_core(law), sides
+
+
+def _temperatures(found: Any) -> list[float]:
+    sides = real_array(found, "temperature")
+    if sides.shape not in {(), (1,), (2,)}:
+        raise InvalidInput(f"temperature = {brief(found)}: must be a number or (lo, hi)")
+    return [float(sides.flat[0]), float(sides.flat[-1])]
+
+
+def _sides(found: Any, name: str) -> list[float]:
+    sides = real_array(found, name)
+    if sides.shape != (2,):
+        raise InvalidInput(f"{name} = {brief(found)}: must be (lo, hi)")
+    return [float(side) for side in sides]

@@ -1,0 +1,320 @@
+"""Friction maps with heat: the certified error, the way from cold to hot, what is refused."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import (
+    WLF,
+    Adhesion,
+    FrictionMap,
+    GreenwoodWilliamson,
+    Heating,
+    InvalidInput,
+    MasterCurve,
+    NayakSFactor,
+    NotConverged,
+    OutOfRange,
+    PronySeries,
+    SelfAffineSpectrum,
+    SFactor,
+    friction,
+    friction_map,
+)
+from helpers.cases import each, long
+
+ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+RUBBER = PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
+    relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
+)
+ADHESION = Adhesion(shear_stress=8.3e6)
+LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
+BOX = {"pressure": (8e4, 4e5), "velocity": (1e-2, 20.0)}
+RANGE = (283.15, 303.15)
+HEAT = {"shift": LAW, "heating": TREAD}
+PARTS = ("mu", "hysteresis", "adhesion", "contact_area")
+
+
+def made(temperature=293.15, rubber=RUBBER, adhesion=ADHESION, box=BOX, **options):
+    options = {"checked": 0, "rtol": 1e-3, **HEAT, **options}
+    return friction_map(ROAD, rubber, temperature=temperature, adhesion=adhesion, **box, **options)
+
+
+def random_points(count, box=BOX, seed=1):
+    draws = np.random.default_rng(seed)
+    p, v = (np.exp(draws.uniform(*np.log(box[n]), count)) for n in ("pressure", "velocity"))
+    return p, v, draws.uniform(*RANGE, count)
+
+
+@pytest.fixture(scope="module")
+def one():
+    return made(checked=4000)
+
+
+@pytest.fixture(scope="module")
+def several():
+    return made(RANGE, checked=4000)
+
+
+def measured():
+    w = np.geomspace(1e-3, 1e11, 300)
+    e = RUBBER.modulus(w)
+    return MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+
+
+SCENES = {
+    "none": {},
+    "s-factor": {"correction": SFactor(applies_to="both")},
+    "nayak": {"correction": NayakSFactor()},
+    "no adhesion": {"adhesion": None},
+    "interpolated": {"form": "interpolated"},
+    "master curve": {"rubber": measured()},
+}
+
+
+SLOW = "master curve"  # ten milliseconds a point
+
+
+@pytest.mark.parametrize(
+    ("name", "rtol"),
+    [*((name, 1e-3) for name in SCENES if name != SLOW), ("none", 1e-5), long(SLOW, 1e-2)],
+)
+def test_a_hot_map_is_as_good_as_it_says(name, rtol):
+    scene = {"rubber": RUBBER, "adhesion": ADHESION, "correction": None, "form": "exact"}
+    scene |= SCENES[name]
+    found = made(**scene, rtol=rtol)
+    assert 0 < found.max_error <= rtol
+    assert found.temperature == (293.15, 293.15)
+    p, v, _ = random_points(300)
+    at = {"pressure": p, "velocity": v, "temperature": 293.15}
+    truth = friction(ROAD, scene.pop("rubber"), **at, **HEAT, **scene, rtol=1e-9)
+    assert (np.abs(truth.mu / truth.cold.mu - 1) > 0.1).any()
+    for quantity in PARTS:
+        exact, cold = getattr(truth, quantity), getattr(truth.cold, quantity)
+        look_up = getattr(found, quantity)
+        assert (np.abs(look_up(p, v) - exact) <= found.max_error * exact).all(), quantity
+        begun = look_up(p, v, distance=0.0)
+        assert (np.abs(begun - cold) <= found.cold.max_error * cold).all(), quantity
+        np.testing.assert_allclose(getattr(found.cold, quantity)(p, v), begun, rtol=1e-12)
+
+
+def test_so_is_one_with_an_axis_of_temperature(several):
+    assert several.temperature == RANGE
+    assert several.max_error <= several.rtol
+    p, v, t = random_points(300)
+    at = {"pressure": p, "velocity": v, "temperature": t}
+    truth = friction(ROAD, RUBBER, **at, **HEAT, adhesion=ADHESION, rtol=1e-9)
+    begun = several.cold.mu(p, v, a_T=10 ** (LAW.log10_a_T(t) - LAW.log10_a_T(RANGE[0])))
+    for quantity in PARTS:
+        exact, cold = getattr(truth, quantity), getattr(truth.cold, quantity)
+        look_up = getattr(several, quantity)
+        assert (np.abs(look_up(**at) - exact) <= several.max_error * exact).all(), quantity
+        first = look_up(**at, distance=0.0)
+        # a_T between the nodes of temperature is off by less than a tenth of rtol
+        assert (np.abs(first - cold) <= (several.cold.max_error + 1e-4) * cold).all(), quantity
+    np.testing.assert_allclose(several.mu(**at, distance=0.0), begun, rtol=1e-4)
+
+
+@each("which", ["one", "several"])
+def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
+    found = request.getfixturevalue(which)
+    assert (found.checked, found.exceeded) == (4000, 0)
+    assert 0.2 * found.max_error < found.largest_checked_error <= found.max_error
+    assert found.cold.checked == 4000
+
+
+@each("which", ["one", "several"])
+def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
+    found = request.getfixturevalue(which)
+    p, v, t = random_points(200, seed=2)
+    if which == "one":
+        t = np.full_like(t, 293.15)
+    at = {"pressure": p, "velocity": v, "temperature": t}
+    truth = friction(ROAD, RUBBER, **at, **HEAT, adhesion=ADHESION)
+    distance = truth.sliding_length * np.random.default_rng(3).uniform(0, 3, p.size)
+    error = np.abs(found.mu(**at, distance=distance) / truth.mu_at(distance) - 1)
+    # seen at 200 other points, and the map's own
+    assert error.max() < 1.5 * found.memory_error + found.max_error
+    assert found.memory_error < 0.03
+    begun, long_ago = found.mu(**at, distance=0.0), found.mu(**at)
+    np.testing.assert_array_equal(found.mu(**at, distance=1.0), long_ago)
+    s0 = found.sliding_length(v, temperature=t)
+    between = found.mu(**at, distance=s0)
+    np.testing.assert_allclose(between, long_ago + (begun - long_ago) / np.e, rtol=1e-12)
+
+
+def test_slopes_are_those_of_mu(several):
+    p, v, t = random_points(100, {"pressure": (9e4, 3e5), "velocity": (0.02, 10)})
+    for distance in (None, 0.0, 1e-4):
+        at = {"temperature": t, "distance": distance}
+        slopes, h = several.derivatives(p, v, **at), 1e-5
+        by_v = several.mu(p, v * np.exp(h), **at) - several.mu(p, v * np.exp(-h), **at)
+        by_p = several.mu(p * np.exp(h), v, **at) - several.mu(p * np.exp(-h), v, **at)
+        np.testing.assert_allclose(slopes.dmu_dlnv, by_v / (2 * h), rtol=1e-5, atol=1e-6)
+        np.testing.assert_allclose(slopes.dmu_dlnp, by_p / (2 * h), rtol=1e-5, atol=1e-6)
+
+
+def test_arrays_and_numbers_give_the_same(several):
+    p, v, t = random_points(700)
+    together = several.mu(p, v, temperature=t, distance=1e-4)
+    alone = [
+        several.mu(float(a), float(b), temperature=float(c), distance=1e-4)
+        for a, b, c in zip(p, v, t, strict=True)
+    ]
+    np.testing.assert_allclose(together, alone, rtol=1e-14)
+    assert several.mu(p[:, None], v[:3], temperature=t[:3]).shape == (700, 3)
+    assert several.traction(p, -v, temperature=t)[0] < 0
+
+
+def test_a_map_is_the_same_for_any_number_of_threads():
+    options = {"rtol": 1e-2, "checked": 7000, "box": BOX | {"velocity": (0.1, 2.0)}}
+    single, pair = (made((290.0, 296.0), threads=n, **options) for n in (1, 2))
+    assert single.to_bytes() == pair.to_bytes()
+
+
+def test_a_map_is_saved_and_comes_back(several, tmp_path):
+    several.save(tmp_path / "hot.fmap")
+    loaded = FrictionMap.load(tmp_path / "hot.fmap")
+    assert loaded == several
+    assert loaded.cold == several.cold
+    table = loaded.to_xarray()
+    assert table.attrs["temperature_k"] == RANGE[0]
+    p, v = table.pressure.values[3], table.velocity.values[5]
+    assert table.mu.values[3, 5] == loaded.mu(p, v, temperature=RANGE[0])
+
+
+@each(
+    "given",
+    [
+        ({"a_T": 2.0}, InvalidInput, "a_T = 2.0: must be 1 on a map with heat"),
+        ({"shift_adhesion": True}, InvalidInput, "shift_adhesion = True: must be False on a map"),
+        (
+            {"temperature": 310.0},
+            OutOfRange,
+            "temperature = 310: the map covers [283.15, 303.15] K",
+        ),
+        ({"temperature": float("nan")}, InvalidInput, "temperature = nan: must be a number"),
+        ({"temperature": None}, InvalidInput, "temperature: must be given, the map covers [283.15"),
+        ({"distance": -1e-3}, InvalidInput, "distance = -0.001: must be 0 or more"),
+        ({"distance": float("nan")}, InvalidInput, "distance = nan: must be a number"),
+    ],
+)
+def test_look_ups_refuse_what_would_lie(several, given):
+    arguments, error, message = given
+    for name in (*PARTS, "derivatives"):
+        with pytest.raises(error) as caught:
+            getattr(several, name)(2e5, 0.3, **({"temperature": 293.0} | arguments))
+        assert str(caught.value).startswith(message)
+    if error is InvalidInput and "a_T" in arguments:
+        for outside in ("nan", "clamp"):  # it is no place
+            with pytest.raises(InvalidInput):
+                several.mu(2e5, 0.3, temperature=293.0, outside=outside, **arguments)
+
+
+def test_outside_is_what_the_caller_chooses(several):
+    assert np.isnan(several.mu(2e5, 0.3, temperature=310.0, outside="nan"))
+    held = several.mu(2e5, 0.3, temperature=310.0, outside="clamp")
+    assert held == several.mu(2e5, 0.3, temperature=RANGE[1])
+
+
+def test_a_map_without_heat_knows_no_temperature():
+    cold = friction_map(ROAD, RUBBER, **BOX, checked=0, rtol=1e-2)
+    assert (cold.temperature, cold.cold, cold.memory_error) == (None, None, None)
+    with pytest.raises(InvalidInput, match=r"temperature = 293: must be left out"):
+        cold.mu(2e5, 0.3, temperature=293)
+    with pytest.raises(InvalidInput, match="sliding_length: needs a map with heat"):
+        cold.sliding_length(0.3)
+    assert cold.mu(2e5, 0.3, distance=0.0) == cold.mu(2e5, 0.3)
+
+
+def test_without_heating_the_rubber_is_shifted_to_the_temperature():
+    options = {"checked": 0, "rtol": 1e-2, **BOX}
+    found = friction_map(ROAD, RUBBER, temperature=303.15, shift=LAW, **options)
+    by_hand = friction_map(ROAD, RUBBER.shifted(10 ** LAW.log10_a_T(303.15)), **options)
+    p, v, _ = random_points(50)
+    np.testing.assert_array_equal(found.mu(p, v), by_hand.mu(p, v))
+
+
+GLASS = {  # the rubber's glass transition is at -30 C, where heat runs away from 1 m/s on
+    "moduli": [2e8, 3e8, 3e8, 1e8, 2e7, 2e6, 5e5],
+    "relaxation_times": [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-2],
+}
+
+
+def test_a_fold_is_refused_with_its_temperature_and_velocity():
+    rubber = PronySeries(equilibrium_modulus=2e6, **GLASS)
+    at = {"pressure": 2e5, "velocity": np.geomspace(1, 20, 30), "temperature": 238.0}
+    found = friction(ROAD, rubber, **at, **HEAT)
+    assert found.branches.max() > 1
+    with pytest.raises(InvalidInput) as caught:
+        made((238.0, 250.0), rubber=rubber, adhesion=None, box=BOX | {"velocity": (0.1, 20.0)})
+    text = str(caught.value)
+    assert text.startswith("temperature = 238: at velocity = ")
+    assert "the heat has 3 steady states" in text
+
+
+@each(
+    "given",
+    [
+        (
+            {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)},
+            "correction: must be none of",
+        ),
+        ({"temperature": None}, "heating: needs temperature= and shift="),
+        ({"shift": None}, "heating: needs temperature= and shift="),
+        ({"heating": None, "temperature": None}, "shift = WLF(c1=8.86, c2=101.6"),
+        ({"heating": None, "shift": None}, "temperature = 293.15: needs shift="),
+        (
+            {"heating": None, "temperature": (280, 290)},
+            "temperature = (280, 290): must be a number",
+        ),
+        ({"temperature": (290.0, 280.0)}, "temperature = (290, 280): must be one, or (lo, hi)"),
+        ({"temperature": (280, 290, 300)}, "temperature = (280, 290, 300): must be a number or"),
+        ({"temperature": 20.0}, "temperature = 20: must be finite and at least 150"),
+        ({"heating": 3}, "heating = 3: must be a Heating"),
+    ],
+)
+def test_what_no_map_is_made_of_is_refused(given):
+    arguments, message = given
+    with pytest.raises(InvalidInput) as caught:
+        made(**arguments)
+    assert str(caught.value).startswith(message)
+
+
+def test_a_table_of_shift_factors_will_do_too():
+    t = np.arange(273.15, 314, 10.0)
+    table = asperity.ShiftFactors(
+        reference_temperature=293.15, temperature=t, log10_a_T=LAW.log10_a_T(t)
+    )
+    found = made(RANGE, shift=table, rtol=1e-2)
+    p, v, at = random_points(100)
+    truth = friction(
+        ROAD,
+        RUBBER,
+        pressure=p,
+        velocity=v,
+        temperature=at,
+        shift=table,
+        heating=TREAD,
+        adhesion=ADHESION,
+    )
+    assert (np.abs(found.mu(p, v, temperature=at) / truth.mu - 1) < found.max_error).all()
+    with pytest.raises(OutOfRange):
+        made((250.0, 303.0), shift=table, rtol=1e-2)
+
+
+def test_a_tolerance_out_of_reach_says_what_was_reached():
+    with pytest.raises(NotConverged, match=r"rtol = 1e-10"):
+        made((263.15, 323.15), rtol=1e-10, box={"pressure": (1e5, 1.1e5), "velocity": (0.1, 0.12)})
+
+
+def test_signatures_are_shown():
+    names = ["temperature", "distance", "shift_adhesion", "outside"]
+    for name in (*PARTS, "traction", "derivatives"):
+        assert list(inspect.signature(getattr(FrictionMap, name)).parameters)[-4:] == names
+        assert getattr(FrictionMap, name).__doc__
