@@ -11,7 +11,7 @@ inline fmi2Status fmi2(Told told) {
 
 /// `act` on each variable and its point. Parameters belong to point 0.
 template <class Act>
-fmi2Status each_real(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
+fmi2Status each_value(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
   return fmi2(guarded(c, [&](Instance& instance) {
     Told told = Told::ok;
     for (std::size_t i = 0; i < nvr; ++i) {
@@ -95,21 +95,21 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            fmi2Real value[]) {
   using namespace asperity_fmu;
-  return each_real(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
     return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
   });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            const fmi2Real value[]) {
   using namespace asperity_fmu;
-  return each_real(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
     return instance.set(variable, point, value[i]);
   });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Integer value[]) {
   using namespace asperity_fmu;
-  return each_real(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
     if (variable != inside) return instance.error("`inside` is the only Integer");
     double found = 0;
     const Told told = instance.get(variable, point, found);
@@ -124,19 +124,18 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueRe
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Boolean value[]) {
   using namespace asperity_fmu;
-  return each_real(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t, std::size_t i) {
-    if (variable != clamp) return instance.error("`clamp` is the only Boolean");
-    value[i] = instance.model->state().clamp ? 1 : 0;
-    return Told::ok;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    bool on = false;
+    const Told told = instance.get_switch(variable, point, on);
+    value[i] = on ? 1 : 0;
+    return told;
   });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               const fmi2Boolean value[]) {
   using namespace asperity_fmu;
-  return each_real(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t, std::size_t i) {
-    if (variable != clamp) return instance.error("`clamp` is the only Boolean");
-    instance.model->set_clamp(value[i] != 0);
-    return Told::ok;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    return instance.set_switch(variable, point, value[i] != 0);
   });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
@@ -180,17 +179,17 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
                                                             std::size_t n_knowns, const fmi2Real seed[],
                                                             fmi2Real sensitivity[]) {
   using namespace asperity_fmu;
-  return each_real(c, unknowns, n_unknowns,
-                   [&](Instance& instance, std::uint32_t output, std::size_t point, std::size_t i) {
-                     sensitivity[i] = 0;
-                     for (std::size_t k = 0; k < n_knowns; ++k) {
-                       const std::uint32_t input = knowns[k] % stride;
-                       if (knowns[k] / stride != point) continue;
-                       if (instance.add_slope(output, input, point, seed[k], sensitivity[i]) == Told::error)
-                         return Told::error;
-                     }
-                     return Told::ok;
-                   });
+  return each_value(c, unknowns, n_unknowns,
+                    [&](Instance& instance, std::uint32_t output, std::size_t point, std::size_t i) {
+                      sensitivity[i] = 0;
+                      for (std::size_t k = 0; k < n_knowns; ++k) {
+                        const std::uint32_t input = knowns[k] % stride;
+                        if (knowns[k] / stride != point) continue;
+                        if (instance.add_slope(output, input, point, seed[k], sensitivity[i]) == Told::error)
+                          return Told::error;
+                      }
+                      return Told::ok;
+                    });
 }
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,

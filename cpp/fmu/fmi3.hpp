@@ -11,7 +11,7 @@ inline fmi3Status fmi3(Told told) {
 
 /// `act` on each value of each variable, of which there must be n_values.
 template <class Act>
-Told each_value(Instance& instance, const fmi3ValueReference vr[], std::size_t nvr, std::size_t n_values, Act act) {
+Told each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t nvr, std::size_t n_values, Act act) {
   Told told = Told::ok;
   std::size_t k = 0;
   for (std::size_t i = 0; i < nvr; ++i)
@@ -106,7 +106,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3V
                                               fmi3Float64 values[], std::size_t n_values) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) {
-    return each_value(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
     });
   }));
@@ -115,7 +115,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3V
                                               const fmi3Float64 values[], std::size_t n_values) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) {
-    return each_value(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return of.set(variable, point, values[k]);
     });
   }));
@@ -124,7 +124,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3Val
                                             fmi3Int32 values[], std::size_t n_values) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) {
-    return each_value(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       if (variable != inside) return of.error("`inside` is the only Int32");
       double found = 0;
       const Told told = of.get(variable, point, found);
@@ -137,10 +137,8 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3V
                                               fmi3Boolean values[], std::size_t n_values) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) {
-    return each_value(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t, std::size_t k) {
-      if (variable != clamp) return of.error("`clamp` is the only Boolean");
-      values[k] = of.model->state().clamp;
-      return Told::ok;
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return of.get_switch(variable, point, values[k]);
     });
   }));
 }
@@ -148,10 +146,8 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3V
                                               const fmi3Boolean values[], std::size_t n_values) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) {
-    return each_value(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t, std::size_t k) {
-      if (variable != clamp) return of.error("`clamp` is the only Boolean");
-      of.model->set_clamp(values[k]);
-      return Told::ok;
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return of.set_switch(variable, point, values[k]);
     });
   }));
 }
@@ -234,12 +230,12 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
   return fmi3(guarded(instance, [&](Instance& of) {
     const auto add = [&](std::uint32_t output, std::size_t point, std::size_t i) {
       sensitivity[i] = 0;
-      return each_value(of, knowns, n_knowns, n_seed, [&](std::uint32_t input, std::size_t at, std::size_t k) {
+      return each_entry(of, knowns, n_knowns, n_seed, [&](std::uint32_t input, std::size_t at, std::size_t k) {
         if (at != point) return Told::ok;
         return of.add_slope(output, input, point, seed[k], sensitivity[i]);
       });
     };
-    return each_value(of, unknowns, n_unknowns, n_sensitivity, add);
+    return each_entry(of, unknowns, n_unknowns, n_sensitivity, add);
   }));
 }
 

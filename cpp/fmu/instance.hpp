@@ -13,14 +13,16 @@ namespace asperity_fmu {
 
 // The state as bytes: numbers of this machine, since a state is read by the program that wrote it.
 
-inline std::size_t size_in_bytes(const State& state) { return (4 + 2 * state.points.size()) * sizeof(double); }
+inline std::size_t size_in_bytes(const State& state) {
+  return (5 + numbers_of_a_point * state.points.size()) * sizeof(double);
+}
 
 inline void to_bytes(const State& state, void* bytes) {
-  std::vector<double> numbers{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0};
-  for (const Point& point : state.points) {
-    numbers.push_back(point.pressure);
-    numbers.push_back(point.velocity);
-  }
+  std::vector<double> numbers{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
+                              state.memory ? 1.0 : 0.0};
+  for (const Point& point : state.points)
+    numbers.insert(numbers.end(),
+                   {point.pressure, point.velocity, point.temperature, point.distance, point.sign, point.reset});
   std::memcpy(bytes, numbers.data(), numbers.size() * sizeof(double));
 }
 
@@ -29,11 +31,16 @@ inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
   if (size != size_in_bytes(state)) return false;
   std::vector<double> numbers(size / sizeof(double));
   std::memcpy(numbers.data(), bytes, size);
-  if (numbers[0] != static_cast<double>(state.points.size()) || !(numbers[3] == 0 || numbers[3] == 1)) return false;
-  state.time = numbers[1];
-  state.a_T = numbers[2];
-  state.clamp = numbers[3] == 1;
-  for (std::size_t i = 0; i < state.points.size(); ++i) state.points[i] = {numbers[4 + 2 * i], numbers[5 + 2 * i]};
+  const double* next = numbers.data();
+  if (*next++ != static_cast<double>(state.points.size())) return false;
+  state.time = *next++;
+  state.a_T = *next++;
+  state.clamp = *next++ != 0;
+  state.memory = *next++ != 0;
+  for (Point& point : state.points) {
+    point = {next[0], next[1], next[2], next[3], next[4], next[5]};
+    next += numbers_of_a_point;
+  }
   return true;
 }
 
@@ -74,18 +81,31 @@ struct Instance {
                : error("value reference " + std::to_string(variable) + " is no input: it cannot be set");
   }
 
+  [[nodiscard]] Told get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
+    return model->get_switch(variable, point, on)
+               ? Told::ok
+               : error("value reference " + std::to_string(variable) + " is no Boolean");
+  }
+
+  [[nodiscard]] Told set_switch(std::uint32_t variable, std::size_t point, bool on) {
+    return model->set_switch(variable, point, on)
+               ? Told::ok
+               : error("value reference " + std::to_string(variable) + " is no Boolean that can be set");
+  }
+
   /// Adds seed times d output / d input.
   [[nodiscard]] Told add_slope(std::uint32_t output, std::uint32_t input, std::size_t point, double seed,
                                double& sum) const {
-    if (!is_real_output(output) || !(input == pressure || input == velocity))
+    if (!is_real_output(output) ||
+        !(input == pressure || input == velocity || (input == temperature && model->has(input))))
       return error("there is no derivative of value reference " + std::to_string(output) + " by " +
-                   std::to_string(input) + ": must be of a real output by pressure or velocity");
+                   std::to_string(input) + ": must be of a real output by pressure, velocity or temperature");
     sum += seed * model->slope(output, input, point);
     return Told::ok;
   }
 
   Told reset() {
-    model->reset();
+    model->start_anew();
     initialized = warned = false;
     return Told::ok;
   }

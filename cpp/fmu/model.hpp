@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: 0BSD
 // What an instance of the FMU is, whatever the standard: a friction map and n contact points, each with a pressure
-// and a velocity. Outputs are looked up when they are asked for and kept until an input changes.
+// and a velocity, and on a map with heat a temperature and the distance that it has slid. Outputs are looked up when
+// they are asked for and kept until an input changes.
+//
+// Friction that begins to slide is cold, and heats up over the map's sliding length. A step adds |v| times its length
+// to the distance; sliding begins anew where `reset` is true, at rest, and where the velocity changes its sign.
 #ifndef ASPERITY_FMU_MODEL_HPP
 #define ASPERITY_FMU_MODEL_HPP
 
@@ -24,6 +28,8 @@ enum Variable : std::uint32_t {
   time = 0,
   pressure = 1,
   velocity = 2,
+  temperature = 3,
+  reset = 4,
   mu = 8,
   mu_hysteresis = 9,
   mu_adhesion = 10,
@@ -32,20 +38,26 @@ enum Variable : std::uint32_t {
   dmu_dlnp = 13,
   dmu_dlnv = 14,
   inside = 15,
+  slid_distance = 16,
   a_T = 24,
   max_error = 25,
   clamp = 26,
+  memory = 27,
 };
 constexpr std::uint32_t stride = 32, first_output = mu, last_output = inside;
 
 inline bool is_of_a_point(std::uint32_t variable) {
-  return variable == pressure || variable == velocity || (variable >= first_output && variable <= last_output);
+  return (variable >= pressure && variable <= reset) || (variable >= first_output && variable <= slid_distance);
 }
 inline bool is_real_output(std::uint32_t variable) { return variable >= first_output && variable < inside; }
 
+/// Numbers alone, since they are written as such.
 struct Point {
-  double pressure = 0, velocity = 0;
+  double pressure = 0, velocity = 0, temperature = 0;
+  double distance = 0, sign = 0;  // slid since rest [m], and which way
+  double reset = 0;
 };
+constexpr std::size_t numbers_of_a_point = 6;
 
 /// Empty where it cannot be read. Streams would make the FMU three times as large.
 inline std::string read_file(const std::filesystem::path& path) {
@@ -66,7 +78,7 @@ inline std::string read_file(const std::filesystem::path& path) {
 struct State {
   std::vector<Point> points;
   double time = 0, a_T = 1;
-  bool clamp = true;
+  bool clamp = true, memory = true;
 };
 
 enum class Told { ok, warning, error };
@@ -87,14 +99,15 @@ class Model {
       return nullptr;
     }
     model->state_.points.resize(points);
-    model->reset();
+    model->start_anew();
     return model;
   }
 
   /// Every point at the middle of the map's box, on logarithmic axes.
-  void reset() {
+  void start_anew() {
     const asperity::FrictionMapInfo& info = map_.info();
-    const Point middle{std::sqrt(info.pressure[0] * info.pressure[1]), std::sqrt(info.velocity[0] * info.velocity[1])};
+    const Point middle{std::sqrt(info.pressure[0] * info.pressure[1]), std::sqrt(info.velocity[0] * info.velocity[1]),
+                       (info.temperature[0] + info.temperature[1]) / 2};
     State fresh;
     fresh.points.assign(state_.points.size(), middle);
     restore(std::move(fresh));
@@ -107,19 +120,47 @@ class Model {
     found_.assign(points(), {});
   }
   void set_time(double now) { state_.time = now; }
-  void set_clamp(bool clamp_outside) {
-    state_.clamp = clamp_outside;
-    found_.assign(points(), {});
+
+  /// False where the map has no such variable.
+  [[nodiscard]] bool has(std::uint32_t variable) const {
+    const asperity::FrictionMapInfo& info = map_.info();
+    if (variable == temperature) return info.temperatures > 1;
+    if (variable == reset || variable == slid_distance || variable == memory) return info.heat;
+    return variable != a_T || !info.heat;
+  }
+
+  /// False where there is no such switch.
+  bool set_switch(std::uint32_t variable, std::size_t point, bool on) {
+    if (!has(variable)) return false;
+    if (variable == reset)
+      state_.points[point].reset = on ? 1 : 0;
+    else if (variable == clamp)
+      state_.clamp = on;
+    else if (variable == memory)
+      state_.memory = on;
+    else
+      return false;
+    if (variable != reset) found_.assign(points(), {});
+    return true;
+  }
+  bool get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
+    if (!has(variable) || !(variable == reset || variable == clamp || variable == memory)) return false;
+    on = variable == reset ? state_.points[point].reset != 0 : variable == clamp ? state_.clamp : state_.memory;
+    return true;
   }
 
   /// False where it cannot be set.
   bool set(std::uint32_t variable, std::size_t point, double value) {
+    if (!has(variable)) return false;
     switch (variable) {
       case pressure:
         state_.points[point].pressure = value;
         break;
       case velocity:
         state_.points[point].velocity = value;
+        break;
+      case temperature:
+        state_.points[point].temperature = value;
         break;
       case a_T:
         state_.a_T = value;
@@ -135,6 +176,7 @@ class Model {
   /// A warning where the point lies outside of the map's box or a number is NaN: the value is NaN, or with `clamp`
   /// that of the nearest point of the box.
   Told get(std::uint32_t variable, std::size_t point, double& value) {
+    if (!has(variable)) return Told::error;
     switch (variable) {
       case time:
         value = state_.time;
@@ -145,6 +187,12 @@ class Model {
       case velocity:
         value = state_.points[point].velocity;
         return Told::ok;
+      case temperature:
+        value = state_.points[point].temperature;
+        return Told::ok;
+      case slid_distance:
+        value = state_.points[point].distance;
+        return Told::ok;
       case a_T:
         value = state_.a_T;
         return Told::ok;
@@ -154,7 +202,7 @@ class Model {
       default:
         break;
     }
-    if (!is_of_a_point(variable)) return Told::error;
+    if (variable < first_output || variable > last_output) return Told::error;
     Found& found = found_[point];
     if (!found.known) found = look_up(state_.points[point]);
     value = found.values[variable - first_output];
@@ -165,6 +213,8 @@ class Model {
   Told step(double from, double size) {
     state_.time = from + size;
     Told told = Told::ok;
+    if (map_.info().heat)
+      for (std::size_t i = 0; i < points(); ++i) slide(i, size);
     for (std::size_t i = 0; i < points(); ++i) {
       double is_inside = 0;
       if (get(inside, i, is_inside) != Told::ok) told = Told::warning;
@@ -188,7 +238,7 @@ class Model {
     for (int side = 0; side < 2; ++side) {
       const double factor = std::exp(side == 0 ? -1e-5 : 1e-5);
       Point moved = at;
-      double& changed = input == pressure ? moved.pressure : moved.velocity;
+      double& changed = input == pressure ? moved.pressure : input == velocity ? moved.velocity : moved.temperature;
       const double before = changed;
       changed = before * factor;
       Found found = look_up(moved);
@@ -210,12 +260,25 @@ class Model {
     bool known = false;
   };
 
+  void slide(std::size_t index, double time) {
+    Point& point = state_.points[index];
+    const double sign = point.velocity > 0 ? 1 : point.velocity < 0 ? -1 : 0;
+    if (point.reset != 0 || sign == 0 || sign != point.sign) point.distance = 0;
+    point.sign = sign;
+    if (sign != 0) point.distance += std::fabs(point.velocity) * time;
+    found_[index].known = false;
+  }
+
   [[nodiscard]] Found look_up(const Point& at) const {
     using Map = asperity::FrictionMap;
     const Map::Outside outside = state_.clamp ? Map::Outside::clamp : Map::Outside::nan;
     asperity::MapPoint found;
-    const Map::Status status = map_.at(at.pressure, at.velocity, found, outside, {state_.a_T, false});
-    const double pull = map_.traction(at.pressure, at.velocity, outside, {state_.a_T, false});
+    asperity::MapTemperature heat;
+    heat.a_T = state_.a_T;
+    if (map_.info().temperatures > 1) heat.background = at.temperature;
+    if (map_.info().heat && state_.memory) heat.distance = at.distance;
+    const Map::Status status = map_.at(at.pressure, at.velocity, found, outside, heat);
+    const double pull = map_.traction(at.pressure, at.velocity, outside, heat);
     return {{found.mu, found.hysteresis, found.adhesion, found.contact_area, pull, found.dmu_dlnp, found.dmu_dlnv,
              status == Map::Status::ok ? 1.0 : 0.0},
             true};

@@ -8,7 +8,7 @@ from asperity import _core
 from asperity.fmu.variables import TIME, Variable, scalars
 
 _DESCRIPTION = "Rubber friction over pressure and velocity, looked up in a certified map"
-_UNITS = {"Pa": {"kg": 1, "m": -1, "s": -2}, "m/s": {"m": 1, "s": -1}}
+_UNITS = {"Pa": {"kg": 1, "m": -1, "s": -2}, "m/s": {"m": 1, "s": -1}, "m": {"m": 1}, "K": {"K": 1}}
 _ABLE = {
     "canHandleVariableCommunicationStepSize": "true",
     "canNotUseMemoryManagementFunctions": "true",
@@ -22,7 +22,7 @@ _ABLE_3 = {
     "canSerializeFMUState": "true",
     "providesDirectionalDerivatives": "true",
 }
-_VARIABILITY = {"parameter": "tunable", "calculatedParameter": "fixed", "input": "continuous"}
+_VARIABILITY = {"parameter": "tunable", "calculatedParameter": "fixed"}
 
 
 def description(
@@ -127,7 +127,7 @@ def _version_3(
 
 def _common(one: Element, variable: Variable) -> None:
     one.set("causality", variable.causality)
-    usual = "discrete" if variable.kind == "integer" else "continuous"
+    usual = "continuous" if variable.kind == "real" else "discrete"
     one.set("variability", _VARIABILITY.get(variable.causality, usual))
     if variable.causality in ("output", "calculatedParameter"):
         one.set("initial", "calculated")

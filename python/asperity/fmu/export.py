@@ -34,11 +34,17 @@ def export_fmu(
 ) -> None:
     """Write a friction map as a Functional Mock-up Unit for co-simulation.
 
-    Inputs are `pressure` [Pa], `velocity` [m/s] of either sign and `a_T`; outputs `mu`,
-    `mu_hysteresis`, `mu_adhesion`, `contact_area`, `traction` [Pa], `dmu_dlnp`, `dmu_dlnv` and
-    `inside`, which is 0 outside of the map's box. Outside, the parameter `clamp` chooses between
-    the value at the nearest point of the box (true) and NaN, and the status is a warning. The map
-    lies in `resources`, and the source of the binaries in `sources`.
+    Inputs are `pressure` [Pa] and `velocity` [m/s] of either sign; outputs `mu`, `mu_hysteresis`,
+    `mu_adhesion`, `contact_area`, `traction` [Pa], `dmu_dlnp`, `dmu_dlnv` and `inside`, which is 0
+    outside of the map's box. Outside, the parameter `clamp` chooses between the value at the
+    nearest point of the box (true) and NaN, and the status is a warning. `max_error` is what the
+    map was certified for, and the parameter `a_T` leads to another temperature.
+
+    A map with heat takes `temperature` [K] where it covers several, and keeps `slid_distance` [m]:
+    friction is cold when sliding begins, after a `reset`, at rest and when the velocity changes
+    its sign, and heats up over the map's sliding length. The parameter `memory` switches that off.
+
+    The map lies in `resources`, and the source of the binaries in `sources`.
 
     Parameters
     ----------

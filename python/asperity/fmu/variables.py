@@ -30,61 +30,67 @@ class Variable:
 
 def variables(friction_map: FrictionMap) -> tuple[Variable, ...]:
     """Those of a map; a point starts at the middle of its box, on logarithmic axes."""
-    pressure, velocity = (
-        math.sqrt(lo * hi) for lo, hi in (friction_map.pressure, friction_map.velocity)
-    )
-
-    def output(name: str, reference: int, description: str, unit: str | None = None) -> Variable:
-        inputs = ("pressure", "velocity")
-        return Variable(name, reference, "real", "output", description, unit, depends_on=inputs)
-
-    return (
-        Variable("pressure", 1, "real", "input", "nominal contact pressure", "Pa", pressure),
-        Variable(
-            "velocity", 2, "real", "input", "sliding velocity, of either sign", "m/s", velocity
-        ),
-        output("mu", 8, "friction coefficient, hysteresis and adhesion"),
-        output("mu_hysteresis", 9, "hysteretic part of mu"),
-        output("mu_adhesion", 10, "adhesive part of mu"),
-        output("contact_area", 11, "real contact area over the nominal one"),
-        output("traction", 12, "shear stress with the sign of the velocity, 0 at rest", "Pa"),
-        output("dmu_dlnp", 13, "slope of mu over the logarithm of the pressure"),
-        output("dmu_dlnv", 14, "slope of mu over the logarithm of the speed"),
-        Variable(
-            "inside",
-            15,
-            "integer",
-            "output",
-            "1 inside of the map's box, 0 outside",
-            depends_on=("pressure", "velocity"),
-        ),
-        Variable(
-            "a_T",
-            24,
-            "real",
-            "parameter",
-            "shift factor of the temperature, 1 at that of the map",
-            start=1.0,
-            each_point=False,
-        ),
-        Variable(
-            "max_error",
-            25,
-            "real",
-            "calculatedParameter",
-            "relative error of mu that the map was certified for",
-            each_point=False,
-        ),
-        Variable(
+    middle = [math.sqrt(lo * hi) for lo, hi in (friction_map.pressure, friction_map.velocity)]
+    of_point = [
+        _input("pressure", 1, "nominal contact pressure", "Pa", middle[0]),
+        _input("velocity", 2, "sliding velocity, of either sign", "m/s", middle[1]),
+    ]
+    heated = friction_map.temperature is not None
+    lowest, highest = friction_map.temperature or (0.0, 0.0)
+    if lowest < highest:
+        told = "temperature of the background, T0"
+        of_point.append(_input("temperature", 3, told, "K", (lowest + highest) / 2))
+    outputs = [
+        ("mu", 8, "friction coefficient, hysteresis and adhesion", None),
+        ("mu_hysteresis", 9, "hysteretic part of mu", None),
+        ("mu_adhesion", 10, "adhesive part of mu", None),
+        ("contact_area", 11, "real contact area over the nominal one", None),
+        ("traction", 12, "shear stress with the sign of the velocity, 0 at rest", "Pa"),
+        ("dmu_dlnp", 13, "slope of mu over the logarithm of the pressure", None),
+        ("dmu_dlnv", 14, "slope of mu over the logarithm of the speed", None),
+    ]
+    inputs = tuple(variable.name for variable in of_point)
+    if heated:
+        told = "true: sliding begins anew, cold"
+        of_point.append(Variable("reset", 4, "boolean", "input", told, start=False))
+    for name, reference, told, unit in outputs:
+        of_point.append(Variable(name, reference, "real", "output", told, unit, depends_on=inputs))
+    told = "1 inside of the map's box, 0 outside"
+    of_point.append(Variable("inside", 15, "integer", "output", told, depends_on=inputs))
+    whole = [
+        _whole("max_error", 25, "real", "relative error of mu that the map was certified for"),
+        _whole(
             "clamp",
             26,
             "boolean",
-            "parameter",
             "outside of the box: true takes the nearest point of the box, false gives NaN",
             start=True,
-            each_point=False,
         ),
-    )
+    ]
+    if heated:
+        told = "slid since rest, since the velocity's last change of sign or since a reset"
+        of_point.append(Variable("slid_distance", 16, "real", "output", told, "m"))
+        told = "true: friction heats up over the map's sliding length; false: it is always hot"
+        whole.append(_whole("memory", 27, "boolean", told, start=True))
+    else:
+        told = "shift factor of the temperature, 1 at that of the map"
+        whole.append(_whole("a_T", 24, "real", told, start=1.0))
+    return (*of_point, *whole)
+
+
+def _input(name: str, reference: int, told: str, unit: str, start: float) -> Variable:
+    return Variable(name, reference, "real", "input", told, unit, start)
+
+
+def _whole(
+    name: str,
+    reference: int,
+    kind: Literal["real", "boolean"],
+    told: str,
+    start: float | bool | None = None,
+) -> Variable:
+    causality: Causality = "calculatedParameter" if start is None else "parameter"
+    return Variable(name, reference, kind, causality, told, start=start, each_point=False)
 
 
 def scalars(

@@ -17,8 +17,10 @@ from fmpy.validation import validate_fmu
 
 import asperity
 from asperity import (
+    WLF,
     Adhesion,
     FrictionMap,
+    Heating,
     InvalidInput,
     PronySeries,
     SelfAffineSpectrum,
@@ -338,6 +340,68 @@ def test_directional_derivatives(host, road):
                 # second order in h; rounding of the differences is 1e-16 / 1e-5
                 size = max(abs(side) for side in sides)
                 assert slope * at == pytest.approx((sides[1] - sides[0]) / h, abs=1e-6 * size)
+
+
+TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
+LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+
+
+@pytest.fixture(scope="module")
+def hot_road() -> FrictionMap:
+    surface = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+    rubber = PronySeries(
+        equilibrium_modulus=3e6,
+        moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
+        relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
+    )
+    return friction_map(
+        surface,
+        rubber,
+        pressure=(8e4, 4e5),
+        velocity=(1e-2, 20.0),
+        temperature=(283.15, 303.15),
+        shift=LAW,
+        heating=TREAD,
+        checked=0,
+        rtol=1e-3,
+    )
+
+
+@on_linux
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+def test_heat_remembers_the_distance(hot_road, tmp_path, fmi):
+    export_fmu(hot_road, tmp_path / "hot.fmu", fmi=fmi)
+    assert validate_fmu(str(tmp_path / "hot.fmu")) == []
+    host = Host(tmp_path / "hot.fmu", tmp_path / "x")
+    host.set([1, 2, 3], [2e5, 1.0, 290.0])
+    at = {"pressure": 2e5, "velocity": 1.0, "temperature": 290.0}
+    for i in range(5):
+        assert host.get([8]) == same([hot_road.mu(**at, distance=i * 1e-3)])
+        assert host.get([16]) == pytest.approx([i * 1e-3])
+        host.step(i * 1e-3, 1e-3)
+    assert host.get([8])[0] < hot_road.mu(**at, distance=0.0)
+
+    host.set([2], [-1.0])  # slides back
+    host.step(1.0, 2e-3)
+    assert host.get([16]) == pytest.approx([2e-3])
+    assert host.get([8]) == same([hot_road.mu(**at, distance=2e-3)])
+    host.set([2], [0.0])
+    host.step()
+    assert host.get([16]) == [0.0]
+    host.set([2], [1.0])
+    host.step(1.0, 3e-3)
+    host.unit.setBoolean([4], [True])
+    host.step(1.0, 1e-3)
+    assert host.get([16]) == pytest.approx([1e-3])  # the reset, and this step
+
+    host.unit.setBoolean([27], [False])  # without memory
+    assert host.get([8]) == same([hot_road.mu(**at)])
+    host.set([3], [350.0])  # beyond the map
+    assert host.inside() == 0
+    assert host.get([8]) == same([hot_road.mu(2e5, 1.0, temperature=303.15)])
+    with pytest.raises(Exception, match=r"(?i)status 3|error"):
+        host.set([A_T], [2.0])  # leads from no temperature to another here
+    host.end()
 
 
 @on_linux
