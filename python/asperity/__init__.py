@@ -13,6 +13,7 @@ from asperity.contact import (
 )
 from asperity.correction import *  # noqa: F403
 from asperity.dma import MasterCurveBuild, MasterPoints, build_master_curve
+from asperity.fmu import export_fmu
 from asperity.friction import Friction, friction
 from asperity.friction_map import FrictionMap, FrictionSlopes
 from asperity.heating import Heating, heat_kernel
@@ -76,6 +77,7 @@ __all__ = [
     "contact_notes",
     "correction_factor",
     "effective_modulus",
+    "export_fmu",
     "fit_adhesion",
     "fit_prony",
     "fit_self_affine",

@@ -47,7 +47,7 @@ class Table(Value):
 
     def to_xarray(self) -> Any:
         """Return an `xarray.Dataset`: a variable a column, with its unit as attribute."""
-        xarray = _imported("xarray", "tables")
+        xarray = imported("xarray", "tables")
         columns = self._columns()
 
         def given(part: Mapping[str, Column]) -> dict[str, tuple[Any, ...]]:
@@ -61,7 +61,7 @@ class Table(Value):
 
     def to_dataframe(self) -> Any:
         """Return a `pandas.DataFrame`: a row an entry, coordinates before variables."""
-        pandas = _imported("pandas", "tables")
+        pandas = imported("pandas", "tables")
         columns = self._columns()
         named = {**columns.coordinates, **columns.variables}
         sizes: dict[str, int] = {}
@@ -73,12 +73,12 @@ class Table(Value):
     def plot(self, ax: Any = None) -> Any:
         """Draw into the matplotlib axes `ax`, new ones unless given, and return them."""
         if ax is None:
-            ax = _imported("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
+            ax = imported("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
         self._draw(ax)
         return ax
 
 
-def _imported(module: str, extra: str) -> Any:
+def imported(module: str, extra: str) -> Any:
     """Return a module, or say what to install."""
     try:
         return import_module(module)

@@ -1,6 +1,7 @@
 """The verb `map`: a friction map for simulators from a scene, or what a map's file says."""
 
 import json
+import os
 from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,12 +13,13 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
-from asperity.cli.streams import print_stdout, printable, tell_notes
+from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map import FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.files import write_files
+from asperity.io.files import check_output, write_files
+from asperity.io.map_grid import check_export, grid_file
 from asperity.io.table import input_lines
 from asperity.map_building import built
 from asperity.plot import friction_map as plot_map
@@ -39,12 +41,23 @@ def friction_map_of(args: Namespace) -> None:
     given = [
         name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
     ]
+    exported = None if args.export is None else FilePath(args.export)
+    if exported is not None:
+        check_export(exported)
+        check_output(exported)
     if args.info is not None:
         if given:
             raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
-        _tell(args, _read(FilePath(args.info)))
+        source = FilePath(args.info)
+        loaded = read_map(source)
+        if exported is not None:
+            refuse_overwrite([exported], [source])
+        write_files(_export(loaded, exported))
+        _tell(args, loaded)
         return
-    outputs = check_outputs(args)
+    outputs = [*check_outputs(args), *([] if exported is None else [exported])]
+    if len({os.path.realpath(path) for path in outputs}) < len(outputs):
+        raise InvalidInput(f"{exported}: --output, --plot and --export must be different files")
     scene = load_scene(args.scene, for_friction=True)
     heat = _heat(scene)
     refuse_overwrite(outputs, scene.sources)
@@ -75,7 +88,7 @@ def friction_map_of(args: Namespace) -> None:
             **({} if args.checked is None else {"checked": args.checked}),
             **options,
         )
-    files: dict[Path, bytes] = {}
+    files = _export(made, exported)
     if args.output is not None:
         files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
@@ -84,6 +97,17 @@ def friction_map_of(args: Namespace) -> None:
             files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)
+
+
+def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes]:
+    """The grid that was asked for, and a line with what interpolation in it costs."""
+    if path is None:
+        return {}
+    content, error = grid_file(made, path)
+    print_stderr(
+        f"{path}: interpolated linearly over ln p and ln v, mu is off by up to {error:.2g}\n"
+    )
+    return {path: content}
 
 
 def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
@@ -170,7 +194,8 @@ def _errors(
     return np.asarray(np.abs(ratio - 1))
 
 
-def _read(path: Path) -> FrictionMap:
+def read_map(path: Path) -> FrictionMap:
+    """The map of a file, or one line that says why there is none."""
     try:
         return FrictionMap.load(path)
     except OSError as error:

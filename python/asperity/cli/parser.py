@@ -7,6 +7,7 @@ from asperity.cli import fit_command, map_command, rubber_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.article_command import article
+from asperity.cli.fmu_command import fmu
 from asperity.cli.options import (
     Parser,
     Version,
@@ -251,8 +252,39 @@ def parser() -> argparse.ArgumentParser:
         help="random points that the map is checked on (default: 1000000)",
     )
     mapped.add_argument("--output", metavar="FILE", help="where to write the map")
+    mapped.add_argument(
+        "--export",
+        metavar="GRID",
+        help="write mu on a grid for simulators that interpolate, .mat (MATLAB) or .csv",
+    )
     pictures(mapped)
     mapped.add_argument("--json", action="store_true", help="tell it as JSON")
+
+    mock_up = verb(
+        "fmu",
+        fmu,
+        "a friction map as a Functional Mock-up Unit for tire and vehicle simulators",
+        "road.fmap --output road.fmu --fmi 3.0",
+    )
+    mock_up.add_argument("map", metavar="ROAD.fmap")
+    mock_up.add_argument("--output", metavar="FILE", required=True, help="the FMU that is written")
+    mock_up.add_argument(
+        "--fmi",
+        choices=("2.0", "3.0"),
+        default="2.0",
+        help="version of the standard (default: %(default)s)",
+    )
+    mock_up.add_argument(
+        "--name",
+        default="friction",
+        help="of the model, an identifier of C (default: %(default)s)",
+    )
+    mock_up.add_argument(
+        "--points",
+        type=whole,
+        metavar="N",
+        help="contact points looked up at once: arrays in 3.0, pressure[1] ... in 2.0",
+    )
 
     validate = verb(
         "validate",

@@ -1,12 +1,15 @@
 """`asperity map`: the map of a scene, what a file holds, and what is refused."""
 
 import json
+import re
 import subprocess
 import sys
 from contextlib import nullcontext
 
 import numpy as np
 import pytest
+import scipy.interpolate
+import scipy.io
 
 import asperity
 from asperity.cli.main import main
@@ -205,3 +208,60 @@ def test_several_temperatures_need_heat(scene, capsys):
     told = capsys.readouterr().err
     assert "[conditions] temperature: must be one temperature where no [heating] is given" in told
     assert not (scene.parent / "road.fmap").exists()
+
+
+@pytest.mark.parametrize("name", ["grid.mat", "grid.csv"])
+def test_a_grid_for_simulators_that_interpolate(scene, capsys, name):
+    assert run("map", scene, "--output", "road.fmap", "--export", name, *QUICK) in (0, None)
+    told = re.search(r"mu is off by up to ([0-9.e-]+)", capsys.readouterr().err)
+    found = asperity.FrictionMap.load("road.fmap")
+    if name == "grid.mat":
+        grid = scipy.io.loadmat(name, squeeze_me=True, simplify_cells=True)["friction"]
+        pressure, velocity, mu = grid["pressure_pa"], grid["velocity_m_s"], grid["mu"]
+        np.testing.assert_allclose(grid["mu_hysteresis"] + grid["mu_adhesion"], mu, rtol=1e-13)
+        assert grid["max_error"] == found.max_error
+        stated = grid["interpolation_error"]
+    else:
+        rows = np.genfromtxt(name, delimiter=",", comments="#")
+        lines = (scene.parent / name).read_text(encoding="utf-8").splitlines()
+        heading = next(line for line in lines if not line.startswith("#"))
+        velocity = np.array(heading.split(",")[1:], dtype=float)
+        pressure, mu = rows[1:, 0], rows[1:, 1:]
+        stated = float(next(x for x in lines if "interpolation_error" in x).split("=")[1])
+    assert stated == pytest.approx(float(told[1]), rel=0.1)
+    assert (pressure[0], pressure[-1]) == found.pressure
+    assert (velocity[0], velocity[-1]) == found.velocity
+    np.testing.assert_array_equal(mu, found.mu(pressure[:, None], velocity))
+    # a simulator's own interpolation, at points that the error was not taken at
+    draws = np.random.default_rng(4)
+    p, v = (np.exp(draws.uniform(*np.log(box), 5000)) for box in (found.pressure, found.velocity))
+    look_up = scipy.interpolate.RegularGridInterpolator((np.log(pressure), np.log(velocity)), mu)
+    off = np.abs(look_up((np.log(p), np.log(v))) / found.mu(p, v) - 1)
+    assert off.max() < 1.5 * stated
+    (scene.parent / name).unlink()
+    assert run("map", "--info", "road.fmap", "--export", name) in (0, None)
+    assert (scene.parent / name).exists()
+
+
+def test_a_grid_of_another_kind_is_refused(scene, capsys):
+    assert run("map", scene, "--export", "grid.xls") == 2
+    assert "--export: grid.xls: must end in .mat or .csv" in capsys.readouterr().err
+    assert run("map", scene, "--export", "a.csv", "--output", "a.csv") == 2
+    assert "must be different files" in capsys.readouterr().err
+    assert not (scene.parent / "a.csv").exists()
+
+
+def test_a_grid_of_several_temperatures(scene, capsys):
+    scene.write_text(with_heat("[298, 302]"), encoding="utf-8")
+    box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2", "--checked", "100"]
+    given = ["--output", "road.fmap", "--export", "grid.mat", *box]
+    assert run("map", scene, *given) in (0, None)
+    found = asperity.FrictionMap.load("road.fmap")
+    grid = scipy.io.loadmat("grid.mat", squeeze_me=True, simplify_cells=True)["friction"]
+    assert (grid["temperature_k"][0], grid["temperature_k"][-1]) == (298, 302)
+    assert grid["mu"].shape == (41, 121, 9)
+    at = [grid["pressure_pa"][3], grid["velocity_m_s"][5]]
+    assert grid["mu"][3, 5, 7] == found.mu(*at, temperature=grid["temperature_k"][7])
+    assert run("map", "--info", "road.fmap", "--export", "grid.csv") == 2
+    assert "the map covers 298 to 302 K, a table has one; choose .mat" in capsys.readouterr().err
+    assert not (scene.parent / "grid.csv").exists()

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: 0BSD
+// FMI 2.0 for co-simulation over an instance. Value references of point i (from 0) are those of Variable + 32 i.
+#include "instance.hpp"
+#include "types.hpp"
+
+namespace asperity_fmu {
+
+inline fmi2Status fmi2(Told told) {
+  return told == Told::ok ? fmi2OK : told == Told::warning ? fmi2Warning : fmi2Error;
+}
+
+/// `act` on each variable and its point. Parameters belong to point 0.
+template <class Act>
+fmi2Status each_value(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
+  return fmi2(guarded(c, [&](Instance& instance) {
+    Told told = Told::ok;
+    for (std::size_t i = 0; i < nvr; ++i) {
+      const std::uint32_t variable = vr[i] % stride, point = vr[i] / stride;
+      if (point >= instance.model->points() || (point > 0 && !is_of_a_point(variable)) || variable == time)
+        return instance.error("value reference " + std::to_string(vr[i]) + " is unknown");
+      told = worse(told, act(instance, variable, point, i));
+      if (told == Told::error) return told;
+    }
+    return told;
+  }));
+}
+
+inline fmi2Status none_of(fmi2Component c, std::size_t nvr, const char* kind) {
+  return fmi2(guarded(c, [&](Instance& instance) {
+    return nvr == 0 ? Told::ok : instance.error(std::string("there is no variable of type ") + kind);
+  }));
+}
+
+}  // namespace asperity_fmu
+
+extern "C" {
+
+ASPERITY_FMU_EXPORT const char* fmi2GetTypesPlatform(void) { return "default"; }
+ASPERITY_FMU_EXPORT const char* fmi2GetVersion(void) { return "2.0"; }
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component, fmi2Boolean, std::size_t, const fmi2String[]) {
+  return fmi2OK;  // only errors and warnings are logged, which a host wants always
+}
+
+ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String, fmi2String resources,
+                                                  const fmi2CallbackFunctions* functions, fmi2Boolean, fmi2Boolean) {
+  using namespace asperity_fmu;
+  try {
+    std::function<void(Told, const char*)> tell;
+    if (functions != nullptr && functions->logger != nullptr)
+      tell = [log = functions->logger, host = functions->componentEnvironment,
+              who = std::string(name == nullptr ? "" : name)](Told told, const char* message) {
+        log(host, who.c_str(), fmi2(told), told == Told::warning ? "logStatusWarning" : "logStatusError", "%s",
+            message);
+      };
+    if (type != fmi2CoSimulation) {
+      if (tell) tell(Told::error, "this FMU is for co-simulation alone");
+      return nullptr;
+    }
+    return make_instance(name, path_of_uri(resources == nullptr ? "" : resources), std::move(tell));
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+ASPERITY_FMU_EXPORT void fmi2FreeInstance(fmi2Component c) { delete static_cast<asperity_fmu::Instance*>(c); }
+
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start, fmi2Boolean,
+                                                   fmi2Real) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) {
+    instance.model->set_time(start);
+    return Told::ok;
+  }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [](Instance&) { return Told::ok; }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [](Instance& instance) {
+    instance.initialized = true;
+    return Told::ok;
+  }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2Terminate(fmi2Component c) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [](Instance&) { return Told::ok; }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [](Instance& instance) { return instance.reset(); }));
+}
+
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
+                                           fmi2Real value[]) {
+  using namespace asperity_fmu;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
+  });
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
+                                           const fmi2Real value[]) {
+  using namespace asperity_fmu;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    return instance.set(variable, point, value[i]);
+  });
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
+                                              fmi2Integer value[]) {
+  using namespace asperity_fmu;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    if (variable != inside) return instance.error("`inside` is the only Integer");
+    double found = 0;
+    const Told told = instance.get(variable, point, found);
+    value[i] = static_cast<fmi2Integer>(found);
+    return told;
+  });
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
+                                              const fmi2Integer[]) {
+  return asperity_fmu::none_of(c, nvr, "Integer that can be set");
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
+                                              fmi2Boolean value[]) {
+  using namespace asperity_fmu;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    bool on = false;
+    const Told told = instance.get_switch(variable, point, on);
+    value[i] = on ? 1 : 0;
+    return told;
+  });
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
+                                              const fmi2Boolean value[]) {
+  using namespace asperity_fmu;
+  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+    return instance.set_switch(variable, point, value[i] != 0);
+  });
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
+                                             fmi2String[]) {
+  return asperity_fmu::none_of(c, nvr, "String");
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
+                                             const fmi2String[]) {
+  return asperity_fmu::none_of(c, nvr, "String");
+}
+
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.keep(state); }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.restore(state); }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance&) { return forget(state); }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, std::size_t* size) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.size_of(state, *size); }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[],
+                                                     std::size_t size) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.write(state, bytes, size); }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], std::size_t size,
+                                                       fmi2FMUstate* state) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.read(bytes, size, state); }));
+}
+
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[],
+                                                            std::size_t n_unknowns, const fmi2ValueReference knowns[],
+                                                            std::size_t n_knowns, const fmi2Real seed[],
+                                                            fmi2Real sensitivity[]) {
+  using namespace asperity_fmu;
+  return each_value(c, unknowns, n_unknowns,
+                    [&](Instance& instance, std::uint32_t output, std::size_t point, std::size_t i) {
+                      sensitivity[i] = 0;
+                      for (std::size_t k = 0; k < n_knowns; ++k) {
+                        const std::uint32_t input = knowns[k] % stride;
+                        if (knowns[k] / stride != point) continue;
+                        if (instance.add_slope(output, input, point, seed[k], sensitivity[i]) == Told::error)
+                          return Told::error;
+                      }
+                      return Told::ok;
+                    });
+}
+
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
+                                                           const fmi2Integer[], const fmi2Real[]) {
+  return asperity_fmu::none_of(c, nvr, "derivative of an input");
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference[],
+                                                            std::size_t nvr, const fmi2Integer[], fmi2Real[]) {
+  return asperity_fmu::none_of(c, nvr, "derivative of an output");
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real from, fmi2Real size, fmi2Boolean) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.step(from, size); }));
+}
+// A step is never pending.
+ASPERITY_FMU_EXPORT fmi2Status fmi2CancelStep(fmi2Component) { return fmi2Error; }
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetStatus(fmi2Component, const fmi2StatusKind, fmi2Status*) { return fmi2Discard; }
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real* value) {
+  using namespace asperity_fmu;
+  if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
+  return fmi2(guarded(c, [&](Instance& instance) {
+    *value = instance.model->state().time;
+    return Told::ok;
+  }));
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetIntegerStatus(fmi2Component, const fmi2StatusKind, fmi2Integer*) {
+  return fmi2Discard;
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetBooleanStatus(fmi2Component, const fmi2StatusKind, fmi2Boolean*) {
+  return fmi2Discard;
+}
+ASPERITY_FMU_EXPORT fmi2Status fmi2GetStringStatus(fmi2Component, const fmi2StatusKind, fmi2String*) {
+  return fmi2Discard;
+}
+
+}  // extern "C"

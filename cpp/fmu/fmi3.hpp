@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: 0BSD
+// FMI 3.0 for co-simulation over an instance. A variable of the points is an array, with one value reference.
+#include "instance.hpp"
+#include "types.hpp"
+
+namespace asperity_fmu {
+
+inline fmi3Status fmi3(Told told) {
+  return told == Told::ok ? fmi3OK : told == Told::warning ? fmi3Warning : fmi3Error;
+}
+
+/// `act` on each value of each variable, of which there must be n_values.
+template <class Act>
+Told each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t nvr, std::size_t n_values, Act act) {
+  Told told = Told::ok;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < nvr; ++i)
+    for (std::size_t point = 0; point < (is_of_a_point(vr[i]) ? instance.model->points() : 1); ++point, ++k) {
+      if (k >= n_values) return instance.error("there are more values than the " + std::to_string(n_values) + " given");
+      told = worse(told, act(vr[i], point, k));
+      if (told == Told::error) return told;
+    }
+  return k == n_values ? told
+                       : instance.error("there are " + std::to_string(k) + " values, not " + std::to_string(n_values));
+}
+
+inline fmi3Status no_variable_of(fmi3Instance instance, std::size_t nvr, const char* type) {
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return nvr == 0 ? Told::ok : of.error(std::string("there is no variable of type ") + type);
+  }));
+}
+
+inline fmi3Status not_offered(fmi3Instance instance, const char* function) {
+  return fmi3(guarded(instance, [&](Instance& of) { return of.error(std::string(function) + " is not offered"); }));
+}
+
+inline fmi3Status fine(fmi3Instance instance) {
+  return fmi3(guarded(instance, [](Instance&) { return Told::ok; }));
+}
+
+}  // namespace asperity_fmu
+
+extern "C" {
+
+ASPERITY_FMU_EXPORT const char* fmi3GetVersion(void) { return "3.0"; }
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean, std::size_t,
+                                                   const fmi3String[]) {
+  return asperity_fmu::fine(instance);  // only errors and warnings are logged, which a host wants always
+}
+
+ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String, fmi3String resources,
+                                                             fmi3Boolean, fmi3Boolean, fmi3Boolean, fmi3Boolean,
+                                                             const fmi3ValueReference[], std::size_t,
+                                                             fmi3InstanceEnvironment host, fmi3LogMessageCallback log,
+                                                             fmi3IntermediateUpdateCallback) {
+  using namespace asperity_fmu;
+  try {
+    std::function<void(Told, const char*)> tell;
+    if (log != nullptr)
+      tell = [log, host](Told told, const char* message) {
+        log(host, fmi3(told), told == Told::warning ? "logStatusWarning" : "logStatusError", message);
+      };
+    return make_instance(name, std::filesystem::u8path(resources == nullptr ? "" : resources), std::move(tell));
+  } catch (...) {
+    return nullptr;
+  }
+}
+ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, fmi3String, fmi3Boolean,
+                                                              fmi3Boolean, fmi3InstanceEnvironment,
+                                                              fmi3LogMessageCallback) {
+  return nullptr;  // this FMU is for co-simulation
+}
+ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3String, fmi3String, fmi3Boolean,
+                                                                   fmi3Boolean, fmi3InstanceEnvironment,
+                                                                   fmi3LogMessageCallback, fmi3ClockUpdateCallback,
+                                                                   fmi3LockPreemptionCallback,
+                                                                   fmi3UnlockPreemptionCallback) {
+  return nullptr;  // this FMU is for co-simulation
+}
+ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) {
+  delete static_cast<asperity_fmu::Instance*>(instance);
+}
+
+ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
+                                                           fmi3Float64 start, fmi3Boolean, fmi3Float64) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    of.model->set_time(start);
+    return Told::ok;
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [](Instance& of) {
+    of.initialized = true;
+    return Told::ok;
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return asperity_fmu::fine(instance); }
+ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [](Instance& of) { return of.reset(); }));
+}
+
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
+                                              fmi3Float64 values[], std::size_t n_values) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
+    });
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
+                                              const fmi3Float64 values[], std::size_t n_values) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return of.set(variable, point, values[k]);
+    });
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
+                                            fmi3Int32 values[], std::size_t n_values) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      if (variable != inside) return of.error("`inside` is the only Int32");
+      double found = 0;
+      const Told told = of.get(variable, point, found);
+      values[k] = static_cast<fmi3Int32>(found);
+      return told;
+    });
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
+                                              fmi3Boolean values[], std::size_t n_values) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return of.get_switch(variable, point, values[k]);
+    });
+  }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
+                                              const fmi3Boolean values[], std::size_t n_values) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return of.set_switch(variable, point, values[k]);
+    });
+  }));
+}
+
+// Types of which there is no variable.
+#define ASPERITY_FMU_NO_VARIABLE(type)                                                                             \
+  ASPERITY_FMU_EXPORT fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
+                                               fmi3##type[], std::size_t) {                                        \
+    return asperity_fmu::no_variable_of(instance, nvr, #type);                                                     \
+  }                                                                                                                \
+  ASPERITY_FMU_EXPORT fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
+                                               const fmi3##type[], std::size_t) {                                  \
+    return asperity_fmu::no_variable_of(instance, nvr, #type);                                                     \
+  }
+ASPERITY_FMU_NO_VARIABLE(Float32)
+ASPERITY_FMU_NO_VARIABLE(Int8)
+ASPERITY_FMU_NO_VARIABLE(UInt8)
+ASPERITY_FMU_NO_VARIABLE(Int16)
+ASPERITY_FMU_NO_VARIABLE(UInt16)
+ASPERITY_FMU_NO_VARIABLE(UInt32)
+ASPERITY_FMU_NO_VARIABLE(Int64)
+ASPERITY_FMU_NO_VARIABLE(UInt64)
+ASPERITY_FMU_NO_VARIABLE(String)
+#undef ASPERITY_FMU_NO_VARIABLE
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
+                                            const fmi3Int32[], std::size_t) {
+  return asperity_fmu::no_variable_of(instance, nvr, "Int32 that can be set");
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
+                                             std::size_t[], fmi3Binary[], std::size_t) {
+  return asperity_fmu::no_variable_of(instance, nvr, "Binary");
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
+                                             const std::size_t[], const fmi3Binary[], std::size_t) {
+  return asperity_fmu::no_variable_of(instance, nvr, "Binary");
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
+                                            fmi3Clock[]) {
+  return asperity_fmu::no_variable_of(instance, nvr, "Clock");
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
+                                            const fmi3Clock[]) {
+  return asperity_fmu::no_variable_of(instance, nvr, "Clock");
+}
+
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.keep(state); }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.restore(state); }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance&) { return forget(state); }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
+                                                          std::size_t* size) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.size_of(state, *size); }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[],
+                                                     std::size_t size) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.write(state, bytes, size); }));
+}
+ASPERITY_FMU_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], std::size_t size,
+                                                       fmi3FMUState* state) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.read(bytes, size, state); }));
+}
+
+ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+                                                            std::size_t n_unknowns, const fmi3ValueReference knowns[],
+                                                            std::size_t n_knowns, const fmi3Float64 seed[],
+                                                            std::size_t n_seed, fmi3Float64 sensitivity[],
+                                                            std::size_t n_sensitivity) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    const auto add = [&](std::uint32_t output, std::size_t point, std::size_t i) {
+      sensitivity[i] = 0;
+      return each_entry(of, knowns, n_knowns, n_seed, [&](std::uint32_t input, std::size_t at, std::size_t k) {
+        if (at != point) return Told::ok;
+        return of.add_slope(output, input, point, seed[k], sensitivity[i]);
+      });
+    };
+    return each_entry(of, unknowns, n_unknowns, n_sensitivity, add);
+  }));
+}
+
+ASPERITY_FMU_EXPORT fmi3Status fmi3EnterStepMode(fmi3Instance instance) { return asperity_fmu::fine(instance); }
+ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 size, fmi3Boolean,
+                                          fmi3Boolean* event, fmi3Boolean* terminate, fmi3Boolean* early,
+                                          fmi3Float64* reached) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) {
+    const Told told = of.step(from, size);
+    for (fmi3Boolean* const answer : {event, terminate, early})
+      if (answer != nullptr) *answer = false;
+    if (reached != nullptr) *reached = of.model->state().time;
+    return told;
+  }));
+}
+
+// Functions of what this FMU says it has not.
+#define ASPERITY_FMU_NOT_OFFERED(name, arguments) \
+  ASPERITY_FMU_EXPORT fmi3Status name arguments { return asperity_fmu::not_offered(instance, #name); }
+ASPERITY_FMU_NOT_OFFERED(fmi3EnterEventMode, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfVariableDependencies, (fmi3Instance instance, fmi3ValueReference, std::size_t*))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetVariableDependencies,
+                         (fmi3Instance instance, fmi3ValueReference, std::size_t[], fmi3ValueReference[], std::size_t[],
+                          fmi3DependencyKind[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetAdjointDerivative,
+                         (fmi3Instance instance, const fmi3ValueReference[], std::size_t, const fmi3ValueReference[],
+                          std::size_t, const fmi3Float64[], std::size_t, fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3EnterConfigurationMode, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3ExitConfigurationMode, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetIntervalDecimal, (fmi3Instance instance, const fmi3ValueReference[], std::size_t,
+                                                  fmi3Float64[], fmi3IntervalQualifier[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetIntervalFraction, (fmi3Instance instance, const fmi3ValueReference[], std::size_t,
+                                                   fmi3UInt64[], fmi3UInt64[], fmi3IntervalQualifier[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetShiftDecimal,
+                         (fmi3Instance instance, const fmi3ValueReference[], std::size_t, fmi3Float64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetShiftFraction,
+                         (fmi3Instance instance, const fmi3ValueReference[], std::size_t, fmi3UInt64[], fmi3UInt64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetIntervalDecimal,
+                         (fmi3Instance instance, const fmi3ValueReference[], std::size_t, const fmi3Float64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetIntervalFraction, (fmi3Instance instance, const fmi3ValueReference[], std::size_t,
+                                                   const fmi3UInt64[], const fmi3UInt64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetShiftDecimal,
+                         (fmi3Instance instance, const fmi3ValueReference[], std::size_t, const fmi3Float64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetShiftFraction, (fmi3Instance instance, const fmi3ValueReference[], std::size_t,
+                                                const fmi3UInt64[], const fmi3UInt64[]))
+ASPERITY_FMU_NOT_OFFERED(fmi3EvaluateDiscreteStates, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3UpdateDiscreteStates, (fmi3Instance instance, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*,
+                                                    fmi3Boolean*, fmi3Boolean*, fmi3Float64*))
+ASPERITY_FMU_NOT_OFFERED(fmi3EnterContinuousTimeMode, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3CompletedIntegratorStep, (fmi3Instance instance, fmi3Boolean, fmi3Boolean*, fmi3Boolean*))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetTime, (fmi3Instance instance, fmi3Float64))
+ASPERITY_FMU_NOT_OFFERED(fmi3SetContinuousStates, (fmi3Instance instance, const fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetContinuousStateDerivatives, (fmi3Instance instance, fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetEventIndicators, (fmi3Instance instance, fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetContinuousStates, (fmi3Instance instance, fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetNominalsOfContinuousStates, (fmi3Instance instance, fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfEventIndicators, (fmi3Instance instance, std::size_t*))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfContinuousStates, (fmi3Instance instance, std::size_t*))
+ASPERITY_FMU_NOT_OFFERED(fmi3GetOutputDerivatives, (fmi3Instance instance, const fmi3ValueReference[], std::size_t,
+                                                    const fmi3Int32[], fmi3Float64[], std::size_t))
+ASPERITY_FMU_NOT_OFFERED(fmi3ActivateModelPartition, (fmi3Instance instance, fmi3ValueReference, fmi3Float64))
+#undef ASPERITY_FMU_NOT_OFFERED
+
+}  // extern "C"

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: 0BSD
+// What the functions of both standards share: an instance with the way its messages take, get and set of many
+// variables, the state as bytes, the folder of resources from its address. Nothing that is thrown reaches the host.
+#ifndef ASPERITY_FMU_INSTANCE_HPP
+#define ASPERITY_FMU_INSTANCE_HPP
+
+#include <cstring>
+#include <functional>
+
+#include "model.hpp"
+
+namespace asperity_fmu {
+
+// The state as bytes: numbers of this machine, since a state is read by the program that wrote it.
+
+inline std::size_t size_in_bytes(const State& state) {
+  return (5 + numbers_of_a_point * state.points.size()) * sizeof(double);
+}
+
+inline void to_bytes(const State& state, void* bytes) {
+  std::vector<double> numbers{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
+                              state.memory ? 1.0 : 0.0};
+  for (const Point& point : state.points)
+    numbers.insert(numbers.end(),
+                   {point.pressure, point.velocity, point.temperature, point.distance, point.sign, point.reset});
+  std::memcpy(bytes, numbers.data(), numbers.size() * sizeof(double));
+}
+
+/// False where they are not those of a state of as many points.
+inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
+  if (size != size_in_bytes(state)) return false;
+  std::vector<double> numbers(size / sizeof(double));
+  std::memcpy(numbers.data(), bytes, size);
+  const double* next = numbers.data();
+  if (*next++ != static_cast<double>(state.points.size())) return false;
+  state.time = *next++;
+  state.a_T = *next++;
+  state.clamp = *next++ != 0;
+  state.memory = *next++ != 0;
+  for (Point& point : state.points) {
+    point = {next[0], next[1], next[2], next[3], next[4], next[5]};
+    next += numbers_of_a_point;
+  }
+  return true;
+}
+
+struct Instance {
+  std::string name;
+  std::unique_ptr<Model> model;
+  std::function<void(Told, const char*)> tell;  // empty where the host does not listen
+  bool initialized = false, warned = false;
+
+  Told error(const std::string& message) const {
+    if (tell) tell(Told::error, message.c_str());
+    return Told::error;
+  }
+
+  /// The host hears of it once, until all points are inside again.
+  Told outside(Told found) {
+    if (found == Told::ok) {
+      warned = false;
+    } else if (!warned) {
+      warned = true;
+      if (tell)
+        tell(Told::warning, model->state().clamp
+                                ? "a point lies outside of the map: mu is that of the map's nearest point"
+                                : "a point lies outside of the map: mu is NaN");
+    }
+    return found;
+  }
+
+  [[nodiscard]] Told get(std::uint32_t variable, std::size_t point, double& value) {
+    const Told told = model->get(variable, point, value);
+    return told == Told::error ? error("value reference " + std::to_string(variable) + " is no number to be read")
+                               : told;
+  }
+
+  [[nodiscard]] Told set(std::uint32_t variable, std::size_t point, double value) {
+    return model->set(variable, point, value)
+               ? Told::ok
+               : error("value reference " + std::to_string(variable) + " is no input: it cannot be set");
+  }
+
+  [[nodiscard]] Told get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
+    return model->get_switch(variable, point, on)
+               ? Told::ok
+               : error("value reference " + std::to_string(variable) + " is no Boolean");
+  }
+
+  [[nodiscard]] Told set_switch(std::uint32_t variable, std::size_t point, bool on) {
+    return model->set_switch(variable, point, on)
+               ? Told::ok
+               : error("value reference " + std::to_string(variable) + " is no Boolean that can be set");
+  }
+
+  /// Adds seed times d output / d input.
+  [[nodiscard]] Told add_slope(std::uint32_t output, std::uint32_t input, std::size_t point, double seed,
+                               double& sum) const {
+    if (!is_real_output(output) ||
+        !(input == pressure || input == velocity || (input == temperature && model->has(input))))
+      return error("there is no derivative of value reference " + std::to_string(output) + " by " +
+                   std::to_string(input) + ": must be of a real output by pressure, velocity or temperature");
+    sum += seed * model->slope(output, input, point);
+    return Told::ok;
+  }
+
+  Told reset() {
+    model->start_anew();
+    initialized = warned = false;
+    return Told::ok;
+  }
+
+  // States that the host keeps; it gives an old one back to be written over, or null.
+
+  Told keep(void** kept) const {
+    if (*kept == nullptr) *kept = new State;
+    *static_cast<State*>(*kept) = model->state();
+    return Told::ok;
+  }
+
+  Told restore(const void* kept) {
+    if (kept == nullptr) return error("there is no state to go back to");
+    const State& state = *static_cast<const State*>(kept);
+    if (state.points.size() != model->points()) return error("the state is one of another number of points");
+    model->restore(state);
+    return Told::ok;
+  }
+
+  Told size_of(const void* kept, std::size_t& size) const {
+    if (kept == nullptr) return error("there is no state to be written");
+    size = size_in_bytes(*static_cast<const State*>(kept));
+    return Told::ok;
+  }
+
+  Told write(const void* kept, void* bytes, std::size_t size) const {
+    std::size_t needed = 0;
+    if (size_of(kept, needed) != Told::ok) return Told::error;
+    if (size < needed) return error("a state needs " + std::to_string(needed) + " bytes");
+    to_bytes(*static_cast<const State*>(kept), bytes);
+    return Told::ok;
+  }
+
+  Told read(const void* bytes, std::size_t size, void** kept) const {
+    State state = model->state();
+    if (!from_bytes(bytes, size, state)) return error("the bytes are not those of a state of this FMU");
+    if (*kept == nullptr) *kept = new State;
+    *static_cast<State*>(*kept) = std::move(state);
+    return Told::ok;
+  }
+
+  [[nodiscard]] Told step(double from, double size) {
+    if (!initialized) return error("a step before the end of the initialization");
+    if (!std::isfinite(from) || !std::isfinite(size) || size < 0)
+      return error("a step from " + std::to_string(from) + " by " + std::to_string(size) +
+                   " s: the time must be finite and the step not negative");
+    return outside(model->step(from, size));
+  }
+};
+
+inline Told forget(void** kept) {
+  delete static_cast<State*>(*kept);
+  *kept = nullptr;
+  return Told::ok;
+}
+
+/// The worse of two.
+inline Told worse(Told a, Told b) { return a < b ? b : a; }
+
+/// Runs `function`; what it throws, for want of memory, is an error.
+template <class Function>
+Told guarded(void* instance, Function function) {
+  if (instance == nullptr) return Told::error;
+  try {
+    return function(*static_cast<Instance*>(instance));
+  } catch (...) {
+    return Told::error;
+  }
+}
+
+/// The path of a file URI (RFC 8089), or an empty one where it is none.
+inline std::filesystem::path path_of_uri(const std::string& uri) {
+  if (uri.compare(0, 5, "file:") != 0) return {};
+  std::string path;
+  for (std::size_t i = 5; i < uri.size(); ++i) {
+    const auto digit = [&](std::size_t k) {
+      const char c = k < uri.size() ? uri[k] : 'x';
+      return c >= '0' && c <= '9'   ? c - '0'
+             : c >= 'a' && c <= 'f' ? c - 'a' + 10
+             : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                    : -1;
+    };
+    if (uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0) {
+      path += static_cast<char>(16 * digit(i + 1) + digit(i + 2));
+      i += 2;
+    } else {
+      path += uri[i];
+    }
+  }
+  if (path.compare(0, 2, "//") == 0) path.erase(0, path.find('/', 2));  // the host, this one
+#ifdef _WIN32
+  if (path.size() > 2 && path[0] == '/' && path[2] == ':') path.erase(0, 1);  // /C:/...
+#endif
+  return std::filesystem::u8path(path);
+}
+
+/// An instance with its map, or null: the host hears why.
+inline Instance* make_instance(const char* name, const std::filesystem::path& resources,
+                               std::function<void(Told, const char*)> tell) {
+  auto made = std::make_unique<Instance>();
+  made->name = name == nullptr ? "" : name;
+  made->tell = std::move(tell);
+  std::string why;
+  made->model = Model::load(resources, why);
+  if (made->model) return made.release();
+  (void)made->error(why);
+  return nullptr;
+}
+
+}  // namespace asperity_fmu
+#endif

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: 0BSD
+// What an instance of the FMU is, whatever the standard: a friction map and n contact points, each with a pressure
+// and a velocity, and on a map with heat a temperature and the distance that it has slid. Outputs are looked up when
+// they are asked for and kept until an input changes.
+//
+// Friction that begins to slide is cold, and heats up over the map's sliding length. A step adds |v| times its length
+// to the distance; sliding begins anew where `reset` is true, at rest, and where the velocity changes its sign.
+#ifndef ASPERITY_FMU_MODEL_HPP
+#define ASPERITY_FMU_MODEL_HPP
+
+#include <array>
+#include <asperity/friction_map.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity_fmu {
+
+/// Value references. Those of a point are numbered on by `stride` from point to point where there are no arrays.
+enum Variable : std::uint32_t {
+  time = 0,
+  pressure = 1,
+  velocity = 2,
+  temperature = 3,
+  reset = 4,
+  mu = 8,
+  mu_hysteresis = 9,
+  mu_adhesion = 10,
+  contact_area = 11,
+  traction = 12,
+  dmu_dlnp = 13,
+  dmu_dlnv = 14,
+  inside = 15,
+  slid_distance = 16,
+  a_T = 24,
+  max_error = 25,
+  clamp = 26,
+  memory = 27,
+};
+constexpr std::uint32_t stride = 32, first_output = mu, last_output = inside;
+
+inline bool is_of_a_point(std::uint32_t variable) {
+  return (variable >= pressure && variable <= reset) || (variable >= first_output && variable <= slid_distance);
+}
+inline bool is_real_output(std::uint32_t variable) { return variable >= first_output && variable < inside; }
+
+/// Numbers alone, since they are written as such.
+struct Point {
+  double pressure = 0, velocity = 0, temperature = 0;
+  double distance = 0, sign = 0;  // slid since rest [m], and which way
+  double reset = 0;
+};
+constexpr std::size_t numbers_of_a_point = 6;
+
+/// Empty where it cannot be read. Streams would make the FMU three times as large.
+inline std::string read_file(const std::filesystem::path& path) {
+#ifdef _WIN32
+  std::FILE* const opened = _wfopen(path.c_str(), L"rb");
+#else
+  std::FILE* const opened = std::fopen(path.c_str(), "rb");
+#endif
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(opened, [](std::FILE* f) { return std::fclose(f); });
+  std::string content;
+  char block[65536];
+  if (file)
+    for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, file.get())) > 0;) content.append(block, n);
+  return content;
+}
+
+/// All that changes in an instance: what get and set of its state keep.
+struct State {
+  std::vector<Point> points;
+  double time = 0, a_T = 1;
+  bool clamp = true, memory = true;
+};
+
+enum class Told { ok, warning, error };
+
+class Model {
+ public:
+  /// From the folder `resources` of the FMU; null, and why not, where its files are not those of a map.
+  static std::unique_ptr<Model> load(const std::filesystem::path& resources, std::string& why) {
+    const std::size_t points = std::strtoull(read_file(resources / "points.txt").c_str(), nullptr, 10);
+    if (points < 1 || points > most_points) {
+      why = "resources/points.txt must hold a number of points from 1 to " + std::to_string(most_points);
+      return nullptr;
+    }
+    const std::string bytes = read_file(resources / "friction.fmap");
+    auto model = std::make_unique<Model>();
+    if (!model->map_.read(bytes.data(), bytes.size(), why)) {
+      why = "resources/friction.fmap " + (bytes.empty() ? "cannot be read" : why);
+      return nullptr;
+    }
+    model->state_.points.resize(points);
+    model->start_anew();
+    return model;
+  }
+
+  /// Every point at the middle of the map's box, on logarithmic axes.
+  void start_anew() {
+    const asperity::FrictionMapInfo& info = map_.info();
+    const Point middle{std::sqrt(info.pressure[0] * info.pressure[1]), std::sqrt(info.velocity[0] * info.velocity[1]),
+                       (info.temperature[0] + info.temperature[1]) / 2};
+    State fresh;
+    fresh.points.assign(state_.points.size(), middle);
+    restore(std::move(fresh));
+  }
+
+  [[nodiscard]] std::size_t points() const { return state_.points.size(); }
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(State state) {
+    state_ = std::move(state);
+    found_.assign(points(), {});
+  }
+  void set_time(double now) { state_.time = now; }
+
+  /// False where the map has no such variable.
+  [[nodiscard]] bool has(std::uint32_t variable) const {
+    const asperity::FrictionMapInfo& info = map_.info();
+    if (variable == temperature) return info.temperatures > 1;
+    if (variable == reset || variable == slid_distance || variable == memory) return info.heat;
+    return variable != a_T || !info.heat;
+  }
+
+  /// False where there is no such switch.
+  bool set_switch(std::uint32_t variable, std::size_t point, bool on) {
+    if (!has(variable)) return false;
+    if (variable == reset)
+      state_.points[point].reset = on ? 1 : 0;
+    else if (variable == clamp)
+      state_.clamp = on;
+    else if (variable == memory)
+      state_.memory = on;
+    else
+      return false;
+    if (variable != reset) found_.assign(points(), {});
+    return true;
+  }
+  bool get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
+    if (!has(variable) || !(variable == reset || variable == clamp || variable == memory)) return false;
+    on = variable == reset ? state_.points[point].reset != 0 : variable == clamp ? state_.clamp : state_.memory;
+    return true;
+  }
+
+  /// False where it cannot be set.
+  bool set(std::uint32_t variable, std::size_t point, double value) {
+    if (!has(variable)) return false;
+    switch (variable) {
+      case pressure:
+        state_.points[point].pressure = value;
+        break;
+      case velocity:
+        state_.points[point].velocity = value;
+        break;
+      case temperature:
+        state_.points[point].temperature = value;
+        break;
+      case a_T:
+        state_.a_T = value;
+        found_.assign(points(), {});
+        return true;
+      default:
+        return false;
+    }
+    found_[point].known = false;
+    return true;
+  }
+
+  /// A warning where the point lies outside of the map's box or a number is NaN: the value is NaN, or with `clamp`
+  /// that of the nearest point of the box.
+  Told get(std::uint32_t variable, std::size_t point, double& value) {
+    if (!has(variable)) return Told::error;
+    switch (variable) {
+      case time:
+        value = state_.time;
+        return Told::ok;
+      case pressure:
+        value = state_.points[point].pressure;
+        return Told::ok;
+      case velocity:
+        value = state_.points[point].velocity;
+        return Told::ok;
+      case temperature:
+        value = state_.points[point].temperature;
+        return Told::ok;
+      case slid_distance:
+        value = state_.points[point].distance;
+        return Told::ok;
+      case a_T:
+        value = state_.a_T;
+        return Told::ok;
+      case max_error:
+        value = map_.info().max_error;
+        return Told::ok;
+      default:
+        break;
+    }
+    if (variable < first_output || variable > last_output) return Told::error;
+    Found& found = found_[point];
+    if (!found.known) found = look_up(state_.points[point]);
+    value = found.values[variable - first_output];
+    return found.values[inside - first_output] == 1 ? Told::ok : Told::warning;
+  }
+
+  /// A warning where a point lies outside.
+  Told step(double from, double size) {
+    state_.time = from + size;
+    Told told = Told::ok;
+    if (map_.info().heat)
+      for (std::size_t i = 0; i < points(); ++i) slide(i, size);
+    for (std::size_t i = 0; i < points(); ++i) {
+      double is_inside = 0;
+      if (get(inside, i, is_inside) != Told::ok) told = Told::warning;
+    }
+    return told;
+  }
+
+  /// d output / d input of a point: in closed form for mu and traction over pressure and
+  /// velocity, else by differences over 2e-5 of ln(input) inside of the box. NaN outside.
+  [[nodiscard]] double slope(std::uint32_t output, std::uint32_t input, std::size_t point) const {
+    const Point at = state_.points[point];
+    const Found here = look_up(at);
+    const auto value = [](const Found& found, std::uint32_t variable) { return found.values[variable - first_output]; };
+    if (value(here, inside) != 1) return std::numeric_limits<double>::quiet_NaN();
+    const double sign = at.velocity < 0 ? -1 : 1;
+    if (output == mu && input == pressure) return value(here, dmu_dlnp) / at.pressure;
+    if (output == mu && input == velocity) return value(here, dmu_dlnv) / at.velocity;
+    if (output == traction && input == pressure) return sign * (value(here, mu) + value(here, dmu_dlnp));
+    if (output == traction && input == velocity) return sign * at.pressure * value(here, dmu_dlnv) / at.velocity;
+    double x[2], f[2];
+    for (int side = 0; side < 2; ++side) {
+      const double factor = std::exp(side == 0 ? -1e-5 : 1e-5);
+      Point moved = at;
+      double& changed = input == pressure ? moved.pressure : input == velocity ? moved.velocity : moved.temperature;
+      const double before = changed;
+      changed = before * factor;
+      Found found = look_up(moved);
+      x[side] = changed;
+      if (value(found, inside) != 1) {
+        found = here;
+        x[side] = before;
+      }
+      f[side] = value(found, output);
+    }
+    return (f[1] - f[0]) / (x[1] - x[0]);
+  }
+
+ private:
+  static constexpr std::size_t most_points = 1000000;
+
+  struct Found {
+    std::array<double, last_output - first_output + 1> values{};
+    bool known = false;
+  };
+
+  void slide(std::size_t index, double time) {
+    Point& point = state_.points[index];
+    const double sign = point.velocity > 0 ? 1 : point.velocity < 0 ? -1 : 0;
+    if (point.reset != 0 || sign == 0 || sign != point.sign) point.distance = 0;
+    point.sign = sign;
+    if (sign != 0) point.distance += std::fabs(point.velocity) * time;
+    found_[index].known = false;
+  }
+
+  [[nodiscard]] Found look_up(const Point& at) const {
+    using Map = asperity::FrictionMap;
+    const Map::Outside outside = state_.clamp ? Map::Outside::clamp : Map::Outside::nan;
+    asperity::MapPoint found;
+    asperity::MapTemperature heat;
+    heat.a_T = state_.a_T;
+    if (map_.info().temperatures > 1) heat.background = at.temperature;
+    if (map_.info().heat && state_.memory) heat.distance = at.distance;
+    const Map::Status status = map_.at(at.pressure, at.velocity, found, outside, heat);
+    const double pull = map_.traction(at.pressure, at.velocity, outside, heat);
+    return {{found.mu, found.hysteresis, found.adhesion, found.contact_area, pull, found.dmu_dlnp, found.dmu_dlnv,
+             status == Map::Status::ok ? 1.0 : 0.0},
+            true};
+  }
+
+  asperity::FrictionMap map_;
+  State state_;
+  std::vector<Found> found_;
+};
+
+}  // namespace asperity_fmu
+#endif
