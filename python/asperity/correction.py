@@ -112,8 +112,8 @@ class PartialContact(Value):
     Q = 0.67 (4 w / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + 6.3 (1 - A1^(1/10))^3) and B = 1 + (0.105
     A1 + 0.45 (1 - 1 / rho)^4) (1 - A1^8), where M = int q^3 C dq, ln q_e is the mean of ln q over
     the last tenth of M, w the mean of q^4 C over two units of ln q about q_e and rho = I2(v q_e) M
-    / int q^3 C I2 dq. So rows that a spectrum has beyond its roughness do not matter. The area is
-    A1, the hysteresis
+    / int q^3 C I2 dq, or 1 if that is less. So rows that a spectrum has beyond its roughness do not
+    matter. The area is A1, the hysteresis
     4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln q). In complete contact all of it
     is Persson's theory as it stands.
 

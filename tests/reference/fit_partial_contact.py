@@ -8,7 +8,7 @@ With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2
     Q = obstacle (4 w(q_e) / M(q1))^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
     T = edges A1 (1 - A1^(1/4)) K I2(q_e) w(q_e) (I2 / I2(q_e))^(5/4) x^-3,  x = q / q_e to 33
     int R dG + int T d ln x = F(kappa G1) B,            F(g) = int_0^g erf(1 / (2 sqrt(u))) du
-    B = 1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8),   rho = K I2(q_e) M(q1) / G1
+    B = 1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8),   rho = K I2(q_e) M(q1) / G1, 1 or more
     mu = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln x)
 where ln q_e is the mean of ln q over the last tenth of M. Least squares in ln A and ln mu, with a
 soft loss, over the rows fit of exact_sliding.csv, sliding_contacts.csv and the elastic areas of
@@ -132,7 +132,7 @@ class Contacts:
         step = np.log(33) / TAIL.size
         f = g * a1 + np.sqrt(g / np.pi) * np.exp(-(s**2)) - rest / 2
         f = np.where(g < 3e-3, g, f)
-        b = 1 + (spread * a1 + stiff * (1 - 1 / self.stiffness) ** 4) * (1 - a1**8)
+        b = 1 + (spread * a1 + stiff * np.maximum(1 - 1 / self.stiffness, 0) ** 4) * (1 - a1**8)
         friction = (self.i1 / self.i2 * r * self.dg).sum(1) + (self.t1 / self.t2 * t).sum(1) * step
         variance = (r * self.dg).sum(1) + t.sum(1) * step
         return variance - f * b, a1, 4 * (1 - NU**2) * self.load * friction
