@@ -122,7 +122,9 @@ def compute(seed: int, scene: int, *, rings: float = 0.0) -> Outcome:
             outcome.refused.append(rtol)
             continue
         stated = found.error_estimate + truth.error_estimate
-        outcome.ratios[rtol] = float(np.max(np.abs(found.mu - truth.mu) / np.maximum(stated, 1e-300)))
+        outcome.ratios[rtol] = float(
+            np.max(np.abs(found.mu - truth.mu) / np.maximum(stated, 1e-300))
+        )
     return outcome
 
 
