@@ -132,7 +132,7 @@ def length(q1, velocity, steps, count):
 
 def main():
     rows = [
-        "# Sliding length over the contact's diameter, from the history of the heat by brute force:",
+        "# Sliding length over the contact's diameter, from the history of heat by brute force:",
         "# make_sliding_length.py. Scenes of flash.csv at 0.2 MPa, 293.15 K. q1 1/m, velocity m/s.",
         "q1,velocity,length_over_diameter,spread",
     ]
