@@ -1,5 +1,8 @@
 """Friction that heats its rubber: values of two other programs, limits, honesty, refusals."""
 
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,6 +10,9 @@ import asperity
 from helpers.cases import case, each
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+import random_heat
 
 KINDS = {
     "s_factor": {"correction": asperity.SFactor(gamma=0.5)},
@@ -157,73 +163,65 @@ def test_the_energy_arrives_at_long_waves():
     residence = 8 * 5e-4 / (3 * np.pi)
     flux = found.hysteresis * 2e5 / (1200 * 1650 * found.macro_area)
     rise = found.temperature_profile[0] - 293.15
-    assert rise / (2 * 1e-2) == pytest.approx(residence * flux, rel=1e-4)
+    # 2 q sqrt(D t) is 2e-7 and the rise a millionth of that of the surface
+    assert rise / (2 * 1e-2) == pytest.approx(residence * flux, rel=5e-6)
+
+
+def test_without_conduction_each_wave_keeps_its_heat():
+    """theta = (8 / 3 pi) R q0 mu sigma0 / (rho c_v P_m) at D = 0, off by q1 / q0 - 1."""
+    insulating = asperity.Heating(
+        density=1e4,
+        heat_capacity=1e4,
+        conductivity=0.01,
+        contact_diameter=1e-6,
+        macro_area=0.1,
+    )
+    errors = []
+    for width in (1e-2, 1e-4):
+        narrow = asperity.SelfAffineSpectrum(
+            rms_height=1e-4, hurst=0.8, q0=2000, q1=2000 * (1 + width)
+        )
+        found = hot(narrow, velocity=30.0, heating=insulating, contributions=True)
+        expected = 8 / (3 * np.pi) * 5e-7 * 2000 * found.mu * 2e5 / (1e8 * 0.1)
+        errors.append(np.abs((found.temperature_profile - 293.15) / expected - 1).max())
+    assert errors[0] < 1e-2
+    assert errors[1] < 2e-4  # 2 q sqrt(D t) is 1e-5, and a rise of 1e-3 K has ten digits
 
 
 def test_slow_sliding_warms_all_waves_alike():
     """theta -> (mu sigma0 v / (rho c_v P_m)) c_h sqrt(2 R / (pi D v)), off by sqrt v."""
     diffusivity = 0.23 / (1200 * 1650)
     errors = []
-    for v in (1e-6, 1e-8):
+    for v in (1e-6, 1e-8, 1e-10):
         found = hot(velocity=v, contributions=True)
         flux = found.mu * 2e5 * v / (1200 * 1650 * found.macro_area)
-        expected = flux * 1.2204156216 * np.sqrt(1e-3 / (np.pi * diffusivity * v))
+        expected = flux * 1.2204156216029011 * np.sqrt(1e-3 / (np.pi * diffusivity * v))
         rises = found.temperature_profile - 293.15
         errors.append(np.abs(rises / expected - 1).max())
-    assert errors[0] < 0.06
-    assert errors[1] < 0.1 * errors[0] * 1.2
+    assert errors[0] < 0.04
+    assert errors[1] / errors[0] == pytest.approx(0.1, rel=0.01)
+    assert errors[2] / errors[1] == pytest.approx(0.1, rel=0.02)  # rises of 1e-4 K
 
 
-def test_the_estimate_is_kept_on_scenes_it_was_not_made_for():
-    rng = np.random.default_rng(5)
-    tried = 0
-    for i in range(40):
-        q1 = 2000 * np.exp(rng.uniform(np.log(3), np.log(1e3)))
-        slope, hurst = rng.uniform(0.4, 2), rng.uniform(0.3, 1)
-        road = asperity.SelfAffineSpectrum(
-            rms_height=1e-4 * slope,
-            hurst=hurst,
-            q0=2000,
-            q1=q1,
-            rolloff=2000 * (q1 / 2000) ** rng.uniform(0.1, 0.5) if i % 3 == 0 else None,
-        )
-        terms = rng.integers(1, 16)
-        compound = asperity.PronySeries(
-            equilibrium_modulus=10 ** rng.uniform(5.5, 6.5),
-            moduli=10 ** rng.uniform(5.5, 8.5, terms),
-            relaxation_times=10 ** rng.uniform(-10, 0, terms),
-        )
-        constants = TREAD | {
-            "contact_diameter": 10 ** rng.uniform(-4, -2.5),
-            "residence": rng.choice(["disc", "box"]).item(),
-        }
-        at = {
-            "velocity": 10 ** rng.uniform(-4, 1, 4),
-            "pressure": 10 ** rng.uniform(4, 6),
-            "temperature": rng.uniform(263, 333),
-            "adhesion": STICKY if i % 2 else None,
-            "correction": [None, asperity.SFactor(gamma=0.4, applies_to="both")][i % 2],
-            "heating": asperity.Heating(**constants),
-            "rubber": compound,
-        }
-        try:
-            truth = hot(road, **at, rtol=1e-11)
-        except (asperity.OutOfRange, asperity.NotConverged):
-            continue  # above 700 K, or finer than grids go
-        for rtol in (1e-4, 1e-7):
-            found = hot(road, **at, rtol=rtol)
-            with case(i=i, rtol=rtol):
-                assert (found.error_estimate <= rtol * found.mu).all()
-                off = np.abs(found.mu - truth.mu)
-                assert (off <= found.error_estimate + truth.error_estimate).all()
-        tried += 1
-    assert tried > 30
+def test_the_estimate_is_kept_on_random_scenes():
+    outcomes = [random_heat.compute(2, scene, rings=0.15) for scene in range(40)]
+    told = [outcome for outcome in outcomes if outcome.ratios]
+    assert len(told) > 32
+    assert max(max(outcome.ratios.values()) for outcome in told) <= 1
+    assert not any(outcome.refused for outcome in told)
 
 
-def test_points_do_not_depend_on_the_threads_that_share_them():
+@each("correction", [None, asperity.PartialContact(), "rings"])
+def test_points_do_not_depend_on_the_threads_that_share_them(correction):
     v = np.geomspace(1e-4, 1, 150)
-    one, two = (hot(velocity=v, rtol=1e-4, threads=n) for n in (1, 2))
-    assert one == two
+    q = np.geomspace(CUT.q0, CUT.q1, 40)
+    table = asperity.TabulatedSpectrum(wavenumber=q, density=CUT.at(q))
+    rings = isinstance(correction, str)
+    given = {"velocity": v, "rtol": 1e-4, "correction": None if rings else correction}
+    one, two, three = (
+        hot(table if rings else CUT, **given, adhesion=STICKY, threads=n) for n in (1, 2, 3)
+    )
+    assert one == two == three
 
 
 @each(
@@ -295,14 +293,18 @@ def test_notes_say_where_the_model_leaves_its_range():
     assert "cover more than 0.3 of the surface" in notes(heating=wide)
 
 
-def test_sliding_lengths_of_the_history_of_the_heat():
-    """Distances to 1 / e over the diameter, by another program, to about 0.01."""
-    for spectrum, velocity, expected in (
-        (CUT, [0.1, 1.0, 10.0], [0.23, 0.19, 0.17]),
-        (ASPHALT, [0.01, 0.1, 1.0, 10.0], [0.09, 0.07, 0.05, 0.04]),
-    ):
-        found = hot(spectrum, velocity=np.array(velocity), rtol=1e-6)
-        np.testing.assert_allclose(found.sliding_length / 1e-3, expected, atol=0.02)
+def test_sliding_lengths_of_the_history_of_the_heat(reference_table):
+    """Distances to 1 / e over the diameter, by brute force to 4e-4."""
+    curves = {}
+    for row in reference_table("sliding_length"):
+        curves.setdefault(row["q1"], []).append(row)
+    assert sum(map(len, curves.values())) == 7
+    for q1, rows in curves.items():
+        velocity = np.array([row["velocity"] for row in rows])
+        found = hot(ASPHALT.truncated(q1=q1), velocity=velocity, rtol=1e-6)
+        expected = [row["length_over_diameter"] for row in rows]
+        # linear between steps of an eightieth of the diameter
+        np.testing.assert_allclose(found.sliding_length / 1e-3, expected, atol=0.002)
         assert found.sliding_length is found.sliding_length  # computed once
         np.testing.assert_allclose(found.mu_at(0.0), found.cold.mu, rtol=1e-15)
         np.testing.assert_allclose(found.mu_at(1.0), found.mu, rtol=1e-15)
