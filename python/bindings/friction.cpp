@@ -73,7 +73,7 @@ void bind_friction(py::module_& m) {
   py::classh<Heating>(m, "Heating")
       .def(py::init([](double density, double heat_capacity, double conductivity, double diameter,
                        std::optional<double> macro_wavenumber, std::optional<double> macro_area, int residence,
-                       double share) {
+                       double share, int model) {
         const Heating heating{density,
                               heat_capacity,
                               conductivity,
@@ -81,7 +81,8 @@ void bind_friction(py::module_& m) {
                               macro_wavenumber,
                               macro_area,
                               static_cast<Residence>(residence),
-                              share};
+                              share,
+                              static_cast<HeatModel>(model)};
         validate(heating);
         return heating;
       }));

@@ -15,6 +15,7 @@
 #include "friction/before_heating.hpp"
 #include "heat/flash_solver.hpp"
 #include "heat/history.hpp"
+#include "heat/one_temperature.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
@@ -69,6 +70,12 @@ std::vector<std::string> texts(const HeatNotes& notes, const Heating& heating, c
   return result;
 }
 
+HeatNotes notes_of(double rise, double velocity, int branches, double macro_area, const Heating& heating) {
+  const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
+  const bool slow = velocity * heating.contact_diameter / 2 / diffusivity < least_peclet;
+  return {rise > published_rise, rise > telling_rise && slow, branches > 1, macro_area > crowded_area};
+}
+
 /// The points of a curve side by side, from low to high velocity.
 std::vector<std::size_t> by_curve(std::span<const double> pressure, std::span<const double> velocity,
                                   std::span<const double> temperature) {
@@ -114,6 +121,58 @@ FlashFriction cleared(Friction cold, std::size_t n) {
   return f;
 }
 
+/// Whether a point begins a curve.
+bool begins(std::span<const std::size_t> order, std::size_t k, std::span<const double> pressure,
+            std::span<const double> temperature) {
+  return k == 0 || pressure[order[k - 1]] != pressure[order[k]] || temperature[order[k - 1]] != temperature[order[k]];
+}
+
+/// One temperature for all roughness: friction without heat of its own at the temperatures found, whose errors come to
+/// its own.
+void heat_to_one_temperature(const HeatScene& scene, const std::optional<Adhesion>& adhesion, Branch branch,
+                             unsigned threads, FlashFriction& f) {
+  const Friction& cold = f.cold;
+  const std::size_t n = cold.velocity.size();
+  const std::vector<std::size_t> order = by_curve(cold.pressure, cold.velocity, cold.temperature);
+  ContactModel half = scene.model;  // of the tolerance, the other half is the temperature's
+  half.rtol /= 2;
+  const HeatScene halved{scene.spectrum, scene.surface, scene.rubber,          scene.shift,
+                         scene.heating,  half,          scene.macro_wavenumber};
+  std::vector<OneRise> found(n);
+  constexpr std::size_t block = 64;
+  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
+  std::vector<std::optional<OneTemperatureSolver>> solvers(workers);
+  in_blocks(workers, n, block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+    if (!solvers[worker]) solvers[worker].emplace(halved, branch);
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = order[k];
+      if (k == begin || begins(order, k, cold.pressure, cold.temperature)) solvers[worker]->forget();
+      const double p = cold.pressure[i], v = cold.velocity[i];
+      const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
+      at_point(p, v, [&] { found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area}); });
+    }
+  });
+  std::vector<double> hot = cold.temperature;
+  HeatNotes notes;
+  for (std::size_t i = 0; i < n; ++i) {
+    hot[i] += found[i].rise;
+    f.macro_area[i] = found[i].macro_area;
+    f.gain[i] = found[i].gain;
+    f.branches[i] = found[i].branches;
+    notes.add(notes_of(found[i].rise, cold.velocity[i], found[i].branches, found[i].macro_area, scene.heating));
+  }
+  const bool contributions = cold.contributions.has_value();
+  f.hot = friction_before_heating(scene.spectrum, scene.rubber, scene.shift, half, adhesion, cold.pressure,
+                                  cold.velocity, hot, contributions, threads, true);
+  f.hot.model_error.assign(n, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < n; ++i) f.hot.error_estimate[i] += std::fabs(found[i].slope_of_mu) * found[i].error;
+  std::ranges::move(texts(notes, scene.heating, scene.spectrum), std::back_inserter(f.hot.notes));
+  if (!contributions) return;
+  const std::size_t columns = f.hot.contributions->wavenumber.size();
+  f.temperature_profile.assign(n * columns, 0.0);
+  for (std::size_t i = 0; i < n; ++i) std::fill_n(&f.temperature_profile[i * columns], columns, hot[i]);
+}
+
 }  // namespace
 
 FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
@@ -128,7 +187,10 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                             n);
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, q_m};
-  const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
+  if (heating.model == HeatModel::one_temperature) {
+    heat_to_one_temperature(scene, adhesion, branch, threads, f);
+    return f;
+  }
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
   constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
   const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
@@ -141,8 +203,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       heed();
       const std::size_t i = order[k];
       const double p = pressure[i], v = velocity[i], t = temperature[i];
-      const bool new_curve = k == begin || pressure[order[k - 1]] != p || temperature[order[k - 1]] != t;
-      if (new_curve) solve.forget();
+      if (k == begin || begins(order, k, pressure, temperature)) solve.forget();
       if (f.hot.contributions) {
         std::vector<double> stops = f.hot.contributions->decade_edges;
         for (double& stop : stops) stop /= v;
@@ -163,11 +224,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       f.gain[i] = at.gain;
       f.branches[i] = at.branches;
       if (f.hot.contributions) add_contributions(solve, f, i);
-      const double rise = at.temperature - t;
-      notes[worker].add(
-          {rise > published_rise,
-           rise > telling_rise && v * heating.contact_diameter / 2 / diffusivity<least_peclet, at.branches> 1,
-           at.macro_area > crowded_area});
+      notes[worker].add(notes_of(at.temperature - t, v, at.branches, at.macro_area, heating));
     }
   });
   for (const HeatNotes& others : std::span(notes).subspan(1)) notes.front().add(others);

@@ -243,12 +243,11 @@ FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Vector
     tangent.take(map);
     return finished(map, cold_rise, tangent);
   }
-  // two powers tell the sign of the eigenvalue, as heat of any roughness warms all
-  const VectorXd first = map.along(cold_rise), second = map.along(first);
-  const double cold_gain = first.squaredNorm() > 0 ? first.dot(second) / first.squaredNorm() : 0;
+  // one power tells the sign of the eigenvalue, as heat of any roughness warms all
+  const double cold_gain = cold_rise.dot(map.along(cold_rise)) / cold_rise.squaredNorm();
   const bool alone = cold_gain <= 0 || one_crossing(map, point, cold_rise);
   if (alone) {
-    constexpr int passes = 10;
+    constexpr int passes = 12;
     const VectorXd start = guess.size() != 0 ? guess : (cold_rise / (1 - std::fmin(cold_gain, 0.5))).eval();
     if (const auto theta = newton(map, start, tolerance, passes, tangent)) return finished(map, *theta, tangent);
   }
@@ -299,7 +298,8 @@ double gain_of(FlashMap& map, const Tangent& tangent, double tolerance) {
     const VectorXd next = map.along(right);
     const double before = value;
     value = left.dot(next) / left.dot(right);
-    if (std::fabs(value - before) <= tolerance * std::fabs(value)) return value;
+    // between vectors of both sides it is good to a small part of what it changes
+    if (std::fabs(value - before) <= (i == 0 ? 10 : 1) * tolerance * std::fabs(value)) return value;
     right = next / next.norm();
   }
   return dominant_eigenvalue(map.jacobian(), map.rise());

@@ -24,10 +24,11 @@ struct Tangent {
   void take(FlashMap& map);
 };
 
-/// A solution of theta = F(theta), from `guess` by Newton's method where there is one, that is where heat takes from
-/// itself, or where the rise falls behind the heat all along a scan. Otherwise theta = eps F(theta) is followed along
-/// theta(q1), which finds all crossings of eps = 1. Tolerance relative to the largest rise. Leaves the map at the
-/// solution. NotConverged, or OutOfRange where there is none up to the temperature that rubber stands.
+/// A solution of theta = F(theta), from `guess` by Newton's method where there is one: where heat takes from itself,
+/// that is where the cold eigenvalue is not positive, or where eps below grows all along a scan. Otherwise theta = eps
+/// F(theta) is followed along theta(q1), which finds all crossings of eps = 1. Tolerance relative to the largest rise.
+/// Leaves the map at the solution. NotConverged, or OutOfRange where there is none up to the temperature that rubber
+/// stands.
 FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, Branch branch,
                              double tolerance, Tangent& tangent);
 

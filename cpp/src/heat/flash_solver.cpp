@@ -111,7 +111,7 @@ VectorXd FlashSolver::guess(double velocity) const {
 }
 
 HotPoint FlashSolver::operator()(const HeatPoint& point) {
-  const double rtol = scene_.model.rtol, tolerance = std::clamp(0.01 * rtol, 1e-13, 1e-5);
+  const double rtol = scene_.model.rtol, tolerance = std::clamp(0.05 * rtol, 1e-13, 1e-5);
   FlashMap* map = &map_of(level_);
   map->start(point);
   FixedPoint found = solve_fixed_point(*map, point, guess(point.velocity), branch_, tolerance, tangent_);

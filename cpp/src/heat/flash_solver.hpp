@@ -31,6 +31,9 @@ class FlashSolver {
   void set_stops(std::vector<double> stops);
   /// Forgets the point before, where a new curve begins.
   void forget();
+  /// Passes on the grid of a level, two digits more for each.
+  FlashMap& map_of(std::size_t level);
+  [[nodiscard]] bool has_level(std::size_t level) const { return level < levels_.size(); }
 
   /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
   [[nodiscard]] double temperature_at(double wavenumber) const;
@@ -46,7 +49,6 @@ class FlashSolver {
     std::unique_ptr<FlashMap> map;
     Eigen::MatrixXd up, down;  // between the level below and this one
   };
-  FlashMap& map_of(std::size_t level);
   [[nodiscard]] Eigen::VectorXd guess(double velocity) const;
   void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
 

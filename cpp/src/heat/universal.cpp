@@ -1,7 +1,7 @@
 // N(x) = int_0^1 h(w) erfcx(x sqrt w) dw. For the box, h = 1, it is M(x) = (erfcx(x) - 1 + 2 x / sqrt pi) / x^2, and
 // for the disc, by parts, N(x) = (4 / pi) int_0^1 w sqrt(1 - w^2) M(x sqrt w) dw. Since x M' = 2 (erfcx - M), Q = N -
 // x N' is 3 M - 2 erfcx for the box and the same integral over it for the disc; all integrands are positive. The disc's
-// functions are power series below x = 1/2, series in 1 / x beyond e^12.5, and Chebyshev sums in ln x between.
+// functions are power series below x = 0.04, series in 1 / x beyond e^12.5, and polynomials in ln x between.
 #include "heat/universal.hpp"
 
 #include <array>
@@ -96,58 +96,67 @@ HeatFunctions disc_far(double x) {
   return {first + second + third, 2 * first + 3 * second + 4 * third};
 }
 
-/// (1 + x) N and (1 + x) Q as Chebyshev sums in ln x, on pieces of width 1.
+/// (1 + x) N and (1 + x) Q as polynomials in ln x, on pieces of width 1/2, by way of Chebyshev sums.
 class DiscTable {
  public:
   DiscTable() {
     for (std::size_t piece = 0; piece < pieces; ++piece) {
       std::array<HeatFunctions, terms> sample{};
       for (std::size_t j = 0; j < terms; ++j) {
-        const double x = std::exp(start + static_cast<double>(piece) + 0.5 * (1 + std::cos(angle(j))));
+        const double x = std::exp(start + width * (static_cast<double>(piece) + 0.5 * (1 + std::cos(angle(j)))));
         sample[j] = disc_by_quadrature(x);
         sample[j].n *= 1 + x;
         sample[j].q *= 1 + x;
       }
+      // sum of c_k T_k as powers: T_k+1 = 2 u T_k - T_k-1
+      std::array<double, terms> now{1}, before{};
       for (std::size_t k = 0; k < terms; ++k) {
-        HeatFunctions& c = coefficient_[piece][k];
+        HeatFunctions c{};
         for (std::size_t j = 0; j < terms; ++j) {
           const double weight = (k == 0 ? 1.0 : 2.0) / terms * std::cos(static_cast<double>(k) * angle(j));
           c.n += weight * sample[j].n;
           c.q += weight * sample[j].q;
         }
+        std::array<double, terms> next{};
+        for (std::size_t m = 0; m < terms; ++m) {
+          power_[piece][m].n += c.n * now[m];
+          power_[piece][m].q += c.q * now[m];
+          next[m] = (m == 0 ? 0 : (k == 0 ? 1 : 2) * now[m - 1]) - before[m];
+        }
+        before = now;
+        now = next;
       }
     }
   }
 
   [[nodiscard]] HeatFunctions operator()(double x) const {
-    const double at = std::log(x) - start;
+    const double at = (std::log(x) - start) / width;
     const auto piece = static_cast<std::size_t>(std::fmin(std::fmax(at, 0), pieces - 1));
-    const double u = 2 * (at - static_cast<double>(piece)) - 1;
-    HeatFunctions now{0, 0}, before{0, 0};  // Clenshaw's sums
-    for (std::size_t k = terms - 1; k > 0; --k) {
-      const HeatFunctions& c = coefficient_[piece][k];
-      const HeatFunctions next{2 * u * now.n - before.n + c.n, 2 * u * now.q - before.q + c.q};
-      before = now;
-      now = next;
+    const double u = 2 * (at - static_cast<double>(piece)) - 1, square = u * u;
+    const auto& power = power_[piece];
+    HeatFunctions even{0, 0}, odd{0, 0};
+    for (std::size_t m = terms; m > 0; m -= 2) {
+      odd = {odd.n * square + power[m - 1].n, odd.q * square + power[m - 1].q};
+      even = {even.n * square + power[m - 2].n, even.q * square + power[m - 2].q};
     }
-    const HeatFunctions& c = coefficient_[piece][0];
-    return {(u * now.n - before.n + c.n) / (1 + x), (u * now.q - before.q + c.q) / (1 + x)};
+    const double scale = 1 / (1 + x);
+    return {(even.n + u * odd.n) * scale, (even.q + u * odd.q) * scale};
   }
 
-  static constexpr double start = -0.75;
-  static constexpr std::size_t pieces = 14, terms = 20;
+  static constexpr double start = -3.25, width = 0.5;
+  static constexpr std::size_t pieces = 32, terms = 18;
 
  private:
   static double angle(std::size_t j) { return pi * (static_cast<double>(j) + 0.5) / terms; }
-  std::array<std::array<HeatFunctions, terms>, pieces> coefficient_{};
+  std::array<std::array<HeatFunctions, terms>, pieces> power_{};
 };
 
 }  // namespace
 
 HeatFunctions heat_functions(Residence residence, double x) {
   if (residence == Residence::box) return box(x);
-  if (x < 0.5) return disc_near_zero(x);
-  if (x > 2.7e5) return disc_far(x);  // ln x = 12.5
+  if (x < 0.04) return disc_near_zero(x);  // ln x = -3.22
+  if (x > 2.7e5) return disc_far(x);       // ln x = 12.5
   static const DiscTable table;
   return table(x);
 }

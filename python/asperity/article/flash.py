@@ -8,6 +8,7 @@ import numpy as np
 from asperity.article.compounds import C1, C2, CELSIUS, ROOM, T_G, compound
 from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE
 from asperity.article.readings import Array
+from asperity.correction import Correction
 from asperity.friction import Friction, friction
 from asperity.heating import Heating
 from asperity.shift_factors import WLF
@@ -23,8 +24,13 @@ TREAD = Heating(
 )
 
 
-def heated(surfaces: Mapping[str, SelfAffineSpectrum], velocity: Array) -> Mapping[str, Friction]:
-    """The original theory with the heat of sliding, by cut-off; `.cold` is without it."""
+def heated(
+    surfaces: Mapping[str, SelfAffineSpectrum],
+    velocity: Array,
+    correction: Correction | None = None,
+) -> Mapping[str, Friction]:
+    """Friction with the heat of sliding, by cut-off; `.cold` is without it. The original theory
+    unless there is a correction."""
     law = WLF(c1=C1, c2=C2, reference_temperature=T_G["B"] + CELSIUS)
     return {
         name: friction(
@@ -32,6 +38,7 @@ def heated(surfaces: Mapping[str, SelfAffineSpectrum], velocity: Array) -> Mappi
             compound(T_G["B"], T_G["B"]),
             pressure=ASPHALT_PRESSURE,
             velocity=velocity,
+            correction=correction,
             adhesion=ADHESION,
             temperature=ROOM + CELSIUS,
             shift=law,

@@ -112,7 +112,8 @@ def _at(values: Array, velocity: Sequence[float]) -> Array:
 def fig15(inputs: Inputs) -> dict[str, bytes]:
     """The original theory and the modified one."""
     figure, panels = new_figure(2)
-    found, hot = compute(inputs), heated(_surfaces(inputs), _VELOCITY)
+    found = compute(inputs)
+    hot = _hot_theories(inputs)
     curves = found[_CUTOFFS[0]]
     theories = {"original": "(a) original theory", "implicit": "(b) modified, IGW"}
     for axes, (name, title) in zip(panels, theories.items(), strict=True):
@@ -122,14 +123,8 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
             ("adhesion", curves[name].adhesion, "--", palette()[4]),
         ):
             axes.plot(_VELOCITY, values, dash, color=colour, label=label)
-        if name == "original":
-            axes.plot(
-                _VELOCITY,
-                hot[_CUTOFFS[0]].mu,
-                ":",
-                color=palette()[0],
-                label="total, with flash heat",
-            )
+        heat = hot[name][_CUTOFFS[0]].mu
+        axes.plot(_VELOCITY, heat, ":", color=palette()[0], label="total, with flash heat")
         axes.text(
             0.03,
             0.96,
@@ -156,7 +151,7 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
                 "cutoff": cutoff,
                 "velocity_m_s": _VELOCITY,
                 **{value: getattr(theories[which], value) for value in _VALUES},
-                **(hot_columns(hot[cutoff]) if which == "original" else {}),
+                **hot_columns(hot[which][cutoff]),
             }
             for cutoff, theories in found.items()
             for which in names
@@ -243,14 +238,26 @@ def _frictions(curves: Mapping[str, Mapping[str, Friction]]) -> list[_Row]:
     return rows
 
 
+def _hot_theories(inputs: Inputs) -> dict[str, Mapping[str, Friction]]:
+    """The original theory and IGW in both readings with the heat of sliding, by cut-off."""
+    corrections = {"original": None} | {name: _of_asphalt(inputs, name) for name in READINGS}
+    return {
+        name: heated(_surfaces(inputs), _VELOCITY, correction)
+        for name, correction in corrections.items()
+    }
+
+
 def _hot_rows(inputs: Inputs) -> list[_Row]:
     rows: list[_Row] = []
-    for cutoff, hot in heated(_surfaces(inputs), _VELOCITY).items():
+    theories = _hot_theories(inputs)
+    for cutoff, hot in theories["original"].items():
         source = f"cut off at {cutoff}"
-        risen = rise(hot)
-        for v, mu, kelvin in zip(_LISTED, _at(hot.mu, _LISTED), _at(risen, _LISTED), strict=True):
-            rows.append((f"friction at {v:g} m/s, original, flash heat", r"$\mu$", mu, "-", source))
-            rows.append(
-                (f"rise at {v:g} m/s, original, flash heat", r"$T(q_1) - T_0$", kelvin, "K", source)
-            )
+        both = (("original", hot), ("modified", theories["implicit"][cutoff]))
+        for name, of in both:
+            for v, mu in zip(_LISTED, _at(of.mu, _LISTED).tolist(), strict=True):
+                rows.append(
+                    (f"friction at {v:g} m/s, {name}, flash heat", r"$\mu$", mu, "-", source)
+                )
+        for v, kelvin in zip(_LISTED, _at(rise(hot), _LISTED).tolist(), strict=True):
+            rows.append((f"rise at {v:g} m/s, original", r"$T(q_1) - T_0$", kelvin, "K", source))
     return rows

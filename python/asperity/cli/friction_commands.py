@@ -27,8 +27,9 @@ from asperity.plot import friction as plot_friction
 from asperity.plot import surface as plot_surface
 from asperity.plot.style import drawn_in
 from asperity.scene import scan
+from asperity.scene.model import COLUMNS, Curves, Progress, Scene
 from asperity.scene.scan import read_filled, surface_spectrum
-from asperity.scene.scene import COLUMNS, Curves, Progress, Scene, load_scene
+from asperity.scene.scene import load_scene
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap

@@ -21,8 +21,9 @@ from asperity.io.files import write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in
+from asperity.scene.model import Scene
 from asperity.scene.rubber import stiffest
-from asperity.scene.scene import Scene, load_scene
+from asperity.scene.scene import load_scene
 
 _RTOL = 1e-4
 _TRUTH = 1e-9  # rtol of what a picture compares the map with

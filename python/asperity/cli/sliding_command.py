@@ -16,7 +16,8 @@ from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.plot import curves as plot
 from asperity.plot.style import drawn_in
-from asperity.scene.scene import Scene, load_scene
+from asperity.scene.model import Scene
+from asperity.scene.scene import load_scene
 from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 from asperity.surface import HeightMap

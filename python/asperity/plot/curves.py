@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.plot.labels import MOST_NAMED, legend_inside, name_curves
 from asperity.plot.style import colours, grey, narrow, palette, shades
-from asperity.scene.scene import Scene
+from asperity.scene.model import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

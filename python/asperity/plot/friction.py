@@ -22,7 +22,7 @@ from asperity.plot.curves import (
 )
 from asperity.plot.labels import legend_beside
 from asperity.plot.style import colours, grey, shades
-from asperity.scene.scene import Curves, Scene
+from asperity.scene.model import Curves, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,7 +14,7 @@ from asperity._core import InvalidInput, NotConverged
 from asperity.adhesion import AdhesionFit, fit_adhesion
 from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
-from asperity.scene.scene import Curves, Progress, Scene
+from asperity.scene.model import Curves, Progress, Scene
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.draws import Generator
 

@@ -74,6 +74,7 @@ _HEATING = {
     "macro_area": Field(number, "macro_area"),
     "residence": Field(text, "residence"),
     "interface_share": Field(number, "interface_share"),
+    "model": Field(text, "model"),
 }
 HEATING_NAMES = names_of("heating", _HEATING)
 

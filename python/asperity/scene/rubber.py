@@ -5,7 +5,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -28,11 +27,20 @@ from asperity.io.fields import (
     texts,
     truth,
 )
-from asperity.io.read_dma import read_isotherms, read_shift_factors
+from asperity.io.read_dma import read_isotherms
 from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, Rubber
-from asperity.shift_factors import WLF, ShiftFactors, TemperatureShift
+from asperity.scene.shift import (
+    BUILD,
+    TEMPERATURE,
+    WLF_KEYS,
+    Values,
+    shift_factor,
+    shift_of,
+    shift_table,
+)
+from asperity.shift_factors import TemperatureShift
 from asperity.uncertainty.draws import (
     Drawn,
     Generator,
@@ -41,7 +49,6 @@ from asperity.uncertainty.draws import (
     drawn_shifted,
 )
 
-Values = dict[str, Any]
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
 _PRONY = {
@@ -56,18 +63,7 @@ _DMA = {
     "poisson_ratio": Field(number, "poisson_ratio"),
     "temperatures": Field(numbers, "temperatures"),
 }
-_BUILD = {
-    "reference_temperature_k": Field(number, "reference_temperature", plausible.TEMPERATURE),
-    "reference_temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
-    "vertical_shift": Field(text, "vertical_shift"),
-}
 _PRONY_FIT = {"prony": Field(truth)}
-_TEMPERATURE = {
-    "temperature_k": Field(number, "temperature", plausible.TEMPERATURE),
-    "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
-    "shift": Field(file_name),
-}
-_WLF = {"wlf_c1": Field(number, "c1"), "wlf_c2_k": Field(number, "c2")}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
 _CELSIUS = 273.15
 _RUBBER = {
@@ -75,17 +71,17 @@ _RUBBER = {
     "master_curve": Field(file_name),
     "isotherms": Field(file_names),
     **_DMA,
-    **_BUILD,
-    **_TEMPERATURE,
-    **_WLF,
+    **BUILD,
+    **TEMPERATURE,
+    **WLF_KEYS,
     **_PRONY_FIT,
     "extrapolation": Field(text, "extrapolation"),
 }
 # which keys go with which source of the modulus
 _WITH = {
-    "isotherms": {*_DMA, *_BUILD, *_TEMPERATURE, *_PRONY_FIT, "extrapolation"},
-    "master_curve": {*_TEMPERATURE, *_REFERENCE, *_WLF, "extrapolation"},
-    "": {*_PRONY, *_TEMPERATURE, *_REFERENCE, *_WLF},
+    "isotherms": {*_DMA, *BUILD, *TEMPERATURE, *_PRONY_FIT, "extrapolation"},
+    "master_curve": {*TEMPERATURE, *_REFERENCE, *WLF_KEYS, "extrapolation"},
+    "": {*_PRONY, *TEMPERATURE, *_REFERENCE, *WLF_KEYS},
 }
 
 
@@ -142,7 +138,7 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
             rubber = PronySeries(**arguments(values, _PRONY))
         where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
         plausible.check(where, stiffest(rubber), plausible.MODULUS)
-    shifts = _shifts(path, values)
+    shifts = shift_of(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:
@@ -150,7 +146,7 @@ def _build(path: Path, source: str, values: Values) -> BuiltRubber:
                 refuse(path, f"[rubber] {key}", problem)
         return _without_errors(rubber, values)
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: shift holds a_T of several")
-    shifted = rubber.shifted(_shift_factor(path, shifts, values))
+    shifted = rubber.shifted(shift_factor(path, shifts, values))
     return replace(
         _without_errors(shifted, values),
         shift=shifts,
@@ -217,12 +213,12 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
     with rename_in_errors(
-        path, {**names_of("rubber", {**_BUILD, **_RUBBER}), "isotherms": "isotherms"}
+        path, {**names_of("rubber", {**BUILD, **_RUBBER}), "isotherms": "isotherms"}
     ):
         build = build_master_curve(
             isotherms,
-            **arguments(values, _BUILD),
-            shift_factors=_shift_table(path, values),
+            **arguments(values, BUILD),
+            shift_factors=shift_table(path, values),
             smooth=True,
             extrapolation=None if fitted else extrapolation,
         )
@@ -251,7 +247,7 @@ def _at_temperature(
     path: Path, values: Values, build: MasterCurveBuild, beyond: str | None
 ) -> tuple[Rubber, Sequence[str]]:
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
-    curve = build.master_curve.shifted(_shift_factor(path, build, values))
+    curve = build.master_curve.shifted(shift_factor(path, build, values))
     if values.get("vertical_shift") == "T/T_ref":
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
@@ -269,54 +265,6 @@ def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
         loss_modulus=b_t * curve.loss_modulus,
         extrapolation=curve.extrapolation,
     )
-
-
-def _shifts(path: Path, values: Values) -> ShiftFactors | WLF | None:
-    """a_T(T), from a file or from the constants of a law."""
-    constants = [key for key in _WLF if key in values]
-    if not constants:
-        return _shift_table(path, values)
-    if "shift" in values:
-        refuse(path, f"[rubber] {constants[0]}", "must be left out where shift is given")
-    require(path, "rubber", values, tuple(_WLF), "the law of a_T has two constants")
-    hint = "or reference_temperature_c, at which a_T is 1"
-    require(path, "rubber", values, ("reference_temperature_k",), hint)
-    with rename_in_errors(path, names_of("rubber", {**_WLF, **_BUILD})):
-        reference = values["reference_temperature_k"]
-        return WLF(reference_temperature=reference, **arguments(values, _WLF))
-
-
-def _shift_table(path: Path, values: Values) -> ShiftFactors | None:
-    if "shift" not in values:
-        return None
-    require(
-        path,
-        "rubber",
-        values,
-        ("reference_temperature_k",),
-        "or reference_temperature_c, at which a_T is 1",
-    )
-    reference = values["reference_temperature_k"]
-    with rename_in_errors(path, names_of("rubber", _BUILD)):
-        file = path.parent / values["shift"]
-        return read_shift_factors(file, reference_temperature=reference)
-
-
-def _shift_factor(
-    path: Path, shifts: ShiftFactors | MasterCurveBuild | WLF, values: Values
-) -> float:
-    """a_T at the scene's temperature."""
-    if values["temperature_k"] == values.get("reference_temperature_k"):
-        return 1.0
-    with rename_in_errors(path, names_of("rubber", _TEMPERATURE)):
-        at = values["temperature_k"]
-        if isinstance(shifts, WLF):
-            a_t = float(10 ** shifts.log10_a_T(at))
-        else:
-            a_t = float(shifts.shift_factor(at))
-        if not 0 < a_t < float("inf"):
-            raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
-        return a_t
 
 
 def quiet_prony(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.rubber import PronySeries
-from asperity.scene.scene import Progress
+from asperity.scene.model import Progress
 from asperity.surface import HeightMap
 from asperity.validation.sliding import slide
 

@@ -18,7 +18,7 @@ from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import colours, grey
 from asperity.rubber import Rubber
-from asperity.scene.scene import Progress
+from asperity.scene.model import Progress
 from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
 from asperity.validation.sliding import SlidingStep, continued, slide

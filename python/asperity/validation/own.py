@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 
 from asperity.measured_spectrum import power_spectrum
-from asperity.scene.scene import Progress
+from asperity.scene.model import Progress
 from asperity.surface import HeightMap
 from asperity.validation.boundary_elements import contact, mirrored
 from asperity.validation.contacts import Contact

@@ -154,7 +154,7 @@ def test_bar_only_on_a_terminal(
         return nullcontext(chunks)
 
     monkeypatch.setattr(tqdm, "tqdm", bar)
-    monkeypatch.setattr("asperity.scene.scene._CHUNK", 4)
+    monkeypatch.setattr("asperity.scene.model._CHUNK", 4)
     main([verb, "scene.toml"])
     assert bars == []
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)

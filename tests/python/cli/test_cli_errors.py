@@ -176,7 +176,7 @@ def test_not_converged_is_no_bad_input(
     def fail(*_: object, **__: object) -> None:
         raise asperity.NotConverged("mu = 1 with error 2,\nwhere rtol = 1e-6 was asked for")
 
-    monkeypatch.setattr("asperity.scene.scene.friction", fail)
+    monkeypatch.setattr("asperity.scene.model.friction", fail)
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 1
     line = "asperity: scene.toml: mu = 1 with error 2, where [solver] rtol = 1e-6 was asked for\n"
     assert capsys.readouterr().err == line
@@ -258,7 +258,7 @@ def test_what_stops_the_work_is_one_line(
     def stop(*_: object, **__: object) -> None:
         raise failure
 
-    monkeypatch.setattr("asperity.scene.scene.friction", stop)
+    monkeypatch.setattr("asperity.scene.model.friction", stop)
     before = names(folder)
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == status
     out, err = capsys.readouterr()

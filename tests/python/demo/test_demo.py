@@ -11,7 +11,7 @@ import pytest
 import asperity
 from asperity import demo
 from asperity.cli.main import main
-from asperity.scene.scene import Curves
+from asperity.scene.model import Curves
 
 
 @pytest.fixture(scope="module")
@@ -136,7 +136,7 @@ def test_demo_that_fails_leaves_what_was_there(
     def fail(*_: object, **__: object) -> None:
         raise asperity.NotConverged("mu = 1 with error 2")
 
-    monkeypatch.setattr("asperity.scene.scene.friction", fail)
+    monkeypatch.setattr("asperity.scene.model.friction", fail)
     assert main(["demo", "--output", str(directory), "--force"]) == 1
     line = f"asperity: {directory / 'hot.toml'}: mu = 1 with error 2\n"
     assert capsys.readouterr().err == line

@@ -9,7 +9,8 @@ import pytest
 import asperity
 from asperity.io.read_friction import MeasuredFriction
 from asperity.scene.experiment import Experiment
-from asperity.scene.scene import Scene, load_scene
+from asperity.scene.model import Scene
+from asperity.scene.scene import load_scene
 
 SCENE = """
 [surface]

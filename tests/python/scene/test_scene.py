@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.scene.scene import COLUMNS, load_scene
+from asperity.scene.model import COLUMNS
+from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
 PRONY = asperity.PronySeries(
@@ -228,7 +229,7 @@ def test_both_combined(folder: Path) -> None:
 def test_points_are_computed_in_chunks_that_change_nothing(
     folder: Path, points: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asperity.scene.scene._CHUNK", 4)
+    monkeypatch.setattr("asperity.scene.model._CHUNK", 4)
     seen: list[slice] = []
 
     def watch(chunks: list[slice]) -> nullcontext[list[slice]]:

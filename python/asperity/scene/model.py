@@ -1,0 +1,280 @@
+"""A scene as objects of the core, and what is computed of it."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.contact import contact_area, contact_notes, pressure_distribution
+from asperity.correction import Correction
+from asperity.friction import ROUGHLY, Friction, friction
+from asperity.heating import Heating
+from asperity.io.fields import (
+    names_of,
+    rename_in_errors,
+)
+from asperity.results.heat_notes import with_size_of_heat
+from asperity.rubber import Rubber
+from asperity.scene.keys import NAMES, UNCERTAINTY
+from asperity.scene.parts import (
+    HEATING_NAMES,
+)
+from asperity.scene.rubber import BuiltRubber
+from asperity.scene.surface import Surface
+from asperity.spectrum import Spectrum
+from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
+from asperity.uncertainty.draws import Drawn, ShiftedRubber
+
+COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
+_CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
+
+Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Results of a scene, arrays of shape (pressures, velocities)."""
+
+    notes: list[str]
+    mu: NDArray[np.float64]
+    hysteresis: NDArray[np.float64]
+    adhesion: NDArray[np.float64]
+    contact_area: NDArray[np.float64]
+    shift_factor: NDArray[np.float64]
+    error_estimate: NDArray[np.float64]
+    model_error: NDArray[np.float64] | None = None  # relative, of the hysteresis; NaN: unknown
+    hot_temperature: NDArray[np.float64] | None = None  # T(q1) [K], and mu without heat
+    mu_cold: NDArray[np.float64] | None = None
+    band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
+
+    def within(self, band: Bounds) -> "Curves":
+        """The same with a band on mu, and what there is to say of it."""
+        return replace(self, band=(band.lower, band.upper), notes=[*self.notes, *band.notes])
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The parts that a scene file names, as objects of the core.
+
+    `inputs` holds what was used, defaults included, by table and key; `derived` what the surface
+    turned out to be.
+    """
+
+    path: Path
+    surface: Surface
+    built_rubber: BuiltRubber
+    pressure: NDArray[np.float64]  # [Pa], shape (n,)
+    velocity: NDArray[np.float64]  # [m/s], shape (m,)
+    correction: Correction | None
+    adhesion: Adhesion | None
+    options: Mapping[str, Any]  # poisson_ratio, rtol, form, method
+    inputs: Mapping[str, Mapping[str, Any]]
+    sampling: Mapping[str, Any]  # samples, seed and level of a band
+    stated_rtol: float | None  # of [solver], None where the default holds
+    unusual: Sequence[str]  # numbers that their units make unlikely
+    temperature: float | None = None  # of [conditions] [K]
+    heating: Heating | None = None
+    others: Sequence["Scene"] = ()  # the same at the further temperatures of a list
+
+    @property
+    def spectrum(self) -> Spectrum:
+        return self.surface.spectrum
+
+    @property
+    def rubber(self) -> Rubber:
+        return self.built_rubber.rubber
+
+    @property
+    def notes(self) -> list[str]:
+        """What the inputs give to note, before anything is computed."""
+        return [*self.unusual, *self.surface.notes, *self.built_rubber.notes]
+
+    @property
+    def derived(self) -> Mapping[str, Any]:
+        return self.surface.derived
+
+    @property
+    def sources(self) -> list[Path]:
+        """The scene file and the files that it names."""
+        rubber = self.inputs["rubber"]
+        names = [self.inputs["surface"].get("file"), rubber.get("master_curve")]
+        names += [rubber.get("shift"), *rubber.get("isotherms", [])]
+        return [self.path, *(self.path.parent / name for name in names if name is not None)]
+
+    @property
+    def points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Every pressure with every velocity, flat; a pressure's velocities side by side."""
+        pressure, velocity = np.meshgrid(self.pressure, self.velocity, indexing="ij")
+        return pressure.ravel(), velocity.ravel()
+
+    def friction(self, progress: Progress = nullcontext) -> Curves:
+        """Friction at every pressure and velocity; `progress` sees the chunks of points."""
+        compute = partial(friction, adhesion=self.adhesion, **self.options)
+        if self.heating is not None:
+            compute = partial(
+                compute,
+                temperature=self.temperature,
+                shift=self.built_rubber.shift,
+                heating=self.heating,
+            )
+        parts: list[Friction] = self._at_points(compute, progress)
+        shape = (self.pressure.size, self.velocity.size)
+        found = dict.fromkeys(note for part in parts for note in part.notes)
+        notes = dict.fromkeys([*self.notes, *self._with_size_of_heat([*found])])
+        columns = {
+            name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
+            for name in (*COLUMNS, "model_error")
+        }
+        if self.heating is not None:
+            columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])
+            columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
+            columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
+        return Curves(notes=list(notes), band=None, **columns)
+
+    def _with_size_of_heat(self, notes: Sequence[str]) -> Sequence[str]:
+        """Let the note on heat that is left out say how much that is, where a_T is known."""
+        built = self.built_rubber
+        shift, rubber, temperature = built.shift, built.at_reference, built.temperature
+        if shift is None or rubber is None or temperature is None:
+            return notes
+        pressure, velocity = self.points
+
+        def heated_at(i: int, heating: Heating) -> Friction:
+            return friction(
+                self.spectrum,
+                rubber,
+                pressure=pressure[i],
+                velocity=velocity[i],
+                temperature=temperature,
+                shift=shift,
+                heating=heating,
+                correction=self.correction,
+                adhesion=self.adhesion,
+                **{**self.options, "rtol": ROUGHLY},
+            )
+
+        return with_size_of_heat(notes, velocity, self.adhesion is not None, heated_at)
+
+    def rise_over_roughness(
+        self, velocity: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Wavenumbers [1/m], and T(q) - T0 [K] there at each velocity and the first pressure."""
+        built = self.built_rubber
+        assert built.at_reference is not None
+        found = friction(
+            self.spectrum,
+            built.at_reference,
+            pressure=self.pressure[0],
+            velocity=velocity,
+            temperature=self.temperature,
+            shift=built.shift,
+            heating=self.heating,
+            correction=self.correction,
+            adhesion=self.adhesion,
+            contributions=True,
+            **{**self.options, "rtol": ROUGHLY},
+        )
+        return _known(found.wavenumber), _known(found.temperature_profile) - self.temperature
+
+    @property
+    def asks_for_band(self) -> bool:
+        return "uncertainty" in self.inputs
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether standard errors of the surface, the rubber or the adhesion are known."""
+        return self.has_measured_errors or isinstance(self.adhesion, AdhesionFit)
+
+    @property
+    def has_measured_errors(self) -> bool:
+        """Whether those of the surface or of the rubber are."""
+        return self.surface.drawn.draw is not None or self.built_rubber.drawn.draw is not None
+
+    def band(
+        self,
+        mu: NDArray[np.float64],
+        progress: Progress = nullcontext,
+        refit: DrawAdhesion | None = None,
+    ) -> Bounds:
+        """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
+        options = {name: self.options[name] for name in ("poisson_ratio", "form")}
+        options["correction"] = self.correction
+        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
+        if self.heating is not None:
+            options |= {"temperature": self.temperature, "heating": self.heating}
+            rubber = _known(self.built_rubber.drawn_at_reference)
+        with rename_in_errors(self.path, {**NAMES, **names_of("uncertainty", UNCERTAINTY)}):
+            band = swept_band(
+                self.surface.drawn,
+                rubber,
+                self.adhesion,
+                self.pressure,
+                self.velocity,
+                options,
+                progress=progress,
+                refit=refit,
+                **self.sampling,
+            )
+        return Bounds(mu * band.lower, mu * band.upper, band.notes)
+
+    def contact_area(
+        self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext
+    ) -> NDArray[np.float64]:
+        """A/A0 of shape (pressures, velocities, wavenumbers); `progress` as in `friction`."""
+        compute = partial(contact_area, wavenumber=wavenumber, **self.options)
+        parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
+        return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
+
+    def contact_notes(self) -> list[str]:
+        """Where the theory leaves its range at some of the points."""
+        compute = partial(contact_notes, **self.options)
+        parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
+        notes = dict.fromkeys(self.notes)
+        return list(notes | dict.fromkeys(note for part in parts for note in part))
+
+    def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
+        """What the core's `compute` gives for each chunk of the points."""
+        pressure, velocity = self.points
+        chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
+        rubber = self.built_rubber.at_reference if self.heating else self.rubber
+        names = NAMES | (HEATING_NAMES if self.heating else {})
+        with progress(chunks) as shown, rename_in_errors(self.path, names):
+            return [
+                compute(
+                    self.spectrum,
+                    rubber,
+                    pressure=pressure[chunk],
+                    velocity=velocity[chunk],
+                    correction=self.correction,
+                )
+                for chunk in shown
+            ]
+
+    def pressure_distribution(
+        self, stress: NDArray[np.float64], wavenumber: float
+    ) -> NDArray[np.float64]:
+        """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
+        options = {key: value for key, value in self.options.items() if key != "form"}
+        with rename_in_errors(self.path, NAMES):
+            density: NDArray[np.float64] = pressure_distribution(
+                stress,
+                self.spectrum,
+                self.rubber,
+                pressure=self.pressure[0],
+                velocity=self.velocity[0],
+                wavenumber=wavenumber,
+                correction=self.correction,
+                **options,
+            )
+        return density
+
+
+def _known(one: Any) -> Any:
+    assert one is not None
+    return one

@@ -1,0 +1,82 @@
+"""Shift factors of a scene's rubber: from a file, or by the constants of a law."""
+
+from pathlib import Path
+from typing import Any
+
+from asperity._core import InvalidInput
+from asperity.dma import MasterCurveBuild
+from asperity.io import plausible
+from asperity.io.fields import (
+    Field,
+    arguments,
+    file_name,
+    names_of,
+    number,
+    refuse,
+    rename_in_errors,
+    require,
+    text,
+)
+from asperity.io.read_dma import read_shift_factors
+from asperity.shift_factors import WLF, ShiftFactors
+
+Values = dict[str, Any]
+BUILD = {
+    "reference_temperature_k": Field(number, "reference_temperature", plausible.TEMPERATURE),
+    "reference_temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
+    "vertical_shift": Field(text, "vertical_shift"),
+}
+TEMPERATURE = {
+    "temperature_k": Field(number, "temperature", plausible.TEMPERATURE),
+    "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
+    "shift": Field(file_name),
+}
+WLF_KEYS = {"wlf_c1": Field(number, "c1"), "wlf_c2_k": Field(number, "c2")}
+
+
+def shift_of(path: Path, values: Values) -> ShiftFactors | WLF | None:
+    """a_T(T), from a file or from the constants of a law."""
+    constants = [key for key in WLF_KEYS if key in values]
+    if not constants:
+        return shift_table(path, values)
+    if "shift" in values:
+        refuse(path, f"[rubber] {constants[0]}", "must be left out where shift is given")
+    require(path, "rubber", values, tuple(WLF_KEYS), "the law of a_T has two constants")
+    hint = "or reference_temperature_c, at which a_T is 1"
+    require(path, "rubber", values, ("reference_temperature_k",), hint)
+    with rename_in_errors(path, names_of("rubber", {**WLF_KEYS, **BUILD})):
+        reference = values["reference_temperature_k"]
+        return WLF(reference_temperature=reference, **arguments(values, WLF_KEYS))
+
+
+def shift_table(path: Path, values: Values) -> ShiftFactors | None:
+    if "shift" not in values:
+        return None
+    require(
+        path,
+        "rubber",
+        values,
+        ("reference_temperature_k",),
+        "or reference_temperature_c, at which a_T is 1",
+    )
+    reference = values["reference_temperature_k"]
+    with rename_in_errors(path, names_of("rubber", BUILD)):
+        file = path.parent / values["shift"]
+        return read_shift_factors(file, reference_temperature=reference)
+
+
+def shift_factor(
+    path: Path, shifts: ShiftFactors | MasterCurveBuild | WLF, values: Values
+) -> float:
+    """a_T at the scene's temperature."""
+    if values["temperature_k"] == values.get("reference_temperature_k"):
+        return 1.0
+    with rename_in_errors(path, names_of("rubber", TEMPERATURE)):
+        at = values["temperature_k"]
+        if isinstance(shifts, WLF):
+            a_t = float(10 ** shifts.log10_a_T(at))
+        else:
+            a_t = float(shifts.shift_factor(at))
+        if not 0 < a_t < float("inf"):
+            raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
+        return a_t
