@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib
 
 HERE = Path(__file__).parent
-PICTURES = {"mu.png": "examples/plot_13_hot_and_cold.py"}
+PICTURES = {"mu.png": "examples/plot_14_hot_and_cold.py"}
 
 
 def main() -> None:

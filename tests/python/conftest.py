@@ -1,15 +1,14 @@
 """Reference tables, each row with its own tolerance, and a folder to run the shell command in."""
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import asperity
-from helpers import made_files, scenes
-from helpers.measured import present
+from helpers import made_files, made_sweeps, measured, scenes
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 LISTS = {
@@ -93,11 +92,24 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of files as instruments write them."""
     folder = tmp_path_factory.mktemp("made")
     made_files.write_scans(folder)
+    made_sweeps.write_sweeps(folder)
     return folder
+
+
+@pytest.fixture(params=measured.SOURCES)
+def source(request: pytest.FixtureRequest, made: Path) -> Iterator[str]:
+    """Each test once with made files, and once with measured ones where there are any."""
+    with measured.files_from(made if request.param == "made" else None):
+        yield request.param
 
 
 @pytest.fixture
 def file_of(made: Path) -> Callable[[str, str], Path]:
     """A scan of a source, made or measured; the test skips where SurfaceTopography is absent."""
     pytest.importorskip("SurfaceTopography", reason="reading it needs asperity[io]")
-    return lambda source, name: made / name if source == "made" else present("topography", name)
+
+    def file(source: str, name: str) -> Path:
+        with measured.files_from(made if source == "made" else None):
+            return measured.present("topography", name)
+
+    return file

@@ -58,7 +58,9 @@ def found_in(text):
 @pytest.mark.parametrize(
     ("name", "follows", "residual"), [("material_a", True, 0.021), ("epdm_70", False, 0.135)]
 )
-def test_measured_set_to_a_table_that_a_scene_can_use(tmp_path, capsys, name, follows, residual):
+def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
+    tmp_path, capsys, name, follows, residual, source
+):
     pytest.importorskip("matplotlib")
     file, table, picture = (
         present("dma", name, "tf_015p.csv"),
@@ -72,7 +74,9 @@ def test_measured_set_to_a_table_that_a_scene_can_use(tmp_path, capsys, name, fo
     assert ("note: the shift factors follow WLF" in err) == follows
     assert ("note: the shift factors do not follow WLF" in err) == (not follows)
     found = found_in(err)
-    assert found["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
+    if source == "measured":
+        assert found["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
+    assert (found["wlf_residual_decades"] < 0.05) == follows
     assert found["prony_storage_residual"] < 0.03
     assert picture.read_bytes().startswith(b"\x89PNG")
     curve = read_master_curve(table, None)
@@ -88,7 +92,7 @@ def test_measured_set_to_a_table_that_a_scene_can_use(tmp_path, capsys, name, fo
     assert (mu < 5).all()
 
 
-def test_files_of_one_temperature_each(tmp_path, capsys):
+def test_files_of_one_temperature_each(tmp_path, capsys, source):
     files = sorted(map(str, present("dma", "reptate_pi1000k").glob("*.osc")))
     melt = [*flags(POLYISOPRENE["columns"], POLYISOPRENE["units"]), "--modulus", "G"]
     options = ["--vertical-shift", "T/T_ref", "--reference-temperature", "273.15", "--json"]
@@ -97,7 +101,9 @@ def test_files_of_one_temperature_each(tmp_path, capsys):
     assert "note: the shift factors follow WLF" in err
     found = found_in(err)
     assert found["reference_temperature_k"] == 273.15
-    assert found["wlf_c1"] == pytest.approx(5.8, abs=0.1)
+    # by the published law B1 / (B2 + 0 C) is 6.05, less what b_T leaves to the density
+    c1 = {"made": 6.05, "measured": 5.8}[source]
+    assert found["wlf_c1"] == pytest.approx(c1, abs=0.1)
     assert json.loads(out)["columns"]["storage_modulus_pa"]
 
 

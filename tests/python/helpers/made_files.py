@@ -84,6 +84,7 @@ def heights_of(name: str) -> Heights:
 
 
 def write_scans(folder: Path) -> None:
-    """All FILES in a folder."""
+    """All FILES, in topography."""
+    (folder / "topography").mkdir()
     for name in FILES:
-        (folder / name).write_bytes(_WRITERS[Path(name).suffix](heights_of(name)))
+        (folder / "topography" / name).write_bytes(_WRITERS[Path(name).suffix](heights_of(name)))

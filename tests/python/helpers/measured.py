@@ -1,6 +1,7 @@
-"""Measured files that are not in the repository, and what is made of them."""
+"""Files of instruments, made, or measured and not in the repository; what is built of them."""
 
 import os
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from asperity import build_master_curve, read_isotherms
 from helpers import made_files
+from helpers.made_sweeps import B1, B2
 
 COLUMNS = {"frequency": "freq_hz", "temperature": "temperature_C"}
 COLUMNS |= {"storage": "G_storage_pa", "loss": "G_loss_pa"}
@@ -17,14 +19,13 @@ POLYISOPRENE = {
     "units": {"frequency": "rad/s", "temperature": "C", "modulus": "Pa"},
     "modulus": "G",
 }
-# log10 a_T = -B1 (T - T_r) / ((B2 + T_r) (B2 + T)), T in C: RepTate (jorge-ramirez-upm/RepTate),
-# polyisoprene of RepTate/tools/CreateMaterialsDatabaseFile.py, the law in theories/TheoryWLF.py;
-# b_T has the density, proportional to 1 / (1 + alpha T)
-B1, B2, ALPHA = 691.6245, 114.3, 10**-3.2147
 
 
 # measured files go through the same tests as made ones, where there are any
 SOURCES = ("made", "measured") if os.environ.get("ASPERITY_DATA") else ("made",)
+
+
+_folders = [None]
 
 
 def scans_of(measured):
@@ -33,9 +34,19 @@ def scans_of(measured):
     return pairs + [("measured", name) for name in measured if "measured" in SOURCES]
 
 
+@contextmanager
+def files_from(folder):
+    """Let `present` look into a folder of made files, or into ASPERITY_DATA where it is None."""
+    _folders.append(folder)
+    try:
+        yield
+    finally:
+        _folders.pop()
+
+
 def present(*parts):
-    """A measured file or folder of ASPERITY_DATA; the test skips where it is absent."""
-    name, folder = "/".join(parts), os.environ.get("ASPERITY_DATA")
+    """A file or folder of a source; the test skips where it is absent."""
+    name, folder = "/".join(parts), _folders[-1] or os.environ.get("ASPERITY_DATA")
     if not folder or not Path(folder, name).exists():
         pytest.skip(f"set ASPERITY_DATA to a folder with {name}")
     return Path(folder, name).resolve()

@@ -128,8 +128,8 @@ def test_scans_of_instruments(source, name, file_of):
     asperity.read_surface(file_of(source, name))
 
 
-@pytest.mark.usefixtures("silent")
-def test_measured_rubbers():
+@pytest.mark.usefixtures("silent", "source")
+def test_sweeps_of_instruments():
     for name in ("epdm_70", "material_a"):
         frequency = {"columns": COLUMNS, "units": UNITS, "modulus": "G"}
         asperity.read_isotherms(present("dma", name, "tf_015p.csv"), **frequency)
