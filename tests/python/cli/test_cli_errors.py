@@ -271,10 +271,10 @@ def test_what_stops_the_work_is_one_line(
 INTERRUPTED = """
 import os, signal, sys, threading
 from asperity.cli.main import main
-from asperity.scene import scene
+from asperity.scene import model
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-running, compute, begun = threading.Event(), scene.friction, []
+running, compute, begun = threading.Event(), model.friction, []
 
 def friction(*parts, **conditions):
     begun.append(conditions["pressure"].size)
@@ -285,7 +285,7 @@ def interrupt():
     running.wait()
     os.kill(os.getpid(), signal.SIGINT)
 
-scene.friction, scene._CHUNK = friction, 1  # 200,000 calls, of which the first sends for the end
+model.friction, model._CHUNK = friction, 1  # 200,000 calls, of which the first sends for the end
 threading.Thread(target=interrupt, daemon=True).start()
 status = main(["friction", "long.toml", "--output", "mu.csv"])
 sys.exit(status if sum(begun) < 200_000 else "it went on to the end")

@@ -13,7 +13,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.cli.parser import parser
-from asperity.scene import parts, rubber, scene, surface
+from asperity.scene import keys, model, parts, rubber, surface
 from asperity.scene.scene import load_scene
 
 ROOT = Path(__file__).parents[3]
@@ -187,7 +187,7 @@ def test_the_page_of_scenes_has_every_key() -> None:
     page = PAGES["docs/reference/scene.md"]
     tables = [surface._SURFACE, rubber._RUBBER, parts._ADHESION, *parts._CORRECTIONS.values()]
     tables += [parts._HEATING]
-    tables += [scene._CONDITIONS, scene._SOLVER, scene._UNCERTAINTY]
+    tables += [keys.CONDITIONS, keys.SOLVER, keys.UNCERTAINTY]
     missing = {key for table in tables for key in table if f"`{key}`" not in page}
     assert missing == set()
     kinds = PAGES["docs/howto/which_correction.md"]
@@ -215,7 +215,7 @@ def test_the_reference_of_cpp_has_every_header() -> None:
 
 def test_the_page_of_tables_has_the_columns() -> None:
     page = PAGES["docs/reference/csv.md"]
-    for name in (*scene.COLUMNS, "pressure_pa", "velocity_m_s", "mu_low", "mu_high"):
+    for name in (*model.COLUMNS, "pressure_pa", "velocity_m_s", "mu_low", "mu_high"):
         assert f"`{name}`" in page, name
 
 
