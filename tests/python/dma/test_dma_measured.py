@@ -163,7 +163,8 @@ def test_friction_at_two_temperatures_of_a_measured_rubber_on_a_measured_surface
     """Time-temperature superposition: mu(v, T) = mu(a_T v, T_ref)."""
     cold, hot = mu(scene(tmp_path, 293.15)), mu(scene(tmp_path, 313.15))
     assert (cold > 0).all()
-    assert (hot < cold).all()  # below the maximum of mu(v)
+    assert (hot < cold)[: cold.argmax() + 1].all()  # below the maximum of mu(v)
+    assert cold.argmax() >= 2
     a_t = float(shear("material_a", smooth=True).shift_factor(313.15))
     assert 0.05 < a_t < 0.15
     shifted = mu(scene(tmp_path, 313.15, 293.15))

@@ -17,7 +17,7 @@ def rough(shape: tuple[int, ...], seed: int) -> Heights:
     """Heights [m] of a rough map, tilted, or of a row of one."""
     side = max(shape)
     q0 = 2 * np.pi / (side * PIXEL / 8)
-    spectrum = asperity.SelfAffineSpectrum(rms_height=2e-7, hurst=0.8, q0=q0, q1=side / 4 * q0 / 8)
+    spectrum = asperity.SelfAffineSpectrum(rms_height=5e-8, hurst=0.8, q0=q0, q1=side / 4 * q0 / 8)
     rows = shape[0] if len(shape) == 2 else 8
     made = asperity.synthesize(spectrum, shape=(rows, shape[-1]), pixel_size=PIXEL, seed=seed)
     heights = made.heights + 1e-6 * np.linspace(0, 1, shape[-1])
