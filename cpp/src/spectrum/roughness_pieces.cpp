@@ -35,9 +35,8 @@ const FewPoints four = four_points(),
 /// In y at level 0; near the foot in sqrt(y), in which functions of sqrt(G) are smooth.
 constexpr double longest = 0.12, beside_foot = 0.25;
 /// By which part of itself the window may grow along a piece, and the root of int c dy from a unit before on, of which
-/// a part of that of the next unit will do where it is small; the mean squares of what is not smooth of m and of the
-/// window, over theirs. At level 0.
-constexpr double growth = 0.3, least_growth = 0.05, roughest = 2e-6;
+/// a part of that of the next unit will do where it is small. At level 0.
+constexpr double growth = 0.3, least_growth = 0.05;
 constexpr double steepest = 1.5;  // |d ln c / dy| times the length of an atom
 
 }  // namespace
@@ -216,7 +215,7 @@ bool RoughnessPieces::smooth(const Points& p, std::size_t level) const {
   const double m = (p.m_lower + p.m_upper) / 2, window = p.window[p.window.size() / 2];
   const auto [least, largest] = std::ranges::minmax(p.window);
   if (largest - least > growth * std::pow(0.5, static_cast<double>(level)) * window) return false;
-  const double most = roughest * std::pow(0.5, 4 * static_cast<double>(level));
+  const double most = roughest(level);
   return rest(of, p.y, p.weight, p.m) <= most * m * m && rest(of, p.y, p.weight, p.window) <= most * window * window;
 }
 

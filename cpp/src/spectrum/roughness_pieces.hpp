@@ -18,6 +18,10 @@ namespace asperity {
 class RoughnessPieces {
  public:
   static constexpr std::size_t levels = 4;
+  /// What pieces have of the mean squares of what is not smooth of m and of the window, over theirs, at most.
+  static constexpr double roughest(std::size_t level) {
+    return 2e-6 / static_cast<double>(std::size_t{1} << (4 * level));
+  }
   /// `level` from 0 on; on each next one the pieces are halves of those before, or less. The surface must outlive it.
   RoughnessPieces(std::span<const Segment> surface, std::size_t level);
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double for_tail = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
-/// the area agree by chance.
-constexpr double of_change = 0.75, of_change_with_knots = 1, of_others = 0.3;
+/// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
+constexpr double of_change = 0.75, of_change_with_knots = 1, of_others = 0.3, of_rest = 2;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;
@@ -145,7 +145,7 @@ void PartialRingSolver::solve(double pressure, double velocity) {
                   of_others * std::max({difference(root_.kappa, before.kappa), std::fabs(root_.slope - before.slope),
                                         std::fabs(root_.friction_slope - before.friction_slope)})});
     const double error = (std::holds_alternative<MasterCurve>(rubber_) ? of_change_with_knots : of_change) * change +
-                         for_tail * model_.rtol;
+                         of_rest * RoughnessPieces::roughest(number) + for_tail * model_.rtol;
     before = root_;
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;
