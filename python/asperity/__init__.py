@@ -15,11 +15,11 @@ from asperity.correction import *  # noqa: F403
 from asperity.dma import MasterCurveBuild, MasterPoints, build_master_curve
 from asperity.fmu import export_fmu
 from asperity.friction import Friction, friction
-from asperity.friction_map import FrictionMap, FrictionSlopes
+from asperity.friction_map.build import friction_map
+from asperity.friction_map.look_up import FrictionMap, FrictionSlopes
 from asperity.heating import Heating, heat_kernel
 from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
 from asperity.io.read_surface import read_surface
-from asperity.map_building import friction_map
 from asperity.measured_spectrum import (
     Anisotropy,
     SpectralDensity,

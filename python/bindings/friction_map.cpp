@@ -55,8 +55,7 @@ struct Points {
       : columns{span_of(p), span_of(v), span_of(a_T), background ? span_of(*background) : std::span<const double>{},
                 distance ? span_of(*distance) : std::span<const double>{}},
         size(0) {
-    for (const auto& column :
-         {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance})
+    for (const auto& column : {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance})
       size = std::max(size, column.size());
   }
   [[nodiscard]] static double of(std::span<const double> column, std::size_t i) {
@@ -134,8 +133,8 @@ py::tuple sliding_length_of(const FrictionMap& map, const Array& v, const std::o
   Points points(v, v, v, background, {});
   points.columns.a_T = {&one, 1};
   return rows_of<1>(points, [&](std::size_t i) {
-    return std::array{map.sliding_length(points.velocity(i), points.temperature(i, false).background,
-                                         static_cast<Outside>(outside))};
+    return std::array{
+        map.sliding_length(points.velocity(i), points.temperature(i, false).background, static_cast<Outside>(outside))};
   });
 }
 

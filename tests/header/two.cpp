@@ -21,9 +21,14 @@ int main(int count, char** arguments) {
     probe::require(c != nullptr, "the C interface loads");
     for (double p = 1.1e4; p < 1e6; p *= 1.7)
       for (double v = 1.1e-3; v < 10; v *= 1.9) {
-        const double mu = map.mu(p, v), wanted = small_map::mu(kind, p, v);
+        asperity::MapTemperature lowest;
+        lowest.background = map.info().temperature[0];
+        const double mu = map.mu(p, v, asperity::FrictionMap::Outside::nan, lowest), wanted = small_map::mu(kind, p, v);
         // some rounding of ln mu, up to 14 large; -ffast-math does what it likes with the last digits
         probe::require(std::fabs(mu - wanted) < 1e-12 * wanted, "mu");
+        const double hot = asperity_map_hot_mu(c, p, v, lowest.background, 1e300, 0);
+        probe::require(map.info().heat ? std::fabs(hot - mu) <= 1e-14 * mu : probe::is_nan(hot), "hot mu from C");
+        if (kind.temperatures > 1) continue;  // has to be asked for a temperature
         probe::require(std::fabs(elsewhere(map, p, v) - mu) <= 1e-14 * mu, "mu in another file");
         probe::require(std::fabs(asperity_map_mu(c, p, v, 1, 0) - mu) <= 1e-14 * mu, "mu from C");
       }

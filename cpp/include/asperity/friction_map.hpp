@@ -610,7 +610,7 @@ inline bool is_box(const std::array<double, 2>& sides) noexcept {
 
 /// What the head of a map with heat has more.
 struct HeatHead {
-  std::uint64_t cold = 0;  // bytes of the map without heat
+  unsigned long long cold = 0;  // bytes of the map without heat
   std::uint32_t nodes = 0, columns = 0, rows = 0;
 
   /// From a file of that many bytes; false where it contradicts itself.

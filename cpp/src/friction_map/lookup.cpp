@@ -1,5 +1,6 @@
 // The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu, on vector units.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct MapLoops {
                   std::size_t n, std::int32_t* entry);
   void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
+  void (*steps)(const double* temperature, double first, double per_kelvin, double last, std::size_t n,
+                std::int32_t* step, double* t);
   void (*warm_polynomials)(const double* cells, std::size_t cell_size, const std::int32_t* cell,
                            const std::int32_t* step, const double* x, const double* z, const double* t, std::size_t n,
                            double* h, double* a);
@@ -91,14 +94,11 @@ class FrictionMapBatch {
     if (!is_one(points.a_T) || shifts_adhesion_) return false;
     const bool only = map_.steps_ == 0 && points.background.empty();
     const auto [lowest, highest] = map_.info_.temperature;
-    if (!only && !std::all_of(background, background + n, [&](double t) { return t >= lowest && t <= highest; }))
-      return false;
-    for (std::size_t i = 0; map_.steps_ > 0 && i < n; ++i) {
-      FrictionMap::Where at;
-      map_.set_step(background[i], at);
-      step_[i] = static_cast<std::int32_t>(at.step);
-      dT_[i] = at.dT;
-    }
+    int outside = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      outside |= static_cast<int>(!(background[i] >= lowest && background[i] <= highest));
+    if (!only && outside != 0) return false;
+    if (map_.steps_ > 0) loops_.steps(background, lowest, map_.steps_per_T_, map_.steps_ - 1.0, n, step_, dT_);
     return true;
   }
 
@@ -134,16 +134,17 @@ class FrictionMapBatch {
 
   /// Adds to the hot mu at x_ the share of the cold one that is left after a distance.
   void blend_cold(const double* background, const double* distance, std::size_t n, double* mu) {
-    bool any = false;
+    FrictionMap::Where at;
+    double slope = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      FrictionMap::Where at;
       at.x = x_[i];
       at.background = background[i];
-      share_[i] = map_.remember(at, distance[i]).share;
-      any = any || share_[i] > 0;
+      share_[i] = -map_.log_sliding_length(at, slope);
       speed_[i] = map_.cold_x(at);
     }
-    if (!any) return;
+    loops_.exponentials(share_, share_, n);
+    for (std::size_t i = 0; i < n; ++i) share_[i] = std::fmax(-700, -distance[i] * share_[i]);
+    loops_.exponentials(share_, share_, n);
     find_mu(*map_.cold_, speed_, x_, n, cold_);
     for (std::size_t i = 0; i < n; ++i) mu[i] += share_[i] * (cold_[i] - mu[i]);
   }

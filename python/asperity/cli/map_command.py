@@ -15,13 +15,13 @@ from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.build import built
+from asperity.friction_map.look_up import FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
 from asperity.io.map_grid import check_export, grid_file
 from asperity.io.table import input_lines
-from asperity.map_building import built
 from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in
 from asperity.rubber import Rubber

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.look_up import FrictionMap
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.style import narrow, shades
 

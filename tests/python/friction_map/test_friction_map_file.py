@@ -196,7 +196,7 @@ def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
 
 
 def test_maps_made_before_there_was_heat_still_load():
-    """One that version 0.2.0 wrote, with what it said at random points."""
+    """One that was written before, with what it said at random points."""
     old = FrictionMap.load(HERE / "map_version_1.fmap")
     assert (old.temperature, old.memory_error, old.cold) == (None, None, None)
     rows = np.genfromtxt(HERE / "map_version_1.csv", delimiter=",", names=True)

@@ -218,7 +218,7 @@ def test_look_ups_refuse_what_would_lie(several, given):
 def test_outside_is_what_the_caller_chooses(several):
     assert np.isnan(several.mu(2e5, 0.3, temperature=310.0, outside="nan"))
     held = several.mu(2e5, 0.3, temperature=310.0, outside="clamp")
-    assert held == several.mu(2e5, 0.3, temperature=RANGE[1])
+    assert held == pytest.approx(several.mu(2e5, 0.3, temperature=RANGE[1]), rel=1e-14)
 
 
 def test_a_map_without_heat_knows_no_temperature():
@@ -226,8 +226,7 @@ def test_a_map_without_heat_knows_no_temperature():
     assert (cold.temperature, cold.cold, cold.memory_error) == (None, None, None)
     with pytest.raises(InvalidInput, match=r"temperature = 293: must be left out"):
         cold.mu(2e5, 0.3, temperature=293)
-    with pytest.raises(InvalidInput, match="sliding_length: needs a map with heat"):
-        cold.sliding_length(0.3)
+    assert cold.sliding_length(0.3) is None
     assert cold.mu(2e5, 0.3, distance=0.0) == pytest.approx(cold.mu(2e5, 0.3), rel=1e-14)
 
 

@@ -58,6 +58,7 @@ METHODS = {  # by name: classes that have the method take the same
     "cutoff_for_contamination": {"size": 1e-3},
     "cutoff_for_slope": {"slope": 1.0},
     "derivatives": AT,
+    "sliding_length": {"velocity": AT["velocity"]},
     "detrend": {"order": "plane"},
     "extended": {},
     "extrapolated_shares": {"angular_frequency": 10.0},

@@ -290,9 +290,16 @@ class FrictionMap(Table):
         temperature: ArrayLike | None = None,
         outside: Outside = "error",
     ) -> Any:
-        """Return s0 [m] of a map with heat, as `Friction.sliding_length` at a middle pressure."""
+        """Return s0 [m], as `Friction.sliding_length` at a middle pressure; None without heat."""
         if self.temperature is None:
-            raise InvalidInput("sliding_length: needs a map with heat; this one has none")
+            choice(outside, "outside", POLICIES)
+            self._check(
+                {"velocity": velocity}
+                | ({} if temperature is None else {"temperature": temperature}),
+                False,
+            )
+            real_array(velocity, "velocity")
+            return None
         middle = {"pressure": self.pressure[0], "velocity": velocity, "a_T": 1.0}
         given = middle | {"temperature": temperature, "distance": None}
         return self._query("sliding_length", given, False, outside)[0]

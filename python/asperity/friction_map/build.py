@@ -11,7 +11,7 @@ from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import MOST_THREADS, brief, number, of_kind, real_array, whole
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.look_up import FrictionMap
 from asperity.heating import Heating
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
