@@ -96,8 +96,6 @@ def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, lis
         if heated and result.hot_temperature is not None and result.mu_cold is not None:
             values["hot_temperature_k"] = result.hot_temperature.ravel()
             values["mu_cold"] = result.mu_cold.ravel()
-        if result.model_error is not None:
-            values["model_error"] = result.model_error.ravel()
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
     notes = _notes_of_all(scenes, curves)

@@ -16,11 +16,11 @@ from asperity.cli.friction_commands import check_outputs, progress, refuse_overw
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map.build import built
+from asperity.friction_map.grid import check_export, grid_file
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
-from asperity.io.map_grid import check_export, grid_file
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in

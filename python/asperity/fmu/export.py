@@ -14,7 +14,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief, choice, path_of, whole
 from asperity.fmu.description import build_description, description
 from asperity.fmu.variables import variables
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.look_up import FrictionMap
 from asperity.io.files import write_whole
 
 _MOST_POINTS = 1000000

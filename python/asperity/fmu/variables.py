@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.look_up import FrictionMap
 
 STRIDE = 32  # from point to point, where there are no arrays
 TIME = 0

@@ -19,7 +19,6 @@ from helpers.scenes import SCENE
 
 FRICTION = (
     "pressure_pa,velocity_m_s,mu,hysteresis,adhesion,contact_area,shift_factor,error_estimate"
-    ",model_error"
 )
 
 

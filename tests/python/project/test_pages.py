@@ -64,6 +64,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     np.savetxt("test.csv", columns, delimiter=",", header="velocity,mu")
     (tmp_path / "scene.toml").write_text(blocks("docs/reference/scene.md", "toml")[0])
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 0
+    assert main(["map", "scene.toml", "--output", "road.fmap", "--checked", "0"]) == 0
     return tmp_path
 
 

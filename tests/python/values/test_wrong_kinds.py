@@ -108,6 +108,7 @@ def readers(tmp_path):
         "read_surface": {"path": scan, "pixel_size": 1e-4, "unit": "m"},
         "FrictionMap.load": {"path": fmap},
         "FrictionMap.save": {"path": fmap},
+        "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
     }
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.table import imported
-from asperity.friction_map import FrictionMap
+from asperity.friction_map.look_up import FrictionMap
 
 _PRESSURES, _VELOCITIES, _TEMPERATURES = 41, 121, 9
 _PARTS = {
