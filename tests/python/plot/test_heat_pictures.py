@@ -67,8 +67,8 @@ def test_over_velocity_there_is_mu_with_its_rise_and_that_of_each_roughness(
     scene = load_scene("hot.toml", for_friction=True)
     assert fastest.get_xdata()[[0, -1]] == pytest.approx([scene.spectrum.q0, scene.spectrum.q1])
     (legend,) = [*figures[0].legends, mu.get_legend()][:1]  # beside the panels, or where room is
-    entries = [text.get_text() for text in legend.get_texts()]
-    assert entries[:3] == ["100 kPa", "300 kPa", "without heat"]
+    assert legend.get_texts()[0].get_text() == "without heat"
+    assert {text.get_text() for text in mu.texts} >= {"100 kPa", "300 kPa"}  # beside their curves
 
 
 @each("more", ["", HEATING])
