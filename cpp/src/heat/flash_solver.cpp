@@ -136,8 +136,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
     // twice both: the residual's effect is taken to first order, and the finer grid has an error too. Two grids that
-    // miss a thin front alike differ by less than they are off, by a fiftieth of the tolerance in one of 2,500 random
-    // results: never less than a thirtieth is told.
+    // miss a thin front alike differ by less than they are off: by a fiftieth of the tolerance in one of 106 random
+    // scenes, for which never less than a thirtieth is told.
     const double error = 2 * (std::fabs(mu - coarse) + std::fmax(found.mu_error, coarse_error)) +
                          (std::fmax(rtol / 30, 1e-13) + 4 * map->shift().relative_error) * mu;
     if (!(error <= rtol * mu)) continue;
