@@ -10,6 +10,7 @@
 #include <string>
 
 #include "asperity/asperities.hpp"
+#include "contact/peak_loops.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
@@ -122,35 +123,27 @@ struct PeakMoment {
 };
 
 PeakMoment peak_moment(std::span<const double> peaks, double highest, double log_depth) {
-  const double* const z = peaks.data();
-  const std::size_t n = peaks.size();
-  const double per_depth = std::exp(-log_depth);
-  double moment = 0, roots = 0;
-#pragma omp simd reduction(+ : moment, roots)
-  for (std::size_t i = 0; i < n; ++i) {
-    const double reached = 1 - (highest - z[i]) * per_depth;  // the share of the depth that a peak reaches into
-    const double share = reached > 0 ? reached : 0, root = std::sqrt(share);
-    moment += share * root;
-    roots += root;
-  }
-  return {1.5 * log_depth + std::log(moment / static_cast<double>(n)), 1.5 * roots / moment};
+  const PeakSums sums = sums_over_peaks(peaks.data(), peaks.size(), highest, std::exp(log_depth));
+  return {1.5 * log_depth + std::log(sums.moment / static_cast<double>(peaks.size())), 1.5 * sums.roots / sums.moment};
 }
 
-/// The ln depth at which the moment is `log_moment`, from above: Newton's steps, and a half of the bracket where one
-/// would leave it. The moment is nearly a power of the depth, so that five or six do.
-double log_depth_of(std::span<const double> peaks, double highest, double log_moment, double lower, double upper) {
+/// The ln depth at which the moment is `log_moment`: Newton's steps from `start`, and a half of the bracket where one
+/// would leave it or where steps do not become shorter, as they may about a crowd of peaks. The moment is nearly a
+/// power of the depth, so that four or five do.
+double log_depth_of(std::span<const double> peaks, double highest, double log_moment, double lower, double upper,
+                    double start) {
   constexpr int most_steps = 100;
-  double x = upper, before = upper - lower;
+  double x = start, last = upper - lower, before_last = last;
   for (int i = 0; i < most_steps; ++i) {
     const PeakMoment at = peak_moment(peaks, highest, x);
     const double excess = at.log - log_moment;
     (excess > 0 ? upper : lower) = x;
     double next = x - excess / at.slope;
-    if (!(next >= lower && next <= upper)) next = lower + (upper - lower) / 2;
-    const double step = std::fabs(next - x);
-    // beyond this, rounding alone moves it
-    if (step <= 4e-16 * std::fabs(x) || (step < 1e-13 && step >= before / 2)) return next;
-    before = step;
+    if (!(next >= lower && next <= upper && std::fabs(next - x) <= before_last / 2)) next = lower + (upper - lower) / 2;
+    before_last = last;
+    last = std::fabs(next - x);
+    // what is left goes like the square of a step, or like its power 3/2 where a peak is just reached
+    if (last < 1e-11) return next;
     x = next;
   }
   throw NotConverged("peaks: no separation of ln depth between " + show(lower) + " and " + show(upper));
@@ -158,7 +151,7 @@ double log_depth_of(std::span<const double> peaks, double highest, double log_mo
 
 /// d of sigma0 / E* = (4/3) sqrt(R) n_a <(z - d)^1.5> (Eqs 16 and 20), solved in the logarithm: the moment falls
 /// with d, so the root is unique.
-double greenwood_williamson(const MacroAsperities& a, double log_moment) {
+double greenwood_williamson(const MacroAsperities& a, const PeakRange& range, double log_moment) {
   if (a.peaks.empty()) {
     // In units of h_rms. Jensen: <(x - t)_+^1.5> >= (-t)^1.5 gives the lower end, and <(x - t)_+^1.5> <=
     // <(x - t)^2>^(3/4) = (t^2 + 1)^(3/4) the upper one where there is one.
@@ -170,14 +163,13 @@ double greenwood_williamson(const MacroAsperities& a, double log_moment) {
     while (excess(upper) > 0) upper *= 2;
     return a.rms_height * bracketed_root(excess, lower, upper);
   }
-  const double highest = std::ranges::max(a.peaks);
-  double below = 0;  // of the mean peak
-  for (const double z : a.peaks) below += (highest - z) / static_cast<double>(a.peaks.size());
   // In the depth below the highest peak and its logarithm, so that shallow roots keep their digits.
-  const double shallowest = std::exp(log_moment * (2.0 / 3));  // every peak as high as the highest
-  const double deepest = below + shallowest;
+  const double shallowest = std::exp(log_moment * (2.0 / 3));          // every peak as high as the highest
+  const double deepest = (range.highest - range.lowest) + shallowest;  // every peak as low as the lowest
   const double lower = std::log(shallowest) - 1e-9, upper = std::log(deepest) + 1e-9;
-  return highest - std::exp(log_depth_of(a.peaks, highest, log_moment, lower, upper));
+  const double of_mean = std::log(std::fmax(0, range.highest - range.mean) + shallowest);
+  const double start = of_mean < upper ? of_mean : upper;
+  return range.highest - std::exp(log_depth_of(a.peaks, range.highest, log_moment, lower, upper, start));
 }
 
 }  // namespace
@@ -189,10 +181,11 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   require_positive("q0", a.q0);
   if (!a.peaks.empty() && a.peaks.size() < 3)
     throw InvalidInput("peaks has " + std::to_string(a.peaks.size()) + " entries: must be 3 or more");
-  require_each_finite("peaks", a.peaks);
+  PeakRange range{};
   if (!a.peaks.empty()) {
-    const auto [lowest, highest] = std::ranges::minmax(a.peaks);
-    require_span("peaks: their highest", highest, lowest);
+    range = range_of_peaks(a.peaks.data(), a.peaks.size());
+    if (!std::isfinite(range.mean)) require_each_finite("peaks", a.peaks);
+    require_span("peaks: their highest", range.highest, range.lowest);
   }
   // ln of (4/3) sqrt(R) n_a = 2 q0 / (3 pi^2 sqrt(3 sqrt2 h_rms))
   const double stiffness =
@@ -204,7 +197,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
     refuse("pressure", pressure,
            "lower: with effective_modulus = " + show(effective_modulus) + ", rms_height = " + show(a.rms_height) +
                " and q0 = " + show(a.q0) + " the separation leaves the range of a double");
-  const double d = greenwood_williamson(a, load - stiffness);
+  const double d = greenwood_williamson(a, range, load - stiffness);
   const double ratio = pressure / effective_modulus;
   // sigma0 sqrt(A_a) / E* (Eq. 19)
   const double interaction = std::isnormal(ratio) ? ratio * 2 * pi / a.q0 : std::exp(log_interaction);
