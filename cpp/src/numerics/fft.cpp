@@ -26,48 +26,54 @@ std::mutex& planner() {
   return mutex;
 }
 
-/// The two precisions of FFTW under one name.
+/// FFTW's functions of one precision.
 template <class T>
-struct Fftw;
+struct Functions;
 
 template <>
-struct Fftw<double> {
+struct Functions<double> {
   using Complex = fftw_complex;
   using Plan = fftw_plan;
-  static Plan real(int n, double* in, Complex* out, unsigned flags) { return fftw_plan_dft_r2c_1d(n, in, out, flags); }
-  static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
-    return fftw_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
-  }
-  static Plan real_inverse(int n, Complex* in, double* out, unsigned flags) {
-    return fftw_plan_dft_c2r_1d(n, in, out, flags);
-  }
-  static Plan columns(int n, int width, Complex* columns, int sign, unsigned flags) {
-    return fftw_plan_many_dft(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
-  }
-  static void run(Plan p, double* in, Complex* out) { fftw_execute_dft_r2c(p, in, out); }
-  static void run(Plan p, Complex* in, double* out) { fftw_execute_dft_c2r(p, in, out); }
-  static void run(Plan p, Complex* in, Complex* out) { fftw_execute_dft(p, in, out); }
-  static void destroy(Plan p) { fftw_destroy_plan(p); }
+  static constexpr auto real = fftw_plan_dft_r2c_1d;
+  static constexpr auto real_inverse = fftw_plan_dft_c2r_1d;
+  static constexpr auto many = fftw_plan_many_dft;
+  static constexpr auto run = fftw_execute_dft;
+  static constexpr auto run_real = fftw_execute_dft_r2c;
+  static constexpr auto run_inverse = fftw_execute_dft_c2r;
+  static constexpr auto destroy = fftw_destroy_plan;
 };
 
 template <>
-struct Fftw<float> {
+struct Functions<float> {
   using Complex = fftwf_complex;
   using Plan = fftwf_plan;
-  static Plan real(int n, float* in, Complex* out, unsigned flags) { return fftwf_plan_dft_r2c_1d(n, in, out, flags); }
+  static constexpr auto real = fftwf_plan_dft_r2c_1d;
+  static constexpr auto real_inverse = fftwf_plan_dft_c2r_1d;
+  static constexpr auto many = fftwf_plan_many_dft;
+  static constexpr auto run = fftwf_execute_dft;
+  static constexpr auto run_real = fftwf_execute_dft_r2c;
+  static constexpr auto run_inverse = fftwf_execute_dft_c2r;
+  static constexpr auto destroy = fftwf_destroy_plan;
+};
+
+/// Both precisions under one name.
+template <class T>
+struct Fftw {
+  using Of = Functions<T>;
+  using Complex = typename Of::Complex;
+  using Plan = typename Of::Plan;
+  static Plan real(int n, T* in, Complex* out, unsigned flags) { return Of::real(n, in, out, flags); }
   static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
-    return fftwf_plan_many_dft(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
+    return Of::many(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
   }
-  static Plan real_inverse(int n, Complex* in, float* out, unsigned flags) {
-    return fftwf_plan_dft_c2r_1d(n, in, out, flags);
-  }
+  static Plan real_inverse(int n, Complex* in, T* out, unsigned flags) { return Of::real_inverse(n, in, out, flags); }
   static Plan columns(int n, int width, Complex* columns, int sign, unsigned flags) {
-    return fftwf_plan_many_dft(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
+    return Of::many(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
   }
-  static void run(Plan p, float* in, Complex* out) { fftwf_execute_dft_r2c(p, in, out); }
-  static void run(Plan p, Complex* in, float* out) { fftwf_execute_dft_c2r(p, in, out); }
-  static void run(Plan p, Complex* in, Complex* out) { fftwf_execute_dft(p, in, out); }
-  static void destroy(Plan p) { fftwf_destroy_plan(p); }
+  static void run(Plan p, T* in, Complex* out) { Of::run_real(p, in, out); }
+  static void run(Plan p, Complex* in, T* out) { Of::run_inverse(p, in, out); }
+  static void run(Plan p, Complex* in, Complex* out) { Of::run(p, in, out); }
+  static void destroy(Plan p) { Of::destroy(p); }
 };
 
 int side(std::size_t n) {

@@ -36,6 +36,10 @@ class RingSolver {
   [[nodiscard]] double relative_error() const { return g_relative_error_; }
 
  private:
+  /// The parts of the tolerance for the error of G and for all that is of mu_H; the rest is for the shift's. Panels
+  /// leave as much to G.
+  static constexpr double of_g = 0.125, of_hysteresis = 0.85;
+
   /// The rubber on a group at the velocity.
   struct Modulus {
     std::vector<double> i2, ratio;    // at the points of the group's cells
