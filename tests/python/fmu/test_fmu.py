@@ -29,8 +29,8 @@ from asperity import (
 )
 from asperity.fmu.export import PLATFORMS, platforms
 
-SOURCES = Path(__file__).parents[2] / "fmu"
-INCLUDE = Path(__file__).parents[3] / "cpp" / "include"
+ROOT = Path(__file__).parents[3]
+EXAMPLES, INCLUDE = ROOT / "cpp" / "examples", ROOT / "cpp" / "include"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
 OUTPUTS = {"mu": 8, "mu_hysteresis": 9, "mu_adhesion": 10, "contact_area": 11, "traction": 12}
@@ -459,7 +459,7 @@ def c_host(tmp_path_factory):
     """The host in C, built against the standards' headers."""
     target = tmp_path_factory.mktemp("host") / "host"
     options = ("-std=c11", "-D_GNU_SOURCE", *STRICT, f"-I{HEADERS}")
-    return compiled("gcc", SOURCES / "host.c", *options, target=target)
+    return compiled("gcc", EXAMPLES / "fmu_host" / "host.c", *options, target=target)
 
 
 @pytest.fixture(scope="module")
@@ -479,7 +479,9 @@ def answers(road, asked, tmp_path_factory):
     folder = tmp_path_factory.mktemp("look_up")
     road.save(folder / "road.fmap")
     options = ("-std=c++17", "-O2", "-ffp-contract=off", *STRICT, f"-I{INCLUDE}")
-    program = compiled("g++", SOURCES / "look_up.cpp", *options, target=folder / "look_up")
+    program = compiled(
+        "g++", ROOT / "tests" / "fmu" / "look_up.cpp", *options, target=folder / "look_up"
+    )
     command = [program, folder / "road.fmap"]
     return subprocess.run(command, input=asked, capture_output=True, text=True, check=True).stdout
 
@@ -502,6 +504,29 @@ WINE = next(
 )
 
 
+@on_linux
+@pytest.mark.parametrize("heat", [False, True])
+def test_a_tire_by_an_fmu_is_that_by_its_map(road, hot_road, tmp_path, heat):
+    fmap = hot_road if heat else road
+    fmap.save(tmp_path / "road.fmap")
+    export_fmu(fmap, tmp_path / "road.fmu", points=200)
+    fmpy.extract(str(tmp_path / "road.fmu"), str(tmp_path / "road"))
+    options = ("-std=c++17", "-O2", *STRICT)
+    forces = []
+    for name, include, at in (("brush_map", INCLUDE, "road.fmap"), ("brush_fmu", HEADERS, "road")):
+        source, target = EXAMPLES / name / "main.cpp", tmp_path / name
+        compiled("g++", source, *options, f"-isystem{include}", target=target)
+        ran = subprocess.run([target, tmp_path / at], capture_output=True, text=True, check=True)
+        rows = [line.split(",")[:3] for line in ran.stdout.splitlines()]
+        assert rows[0] == ["slip", "force_over_load", "sliding_share"]
+        forces.append(np.array(rows[1:], float))
+    if heat:  # the map of the example is at the lowest temperature, the FMU starts at the middle
+        assert np.all(forces[0][:, 1] > 0)
+        assert np.abs(forces[1][:, 1] / forces[0][:, 1] - 1).max() < 0.2
+    else:
+        np.testing.assert_array_equal(*forces)
+
+
 @pytest.mark.skipif(
     WINE is None or "x86_64-windows" not in platforms(), reason="no wine, or no FMU for Windows"
 )
@@ -511,7 +536,7 @@ def test_windows_gets_the_digits_of_the_map(files, asked, answers, tmp_path, fmi
     if shutil.which(compiler) is None:
         pytest.skip(f"no {compiler}")
     host = tmp_path / "host.exe"
-    subprocess.run([compiler, *options, SOURCES / "host.c", "-o", host], check=True)
+    subprocess.run([compiler, *options, EXAMPLES / "fmu_host" / "host.c", "-o", host], check=True)
     fmpy.extract(str(files[fmi, None]), str(tmp_path))
     folder = "win64" if fmi == "2.0" else "x86_64-windows"
     resources = f"file:///Z:{tmp_path}/resources" if fmi == "2.0" else f"Z:{tmp_path}\\resources\\"

@@ -1,6 +1,6 @@
-/* A host in C, built against the standards' own headers: loads the library of an FMU, sets pressure and velocity from
-   its standard input, and prints the bits that it gets. Guards against: another calling convention, other types, a missing
-   function, a C++ symbol that the host would have to have.
+/* A host in C, built against the standards' own headers (https://fmi-standard.org): it loads the library of an FMU, sets
+   pressure and velocity from its standard input, and prints the bits that it gets. Guards against: another calling
+   convention, other types, a missing function, a C++ symbol that the host would have to have.
      host LIBRARY RESOURCES 2 < points.txt        (FMI 2.0: RESOURCES is a URI; 3.0: a folder) */
 #include <stdio.h>
 #include <stdarg.h>
