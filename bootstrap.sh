@@ -169,7 +169,7 @@ tests() {
   if command -v clang-format >/dev/null; then
     check clang-format format_check
   fi
-  check pytest keep "$scratch/pytest.log" .venv/bin/pytest
+  check pytest keep "$scratch/pytest.log" .venv/bin/pytest --numprocesses auto
   say "${failed:+failed:$failed; }ctest and pytest ended with"
   grep 'tests passed,.* out of' "$scratch/ctest.log" || echo 'no C++ test was run'
   tail -n 1 "$scratch/pytest.log"
