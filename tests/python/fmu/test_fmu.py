@@ -346,25 +346,20 @@ TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_dia
 LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 
 
-@pytest.fixture(scope="module")
-def hot_road() -> FrictionMap:
+def hot_map(temperature: float | tuple[float, float]) -> FrictionMap:
     surface = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
     rubber = PronySeries(
         equilibrium_modulus=3e6,
         moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
         relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
     )
-    return friction_map(
-        surface,
-        rubber,
-        pressure=(8e4, 4e5),
-        velocity=(1e-2, 20.0),
-        temperature=(283.15, 303.15),
-        shift=LAW,
-        heating=TREAD,
-        checked=0,
-        rtol=1e-3,
-    )
+    box = {"pressure": (8e4, 4e5), "velocity": (1e-2, 20.0), "temperature": temperature}
+    return friction_map(surface, rubber, **box, shift=LAW, heating=TREAD, checked=0, rtol=1e-3)
+
+
+@pytest.fixture(scope="module")
+def hot_road() -> FrictionMap:
+    return hot_map((283.15, 303.15))
 
 
 @on_linux
@@ -506,8 +501,8 @@ WINE = next(
 
 @on_linux
 @pytest.mark.parametrize("heat", [False, True])
-def test_a_tire_by_an_fmu_is_that_by_its_map(road, hot_road, tmp_path, heat):
-    fmap = hot_road if heat else road
+def test_a_tire_by_an_fmu_is_that_by_its_map(road, tmp_path, heat):
+    fmap = hot_map(293.15) if heat else road
     fmap.save(tmp_path / "road.fmap")
     export_fmu(fmap, tmp_path / "road.fmu", points=200)
     fmpy.extract(str(tmp_path / "road.fmu"), str(tmp_path / "road"))
@@ -520,11 +515,7 @@ def test_a_tire_by_an_fmu_is_that_by_its_map(road, hot_road, tmp_path, heat):
         rows = [line.split(",")[:3] for line in ran.stdout.splitlines()]
         assert rows[0] == ["slip", "force_over_load", "sliding_share"]
         forces.append(np.array(rows[1:], float))
-    if heat:  # the map of the example is at the lowest temperature, the FMU starts at the middle
-        assert np.all(forces[0][:, 1] > 0)
-        assert np.abs(forces[1][:, 1] / forces[0][:, 1] - 1).max() < 0.2
-    else:
-        np.testing.assert_array_equal(*forces)
+    np.testing.assert_array_equal(*forces)
 
 
 @pytest.mark.skipif(
