@@ -2,22 +2,28 @@
 
     python tests/benchmarks/models.py [--output DIR]
 
-Errors are those against the 177 boundary-element contacts of `asperity validate`, of the area and
-of the elastic energy, which the friction integrand weighs. The cost of a theory is one call of
-`friction` from Python, on Table 1's surface and 20 Prony terms, at the default rtol; of the
-estimate on a single scale, A/A0 = min(1, sqrt(8 / pi) sigma0 / (E* h')) with the rms slope h' and
-E* at q1, the arithmetic in Python; of boundary elements one load, p / (E* h') = 0.1, on 256 x 256
-points (q1/q0 = 8, elastic). One thread. pip install asperity[bem].
+Errors are those of mu against exact sliding contacts that no fit has seen (models_sliding.py), and
+of the area and the elastic energy against the 177 boundary-element contacts of `asperity validate`.
+The cost of a theory is that of a velocity in a curve of 60, called from Python, on Table 1's
+surface and 20 Prony terms, at the default rtol; of the estimate on a single scale,
+A/A0 = min(1, sqrt(8 / pi) sigma0 / (E* h')) with the rms slope h' and E* at q1, and mu from it, the
+arithmetic in NumPy; of boundary elements one load, p / (E* h') = 0.1, on 256 x 256 points
+(q1/q0 = 8, elastic); of exact sliding the median of sliding.py over 512 x 512 points. One thread,
+processor time. pip install asperity[bem].
 """
 
+import csv
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import models_sliding
+import numpy as np
 import timing
 from curves import Curve, curves
+from models_sliding import MuError
 
 import asperity
 from asperity.correction import Correction
@@ -27,10 +33,11 @@ from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped
 from asperity.validation.predictions import MODELS, Model, predict
 
-VELOCITY = 1e-2
+VELOCITIES = np.geomspace(1e-6, 10, 60)
 SHOWN = {  # models of asperity.validation by the name that the chart gives them
     "none": "Persson, exact",
     "S in Eq. 22, 0.40": "S on the integrand, 0.40",
+    "S in Eq. 22, 0.50": "S on the integrand, 0.50",
     "S in G, 5/9": "S inside G, 5/9",
     "Nayak S": "S by bandwidth (Nayak)",
     "peaks, lambda0": "$p_T$ from peaks, $\\lambda_0$",
@@ -39,18 +46,21 @@ SHOWN = {  # models of asperity.validation by the name that the chart gives them
     "IGW added": "$p_T$ from IGW, added",
 }
 EQ_7 = Model("Persson, Eq. 7", "", lambda _: None, form="interpolated")
+PARTIAL = Model("PartialContact", "", lambda _: asperity.PartialContact())
+SLIDING = "exact sliding contact, $512^2$"
 QUANTITIES = ("area", "energy")
 TRUTH = {"area": 0.5, "energy": 0.3}  # %, what the shipped rows are known to
 
 
 @dataclass(frozen=True)
 class Line:
-    """Cost of a point, and of what is done once before; errors in %, mean and worst."""
+    """Cost of a velocity, and of what is done once before; errors in %, mean and worst."""
 
     name: str
     seconds: float
     errors: dict[str, tuple[float, float]]
     once: float | None = None
+    mu: MuError | None = None
 
 
 def single_scale(road: Any, modulus: float, pressure: float) -> float:
@@ -58,10 +68,12 @@ def single_scale(road: Any, modulus: float, pressure: float) -> float:
     return min(1.0, math.sqrt(8 / math.pi) * pressure / (modulus * road.rms_slope))
 
 
-def estimate(curve: Curve) -> float:
-    """The same from a rubber."""
-    modulus = abs(curve.rubber.modulus(VELOCITY * curve.road.q1)) / (1 - 0.5**2)
-    return single_scale(curve.road, modulus, curve.inputs["pressure"])
+def estimate(curve: Curve) -> Any:
+    """mu of all velocities from the same."""
+    modulus = curve.rubber.modulus(VELOCITIES * curve.road.q1) / (1 - 0.5**2)
+    return models_sliding.friction_of_a_single_scale(
+        curve.road.rms_slope, modulus, curve.inputs["pressure"]
+    )
 
 
 def typical_contact(curve: Curve) -> Contact:
@@ -88,20 +100,33 @@ def statistics(errors: list[float]) -> tuple[float, float]:
     return sum(sizes) / len(sizes), max(sizes)
 
 
-def theory(curve: Curve, model: Model, name: str, contacts: list[Contact]) -> Line:
+def cost(curve: Curve, model: Model) -> float:
     correction: Correction | None = model.correction(typical_contact(curve))
     call = partial(
         asperity.friction,
         curve.road,
         curve.rubber,
         pressure=curve.inputs["pressure"],
-        velocity=VELOCITY,
+        velocity=VELOCITIES,
         correction=correction,
         form=model.form,
     )
+    return timing.typical(call, 15) / VELOCITIES.size
+
+
+def theory(curve: Curve, model: Model, name: str, contacts: list[Contact]) -> Line:
     found = [predict(each, model) for each in contacts]
     errors = {kind: statistics([p.error(kind) for p in found]) for kind in QUANTITIES}
-    return Line(name, timing.typical(call, 15), errors)
+    return Line(name, cost(curve, model), errors)
+
+
+def exact_sliding() -> Line:
+    """What sliding.py has found."""
+    with models_sliding.TIMES.open(encoding="utf-8") as file:
+        rows = [*csv.DictReader(line for line in file if line[0] != "#")]
+    times = [float(row["seconds"]) for row in rows if row["points"] == "512"]
+    known = MuError(models_sliding.MESH, math.nan, 0)
+    return Line(SLIDING, timing.median(times), {}, mu=known)
 
 
 def boundary_elements() -> tuple[float, float]:
@@ -120,34 +145,42 @@ def measure() -> list[Line]:
     scales = [
         single_scale(c.spectrum, c.effective_modulus, c.pressure) / c.area - 1 for c in contacts
     ]
+    single = timing.typical(partial(estimate, curve), 15) / VELOCITIES.size
     lines = [
-        Line(
-            "single scale at $q_1$",
-            timing.typical(partial(estimate, curve), 15),
-            {"area": statistics(scales)},
-        ),
+        Line("single scale at $q_1$", single, {"area": statistics(scales)}),
         theory(curve, EQ_7, EQ_7.name, contacts),
+        Line(PARTIAL.name, cost(curve, PARTIAL), {}),
     ]
     known = {model.name: model for model in MODELS}
     lines += [theory(curve, known[key], name, contacts) for key, name in SHOWN.items()]
     pressing, peaks = boundary_elements()
+    of_mu = models_sliding.errors()
     lines = [
-        Line(line.name, line.seconds, line.errors, peaks if "peaks" in line.name else None)
+        replace(line, once=peaks if "peaks" in line.name else None, mu=of_mu.get(line.name))
         for line in lines
     ]
-    lines.append(Line("boundary elements, $256^2$", pressing, {}))
+    lines += [Line("boundary elements, $256^2$", pressing, {}), exact_sliding()]
     return sorted(lines, key=lambda line: line.seconds)
 
 
 def draw(lines: list[Line], path: Path) -> bytes:
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.5, 4.4), layout="constrained")
-    cost, *panels = figure.subplots(1, 3, sharey=True)
+    figure = Figure(figsize=(11.5, 9.2), layout="constrained")
+    above, below = figure.subfigures(2, 1, height_ratios=(4.6, 4.6), hspace=0.03)
+    models_sliding.panel(above.subplots(), lines)
+    lines = [line for line in lines if line.errors or line.mu is None]  # known in elastic contact
+    below.suptitle(
+        "(b) Area and energy, against boundary elements in elastic contact",
+        x=0.05,
+        ha="left",
+        fontsize="medium",
+    )
+    cost, *panels = below.subplots(1, 3, sharey=True)
     for row, line in enumerate(lines):
-        cost.plot(line.seconds, row, "o", color=COLOURS[0])
+        cost.plot(1e6 * line.seconds, row, "o", color=COLOURS[0])
         if line.once is not None:
-            cost.plot(line.once, row, "o", color=COLOURS[0], markerfacecolor="white")
+            cost.plot(1e6 * line.once, row, "o", color=COLOURS[0], markerfacecolor="white")
         for axes, kind in zip(panels, QUANTITIES, strict=True):
             if kind in line.errors:
                 axes.plot(line.errors[kind], [row, row], "-", color="0.75", zorder=1)
@@ -157,7 +190,11 @@ def draw(lines: list[Line], path: Path) -> bytes:
                 axes.plot(TRUTH[kind], row, "D", color="0.4")
             else:
                 axes.text(1, row, "none", ha="center", va="center", color="0.4", fontsize="small")
-    titles = ("Cost of a point [s]", "Error of the area [%]", "Error of the elastic energy [%]")
+    titles = (
+        "Cost of a velocity [$\\mu$s]",
+        "Error of the area [%]",
+        "Error of the elastic energy [%]",
+    )
     for axes, title in zip((cost, *panels), titles, strict=True):
         axes.set_xscale("log")
         axes.set_xlabel(title)
@@ -170,7 +207,7 @@ def draw(lines: list[Line], path: Path) -> bytes:
     cost.set_yticks(range(len(lines)), [line.name for line in lines])
     cost.invert_yaxis()
     marks: list[tuple[str, dict[str, Any]]] = [
-        ("a point", {"color": COLOURS[0], "marker": "o"}),
+        ("a velocity", {"color": COLOURS[0], "marker": "o"}),
         ("once: finding the peaks", {"color": COLOURS[0], "marker": "o", "markerfacecolor": "w"}),
         ("mean", {"color": COLOURS[0], "marker": "o"}),
         ("worst", {"color": COLOURS[1], "marker": "o", "markerfacecolor": "w"}),
@@ -191,7 +228,12 @@ def draw(lines: list[Line], path: Path) -> bytes:
 
 def plain(name: str) -> str:
     """A name without TeX."""
-    for tex, text in (("\\lambda_0", "lambda0"), ("256^2", "256 x 256"), ("$", "")):
+    for tex, text in (
+        ("\\lambda_0", "lambda0"),
+        ("256^2", "256 x 256"),
+        ("512^2", "512 x 512"),
+        ("$", ""),
+    ):
         name = name.replace(tex, text)
     return name
 
@@ -208,6 +250,12 @@ def make() -> timing.Report:
             columns[f"{kind}_error_{name}_percent"] = [
                 line.errors[kind][k] if kind in line.errors else "" for line in lines
             ]
+    known = [line.mu for line in lines]
+    columns["mu_error_rms_percent"] = ["" if mu is None else mu.rms for mu in known]
+    columns["mu_error_worst_percent"] = [
+        "" if not mu or not mu.contacts else mu.worst for mu in known
+    ]
+    columns["mu_contacts"] = ["" if not mu or not mu.contacts else mu.contacts for mu in known]
     rows = [
         [str(cell) if isinstance(cell, str) else f"{cell:.3g}" for cell in row]
         for row in zip(*columns.values(), strict=True)

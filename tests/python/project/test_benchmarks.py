@@ -138,3 +138,37 @@ def test_errors_of_the_models_are_those_of_the_validation():
             row = {key: errors[name][f"{kind}_error_{key}_percent"] for key in ("mean", "worst")}
             assert float(row["mean"]) == pytest.approx(mean, abs=0.06)
             assert float(row["worst"]) == pytest.approx(worst, abs=0.06)
+
+
+def test_the_page_of_speed_says_what_the_models_make_of_mu():
+    text = " ".join(SPEED.partition("## Models of contact")[2].split())
+    errors = {row["model"]: row for row in rows("models")}
+    rms = {
+        name: float(row["mu_error_rms_percent"])
+        for name, row in errors.items()
+        if row["mu_contacts"]
+    }
+    ours, worst = re.search(r"about mu: (\d+) % rms \((\d+) % at worst\)", text).groups()
+    assert f"{rms.pop('PartialContact'):.0f}" == ours
+    assert f"{float(errors['PartialContact']['mu_error_worst_percent']):.0f}" == worst
+    least, most = re.search(r"off by (\d+) to (\d+) % rms", text).groups()
+    assert (f"{min(rms.values()):.0f}", f"{max(rms.values()):.0f}") == (least, most)
+    for name, pattern in (
+        ("Persson, exact", r"no correction by (\d+) %"),
+        ("S on the integrand, 0.40", r"S by (\d+) % with 0.40"),
+        ("S on the integrand, 0.50", r"and (\d+) % with 0.50"),
+        ("single scale at q_1", r"of a microsecond, by (\d+) %"),
+    ):
+        assert f"{rms[name]:.0f}" == re.search(pattern, text)[1]
+
+
+def test_a_single_scale_of_light_contact_has_the_friction_of_its_wave():
+    # a narrow band is one scale, and an even loss makes I1 = 4 E'', I2 = 2 pi |E|^2
+    loss = asperity.MasterCurve(
+        angular_frequency=[1e-6, 1.0, 1e6], storage_modulus=[1e6] * 3, loss_modulus=[5e5] * 3
+    )
+    road = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=1e4, q1=1.0001e4)
+    exact = asperity.friction(road, loss, pressure=1.0, velocity=1e-6).hysteresis
+    modulus = loss.modulus(1e-6 * road.q1) / 0.75
+    found = models.models_sliding.friction_of_a_single_scale(road.rms_slope, modulus, 1.0)
+    assert found == pytest.approx(float(exact), rel=1e-3)

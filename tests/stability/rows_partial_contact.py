@@ -1,0 +1,161 @@
+"""Rows of friction in partial contact: where corrections fail against exact sliding contact.
+
+Contacts are those that no fit has seen, of tests/reference/exact_sliding.csv and
+exact_sliding_ends.csv: mu of maps of rms slope 1, nu = 0.5. What is allowed is the worst that
+docs/sliding.md states, rounded up.
+"""
+
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import naive
+import numpy as np
+import truth
+from rows import Case, row
+
+import asperity
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "reference"))
+import make_exact_sliding
+import make_exact_sliding_ends
+
+EXACT = "exact sliding contacts (tests/reference)"
+
+
+def ours(spectrum: Any, row: dict[str, str]) -> float:
+    found = asperity.friction(
+        spectrum,
+        make_exact_sliding.rubber(row["rubber"]),
+        pressure=float(row["pressure"]),
+        velocity=float(row["velocity"]),
+        correction=asperity.PartialContact(),
+    )
+    return float(found.hysteresis)
+
+
+def self_affine(row: dict[str, str]) -> Any:
+    """The spectrum of a map, at rms slope 1."""
+    made = asperity.SelfAffineSpectrum(
+        rms_height=1,
+        hurst=float(row["hurst"]),
+        q0=2 * np.pi * float(row["k0"]),
+        q1=2 * np.pi * float(row["k1"]),
+    )
+    return made.scaled(1 / made.rms_slope**2)
+
+
+def sliding(chosen: Callable[[dict[str, str]], bool], gamma: float | None) -> Iterator[Case]:
+    """Eq. 22 with or without S, and ours, on the contacts that are chosen."""
+    for given in make_exact_sliding.rows():
+        if given["set"] not in ("judge", "curve") or given["rubber"] == "elastic":
+            continue
+        if not chosen(given):
+            continue
+        hurst, k0, k1, load, speed = (
+            float(given[name]) for name in ("hurst", "k0", "k1", "pressure", "velocity")
+        )
+        q0, q1 = 2 * np.pi * k0, 2 * np.pi * k1
+        height = 1 / truth.slope(1.0, hurst, q0, q1)
+        rubber = truth.prony(1.0, *make_exact_sliding.RUBBERS[given["rubber"]])
+        c = naive.band_density(height, hurst, q0, q1)
+        q = np.geomspace(q0, q1, 1000)
+        usual = partial(naive.trapezoid, c, rubber, q, load, speed, gamma=gamma)
+        yield (
+            lambda usual=usual: usual()[0],
+            partial(ours, self_affine(given), given),
+            float(given["mu"]),
+        )
+
+
+@row(
+    "partial contact at light load, A/A0 from 0.003 to 0.01: mu",
+    "a third of the loss comes from the edges of the spots, beyond q1, and S takes from the rest",
+    naive="Eq. 22 with S on the integrand, gamma = 0.40",
+    truth=EXACT,
+    allowed=0.3,
+    fails=0.5,
+)
+def light() -> Iterator[Case]:
+    yield from sliding(lambda row: float(row["A"]) < 0.01, 0.4)
+
+
+@row(
+    "partial contact, slow and of constant loss, A/A0 above 0.02: mu",
+    "S was fitted to the elastic energy, which weighs the waves in another way than friction",
+    naive="Eq. 22 with S on the integrand, gamma = 0.50",
+    truth=EXACT,
+    allowed=0.2,
+    fails=0.5,
+)
+def slow() -> Iterator[Case]:
+    yield from sliding(lambda row: float(row["A"]) > 0.02 and float(row["n"]) > -0.3, 0.5)
+
+
+@row(
+    "partial contact, fast, E0/E_inf of 30 to 300: mu",
+    "waves that are strong against the local pressure are not followed, in Eq. 22 they are",
+    naive="Eq. 22 as it stands",
+    truth=EXACT,
+    allowed=0.3,
+    fails=0.5,
+)
+def fast() -> Iterator[Case]:
+    steep = ("two", "sls30", "sls300")
+    yield from sliding(lambda row: row["rubber"] in steep and float(row["n"]) < -0.3, None)
+
+
+@row(
+    "partial contact of a spectrum that ends softly: mu",
+    "a scan is blurred: at q1 next to nothing is left, and the edges of the spots start before",
+    naive="the rule of PartialContact with q1 as the end of the roughness, 4000 points",
+    truth=EXACT,
+    allowed=0.1,
+    fails=0.3,
+)
+def soft_end() -> Iterator[Case]:
+    for given in make_exact_sliding_ends.rows():
+        if given["set"] != "judge":
+            continue
+        made = make_exact_sliding_ends.spectrum(given)
+        q = np.geomspace(made.q0 * (1 + 1e-12), made.q1 * (1 - 1e-12), 4000)
+        rubber = truth.prony(1.0, *make_exact_sliding.RUBBERS[given["rubber"]])
+        load, speed = float(given["pressure"]), float(given["velocity"])
+        yield (
+            partial(naive.partial_contact, made.at(q), rubber, q, q[-1], load, speed),
+            partial(ours, made, given),
+            float(given["mu"]),
+        )
+
+
+@row(
+    "partial contact near complete contact, sigma0 = 1e16 Pa",
+    "kappa is the root of a difference of two variances, both 2 G, and 1 + 2 G is 1",
+    naive="the rule's condition as it is written, brentq in ln kappa",
+    truth="brute force, A/A0 = 1",
+    allowed=1e-9,
+)
+def complete() -> Iterator[Case]:
+    hurst, q0, q1, load, speed = 0.8, 2e3, 1e5, 1e16, 1e-2
+    series = (1e6, [1e6, 1e7, 1e8], [1e-1, 1e-3, 1e-5])
+    rubber = truth.prony(*series)
+    q = np.geomspace(q0, q1, 4000)
+    c = naive.band_density(1e-4, hurst, q0, q1)(q)
+
+    def found() -> float:
+        result = asperity.friction(
+            asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=hurst, q0=q0, q1=q1),
+            asperity.PronySeries(
+                equilibrium_modulus=series[0], moduli=series[1], relaxation_times=series[2]
+            ),
+            pressure=load,
+            velocity=speed,
+            correction=asperity.PartialContact(),
+            rtol=1e-10,
+        )
+        return float(result.hysteresis)
+
+    exact = truth.contact(truth.self_affine(1e-4, hurst, q0, q1), rubber, load, speed).mu
+    yield partial(naive.partial_contact, c, rubber, q, q1, load, speed), found, exact
