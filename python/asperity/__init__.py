@@ -30,6 +30,7 @@ from asperity.measured_spectrum import (
     spectral_density,
 )
 from asperity.prony_fit import PronyFit, fit_prony
+from asperity.report.report import report
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
 from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
@@ -95,6 +96,7 @@ __all__ = [
     "read_shift_factors",
     "read_strain_sweep",
     "read_surface",
+    "report",
     "separation",
     "spectral_density",
     "synthesize",

@@ -27,7 +27,8 @@ from asperity.plot import friction as plot_friction
 from asperity.plot import surface as plot_surface
 from asperity.plot.style import drawn_in
 from asperity.scene import scan
-from asperity.scene.model import COLUMNS, Curves, Progress, Scene
+from asperity.scene.model import Progress, Scene
+from asperity.scene.results import friction_table, scene_inputs
 from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import load_scene
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
@@ -44,7 +45,7 @@ def demo(args: Namespace) -> None:
         write_files({FilePath(aside) / name: data for name, data in files.items()})
         scene = load_scene(FilePath(aside) / "hot.toml", for_friction=True)
     scene = replace(scene, path=directory / "hot.toml")
-    table, curves = _friction_table([scene], bands=True)
+    table, curves = friction_table([scene], bands=True, bar=progress)
     files["friction.csv"] = _bytes(table.csv())
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
@@ -71,54 +72,8 @@ def friction(args: Namespace) -> None:
     files = [load_scene(name, for_friction=True) for name in args.scene]
     scenes = [scene for file in files for scene in (file, *file.others)]
     refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
-    table, curves = _friction_table(scenes, bands=args.plot is not None)
+    table, curves = friction_table(scenes, bands=args.plot is not None, bar=progress)
     write_outputs(args, table, lambda path: plot_friction.friction_figure(scenes, curves, path))
-
-
-def _friction_table(scenes: Sequence[Scene], *, bands: bool) -> tuple[Table, list[Curves]]:
-    """mu of every scene. A band, where standard errors are known, is computed for a picture and
-    where a scene asks for it; it has columns where all scenes ask."""
-    curves = [_curves(scene, band=bands or scene.asks_for_band) for scene in scenes]
-    columns: dict[str, list[Any]] = {}
-    asked = all(scene.asks_for_band for scene in scenes)
-    at_temperatures = all(scene.temperature is not None for scene in scenes)
-    heated = all(scene.heating is not None for scene in scenes)
-    files = {scene.path: scene for scene in reversed(scenes)}
-    for scene, result in zip(scenes, curves, strict=True):
-        pressure, velocity = scene.points
-        names = {"scene": [f"{scene.path}"] * pressure.size} if len(files) > 1 else {}
-        points = {"pressure_pa": pressure, "velocity_m_s": velocity}
-        values = {name: getattr(result, name).ravel() for name in COLUMNS}
-        if asked and result.band is not None:
-            values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
-        if at_temperatures:
-            values["temperature_k"] = [scene.temperature] * pressure.size
-        if heated and result.hot_temperature is not None and result.mu_cold is not None:
-            values["hot_temperature_k"] = result.hot_temperature.ravel()
-            values["mu_cold"] = result.mu_cold.ravel()
-        for name, column in {**names, **points, **values}.items():
-            columns.setdefault(name, []).extend(column)
-    notes = _notes_of_all(scenes, curves)
-    inputs = [_inputs(scene) for scene in reversed(files.values())]
-    return Table("friction", inputs, notes, columns), curves
-
-
-def _notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
-    """Every note once; of several scenes with the names of those that it is about."""
-    about: dict[str, list[str]] = {}
-    for scene, result in zip(scenes, curves, strict=True):
-        for note in dict.fromkeys(result.notes):
-            about.setdefault(note, []).append(f"{scene.path}")
-    if len({scene.path for scene in scenes}) == 1:
-        return list(about)
-    return [f"{', '.join(dict.fromkeys(names))}: {note}" for note, names in about.items()]
-
-
-def _curves(scene: Scene, *, band: bool) -> Curves:
-    curves = scene.friction(progress(f"{scene.path}"))
-    if not (band and scene.has_errors):
-        return curves
-    return curves.within(scene.band(curves.mu, band_progress(scene)))
 
 
 def progress(title: str) -> Progress:
@@ -153,7 +108,7 @@ def area(args: Namespace) -> None:
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
     columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}
     table = Table(
-        "area", [{**_inputs(scene), "points": args.points}], scene.contact_notes(), columns
+        "area", [{**scene_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
     write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
@@ -267,10 +222,6 @@ def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | 
         )
         problem = str(error).replace("--q-min, --q-max: ", f"{' '.join(typed)}: ")
         return None, [f"no self-affine fit: {problem}"]
-
-
-def _inputs(scene: Scene) -> dict[str, Any]:
-    return {"scene": str(scene.path), **scene.inputs, "derived": scene.derived}
 
 
 def check_outputs(args: Namespace) -> list[Path]:

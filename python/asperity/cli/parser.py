@@ -19,6 +19,7 @@ from asperity.cli.options import (
     sides,
     whole,
 )
+from asperity.cli.report_command import report
 from asperity.measured_spectrum import WINDOWS
 from asperity.plot.style import STYLES
 
@@ -285,6 +286,16 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="contact points looked up at once: arrays in 3.0, pressure[1] ... in 2.0",
     )
+
+    reported = verb(
+        "report",
+        report,
+        "scenes as one HTML file with pictures, tables, errors and inputs, to read and to print",
+        "dry.toml wet.toml --output report.html",
+    )
+    reported.add_argument("scene", metavar="SCENE.toml", nargs="+")
+    reported.add_argument("--output", metavar="FILE", required=True, help="the file to write")
+    reported.add_argument("--title", help="the heading (default: the names of the scenes)")
 
     validate = verb(
         "validate",

@@ -28,19 +28,19 @@ def rubber_figure(
 ) -> bytes:
     """Isotherms as measured, the master curve (the article's Fig. 5), a_T, what the fit leaves."""
     figure, (first, second, third, fourth) = new_figure(4)
-    _draw_isotherms(first, isotherms)
+    draw_isotherms(first, isotherms)
     first.set_title("(a) isotherms", fontsize="medium")
     _draw_master(second, build, prony)
     reference = build.reference_temperature
     second.set_title(f"(b) master curve at {reference:.4g} K", fontsize="medium")
-    _draw_shifts(third, build, wlf)
+    draw_shifts(third, build, wlf)
     third.set_title("(c) shift factors", fontsize="medium")
     _draw_residual(fourth, build, prony)
     fourth.set_title("(d) points about the Prony fit", fontsize="medium")
     return picture(figure, path)
 
 
-def _draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
+def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
     temperatures = np.array([isotherm.temperature for isotherm in isotherms])
     span = max(float(np.ptp(temperatures)), 1.0)
     for isotherm in isotherms:
@@ -79,7 +79,7 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     axes.legend(loc="best", fontsize="small")
 
 
-def _draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> None:
+def draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> None:
     axes.errorbar(
         build.temperature,
         build.log10_a_T,

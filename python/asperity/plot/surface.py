@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import grey, palette
+from asperity.plot.style import grey, narrow, palette
 from asperity.scene.scan import Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
@@ -35,18 +35,18 @@ def spectrum_figure(
         (middle, flat, "(b) trend removed, holes filled"),
     ):
         if isinstance(scan, HeightMap):
-            _draw_map(figure, axes, scan)
+            draw_map(figure, axes, scan)
         else:
-            _draw_line(axes, scan)
+            draw_line(axes, scan)
         axes.set_title(title, fontsize="medium")
-    _draw_spectrum(right, spectrum.truncated(q1=min(nyquist(flat), spectrum.q1)), fit, cutoff)
+    draw_spectrum(right, spectrum.truncated(q1=min(nyquist(flat), spectrum.q1)), fit, cutoff)
     right.set_title("(c) spectrum", fontsize="medium")
     return picture(figure, path)
 
 
-def _draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
+def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
     ny, nx = scan.heights.shape
-    step = -(-max(ny, nx) // _MOST_PIXELS)
+    step = -(-max(ny, nx) // (_MOST_PIXELS // 2 if narrow() else _MOST_PIXELS))
     shown = np.asarray(scan.heights[::step, ::step], dtype=float)
     size = np.array([ny * scan.pixel_size[0], nx * scan.pixel_size[1]])
     length, length_unit = _unit(float(size.max()))
@@ -66,7 +66,7 @@ def _draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
     figure.colorbar(image, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
 
 
-def _draw_line(axes: "Axes", scan: LineScan) -> None:
+def draw_line(axes: "Axes", scan: LineScan) -> None:
     x = np.arange(scan.heights.size) * scan.spacing
     length, length_unit = _unit(float(x[-1]))
     height, height_unit = _unit(float(np.nanmax(np.abs(scan.heights))))
@@ -76,7 +76,7 @@ def _draw_line(axes: "Axes", scan: LineScan) -> None:
     axes.set_ylabel(f"height [{height_unit}]")
 
 
-def _draw_spectrum(
+def draw_spectrum(
     axes: "Axes", spectrum: TabulatedSpectrum, fit: SelfAffineFit | None, cutoff: float | None
 ) -> None:
     q, density, good = spectrum.wavenumber, spectrum.density, spectrum.reliable

@@ -41,6 +41,7 @@ from asperity.scene.shift import (
     shift_table,
 )
 from asperity.shift_factors import TemperatureShift
+from asperity.sweeps import Isotherm
 from asperity.uncertainty.draws import (
     Drawn,
     Generator,
@@ -97,6 +98,8 @@ class BuiltRubber:
     at_reference: Rubber | None = None
     temperature: float | None = None  # [K], at which the rubber is wanted
     drawn_at_reference: Drawn[ShiftedRubber] | None = None  # with its shift
+    isotherms: Sequence[Isotherm] = ()  # as they were read, and what was made of them
+    build: MasterCurveBuild | None = None
 
 
 def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
@@ -227,7 +230,14 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
         return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
 
-    made = BuiltRubber(rubber, values, [*build.notes, *notes], Drawn[Rubber](rubber, draw))
+    made = BuiltRubber(
+        rubber,
+        values,
+        [*build.notes, *notes],
+        Drawn[Rubber](rubber, draw),
+        isotherms=isotherms,
+        build=build,
+    )
     if values.get("vertical_shift") is not None:  # the model of heat has no b_T
         return made
 

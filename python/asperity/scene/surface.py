@@ -73,6 +73,7 @@ class Surface:
     derived: Values
     notes: Sequence[str]
     drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
+    fit: SelfAffineFit | None = None  # to the scan's spectrum, where the scene asks for one
 
 
 def build_surface(path: Path, table: object) -> Surface:
@@ -117,7 +118,7 @@ def build_surface(path: Path, table: object) -> Surface:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
         notes += _fit_notes(fit, spectrum)
         drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
-    return Surface(spectrum, scan, values, derived, notes, drawn)
+    return Surface(spectrum, scan, values, derived, notes, drawn, fit)
 
 
 def _read_scan(path: Path, values: Values, derived: Values) -> Scan:

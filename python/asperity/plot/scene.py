@@ -1,0 +1,100 @@
+"""Pictures of what a scene is made of: its surface and its rubber (matplotlib)."""
+
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity._core import InvalidInput, NotConverged
+from asperity.plot.curves import new_figure, picture
+from asperity.plot.rubber import draw_isotherms, draw_shifts
+from asperity.plot.style import grey, palette
+from asperity.plot.surface import draw_line, draw_map, draw_spectrum
+from asperity.scene.model import Scene
+from asperity.scene.scan import flat, nyquist, surface_spectrum
+from asperity.self_affine_fit import SelfAffineFit
+from asperity.shift_factors import WlfFit
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def surface_figure(scene: Scene, path: Path) -> bytes:
+    """The scan without its trend, where there is one, and C(q) with the band that is used."""
+    scan = scene.surface.scan
+    figure, panels = new_figure(1 if scan is None else 2)
+    measured = None
+    if scan is not None:
+        values = scene.surface.values
+        detrend = None if values["detrend"] == "none" else values["detrend"]
+        shown = flat(scan, detrend)
+        if isinstance(shown, HeightMap):
+            draw_map(figure, panels[0], shown)
+        else:
+            draw_line(panels[0], shown)
+        panels[0].set_title("trend removed, holes filled", fontsize="medium")
+        measured = surface_spectrum(scan, window=values["window"], detrend=detrend)
+        measured = measured.truncated(q1=min(nyquist(scan), measured.q1))
+    _draw_used(panels[-1], scene, measured, scene.surface.fit)
+    return picture(figure, path)
+
+
+def _draw_used(
+    axes: "Axes", scene: Scene, measured: TabulatedSpectrum | None, fit: SelfAffineFit | None
+) -> None:
+    """C(q) as it was measured, and the part of it that the scene computes with."""
+    spectrum = scene.spectrum
+    if measured is not None:
+        draw_spectrum(axes, measured, fit, None)
+    q0, q1 = spectrum.q0, spectrum.q1
+    if fit is not None or measured is None:
+        q = np.geomspace(q0, q1, 300)
+        label = "law beyond the fit" if fit is not None else "self-affine law"
+        dashes = "--" if fit is not None else "-"
+        axes.plot(q, spectrum.at(q), dashes, color=palette()[1], linewidth=1.2, label=label)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("Wavenumber $q$ [1/m]")
+        axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+    used = f"used, rms slope {spectrum.rms_slope:.3g}"
+    axes.axvspan(q0, q1, color=grey(0.4), alpha=0.1, linewidth=0, label=used)
+    axes.legend(loc="best", fontsize="small")
+
+
+def rubber_figure(scene: Scene, path: Path) -> bytes:
+    """E(w) of the rubber with the frequencies that sliding asks for; of isotherms besides them and
+    the shift factors that made a master curve of them."""
+    built = scene.built_rubber
+    figure, panels = new_figure(1 if built.build is None else 3)
+    axes = panels[-1]
+    scene.rubber.plot(axes)
+    for line, colour in zip(axes.lines, palette(), strict=False):
+        line.set_color(colour)
+    asked = scene.velocity.min() * scene.spectrum.q0, scene.velocity.max() * scene.spectrum.q1
+    low, high = axes.get_xlim()
+    axes.axvspan(
+        max(float(asked[0]), low),
+        min(float(asked[1]), high),
+        color=grey(0.4),
+        alpha=0.1,
+        linewidth=0,
+        label="$v q_0$ to $v q_1$",
+    )
+    axes.set_xlim(low, high)
+    axes.set_xlabel("Angular frequency $\\omega$ [rad/s]")
+    axes.set_ylabel("Modulus [Pa]")
+    if built.temperature is not None:
+        axes.set_title(f"the rubber at {built.temperature:.5g} K", fontsize="medium")
+    axes.legend(loc="best", fontsize="small")
+    if built.build is not None:
+        draw_isotherms(panels[0], built.isotherms)
+        panels[0].set_title("isotherms", fontsize="medium")
+        wlf: WlfFit | None = None
+        with suppress(InvalidInput, NotConverged):  # then the picture is without the law
+            wlf = built.build.fit_wlf()
+        draw_shifts(panels[1], built.build, wlf)
+        panels[1].set_title("shift factors", fontsize="medium")
+    return picture(figure, path)

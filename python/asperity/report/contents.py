@@ -1,0 +1,161 @@
+"""What a report says of each scene, as texts for the page."""
+
+import platform
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from asperity._core import __version__
+from asperity.io.table import input_lines
+from asperity.plot.curves import pressure_text
+from asperity.report.comparison import VERDICTS, Pair, shortened
+from asperity.report.digests import Source
+from asperity.report.errors import Told, errors_of
+from asperity.scene.model import Curves, Scene
+from asperity.scene.results import scene_inputs, table_of
+
+MOST_ROWS = 400  # of a table on the page; the CSV beside it has all
+_COLUMNS = {
+    "pressure_pa": "p [Pa]",
+    "velocity_m_s": "v [m/s]",
+    "mu": "mu",
+    "hysteresis": "hysteresis",
+    "adhesion": "adhesion",
+    "contact_area": "A/A0",
+    "error_estimate": "numerical error",
+    "hot_temperature_k": "T(q1) [K]",
+    "mu_cold": "mu without heat",
+}
+
+
+class Fact(NamedTuple):
+    """A number that a reader looks for first."""
+
+    name: str
+    value: str
+    where: str
+
+
+@dataclass(frozen=True)
+class Result:
+    """One scene at one temperature."""
+
+    heading: str  # empty where a file has one temperature
+    of: str
+    facts: Sequence[Fact]
+    errors: Sequence[Told]
+    notes: Sequence[str]
+    table_title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+def results_of(scenes: Sequence[Scene], results: Sequence[Curves]) -> list[Result]:
+    """The texts of a file's results, one for each of its temperatures."""
+    several = len(scenes) > 1
+    return [_result(*one, several=several) for one in zip(scenes, results, strict=True)]
+
+
+def _result(scene: Scene, result: Curves, *, several: bool) -> Result:
+    """The texts of one result; `several` temperatures are told apart."""
+    at = f"{scene.temperature:.5g} K" if several else ""
+    head, rows = _rows(scene, result)
+    shown, title = thinned(rows)
+    return Result(
+        heading=f"At {at}" if several else "",
+        of=f" at {at}" if several else "",
+        facts=_facts(scene, result),
+        errors=errors_of(scene, result),
+        notes=list(dict.fromkeys(result.notes)),
+        table_title=f"mu and its parts{f' at {at}' if several else ''}{title}",
+        head=head,
+        rows=shown,
+    )
+
+
+def thinned(rows: Sequence[Any]) -> tuple[Sequence[Any], str]:
+    """At most so many rows as a page can show, and what to say where some are left out."""
+    if len(rows) <= MOST_ROWS:
+        return rows, ""
+    kept = np.linspace(0, len(rows) - 1, MOST_ROWS).round().astype(int)
+    return [rows[i] for i in kept], f", {MOST_ROWS} of {len(rows)} rows; the CSV has all"
+
+
+def _rows(scene: Scene, result: Curves) -> tuple[list[str], list[list[str]]]:
+    table = table_of([scene], [result])
+    columns: dict[str, Any] = {
+        head: table.columns[name] for name, head in _COLUMNS.items() if name in table.columns
+    }
+    if result.band is not None:
+        columns["mu from"], columns["mu to"] = (bound.ravel() for bound in result.band)
+    if result.model_error is not None and np.isfinite(result.model_error).any():
+        columns["model error of hysteresis"] = result.model_error.ravel()
+    cells = [[f"{value:.4g}" for value in column] for column in columns.values()]
+    unknown = {"nan": "not known"}
+    return list(columns), [[unknown.get(c, c) for c in line] for line in zip(*cells, strict=True)]
+
+
+def _facts(scene: Scene, result: Curves) -> list[Fact]:
+    i, k = np.unravel_index(int(result.mu.argmax()), result.mu.shape)
+    at = f"at {scene.velocity[k]:.3g} m/s, {pressure_text(float(scene.pressure[i]))}"
+    facts = [Fact("largest mu", f"{result.mu[i, k]:.4g}", at)]
+    facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}", ""))
+    area = float(result.contact_area[i, k])
+    facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %", ""))
+    if result.hot_temperature is not None and scene.temperature is not None:
+        rise = result.hot_temperature - scene.temperature
+        i, k = np.unravel_index(int(rise.argmax()), rise.shape)
+        facts.append(
+            Fact("largest rise by heat", f"{rise[i, k]:.3g} K", f"at {scene.velocity[k]:.3g} m/s")
+        )
+    slope = scene.spectrum.rms_slope
+    facts.append(Fact("rms slope that is used", f"{slope:.3g}", ""))
+    return facts
+
+
+def input_rows(scene: Scene) -> list[tuple[str, str]]:
+    """Keys and values, long lists by their beginning: the scene's own text has them whole."""
+    lines = (line.partition(" = ") for line in input_lines(scene_inputs(scene)))
+    return [(key, shortened(value)) for key, _, value in lines]
+
+
+def source_rows(sources: Sequence[Source]) -> list[tuple[str, str, str]]:
+    return [(printable(one.path), f"{one.size}", one.sha256) for one in sources]
+
+
+def pair_texts(pair: Pair) -> dict[str, Any]:
+    """A comparison, its points as cells."""
+    rows = [
+        (
+            f"{one.pressure:.4g}",
+            f"{one.velocity:.4g}",
+            f"{one.first:.4g}",
+            f"{one.second:.4g}",
+            one.percent,
+            VERDICTS[one.verdict],
+        )
+        for one in pair.differences
+    ]
+    shown, left_out = thinned(rows)
+    named = {"first": pair.first, "second": pair.second, "summary": pair.summary}
+    return {**named, "rows": shown, "left_out": left_out}
+
+
+def versions() -> list[tuple[str, str]]:
+    """Of what the digits and pictures depend on."""
+    found = [("asperity", __version__), ("Python", platform.python_version())]
+    for name in ("numpy", "matplotlib", "SurfaceTopography"):
+        try:
+            found.append((name, metadata.version(name)))
+        except metadata.PackageNotFoundError:
+            continue
+    return [*found, ("system", f"{platform.system()} {platform.machine()}")]
+
+
+def printable(path: Path) -> str:
+    """A file's name as text: what is none is written out."""
+    return f"{path}".encode(errors="backslashreplace").decode()

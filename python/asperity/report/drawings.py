@@ -1,0 +1,100 @@
+"""The pictures of a report, each for a page and for a telephone."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from asperity.plot import friction as plot_friction
+from asperity.plot import scene as plot_scene
+from asperity.plot.style import drawn_in
+from asperity.report.inline import inline_svg
+from asperity.scene.model import Curves, Scene
+from asperity.spectrum import SelfAffineSpectrum
+
+_SVG = Path("picture.svg")  # the kind that is drawn
+# Points of letters by the number of panels side by side: the page makes all pictures equally wide.
+_LETTERS = {1: 10, 2: 11.5, 3: 14}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture as wide as the page, the same in one column, and what stands below it."""
+
+    wide: Any
+    narrow: Any
+    caption: str
+
+
+class Drawings:
+    """Draws for one page: ids are numbered through it."""
+
+    def __init__(self, environment: Any) -> None:
+        self._markup: Callable[[str], Any] = environment.filters["safe"]
+        self._drawn = 0
+
+    def plain(self, text: str) -> Any:
+        """Text of our own that the page takes as it is."""
+        return self._markup(text)
+
+    def friction(self, scenes: Sequence[Scene], curves: Sequence[Curves]) -> Figure:
+        """mu of every scene."""
+        spans = [f"from {c.mu.min():.3g} to {c.mu.max():.3g}" for c in curves]
+        names = [f"{scene.path.name}: mu {span}" for scene, span in zip(scenes, spans, strict=True)]
+        heat = "; with heat also mu without it and the rise of the temperature"
+        heated = any(scene.heating is not None for scene in scenes)
+        caption = (
+            "Friction coefficient mu, its hysteresis and adhesion. Shaded: the errors of the "
+            "inputs; hatched: the error of the model, where it is known" + heat * heated + "."
+        )
+        text = f"Friction coefficient over velocity. {'; '.join(names)}."
+        return self._figure(
+            lambda: plot_friction.friction_figure(scenes, curves, _SVG),
+            text,
+            caption,
+            1 + heated + any(s.heating is not None and s.velocity.size > 1 for s in scenes),
+        )
+
+    def surface(self, scene: Scene, name: str) -> Figure:
+        spectrum = scene.spectrum
+        band = f"{spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m"
+        law = isinstance(spectrum, SelfAffineSpectrum) and scene.surface.scan is None
+        what = "Self-affine roughness spectrum" if law else "Heights of the scan, and its spectrum"
+        caption = (
+            f"{what}. Grey: the band that is used, {band}, with an rms height of "
+            f"{1e6 * spectrum.rms_height:.4g} um and an rms slope of {spectrum.rms_slope:.3g}."
+        )
+        return self._figure(
+            lambda: plot_scene.surface_figure(scene, _SVG),
+            f"Surface of {name}. {caption}",
+            caption,
+            1 if scene.surface.scan is None else 2,
+        )
+
+    def rubber(self, scene: Scene, name: str) -> Figure:
+        built = scene.built_rubber
+        made = "" if built.build is None else ", its isotherms and their shift factors"
+        at = "" if built.temperature is None else f" at {built.temperature:.5g} K"
+        low, high = scene.velocity.min(), scene.velocity.max()
+        caption = (
+            f"Storage and loss modulus of the rubber{at}{made}. Grey: the frequencies v q that "
+            f"sliding at {low:.3g} to {high:.3g} m/s asks for."
+        )
+        return self._figure(
+            lambda: plot_scene.rubber_figure(scene, _SVG),
+            f"Rubber of {name}. {caption}",
+            caption,
+            1 if built.build is None else 3,
+        )
+
+    def _figure(self, draw: Callable[[], bytes], text: str, caption: str, panels: int) -> Figure:
+        from matplotlib import rc_context
+
+        drawn = {}
+        for style, kind in (("print", "wide"), ("single", "narrow")):
+            self._drawn += 1
+            letters: Any = {"font.size": _LETTERS[panels]} if kind == "wide" else {}
+            with rc_context(letters), drawn_in(style):
+                svg = inline_svg(draw(), f"p{self._drawn}", text)
+            drawn[kind] = self._markup(svg.replace("<svg ", f'<svg class="{kind}" ', 1))
+        return Figure(drawn["wide"], drawn["narrow"], caption)

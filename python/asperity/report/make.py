@@ -1,0 +1,134 @@
+"""Scenes computed, drawn and written as one page."""
+
+import base64
+import os
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from importlib.resources import files
+from pathlib import Path
+
+from asperity._core import InvalidInput, __version__
+from asperity.base.table import imported
+from asperity.io.files import check_output, write_whole
+from asperity.report.comparison import compared, differing_inputs
+from asperity.report.contents import (
+    input_rows,
+    pair_texts,
+    printable,
+    results_of,
+    source_rows,
+    versions,
+)
+from asperity.report.digests import Source, check_unchanged, digests
+from asperity.report.drawings import Drawings
+from asperity.scene.model import Curves, Scene
+from asperity.scene.results import Bar, friction_table, table_of, with_temperatures
+from asperity.scene.scene import load_scene
+
+_MOST_SCENES = 20  # of a report: each adds pictures, and a line to that of all
+
+
+def write_report(
+    paths: Sequence[Path], output: Path, title: str | None = None, bar: Bar | None = None
+) -> None:
+    """Write the report of scenes; `bar` shows how far it is."""
+    check_output(output)
+    page, sources = report_page(paths, title, bar)
+    if os.path.realpath(output) in {os.path.realpath(one.path) for one in sources}:
+        raise InvalidInput(f"{output}: is an input: choose another name for the output")
+    write_whole(output, page.encode())
+
+
+def report_page(
+    paths: Sequence[Path], title: str | None = None, bar: Bar | None = None
+) -> tuple[str, list[Source]]:
+    """The page, and the files that it was made from."""
+    jinja = imported("jinja2", "plot")
+    imported("matplotlib", "plot")
+    if not 1 <= len(paths) <= _MOST_SCENES:
+        raise InvalidInput(f"scenes has {len(paths)} entries: must have 1 to {_MOST_SCENES}")
+    if len({os.path.realpath(path) for path in paths}) < len(paths):
+        raise InvalidInput("scenes: must be different files")
+    # their names are known once they are read; what is computed is read after the digests
+    sources = [digests(load_scene(path, for_friction=True).sources) for path in paths]
+    loaded = [load_scene(path, for_friction=True) for path in paths]
+    results: list[list[Curves]] = []
+    for file in loaded:
+        shown = {} if bar is None else {"bar": bar}
+        results.append(friction_table(with_temperatures(file), bands=True, **shown)[1])
+    names = _names(paths)
+    texts = [path.read_text(encoding="utf-8") for path in paths]
+    all_sources = [source for of_one in sources for source in of_one]
+    check_unchanged(all_sources)
+    scenes = [scene for file in loaded for scene in with_temperatures(file)]
+    curves = [result for of_file in results for result in of_file]
+    table = table_of(scenes, curves)
+    environment = jinja.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
+    )
+    drawn = Drawings(environment)
+    page = environment.from_string(_shipped("page.html")).render(
+        title=title or f"Friction of {', '.join(names)}",
+        version=__version__,
+        date=_now(),
+        style=drawn.plain(_shipped("style.css")),
+        overview=drawn.friction(scenes, curves),
+        table_link=_link(table.csv(), "text/csv"),
+        points=len(table.columns["mu"]),
+        files=[
+            {
+                "name": name,
+                "results": results_of(with_temperatures(file), of_file),
+                "surface": drawn.surface(file, name),
+                "rubber": drawn.rubber(file, name),
+                "sources": source_rows(of_one),
+                "inputs": input_rows(file),
+                "text": text,
+                "link": _link(text, "application/toml"),
+            }
+            for name, file, of_file, of_one, text in zip(
+                names, loaded, results, sources, texts, strict=True
+            )
+        ],
+        file_names=names,
+        differing=[[key, *values] for key, values in differing_inputs(loaded)],
+        pairs=[pair_texts(one) for one in compared(_variants(names, loaded), scenes, curves)],
+        versions=versions(),
+    )
+    return page, all_sources
+
+
+def _variants(names: Sequence[str], loaded: Sequence[Scene]) -> list[str]:
+    """A name for each file and temperature."""
+    return [
+        f"{name} at {scene.temperature:.5g} K" if file.others else name
+        for name, file in zip(names, loaded, strict=True)
+        for scene in with_temperatures(file)
+    ]
+
+
+def _names(paths: Sequence[Path]) -> list[str]:
+    """The files' names, with their folders where these alone tell them apart."""
+    short = len({path.name for path in paths}) == len(paths)
+    return [printable(Path(path.name) if short else path) for path in paths]
+
+
+def _shipped(name: str) -> str:
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def _link(text: str, kind: str) -> str:
+    """The text as an address that a browser saves."""
+    content = base64.b64encode(text.encode(errors="backslashreplace")).decode()
+    return f"data:{kind};base64,{content}"
+
+
+def _now() -> str:
+    """The day in UTC; that of SOURCE_DATE_EPOCH, for whoever wants the same bytes again."""
+    stated = os.environ.get("SOURCE_DATE_EPOCH")
+    if stated is None:
+        return f"{datetime.now(UTC):%Y-%m-%d}"
+    try:
+        return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
+    except (ValueError, OverflowError, OSError):
+        raise InvalidInput(f"SOURCE_DATE_EPOCH = {stated!r}: must be seconds since 1970") from None

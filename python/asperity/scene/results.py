@@ -1,0 +1,76 @@
+"""Friction of scenes as a table: one set of digits for the shell, the report and the app."""
+
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from typing import Any
+
+from asperity.io.table import Table
+from asperity.scene.model import COLUMNS, Curves, Progress, Scene
+
+Bar = Callable[[str], Progress]  # shows how far the work of that title is
+
+
+def _no_bar(_: str) -> Progress:
+    return nullcontext
+
+
+def with_temperatures(scene: Scene) -> list[Scene]:
+    """The scene, and the same at the further temperatures of its list."""
+    return [scene, *scene.others]
+
+
+def friction_table(
+    scenes: Sequence[Scene], *, bands: bool, bar: Bar = _no_bar
+) -> tuple[Table, list[Curves]]:
+    """mu of every scene. A band, where standard errors are known, is computed where `bands` are
+    asked for and where a scene asks for it; it has columns where all scenes ask."""
+    curves = [_curves(scene, band=bands or scene.asks_for_band, bar=bar) for scene in scenes]
+    return table_of(scenes, curves), curves
+
+
+def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
+    """Results of scenes as a table."""
+    columns: dict[str, list[Any]] = {}
+    asked = all(scene.asks_for_band for scene in scenes)
+    at_temperatures = all(scene.temperature is not None for scene in scenes)
+    heated = all(scene.heating is not None for scene in scenes)
+    files = {scene.path: scene for scene in reversed(scenes)}
+    for scene, result in zip(scenes, curves, strict=True):
+        pressure, velocity = scene.points
+        names = {"scene": [f"{scene.path}"] * pressure.size} if len(files) > 1 else {}
+        points = {"pressure_pa": pressure, "velocity_m_s": velocity}
+        values = {name: getattr(result, name).ravel() for name in COLUMNS}
+        if asked and result.band is not None:
+            values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
+        if at_temperatures:
+            values["temperature_k"] = [scene.temperature] * pressure.size
+        if heated and result.hot_temperature is not None and result.mu_cold is not None:
+            values["hot_temperature_k"] = result.hot_temperature.ravel()
+            values["mu_cold"] = result.mu_cold.ravel()
+        for name, column in {**names, **points, **values}.items():
+            columns.setdefault(name, []).extend(column)
+    inputs = [scene_inputs(scene) for scene in reversed(files.values())]
+    return Table("friction", inputs, notes_of_all(scenes, curves), columns)
+
+
+def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
+    """Every note once; of several scenes with the names of those that it is about."""
+    about: dict[str, list[str]] = {}
+    for scene, result in zip(scenes, curves, strict=True):
+        for note in dict.fromkeys(result.notes):
+            about.setdefault(note, []).append(f"{scene.path}")
+    if len({scene.path for scene in scenes}) == 1:
+        return list(about)
+    return [f"{', '.join(dict.fromkeys(names))}: {note}" for note, names in about.items()]
+
+
+def _curves(scene: Scene, *, band: bool, bar: Bar) -> Curves:
+    curves = scene.friction(bar(f"{scene.path}"))
+    if not (band and scene.has_errors):
+        return curves
+    return curves.within(scene.band(curves.mu, bar(f"{scene.path}, band")))
+
+
+def scene_inputs(scene: Scene) -> dict[str, Any]:
+    """What a scene was computed from, for the head of a table."""
+    return {"scene": str(scene.path), **scene.inputs, "derived": scene.derived}
