@@ -37,11 +37,13 @@ extern "C" {
 
 ASPERITY_FMU_EXPORT const char* fmi2GetTypesPlatform(void) { return "default"; }
 ASPERITY_FMU_EXPORT const char* fmi2GetVersion(void) { return "2.0"; }
-ASPERITY_FMU_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component, fmi2Boolean, std::size_t, const fmi2String[]) {
-  return fmi2OK;  // only errors and warnings are logged, which a host wants always
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, std::size_t n,
+                                                   const fmi2String categories[]) {
+  using namespace asperity_fmu;
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.log(on != 0, n, categories); }));
 }
 
-ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String, fmi2String resources,
+ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                                                   const fmi2CallbackFunctions* functions, fmi2Boolean, fmi2Boolean) {
   using namespace asperity_fmu;
   try {
@@ -49,14 +51,13 @@ ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type
     if (functions != nullptr && functions->logger != nullptr)
       tell = [log = functions->logger, host = functions->componentEnvironment,
               who = std::string(name == nullptr ? "" : name)](Told told, const char* message) {
-        log(host, who.c_str(), fmi2(told), told == Told::warning ? "logStatusWarning" : "logStatusError", "%s",
-            message);
+        log(host, who.c_str(), fmi2(told), told == Told::warning ? warnings : errors, "%s", message);
       };
     if (type != fmi2CoSimulation) {
       if (tell) tell(Told::error, "this FMU is for co-simulation alone");
       return nullptr;
     }
-    return make_instance(name, path_of_uri(resources == nullptr ? "" : resources), std::move(tell));
+    return make_instance(name, guid, "GUID", path_of_uri(resources == nullptr ? "" : resources), std::move(tell));
   } catch (...) {
     return nullptr;
   }
@@ -64,13 +65,10 @@ ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type
 
 ASPERITY_FMU_EXPORT void fmi2FreeInstance(fmi2Component c) { delete static_cast<asperity_fmu::Instance*>(c); }
 
-ASPERITY_FMU_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start, fmi2Boolean,
-                                                   fmi2Real) {
+ASPERITY_FMU_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start,
+                                                   fmi2Boolean has_stop, fmi2Real stop) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [&](Instance& instance) {
-    instance.model->set_time(start);
-    return Told::ok;
-  }));
+  return fmi2(guarded(c, [&](Instance& instance) { return instance.begin(start, has_stop != 0, stop); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
   using namespace asperity_fmu;

@@ -43,24 +43,31 @@ inline fmi3Status fine(fmi3Instance instance) {
 extern "C" {
 
 ASPERITY_FMU_EXPORT const char* fmi3GetVersion(void) { return "3.0"; }
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean, std::size_t,
-                                                   const fmi3String[]) {
-  return asperity_fmu::fine(instance);  // only errors and warnings are logged, which a host wants always
+ASPERITY_FMU_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, std::size_t n,
+                                                   const fmi3String categories[]) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [&](Instance& of) { return of.log(on, n, categories); }));
 }
 
-ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String, fmi3String resources,
-                                                             fmi3Boolean, fmi3Boolean, fmi3Boolean, fmi3Boolean,
-                                                             const fmi3ValueReference[], std::size_t,
-                                                             fmi3InstanceEnvironment host, fmi3LogMessageCallback log,
+ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                                             fmi3Boolean, fmi3Boolean, fmi3Boolean event_mode,
+                                                             fmi3Boolean, const fmi3ValueReference[],
+                                                             std::size_t intermediate, fmi3InstanceEnvironment host,
+                                                             fmi3LogMessageCallback log,
                                                              fmi3IntermediateUpdateCallback) {
   using namespace asperity_fmu;
   try {
     std::function<void(Told, const char*)> tell;
     if (log != nullptr)
       tell = [log, host](Told told, const char* message) {
-        log(host, fmi3(told), told == Told::warning ? "logStatusWarning" : "logStatusError", message);
+        log(host, fmi3(told), told == Told::warning ? warnings : errors, message);
       };
-    return make_instance(name, std::filesystem::u8path(resources == nullptr ? "" : resources), std::move(tell));
+    if (event_mode || intermediate > 0) {
+      if (tell) tell(Told::error, "this FMU has neither an event mode nor intermediate updates: must not be asked for");
+      return nullptr;
+    }
+    return make_instance(name, token, "instantiation token",
+                         std::filesystem::u8path(resources == nullptr ? "" : resources), std::move(tell));
   } catch (...) {
     return nullptr;
   }
@@ -82,12 +89,9 @@ ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) {
 }
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
-                                                           fmi3Float64 start, fmi3Boolean, fmi3Float64) {
+                                                           fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
-    of.model->set_time(start);
-    return Told::ok;
-  }));
+  return fmi3(guarded(instance, [&](Instance& of) { return of.begin(start, has_stop, stop); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
   using namespace asperity_fmu;

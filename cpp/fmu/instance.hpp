@@ -44,15 +44,42 @@ inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
   return true;
 }
 
+/// The categories of messages, as modelDescription.xml lists them.
+constexpr const char *warnings = "logStatusWarning", *errors = "logStatusError";
+
 struct Instance {
   std::string name;
   std::unique_ptr<Model> model;
   std::function<void(Told, const char*)> tell;  // empty where the host does not listen
   bool initialized = false, warned = false;
+  bool tells_warnings = true, tells_errors = true;  // until the host switches them off
+  double stop = std::numeric_limits<double>::infinity();
 
   Told error(const std::string& message) const {
-    if (tell) tell(Told::error, message.c_str());
+    if (tell && tells_errors) tell(Told::error, message.c_str());
     return Told::error;
+  }
+
+  /// Switches categories of messages on or off, all of them where none is named.
+  Told log(bool on, std::size_t n, const char* const names[]) {
+    if (n == 0) tells_warnings = tells_errors = on;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string category = names[i] == nullptr ? "" : names[i];
+      if (category != warnings && category != errors)
+        return error("log category \"" + category + "\" is unknown: must be " + warnings + " or " + errors);
+      (category == warnings ? tells_warnings : tells_errors) = on;
+    }
+    return Told::ok;
+  }
+
+  /// The times between which the host will step.
+  Told begin(double start, bool has_stop, double end) {
+    if (!std::isfinite(start) || (has_stop && !(end >= start)))
+      return error("a simulation from " + std::to_string(start) + " to " + std::to_string(end) +
+                   " s: must begin at a finite time and end no earlier");
+    model->set_time(start);
+    if (has_stop) stop = end;
+    return Told::ok;
   }
 
   /// The host hears of it once, until all points are inside again.
@@ -61,7 +88,7 @@ struct Instance {
       warned = false;
     } else if (!warned) {
       warned = true;
-      if (tell)
+      if (tell && tells_warnings)
         tell(Told::warning, model->state().clamp
                                 ? "a point lies outside of the map: mu is that of the map's nearest point"
                                 : "a point lies outside of the map: mu is NaN");
@@ -107,6 +134,7 @@ struct Instance {
   Told reset() {
     model->start_anew();
     initialized = warned = false;
+    stop = std::numeric_limits<double>::infinity();
     return Told::ok;
   }
 
@@ -153,6 +181,10 @@ struct Instance {
     if (!std::isfinite(from) || !std::isfinite(size) || size < 0)
       return error("a step from " + std::to_string(from) + " by " + std::to_string(size) +
                    " s: the time must be finite and the step not negative");
+    // the host's sum of steps may be off by rounding
+    if (from + size > stop + 1e-3 * size + 1e-12 * std::fabs(stop))
+      return error("a step from " + std::to_string(from) + " by " + std::to_string(size) +
+                   " s ends after the stop time, " + std::to_string(stop) + " s");
     return outside(model->step(from, size));
   }
 };
@@ -203,15 +235,20 @@ inline std::filesystem::path path_of_uri(const std::string& uri) {
   return std::filesystem::u8path(path);
 }
 
-/// An instance with its map, or null: the host hears why.
-inline Instance* make_instance(const char* name, const std::filesystem::path& resources,
-                               std::function<void(Told, const char*)> tell) {
+/// An instance with its map, or null: the host hears why. `token` is that of the description which the host has read,
+/// called `token_name` in its standard: of another FMU than the one in `resources`, references mean something else.
+inline Instance* make_instance(const char* name, const char* token, const std::string& token_name,
+                               const std::filesystem::path& resources, std::function<void(Told, const char*)> tell) {
   auto made = std::make_unique<Instance>();
   made->name = name == nullptr ? "" : name;
   made->tell = std::move(tell);
   std::string why;
   made->model = Model::load(resources, why);
-  if (made->model) return made.release();
+  if (made->model) {
+    const std::string &own = made->model->token(), given = token == nullptr ? "" : token;
+    if (given == own) return made.release();
+    why = "the " + token_name + " \"" + given + "\" is that of another FMU: must be \"" + own + "\"";
+  }
   (void)made->error(why);
   return nullptr;
 }

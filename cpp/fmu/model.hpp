@@ -74,6 +74,8 @@ inline std::string read_file(const std::filesystem::path& path) {
   return content;
 }
 
+inline std::string first_line(const std::string& text) { return text.substr(0, text.find_first_of("\r\n")); }
+
 /// All that changes in an instance: what get and set of its state keep.
 struct State {
   std::vector<Point> points;
@@ -92,8 +94,13 @@ class Model {
       why = "resources/points.txt must hold a number of points from 1 to " + std::to_string(most_points);
       return nullptr;
     }
-    const std::string bytes = read_file(resources / "friction.fmap");
     auto model = std::make_unique<Model>();
+    model->token_ = first_line(read_file(resources / "token.txt"));
+    if (model->token_.empty()) {
+      why = "resources/token.txt must hold the GUID or instantiation token of modelDescription.xml";
+      return nullptr;
+    }
+    const std::string bytes = read_file(resources / "friction.fmap");
     if (!model->map_.read(bytes.data(), bytes.size(), why)) {
       why = "resources/friction.fmap " + (bytes.empty() ? "cannot be read" : why);
       return nullptr;
@@ -113,6 +120,8 @@ class Model {
     restore(std::move(fresh));
   }
 
+  /// What modelDescription.xml calls its guid or its instantiationToken.
+  [[nodiscard]] const std::string& token() const { return token_; }
   [[nodiscard]] std::size_t points() const { return state_.points.size(); }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(State state) {
@@ -285,6 +294,7 @@ class Model {
   }
 
   asperity::FrictionMap map_;
+  std::string token_;
   State state_;
   std::vector<Found> found_;
 };

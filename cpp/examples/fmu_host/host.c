@@ -1,7 +1,9 @@
 /* A host in C, built against the standards' own headers (https://fmi-standard.org): it loads the library of an FMU, sets
    pressure and velocity from its standard input, and prints the bits that it gets. Guards against: another calling
    convention, other types, a missing function, a C++ symbol that the host would have to have.
-     host LIBRARY RESOURCES 2 < points.txt        (FMI 2.0: RESOURCES is a URI; 3.0: a folder) */
+     host LIBRARY RESOURCES 2 TOKEN < points.txt
+   RESOURCES is a URI for FMI 2.0, a folder for 3.0; TOKEN the guid, in 3.0 the instantiationToken, that is in the
+   FMU's modelDescription.xml. */
 #include <stdio.h>
 #include <stdarg.h>
 #include <string.h>
@@ -70,7 +72,7 @@ static void print_all(const double* out, int inside) {
   printf("%d\n", inside);
 }
 
-static int host2(void* library, const char* resources) {
+static int host2(void* library, const char* resources, const char* token) {
   TAKE(fmi2InstantiateTYPE, fmi2Instantiate)
   TAKE(fmi2EnterInitializationModeTYPE, fmi2EnterInitializationMode)
   TAKE(fmi2ExitInitializationModeTYPE, fmi2ExitInitializationMode)
@@ -80,7 +82,7 @@ static int host2(void* library, const char* resources) {
   TAKE(fmi2DoStepTYPE, fmi2DoStep)
   TAKE(fmi2FreeInstanceTYPE, fmi2FreeInstance)
   const fmi2CallbackFunctions callbacks = {log_of_2, NULL, NULL, NULL, NULL};
-  fmi2Component c = fmi2Instantiate("host", fmi2CoSimulation, "", resources, &callbacks, 0, 0);
+  fmi2Component c = fmi2Instantiate("host", fmi2CoSimulation, token, resources, &callbacks, 0, 0);
   double in[2], out[outputs];
   int inside = 0, step = 0;
   if (c == NULL || fmi2EnterInitializationMode(c) != fmi2OK || fmi2ExitInitializationMode(c) != fmi2OK) return 1;
@@ -95,7 +97,7 @@ static int host2(void* library, const char* resources) {
   return 0;
 }
 
-static int host3(void* library, const char* resources) {
+static int host3(void* library, const char* resources, const char* token) {
   TAKE(fmi3InstantiateCoSimulationTYPE, fmi3InstantiateCoSimulation)
   TAKE(fmi3EnterInitializationModeTYPE, fmi3EnterInitializationMode)
   TAKE(fmi3ExitInitializationModeTYPE, fmi3ExitInitializationMode)
@@ -105,7 +107,7 @@ static int host3(void* library, const char* resources) {
   TAKE(fmi3DoStepTYPE, fmi3DoStep)
   TAKE(fmi3FreeInstanceTYPE, fmi3FreeInstance)
   fmi3Instance c =
-      fmi3InstantiateCoSimulation("host", "", resources, false, false, false, false, NULL, 0, NULL, log_of_3, NULL);
+      fmi3InstantiateCoSimulation("host", token, resources, false, false, false, false, NULL, 0, NULL, log_of_3, NULL);
   double in[2], out[outputs], reached = 0;
   fmi3Int32 inside = 0;
   bool event = true, end = true, early = true;
@@ -125,8 +127,8 @@ static int host3(void* library, const char* resources) {
 }
 
 int main(int count, char** arguments) {
-  if (count != 4) return 2;
+  if (count != 5) return 2;
   void* library = open_library(arguments[1]);
   if (library == NULL) return 1;
-  return strcmp(arguments[3], "2") == 0 ? host2(library, arguments[2]) : host3(library, arguments[2]);
+  return (strcmp(arguments[3], "2") == 0 ? host2 : host3)(library, arguments[2], arguments[4]);
 }

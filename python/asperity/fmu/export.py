@@ -107,6 +107,7 @@ def _files(
     token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, digest)}}}"
     yield "modelDescription.xml", description(fmi, name, token, listed, points)
     yield "resources/friction.fmap", content
+    yield "resources/token.txt", f"{token}\n".encode()  # which a host must name
     yield "resources/points.txt", f"{points or 1}\n".encode()
     for platform in platforms():
         old, end = PLATFORMS[platform]
