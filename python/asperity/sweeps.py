@@ -32,8 +32,8 @@ def draw_moduli(
     styles: tuple[str, str] = ("-", "-"),
 ) -> None:
     """Draw E' and E'' with logarithmic scales."""
-    axes.loglog(x, storage, styles[0], color="C0", markersize=3, label="$E'$")
-    axes.loglog(x, loss, styles[1], color="C1", markersize=3, label="$E''$")
+    axes.loglog(x, storage, styles[0], color="C0", markersize=3, label="$E$′")
+    axes.loglog(x, loss, styles[1], color="C1", markersize=3, label="$E$″")
     axes.set_xlabel(label)
     axes.set_ylabel("Modulus [Pa]")
     axes.legend()

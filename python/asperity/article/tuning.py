@@ -54,7 +54,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
                 "loss_modulus_pa": modulus.imag,
             }
         )
-    for dash, text in (("-", "$E'$"), ("--", "$E''$")):
+    for dash, text in (("-", "$E$′"), ("--", "$E$″")):
         axes.plot([], [], dash, color=grey(0.3), label=text)
     labels = {"xlabel": r"Angular frequency $\omega$ [rad/s]", "ylabel": "Modulus [MPa]"}
     panel(axes, f"surrogates, {compounds.ROOM:g} °C", **LOG, **labels)

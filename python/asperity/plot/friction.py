@@ -81,7 +81,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
     if beside:
         _label(beside[0], abscissa)
-        beside[0].set_ylabel("Rise of the temperature at $q_1$ [K]")
+        beside[0].set_ylabel("Temperature rise at $q_1$ [K]")
     if profiled is not None:
         _draw_profiles(beside[1], profiled)
     entries = axes.get_legend_handles_labels()
@@ -205,7 +205,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(bottom=0)
     axes.set_xlabel("Wavenumber $q$ [1/m]")
-    axes.set_ylabel("Rise of the temperature $T(q) - T_0$ [K]")
+    axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
     at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.5g} K"]
     axes.legend(loc="upper left", fontsize="small", title=", ".join(at), title_fontsize="small")
 

@@ -51,8 +51,8 @@ def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
     for extreme in (temperatures.min(), temperatures.max()):
         colour = shades()((extreme - temperatures.min()) / span)
         axes.plot([], [], color=colour, label=f"{extreme:.4g} K")
-    axes.plot([], [], "o-", color=grey(0.4), markersize=2.5, label="$E'$")
-    axes.plot([], [], "^:", color=grey(0.4), markersize=2.5, label="$E''$")
+    axes.plot([], [], "o-", color=grey(0.4), markersize=2.5, label="$E$′")
+    axes.plot([], [], "^:", color=grey(0.4), markersize=2.5, label="$E$″")
     _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
 
 
@@ -60,9 +60,9 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     points = build.points
     w = points.angular_frequency
     axes.plot(
-        w, points.storage_modulus, "o", markersize=2.5, color=palette()[_STORAGE], label="$E'$"
+        w, points.storage_modulus, "o", markersize=2.5, color=palette()[_STORAGE], label="$E$′"
     )
-    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=palette()[_LOSS], label="$E''$")
+    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=palette()[_LOSS], label="$E$″")
     if prony is not None:
         dense = np.geomspace(w[0], w[-1], 300)
         fitted = prony.modulus(dense)
@@ -110,8 +110,8 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
     points = build.points
     fitted = prony.modulus(points.angular_frequency)
     for measured, fit, mark, colour, name in (
-        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E'$"),
-        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E''$"),
+        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E$′"),
+        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E$″"),
     ):
         miss = 100 * (measured / fit - 1)
         label = f"{name}, rms {np.sqrt(np.mean(miss**2)):.2g} %"  # of the points drawn

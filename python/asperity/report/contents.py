@@ -94,9 +94,17 @@ def _rows(scene: Scene, result: Curves) -> tuple[list[str], list[list[str]]]:
         columns["mu from"], columns["mu to"] = (bound.ravel() for bound in result.band)
     if result.model_error is not None and np.isfinite(result.model_error).any():
         columns["model error of hysteresis"] = result.model_error.ravel()
-    cells = [[f"{value:.4g}" for value in column] for column in columns.values()]
-    unknown = {"nan": "not known"}
-    return list(columns), [[unknown.get(c, c) for c in line] for line in zip(*cells, strict=True)]
+    cells = [[number_text(value) for value in column] for column in columns.values()]
+    return list(columns), [list(line) for line in zip(*cells, strict=True)]
+
+
+def number_text(value: float) -> str:
+    """Four digits, without an exponent where a reader does not need one."""
+    if np.isnan(value):
+        return "not known"
+    if 1e4 <= abs(value) < 1e6:
+        return np.format_float_positional(value, 4, fractional=False, trim="-")
+    return f"{value:.4g}"
 
 
 def _facts(scene: Scene, result: Curves) -> list[Fact]:
@@ -131,10 +139,10 @@ def pair_texts(pair: Pair) -> dict[str, Any]:
     """A comparison, its points as cells."""
     rows = [
         (
-            f"{one.pressure:.4g}",
-            f"{one.velocity:.4g}",
-            f"{one.first:.4g}",
-            f"{one.second:.4g}",
+            number_text(one.pressure),
+            number_text(one.velocity),
+            number_text(one.first),
+            number_text(one.second),
             one.percent,
             VERDICTS[one.verdict],
         )

@@ -40,11 +40,11 @@ def labelled(axes: Any, start: str) -> Any:
 
 def test_wlf_is_the_curve_drawn_and_its_residual_that_of_the_points() -> None:
     pyplot = pytest.importorskip("matplotlib.pyplot")
-    from asperity.plot.rubber import _draw_shifts
+    from asperity.plot.rubber import draw_shifts
 
     build = built(sweeps(noise=0.05, seed=1))
     axes = pyplot.figure().subplots()
-    _draw_shifts(axes, build, build.fit_wlf())
+    draw_shifts(axes, build, build.fit_wlf())
     curve = labelled(axes, "WLF")
     (points,) = [line for line in axes.lines if line.get_marker() == "o"]
     t, shift = (np.asarray(one) for one in points.get_data())
@@ -64,13 +64,13 @@ def test_wlf_is_the_curve_drawn_and_its_residual_that_of_the_points() -> None:
 
 def test_hurst_exponent_and_rolloff_are_those_of_the_line_drawn() -> None:
     pyplot = pytest.importorskip("matplotlib.pyplot")
-    from asperity.plot.surface import _draw_spectrum
+    from asperity.plot.surface import draw_spectrum
 
     road = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.7, q0=4e3, q1=1e6, rolloff=1.5e5)
     scan = asperity.synthesize(road, shape=(500, 500), pixel_size=3e-6, seed=4)
     spectrum = asperity.power_spectrum(scan)
     axes = pyplot.figure().subplots()
-    _draw_spectrum(axes, spectrum, asperity.fit_self_affine(spectrum), None)
+    draw_spectrum(axes, spectrum, asperity.fit_self_affine(spectrum), None)
     line = labelled(axes, "fit")
     q, density = (np.log(np.asarray(one)) for one in line.get_data())
     slope = np.gradient(density, q)
