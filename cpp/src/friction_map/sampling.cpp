@@ -194,7 +194,7 @@ auto solved(double rtol, const Solve& solve) {
   try {
     return solve();
   } catch (const NotConverged& error) {
-    throw NotConverged("rtol = " + show(rtol) + " of the map: the solver, asked for a hundredth of it, found " +
+    throw NotConverged("rtol = " + show(rtol) + " of the map: the solver, asked for a part of it, found " +
                        error.what());
   }
 }
@@ -296,6 +296,12 @@ double MapFrame::error_of_shift(std::span<const double> nodes) const {
 MapFrame MapFrame::at_temperature(double temperature) const {
   MapFrame other = *this;
   other.heat_->temperature = temperature;
+  return other;
+}
+
+MapFrame MapFrame::with_solver_rtol(double rtol) const {
+  MapFrame other = *this;
+  other.model_.rtol = other.unshifted_.rtol = rtol;
   return other;
 }
 

@@ -69,6 +69,8 @@ class MapFrame {
   [[nodiscard]] bool touches_box(const MapPlace& corner, const MapPlace& size) const;
   /// What the solver is asked for.
   [[nodiscard]] double solver_rtol() const { return model_.rtol; }
+  /// The same with a solver that is asked for less.
+  [[nodiscard]] MapFrame with_solver_rtol(double rtol) const;
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
   /// With heat, at a temperature [K] for each.

@@ -54,7 +54,7 @@ void RingSolver::start(double velocity) {
   ++starts_;
   unit_g_ = 0;
   g_relative_error_ = 0;
-  double error = 0, mu = 0, of_ratio = 0, of_ratio_ahead = 0, mu_ahead = 0;
+  double error = 0, mu = 0, of_ratio = 0, of_ratio_ahead = 0, mu_ahead = 0, before = 0;
   std::size_t index = 0;
   const auto* const curve = std::get_if<MasterCurve>(&rubber_);
   const std::span<const double> knots = curve ? curve->knots() : std::span<const double>();
@@ -73,16 +73,17 @@ void RingSolver::start(double velocity) {
       const auto next = std::upper_bound(passed, knots.end(), frequency_[nodes * (cell + 1) - 1]);
       const auto between = static_cast<std::size_t>(next - passed);
       passed = next;
-      const double before = std::sqrt(std::fmax(0, unit_g_));
       unit_g_ += part;
       error += last_coefficient(i2) * is.m_part * passed_on(is.roughness_of_m, between);
       // where I2 spans decades polynomials through it may come out below zero, and so may G at the front
       if (part != 0) g_relative_error_ = std::fmax(g_relative_error_, unit_g_ > 0 ? error / unit_g_ : unknown);
-      g_at_cells_[index++] = unit_g_;
+      const double root = std::sqrt(std::fmax(0, unit_g_));
+      root_at_cells_[index++] = root;
       const double* const ratio = &at.ratio[nodes * cell];
       at.ratio_error[cell] =
           last_coefficient(ratio) * passed_on(std::fmax(is.roughness_of_m, is.roughness_of_u), between);
-      const double rise = std::sqrt(std::fmax(0, unit_g_)) - before;
+      const double rise = root - before;
+      before = root;
       of_ratio += at.ratio_error[cell] * part;
       mu += ratio[nodes / 2] * part;
       of_ratio_ahead += at.ratio_error[cell] * rise;
@@ -98,9 +99,8 @@ void RingSolver::start(double velocity) {
 
 /// Of R in the cells, on int R dF.
 double RingSolver::interpolation_error(const ContactIntegral& contact) {
-  const Kernels& loops = kernels();
-  loops.g_at_nodes(0, g_at_cells_.data(), scale_, g_at_cells_.size(), f_at_cells_.data());
-  loops.contact_integral(contact.table, f_at_cells_.data(), f_at_cells_.size(), f_at_cells_.data(), nullptr);
+  kernels().contact_integral_of_roots(contact.table, root_at_cells_.data(), root_of_scale_, 0, root_at_cells_.size(),
+                                      f_at_cells_.data());
   double result = 0, before = 0;
   std::size_t index = 0;
   for (const Modulus& at : moduli_)

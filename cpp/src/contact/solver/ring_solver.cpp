@@ -39,8 +39,8 @@ RingSolver::RingSolver(const RingSurface& surface, const Rubber& rubber, double 
     cells += group.cells.size();
   }
   i1_outside_.resize(frequency_.size());
-  g_at_cells_.resize((cells + lanes - 1) / lanes * lanes);
-  f_at_cells_.resize(g_at_cells_.size());
+  root_at_cells_.resize((cells + lanes - 1) / lanes * lanes);
+  f_at_cells_.resize(root_at_cells_.size());
 }
 
 void RingSolver::fill(Part& part) {
@@ -49,9 +49,14 @@ void RingSolver::fill(Part& part) {
   const Kernels& loops = kernels();
   part.started = starts_;
   const std::size_t first = nodes * block.first_cell;
-  loops.combine(block.to_g.data(), block.to_g.size(), &modulus.i2[first], part.g);
+  double g[rows];
+  loops.combine(block.to_g.data(), block.to_g.size(), &modulus.i2[first], g);
   loops.combine(block.to_slope.data(), block.to_slope.size(), &modulus.ratio[first], part.slope);
-  for (std::size_t i = 0; i < rows; ++i) part.g[i] += part.g_lower * block.of_lower.data[i];
+  for (std::size_t i = 0; i < rows; ++i) {
+    g[i] += part.g_lower * block.of_lower.data[i];
+    part.root[i] = std::copysign(std::sqrt(std::fabs(g[i])), g[i]);
+  }
+  part.g_upper = g[end];
   double slopes = 0;
   for (std::size_t i = 0; i < fine; ++i) slopes += std::fabs(part.slope[i]);
   part.mean_slope = slopes / (block.upper - block.lower);
@@ -59,44 +64,35 @@ void RingSolver::fill(Part& part) {
 
 /// F at the first rows of a part.
 void RingSolver::take_f(Part& part, double f_lower, std::size_t count, const ContactIntegral& contact) const {
-  double g[rows];
-  const Kernels& loops = kernels();
-  loops.g_at_nodes(0, part.g, scale_, count, g);
-  loops.contact_integral(contact.table, g, count, part.f, nullptr);
+  kernels().contact_integral_of_roots(contact.table, part.root, root_of_scale_, f_lower, count, part.f);
   part.f_lower = f_lower;
 }
 
 namespace {
 
-/// Sums of (F - F at the lower end) times dR and dy.
+/// Sums of F times dR and dy, by the fine rule and by the coarse one.
 struct Sums {
-  double of_slope = 0, of_measure = 0;
+  double of_slope, coarse_of_slope, of_measure, coarse_of_measure;
 };
 
 template <class Part>
-Sums sums_of(const Part& part, std::size_t begin, std::size_t stop) {
-  const double* const measure = part.block().measure.data();
-  double of_slope = 0, of_measure = 0;
-#pragma omp simd reduction(+ : of_slope, of_measure)
-  for (std::size_t i = begin; i < stop; ++i) {
-    const double f = part.f[i] - part.f_lower;
-    of_slope += part.slope[i] * f;
-    of_measure += measure[i] * f;
-  }
-  return {of_slope, of_measure};
+Sums sums_of(const Part& part, std::size_t coarse) {
+  double sum[4];
+  kernels().sums_of_two(part.f, part.slope, part.block().measure.data(), fine, coarse, sum);
+  return {sum[0], sum[1], sum[2], sum[3]};
 }
 
 }  // namespace
 
 void RingSolver::evaluate(Part& part, double f_lower, const ContactIntegral& contact) const {
   take_f(part, f_lower, rows, contact);
-  part.f_upper = part.f[end];
-  const Sums all = sums_of(part, 0, fine), fewer = sums_of(part, fine, end);
-  part.value = part.slope[end] * (part.f_upper - f_lower) - all.of_slope;
-  part.area = all.of_measure;
-  part.by_nodes = std::fmax(std::fabs(all.of_slope - fewer.of_slope),
-                            part.mean_slope * std::fabs(all.of_measure - fewer.of_measure));
-  const double g_upper = part.g[end] * scale_;
+  part.f_upper = f_lower + part.f[end];
+  const Sums sums = sums_of(part, RingBlock::coarse);
+  part.value = part.slope[end] * part.f[end] - sums.of_slope;
+  part.area = sums.of_measure;
+  part.by_nodes = std::max(std::fabs(sums.of_slope - sums.coarse_of_slope),
+                           part.mean_slope * std::fabs(sums.of_measure - sums.coarse_of_measure));
+  const double g_upper = part.g_upper * scale_;
   if (part.g_lower * scale_ < 1 && g_upper > 100) {
     const RingBlock& block = part.block();
     const double decades = std::log10(g_upper / 4);  // down to where G is 4
@@ -137,17 +133,17 @@ void RingSolver::evaluate_halves(std::size_t index, const ContactIntegral& conta
       half->g_lower = g;
       fill(*half);
     }
-    g = half->g[end];
+    g = half->g_upper;
     evaluate(*half, f, contact);
     f = half->f_upper;
   }
   whole.f_upper = f;
-  const Sums sums = sums_of(whole, 0, fine);
+  const Sums sums = sums_of(whole, 0);
   const double value = whole.slope[end] * (whole.f_upper - whole.f_lower) - sums.of_slope;
   const RingBlock& behind = second.block();
   const double area = first.area + second.area + (first.f_upper - first.f_lower) * (behind.upper - behind.lower);
   whole.by_halves =
-      std::fmax(std::fabs(value - (first.value + second.value)), whole.mean_slope * std::fabs(sums.of_measure - area));
+      std::max(std::fabs(value - (first.value + second.value)), whole.mean_slope * std::fabs(sums.of_measure - area));
 }
 
 /// That of the sum of both halves.
@@ -159,26 +155,29 @@ double RingSolver::error(const Part& part) const {
 
 /// The part of mu_H from frequencies outside of the measured range, over its factor: good to a hundredth, as it has a
 /// root's kink in the cell in which the range ends.
-double RingSolver::outside() const {
+double RingSolver::outside() {
   double result = 0;
   for (const std::size_t whole : whole_)
     for (const std::size_t half : {parts_[whole].halves, parts_[whole].halves + 1}) result += outside(parts_[half]);
   return result;
 }
 
-double RingSolver::outside(const Part& part) const {
+double RingSolver::outside(Part& part) const {
   const std::vector<double>& ratio = moduli_[part.group].outside;
   if (ratio.empty()) return 0;
   const RingBlock& block = part.block();
-  double slope[rows];
-  kernels().combine(block.to_slope.data(), block.to_slope.size(), &ratio[nodes * block.first_cell], slope);
-  double result = slope[end] * (part.f_upper - part.f_lower);
-  for (std::size_t i = 0; i < fine; ++i) result -= slope[i] * (part.f[i] - part.f_lower);
+  if (part.outside_of != starts_)
+    kernels().combine(block.to_slope.data(), block.to_slope.size(), &ratio[nodes * block.first_cell],
+                      part.slope_outside);
+  part.outside_of = starts_;
+  double result = part.slope_outside[end] * part.f[end];
+  for (std::size_t i = 0; i < fine; ++i) result -= part.slope_outside[i] * part.f[i];
   return std::fmax(result, 0);
 }
 
 RingSolver::Outcome RingSolver::solve(double pressure, double shift, const ContactIntegral* contact) {
-  scale_ = 1 / (pressure * shift) / (pressure * shift);
+  root_of_scale_ = 1 / (pressure * shift);
+  scale_ = root_of_scale_ / (pressure * shift);
   if (!(unit_g_ > 0)) return Outcome::no_g;
   check_g(g(), pressure);
   if (!(g_relative_error_ <= of_g * rtol_)) return Outcome::no_g;

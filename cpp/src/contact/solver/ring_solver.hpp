@@ -50,13 +50,15 @@ class RingSolver {
   struct Part {
     const RingTree* tree;  // null for a group's until it is asked for
     std::size_t group;
-    std::size_t halves = 0;   // where the first of two is, 0 if they were not asked for yet
-    bool uneven = false;      // one of them has most of the growth of u
-    std::size_t started = 0;  // the velocity that the next four are of
-    double g_lower = 0;       // at unit load
-    double g[RingBlock::rows] = {}, slope[RingBlock::rows] = {};
-    double mean_slope = 0;  // of R over y, by size
-    double f[RingBlock::rows] = {};
+    std::size_t halves = 0;             // where the first of two is, 0 if they were not asked for yet
+    bool uneven = false;                // one of them has most of the growth of u
+    std::size_t started = 0;            // the velocity that what follows is of
+    std::size_t outside_of = 0;         // the one that the slopes of R from outside are of
+    double g_lower = 0, g_upper = 0;    // at unit load
+    double root[RingBlock::rows] = {};  // of G at unit load, below 0 where G is
+    double slope[RingBlock::rows] = {}, slope_outside[RingBlock::rows] = {};
+    double mean_slope = 0;           // of R over y, by size
+    double f[RingBlock::rows] = {};  // F, less that at the lower end
     double f_lower = 0, f_upper = 0;
     double value = 0;      // R dF
     double area = 0;       // int (F - F at the lower end) dy
@@ -72,20 +74,20 @@ class RingSolver {
   void evaluate_halves(std::size_t index, const ContactIntegral& contact);
   [[nodiscard]] double error(const Part& part) const;
   [[nodiscard]] double interpolation_error(const ContactIntegral& contact);
-  [[nodiscard]] double outside() const;
-  [[nodiscard]] double outside(const Part& part) const;
+  [[nodiscard]] double outside();
+  [[nodiscard]] double outside(Part& part) const;
 
   const RingSurface& surface_;
   const Rubber& rubber_;
   double stiffening_, g_factor_, rtol_;
-  double velocity_ = 0, scale_ = 0, unit_g_ = 0, g_relative_error_ = 0, excess_ = 0;
+  double velocity_ = 0, scale_ = 0, root_of_scale_ = 0, unit_g_ = 0, g_relative_error_ = 0, excess_ = 0;
   std::size_t starts_ = 0;
   PanelSolver::Hysteresis hysteresis_;
   std::vector<double> frequency_, i1_outside_;
-  std::vector<Modulus> moduli_;                  // of each group
-  std::vector<double> g_at_cells_, f_at_cells_;  // at the upper end of each cell: at unit load; of the point
-  std::vector<Part> parts_;                      // the groups' roots first
-  std::vector<std::size_t> whole_, next_;        // parts whose halves make up the sum
+  std::vector<Modulus> moduli_;                     // of each group
+  std::vector<double> root_at_cells_, f_at_cells_;  // at the upper end of each cell: of G at unit load; of the point
+  std::vector<Part> parts_;                         // the groups' roots first
+  std::vector<std::size_t> whole_, next_;           // parts whose halves make up the sum
 };
 
 }  // namespace asperity
