@@ -91,7 +91,7 @@ class ASPERITY_EXPORT ShiftTable {
 
  private:
   double reference_;
-  std::vector<double> temperature_, log10_a_T_, deviation_;
+  std::vector<double> temperature_, log10_a_T_, deviation_, slope_;
 };
 
 /// How a rubber's relaxation times follow its temperature.

@@ -173,6 +173,28 @@ inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[
 inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
 #endif
 
+/// e^x of both, with the digits of `exp`.
+inline Pair exp(Pair x) noexcept {
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
+  const auto held = [](double y) { return y < -700 ? -700 : y > 700 ? 700 : y; };
+  const auto nearest = [](double y) {
+    const double half = from_bits((bits(y) & 0x8000000000000000) | 0x3fe0000000000000);
+    return static_cast<std::int32_t>(y * (128 / 0.693147180559945309417) + half);
+  };
+  const auto power_of = [](std::int32_t k) {
+    return tables.power[k & 127] * from_bits(static_cast<std::uint64_t>((k >> 7) + 1023) << 52);
+  };
+  x = Pair{held(x[0]), held(x[1])};
+  const std::int32_t k0 = nearest(x[0]), k1 = nearest(x[1]);
+  const Pair steps{static_cast<double>(k0), static_cast<double>(k1)}, power{power_of(k0), power_of(k1)};
+  const Pair r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128), r2 = r * r;
+  const Pair tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
+  return (1 + (r + r2 * tail)) * power;
+#else
+  return {{exp(x[0]), exp(x[1])}};
+#endif
+}
+
 inline bool is_nan(double x) noexcept { return (bits(x) & 0x7fffffffffffffff) > 0x7ff0000000000000; }
 
 /// Comparisons of bits instead of numbers hold under a host's -ffast-math too.
@@ -298,21 +320,33 @@ class FrictionMap {
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
 
+  static constexpr double long_forgotten = 40;  // s / s0, whose share is below rounding
   struct Memory {
     double share, slope;  // of what was without heat, and d ln of it / d ln v
   };
 
-  [[nodiscard]] double mu(const Where& at) const noexcept {
-    const map_detail::Pair f = steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
-    double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at));
-    return mu;
+  [[nodiscard]] map_detail::Pair logarithms(const Where& at) const noexcept {
+    return steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
   }
 
+  [[nodiscard]] double mu(const Where& at) const noexcept { return mu_of(logarithms(at), log_adhesion(at)); }
+
+  /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
+  [[nodiscard]] double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
+    if (!(info_.shear_stress > 0)) return info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    const map_detail::Pair mu = map_detail::exp(map_detail::Pair{f[0], f[1] + log_adhesion});
+    return info_.hysteresis ? mu[0] + mu[1] : mu[1];
+  }
+
+  /// Hot and cold before the memory, whose exponentials wait for each other, so that all go on at once.
   [[nodiscard]] double mu_after(const Where& at, double distance) const noexcept {
-    const double hot = mu(at);
-    const Memory memory = remember(at, distance);
-    return memory.share > 0 ? hot + memory.share * (cold_->mu(cold_place(at)) - hot) : hot;
+    const double adhesion = log_adhesion(at), x = cold_x(at), z = at.ln_p;
+    const double* const cell = cold_->cell_at(x, z);
+    const map_detail::Pair of_hot = logarithms(at), of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]);
+    const double hot = mu_of(of_hot, adhesion), cold = mu_of(of_cold, adhesion);
+    double slope = 0;
+    const double slid = distance * map_detail::exp(-log_sliding_length(at, slope));  // s / s0
+    return slid < long_forgotten ? hot + map_detail::exp(-slid) * (cold - hot) : hot;
   }
 
   [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
@@ -367,31 +401,32 @@ class FrictionMap {
 
   /// ln s0 and its slope over ln v.
   double log_sliding_length(const Where& at, double& slope) const noexcept {
-    const double row = rows_ > 1 ? (at.background - info_.temperature[0]) * rows_per_T_ : 0;
-    const std::uint32_t j = rows_ > 1 ? index(row, rows_ - 1) : 0;
+    const double* const table = sliding_.data();
     const std::size_t columns = sliding_.size() / (2 * std::size_t{rows_});
-    const double* const lower = &sliding_[2 * columns * j];
-    const double value = cubic(lower, columns, sliding_per_x_, at.x - offset_x_, slope);
-    if (rows_ == 1) return value;
-    double next = 0;
-    const double above = cubic(lower + 2 * columns, columns, sliding_per_x_, at.x - offset_x_, next), t = row - j;
-    slope += t * (next - slope);
-    return value + t * (above - value);
+    if (rows_ == 1) return cubic(table, columns, sliding_per_x_, sliding_step_, at.x - offset_x_, slope);
+    const double row = (at.background - info_.temperature[0]) * rows_per_T_;
+    const double column = (at.x - offset_x_) * sliding_per_x_;
+    const std::uint32_t j = index(row, rows_ - 1), i = index(column, static_cast<std::uint32_t>(columns - 1));
+    const double* const lower = table + 2 * (columns * j + i);
+    const double* const upper = lower + 2 * columns;
+    double between[4];
+    for (int k = 0; k < 4; ++k) between[k] = lower[k] + (row - j) * (upper[k] - lower[k]);
+    return cubic(between, column - i, sliding_per_x_, sliding_step_, slope);
   }
 
   [[nodiscard]] Memory remember(const Where& at, double distance) const noexcept {
     if (distance >= map_detail::long_slid) return {0, 0};
     double slope = 0;
     const double slid = distance * map_detail::exp(-log_sliding_length(at, slope));  // s / s0
-    return slid < 40 ? Memory{map_detail::exp(-slid), slid * slope} : Memory{0, 0};
+    return slid < long_forgotten ? Memory{map_detail::exp(-slid), slid * slope} : Memory{0, 0};
   }
 
   /// ln of a_T v on the map without heat.
   [[nodiscard]] double cold_x(const Where& at) const noexcept {
     if (steps_ == 0) return at.x;
     double slope = 0;
-    const double x =
-        at.x + cubic(shift_.data(), shift_.size() / 2, steps_per_T_, at.background - info_.temperature[0], slope);
+    const double x = at.x + cubic(shift_.data(), shift_.size() / 2, steps_per_T_, step_of_T_,
+                                  at.background - info_.temperature[0], slope);
     const double first = cold_->offset_x_, last = cold_->last_x_;
     return x < first ? first : x > last ? last : x;  // by rounding
   }
@@ -490,7 +525,7 @@ class FrictionMap {
     at.background = background;
     const double scaled = (background - info_.temperature[0]) * steps_per_T_;
     at.step = index(scaled, steps_);
-    at.dT = background - info_.temperature[0] - at.step / steps_per_T_;
+    at.dT = background - info_.temperature[0] - at.step * step_of_T_;
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
@@ -511,21 +546,27 @@ class FrictionMap {
     return true;
   }
 
-  /// Values and slopes at equal steps, `from` away from the first, and the slope there.
-  static double cubic(const double* table, std::size_t nodes, double per_step, double from, double& slope) noexcept {
-    const double scaled = from * per_step, h = 1 / per_step;
+  /// Of values and slopes at equal steps, at `from` away from the first, and the slope there.
+  static double cubic(const double* table, std::size_t nodes, double per_step, double step, double from,
+                      double& slope) noexcept {
+    const double scaled = from * per_step;
     const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(nodes - 1));
-    const double* const s = &table[2 * std::size_t{i}];
-    const double t = scaled - i, rise = s[2] - s[0];
-    const double square = 3 * rise - h * (2 * s[1] + s[3]), cube = h * (s[1] + s[3]) - 2 * rise;
+    return cubic(&table[2 * std::size_t{i}], scaled - i, per_step, step, slope);
+  }
+
+  /// The same between two nodes, a share t of the step from the first.
+  static double cubic(const double* s, double t, double per_step, double step, double& slope) noexcept {
+    const double rise = s[2] - s[0];
+    const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
     slope = s[1] + t * (2 * square + 3 * t * cube) * per_step;
-    return s[0] + t * (h * s[1] + t * (square + t * cube));
+    return s[0] + t * (step * s[1] + t * (square + t * cube));
   }
 
   /// s(x) and its slope.
   double log_modulus_offset(double x, double& slope) const noexcept {
     slope = 0;
-    return offset_.empty() ? 0 : cubic(offset_.data(), offset_.size() / 2, offset_per_x_, x - offset_x_, slope);
+    if (offset_.empty()) return 0;
+    return cubic(offset_.data(), offset_.size() / 2, offset_per_x_, offset_step_, x - offset_x_, slope);
   }
 
   [[nodiscard]] const double* cell_at(double x, double z) const noexcept {
@@ -548,10 +589,11 @@ class FrictionMap {
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
   std::vector<double> cuts_, offset_;
-  double offset_x_ = 0, last_x_ = 0, offset_per_x_ = 0;  // ln of the box's velocities
+  double offset_x_ = 0, last_x_ = 0;  // ln of the box's velocities
+  double offset_per_x_ = 0, offset_step_ = 0;
   std::size_t cell_size_ = map_detail::cell_size;
   std::uint32_t steps_ = 0, rows_ = 1;  // of T0 in cells, 0 for one T0; of T0 in the table of ln s0
-  double steps_per_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
+  double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0, sliding_step_ = 0;
   std::vector<double> shift_, sliding_;  // ln a_T over T0, ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_;
   std::vector<map_detail::Grid> grids_;
@@ -769,11 +811,18 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
     const double kelvin = info.temperature[1] - info.temperature[0];
     map.steps_ = warm.nodes - 1;
     map.rows_ = warm.rows;
-    if (map.steps_ > 0) map.steps_per_T_ = map.steps_ / kelvin;
+    if (map.steps_ > 0) {
+      map.steps_per_T_ = map.steps_ / kelvin;
+      map.step_of_T_ = 1 / map.steps_per_T_;
+    }
     if (map.rows_ > 1) map.rows_per_T_ = (map.rows_ - 1) / kelvin;
     map.sliding_per_x_ = (warm.columns - 1) / (map.last_x_ - map.offset_x_);
+    map.sliding_step_ = 1 / map.sliding_per_x_;
   }
-  if (nodes != 0) map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);
+  if (nodes != 0) {
+    map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);
+    map.offset_step_ = 1 / map.offset_per_x_;
+  }
   map.ln_shear_stress_ = info.shear_stress > 0 ? map_detail::ln(info.shear_stress) : 0;
   map.ln_reference_ = info.shear_stress > 0 ? map_detail::ln(info.reference_velocity) : 0;
   map.width_ = info.width / (2.302585092994045684 * 2.302585092994045684);

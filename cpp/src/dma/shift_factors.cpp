@@ -81,6 +81,8 @@ ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::v
     for (std::size_t i = 0; i < deviation_.size(); ++i)
       require_not_negative("standard_deviation[" + std::to_string(i) + "]", deviation_[i]);
   }
+  const Steffen through(temperature_, log10_a_T_);
+  for (std::size_t i = 0; i < temperature_.size(); ++i) slope_.push_back(through.slope(i));
 }
 
 double ShiftTable::shift_factor(double temperature) const { return std::pow(10, shift_at(temperature).log10_a_T); }
@@ -90,7 +92,11 @@ ShiftValue ShiftTable::shift_at(double temperature) const {
   if (!(temperature >= temperature_.front() && temperature <= temperature_.back()))
     throw OutOfRange("temperature = " + show(temperature, 6) + ": shift factors are known in [" +
                      show(temperature_.front(), 6) + ", " + show(temperature_.back(), 6) + "] K");
-  const auto [value, slope] = Steffen(temperature_, log10_a_T_).value_and_slope(temperature);
+  const auto above = std::upper_bound(temperature_.begin() + 1, temperature_.end() - 1, temperature);
+  const auto i = static_cast<std::size_t>(above - temperature_.begin());
+  const double from = temperature_[i - 1], step = temperature_[i] - from;
+  const auto [value, slope] =
+      hermite(log10_a_T_[i - 1], slope_[i - 1], log10_a_T_[i], slope_[i], step, (temperature - from) / step);
   return {value, slope};
 }
 
