@@ -8,6 +8,7 @@
 
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/roots.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -51,7 +52,8 @@ double macro_wavenumber(const Heating& heating, const Spectrum& spectrum) {
   return std::clamp(2 * std::numbers::pi / heating.contact_diameter, q0, q1);
 }
 
-FlashSolver::FlashSolver(const HeatScene& scene, Branch branch) : scene_(scene), branch_(branch), levels_(levels) {
+FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
+    : scene_(scene), branch_(branch), known_(known_range(scene.rubber)), levels_(levels) {
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
   while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;
@@ -80,6 +82,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                             .macro_wavenumber = scene_.macro_wavenumber,
                             .stops = stops_,
                             .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
+                            .held_from = held_from_,
                             .also_felt = asperity_wavenumber(scene_.model.correction, scene_.spectrum)};
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
     if (table && stops_.empty() && scene_.model.rtol >= pieces_rtol && level - 1 < RoughnessPieces::levels &&
@@ -110,11 +113,43 @@ VectorXd FlashSolver::guess(double velocity) const {
   return result;
 }
 
+/// Beyond the end of the roughness the modulus is held where it is not known any more, at which panels shall end, as
+/// it has a kink there. True where that place has moved with this point or its temperatures.
+bool FlashSolver::end_panel_where_held(const HeatPoint& point, const VectorXd& theta) {
+  const HeatGrid& grid = map_of(level_).grid();
+  const std::vector<double>& ends = grid.beyond().ends;
+  if (ends.empty() || !known_) return false;
+  const auto over_known = [&](double log_q) {
+    const double q = std::exp(log_q), rise = theta.size() == 0 ? 0 : grid.row_at(q).dot(theta);
+    const ShiftValue shift = held_shift(scene_.shift, point.temperature + rise);
+    return std::log(point.velocity * q / known_->highest) + std::numbers::ln10 * shift.log10_a_T;
+  };
+  const double lower = std::log(ends.front()), upper = std::log(ends.back());
+  const double near = 0.1 * std::sqrt(scene_.model.rtol);  // the error goes as its square
+  std::optional<double> found;
+  if (over_known(lower) < 0 && over_known(upper) > 0)
+    found = std::exp(bracketed_root(over_known, lower, upper, 0.1 * near));
+  if (!found && !held_from_) return false;
+  if (found && held_from_ && std::fabs(std::log(*found / *held_from_)) < near) return false;
+  held_from_ = found;
+  levels_.clear();
+  levels_.resize(levels);
+  return true;
+}
+
 HotPoint FlashSolver::operator()(const HeatPoint& point) {
   const double rtol = scene_.model.rtol, tolerance = std::clamp(0.02 * rtol, 1e-13, 1e-5);
-  FlashMap* map = &map_of(level_);
-  map->start(point);
-  FixedPoint found = solve_fixed_point(*map, point, guess(point.velocity), branch_, tolerance, tangent_);
+  VectorXd start = guess(point.velocity);
+  (void)end_panel_where_held(point, start);
+  FlashMap* map = nullptr;
+  FixedPoint found;
+  int moves = 5;
+  do {
+    map = &map_of(level_);
+    map->start(point);
+    found = solve_fixed_point(*map, point, start, branch_, tolerance, tangent_);
+    start = found.theta;
+  } while (--moves > 0 && end_panel_where_held(point, found.theta));
   const int branches = found.solutions;
   if (before_.size() == 2) before_.erase(before_.begin());
   before_.push_back({point.velocity, level_, found.theta});
@@ -173,8 +208,7 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
   } catch (const OutOfRange& error) {
     throw OutOfRange(at + ": " + error.what());
   }
-  const std::optional<FrequencyRange> known = known_range(scene_.rubber);
-  if (!known) return;
+  if (!known_) return;
   double lowest = HUGE_VAL, highest = 0;
   const auto see = [&](double w) {
     lowest = std::fmin(lowest, w);
@@ -185,10 +219,10 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
   if (const auto q = asperity_wavenumber(scene_.model.correction, scene_.spectrum))
     see(map.reduced_frequency(*q, point.temperature + map.grid().also_felt().dot(found.theta)));
   constexpr double rounding = 1e-12;
-  if (lowest < known->lowest * (1 - rounding) || highest > known->highest * (1 + rounding))
+  if (lowest < known_->lowest * (1 - rounding) || highest > known_->highest * (1 + rounding))
     throw OutOfRange(at + " and is asked for its modulus from " + show(lowest) + " to " + show(highest) +
-                     " rad/s at the reference of its shift, known in [" + show(known->lowest) + ", " +
-                     show(known->highest) + "] rad/s");
+                     " rad/s at the reference of its shift, known in [" + show(known_->lowest) + ", " +
+                     show(known_->highest) + "] rad/s");
 }
 
 double FlashSolver::temperature_at(double wavenumber) const {

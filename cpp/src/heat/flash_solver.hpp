@@ -50,11 +50,14 @@ class FlashSolver {
     Eigen::MatrixXd up, down;  // between the level below and this one
   };
   [[nodiscard]] Eigen::VectorXd guess(double velocity) const;
+  bool end_panel_where_held(const HeatPoint& point, const Eigen::VectorXd& theta);
   void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
 
   const HeatScene& scene_;
   Branch branch_;
   std::vector<double> stops_;
+  std::optional<FrequencyRange> known_;
+  std::optional<double> held_from_;  // [1/m]
   std::vector<Level> levels_;
   std::size_t first_level_ = 0, level_ = 0;  // of the coarser grid
   HeatPoint point_{};

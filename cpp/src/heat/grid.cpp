@@ -28,11 +28,16 @@ std::size_t nodes_for(double length, std::size_t level, bool front, bool tabulat
   return 4 * static_cast<std::size_t>(std::ceil(nodes / 4)) + 4 * level;
 }
 
-/// Into how many pieces a length is to be cut so that a rule has the nodes for one.
+/// Into how many pieces a length is to be cut so that a rule has the nodes for one; in two where the highest level asks
+/// the shortest panel for more than any rule has.
 double pieces_for(double length, double longest, std::size_t level, bool tabulated) {
+  constexpr double shortest = 0.05;
+  const auto too_few = [&](double pieces) {
+    return nodes_for(length / pieces, level, false, tabulated) > LegendreRule::most;
+  };
   double pieces = std::ceil(length / longest);
-  while (nodes_for(length / pieces, level, false, tabulated) > LegendreRule::most) ++pieces;
-  return pieces;
+  while (too_few(pieces) && length / pieces > shortest) ++pieces;
+  return too_few(pieces) ? 2 * pieces : pieces;
 }
 
 }  // namespace
@@ -155,15 +160,21 @@ void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOption
   std::vector<double> ends{q_e, end};
   for (const double q : options.stops)
     if (q > q_e * (1 + same) && q < end * (1 - same)) ends.push_back(q);
+  if (options.held_from) ends.push_back(std::clamp(*options.held_from, q_e, end));
   std::ranges::sort(ends);
   std::vector<double> weight;
   beyond_.ends.push_back(q_e);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double length = std::log(ends[i + 1] / ends[i]);
-    const double pieces = pieces_for(length, options.tabulated ? 0.5 : 2, options.level, options.tabulated);
+    if (!(length > same)) continue;
+    // rows of a measured modulus lie anywhere in panels: only shorter ones lessen what that does
+    const double halvings = options.tabulated && options.level > 1 ? static_cast<double>(options.level) - 1 : 0;
+    const std::size_t level = options.tabulated ? 0 : options.level;
+    const double pieces =
+        pieces_for(length, options.tabulated ? 0.5 : 2, level, options.tabulated) * std::exp2(halvings);
     for (double k = 0; k < pieces; ++k) {
       const double lower = std::log(ends[i]) + length * (k / pieces), half = length / pieces / 2;
-      const LegendreRule& rule = legendre_rule(nodes_for(2 * half, options.level, false, options.tabulated));
+      const LegendreRule& rule = legendre_rule(nodes_for(2 * half, level, false, options.tabulated));
       for (std::size_t j = 0; j < rule.n; ++j) {
         const double q = std::exp(lower + half * (1 + rule.node[j]));
         wavenumber_.push_back(q);

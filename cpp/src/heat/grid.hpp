@@ -21,6 +21,7 @@ struct HeatGridOptions {
   double macro_wavenumber = 0;                     // at which G is asked for [1/m]
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
   bool beyond_end = false;                         // PartialContact carries stress beyond the end of the roughness
+  std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
   std::optional<double> also_felt = std::nullopt;  // a temperature point that may lie outside of the band [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
 };

@@ -7,7 +7,7 @@ import asperity
 from helpers import table_rows
 from helpers.cases import case, each
 from helpers.examples import TREAD
-from helpers.heat import ASPHALT, CUT, STICKY, hot
+from helpers.heat import ASPHALT, CUT, STICKY, hot, rubber
 
 PEAKS = np.random.default_rng(0).normal(3e-4, 8e-5, 300)
 HEIGHTS = {"z_max": 1.2e-3, "z_min": -1.5e-3}
@@ -146,3 +146,46 @@ def test_partial_contact_that_heat_does_not_change_is_the_cold_one_to_rounding(r
             found = of_row(row, shift=STILL, rtol=1e-12)
             np.testing.assert_allclose(found.mu, found.cold.mu, rtol=1e-12)
             np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=1e-12)
+
+
+def measured(noise):
+    """The rubber as if it had been measured, up to 1e5 rad/s."""
+    w = np.geomspace(1e-2, 1e5, 140)
+    scatter = np.random.default_rng(4).normal(scale=noise, size=(2, w.size))
+    modulus = rubber().modulus(w)
+    return asperity.MasterCurve(
+        angular_frequency=w,
+        storage_modulus=modulus.real * np.exp(scatter[0]),
+        loss_modulus=modulus.imag * np.exp(scatter[1]),
+    )
+
+
+@each("noise", [0.0, 0.01])
+def test_edges_of_contacts_beyond_the_measured_frequencies(noise):
+    """There the modulus is held: at its kink panels end, which moves with the temperature."""
+    curve = measured(noise)
+    road = ASPHALT.truncated(q1=1e5)
+    q = np.geomspace(2e3, 1e5, 60)
+    scatter = np.random.default_rng(5).normal(scale=0.2, size=q.size)
+    rings = asperity.TabulatedSpectrum(wavenumber=q, density=road.at(q) * np.exp(scatter))
+    for compound in (asperity.fit_prony(curve), curve):
+        given = {
+            "rubber": compound,
+            "velocity": np.array([0.1, 0.3, 0.95]),
+            "correction": asperity.PartialContact(),
+        }
+        for spectrum in (road, rings):
+            found = hot(spectrum, **given, shift=STILL, rtol=1e-6)
+            off = np.abs(found.mu - found.cold.mu)
+            assert (off <= found.error_estimate + found.cold.error_estimate).all()
+            warmed, truth = (hot(spectrum, **given, rtol=rtol) for rtol in (1e-5, 1e-6))
+            assert (truth.temperature > 294).all()
+            off = np.abs(warmed.mu - truth.mu)
+            assert (off <= warmed.error_estimate + truth.error_estimate).all()
+
+
+def test_a_tolerance_out_of_reach_ends():
+    """On the finest grid of a master curve no rule has the nodes that a panel should have."""
+    given = {"velocity": 0.1, "correction": asperity.PartialContact(), "rubber": measured(0.01)}
+    with pytest.raises(asperity.NotConverged):
+        hot(ASPHALT.truncated(q1=1e5), **given, rtol=1e-12)
