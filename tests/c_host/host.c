@@ -33,6 +33,11 @@ int main(int count, char** arguments) {
   check(fabs((above - below) / (2 * h) - out[4]) < 1e-6, "d mu / d ln p");
   check(asperity_map_mu(map, p, -v, 1, 0) == out[0], "even in the velocity");
 
+  const double pressures[] = {p, 1, p}, velocities[] = {v, v, -v};
+  double many[3];
+  asperity_map_mu_at_points(map, 3, pressures, velocities, 1, 0, many);
+  check(many[0] == out[0] && isnan(many[1]) && many[2] == out[0], "mu at several points");
+
   /* the map has heat, of one temperature of the background */
   const double hot = out[0], after = asperity_map_hot_mu(map, p, v, 293.15, 1e-4, 0);
   const double cold = asperity_map_hot_mu(map, p, v, 293.15, 0, 0);

@@ -31,6 +31,11 @@ int main(int count, char** arguments) {
         if (kind.temperatures > 1) continue;  // has to be asked for a temperature
         probe::require(std::fabs(elsewhere(map, p, v) - mu) <= 1e-14 * mu, "mu in another file");
         probe::require(std::fabs(asperity_map_mu(c, p, v, 1, 0) - mu) <= 1e-14 * mu, "mu from C");
+        const double pressures[] = {p, 1, p}, velocities[] = {v, v, -v};
+        double many[3];
+        asperity_map_mu_at_points(c, 3, pressures, velocities, 1, 0, many);
+        for (const int i : {0, 2}) probe::require(std::fabs(many[i] - mu) <= 1e-13 * mu, "mu of many from C");
+        probe::require(probe::is_nan(many[1]), "of many, NaN outside");
       }
     probe::points(map);
     probe::require(probe::is_nan(asperity_map_mu(c, probe::nan(), 1, 1, 1)), "NaN from C");
