@@ -19,6 +19,7 @@ from asperity.cli.options import (
     sides,
     whole,
 )
+from asperity.cli.sweep_parser import add_sweep
 from asperity.measured_spectrum import WINDOWS
 from asperity.plot.style import STYLES
 
@@ -226,6 +227,8 @@ def parser() -> argparse.ArgumentParser:
         help="keep shear_stress_pa, reference_velocity_m_s or width",
     )
     outputs(fit)
+
+    add_sweep(verb)
 
     mapped = verb(
         "map",

@@ -78,6 +78,7 @@ UNITLESS = {
     "fit_self_affine",
     "FrictionMap",
     "contact_notes",
+    "sweep",
 }
 
 
