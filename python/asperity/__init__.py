@@ -36,6 +36,7 @@ from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
 from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
+from asperity.sweep.run import sweep
 from asperity.sweeps import Isotherm, StrainSweep
 from asperity.uncertainty.band import FrictionBand, friction_band
 
@@ -99,6 +100,7 @@ __all__ = [
     "report",
     "separation",
     "spectral_density",
+    "sweep",
     "synthesize",
     "validation",
 ]

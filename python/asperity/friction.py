@@ -24,7 +24,7 @@ from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.heating import Heating
 from asperity.results.friction import COLUMNS, Friction
-from asperity.results.heat_notes import law_notes, with_size_of_heat
+from asperity.results.heat_notes import NotesWithHeat, law_notes
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.spectrum import Spectrum
@@ -163,15 +163,13 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
                 heating=heat,
             )
 
-        plain = result.notes
-        more: dict[str, Any] = {"notes": lambda: with_size_of_heat(plain, v, added, heated_at)}
+        more: dict[str, Any] = {}
+        beyond: tuple[str, ...] = ()
         if t is not None:
             more["temperature"] = _shaped(t, shape)
-            more["notes"] = lambda: (
-                *with_size_of_heat(plain, v, added, heated_at),
-                *law_notes(law, t),
-            )
-        return _with(result, **more)
+            beyond = law_notes(law, t)
+        sized = NotesWithHeat(result.notes, v, added is not None, heated_at, beyond)
+        return _with(result, **more, notes=sized)
     core = of_kind(heating, "heating", Heating)._core
     if t is None:
         raise InvalidInput(

@@ -20,6 +20,7 @@ from asperity.cli.options import (
     whole,
 )
 from asperity.cli.report_command import report
+from asperity.cli.sweep_parser import add_sweep
 from asperity.measured_spectrum import WINDOWS
 from asperity.plot.style import STYLES
 
@@ -227,6 +228,8 @@ def parser() -> argparse.ArgumentParser:
         help="keep shear_stress_pa, reference_velocity_m_s or width",
     )
     outputs(fit)
+
+    add_sweep(verb)
 
     mapped = verb(
         "map",

@@ -16,7 +16,7 @@ decades.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -226,6 +226,12 @@ def collected() -> Iterator[list[str]]:
         raise type(error)("; note: ".join([str(error), *notes])) from error
     finally:
         _notes.reset(token)
+
+
+def tell_again(notes: Sequence[str]) -> None:
+    """Note what was noted when something was built that is now taken from a cache."""
+    for note in notes:
+        _note(note)
 
 
 def check(where: str, values: ArrayLike, quantity: Quantity, unit: str = "") -> None:

@@ -119,6 +119,12 @@ class Friction(Table):
     temperature_profile: Array | None = None
     sliding_length: Any = _WhenAsked(None)
 
+    def _plain_notes(self) -> tuple[str, ...]:
+        """Return the notes without the size of the heat, which takes a computation of its own."""
+        found: Any = self.__dict__["notes"]
+        plain: tuple[str, ...] = found.plain if callable(found) else found
+        return plain
+
     def mu_at(self, distance: ArrayLike) -> Any:
         """Return the friction coefficient [-] after a `distance` s [m] slid from rest.
 

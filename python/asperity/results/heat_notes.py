@@ -1,6 +1,7 @@
 """Notes of a result on heat: how much is left out, and laws of the shift used beyond their fit."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -54,6 +55,21 @@ def with_size_of_heat(
             "contacts of 1 mm (Persson 2006, J. Phys.: Condens. Matter 18, 7789)"
         )
     return tuple(found)
+
+
+@dataclass(frozen=True, eq=False)
+class NotesWithHeat:
+    """Notes that say how much heat is left out when they are first asked for."""
+
+    plain: tuple[str, ...]
+    velocity: ArrayLike
+    adhesive: bool
+    heated_at: Callable[[int, Heating], Any]
+    more: tuple[str, ...] = ()
+
+    def __call__(self) -> tuple[str, ...]:
+        sized = with_size_of_heat(self.plain, self.velocity, self.adhesive, self.heated_at)
+        return (*sized, *self.more)
 
 
 def law_notes(shift: Any, temperature: ArrayLike) -> tuple[str, ...]:

@@ -115,15 +115,7 @@ class Scene:
 
     def friction(self, progress: Progress = nullcontext) -> Curves:
         """Friction at every pressure and velocity; `progress` sees the chunks of points."""
-        compute = partial(friction, adhesion=self.adhesion, **self.options)
-        if self.heating is not None:
-            compute = partial(
-                compute,
-                temperature=self.temperature,
-                shift=self.built_rubber.shift,
-                heating=self.heating,
-            )
-        parts: list[Friction] = self._at_points(compute, progress)
+        parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         found = dict.fromkeys(note for part in parts for note in part.notes)
         notes = dict.fromkeys([*self.notes, *self._with_size_of_heat([*found])])
@@ -136,6 +128,21 @@ class Scene:
             columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
             columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
         return Curves(notes=list(notes), band=None, **columns)
+
+    @property
+    def _friction(self) -> Callable[..., Friction]:
+        """`friction` with all that the scene says but for spectrum, rubber, correction, points."""
+        compute = partial(friction, adhesion=self.adhesion, **self.options)
+        if self.heating is None:
+            return compute
+        shift = self.built_rubber.shift
+        return partial(compute, temperature=self.temperature, shift=shift, heating=self.heating)
+
+    def friction_at(self, pressure: NDArray[np.float64], velocity: NDArray[np.float64]) -> Friction:
+        """Friction at points of one's own, in one call; errors name the scene's keys."""
+        with rename_in_errors(self.path, self._names):
+            result: Friction = self._at(self._friction, pressure, velocity)
+            return result
 
     def _with_size_of_heat(self, notes: Sequence[str]) -> Sequence[str]:
         """Let the note on heat that is left out say how much that is, where a_T is known."""
@@ -242,19 +249,27 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
+        with progress(chunks) as shown, rename_in_errors(self.path, self._names):
+            return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
+
+    @property
+    def _names(self) -> Mapping[str, str]:
+        return NAMES | (HEATING_NAMES if self.heating else {})
+
+    def _at(
+        self,
+        compute: Callable[..., Any],
+        pressure: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+    ) -> Any:
         rubber = self.built_rubber.at_reference if self.heating else self.rubber
-        names = NAMES | (HEATING_NAMES if self.heating else {})
-        with progress(chunks) as shown, rename_in_errors(self.path, names):
-            return [
-                compute(
-                    self.spectrum,
-                    rubber,
-                    pressure=pressure[chunk],
-                    velocity=velocity[chunk],
-                    correction=self.correction,
-                )
-                for chunk in shown
-            ]
+        return compute(
+            self.spectrum,
+            rubber,
+            pressure=pressure,
+            velocity=velocity,
+            correction=self.correction,
+        )
 
     def pressure_distribution(
         self, stress: NDArray[np.float64], wavenumber: float

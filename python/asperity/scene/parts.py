@@ -49,7 +49,7 @@ _ASPERITIES = {
     "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
     "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
 }
-_CORRECTIONS = {
+CORRECTIONS = {
     "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
     "nayak-s-factor": {**_KIND, "friction_gamma": Field(number, "friction_gamma")},
     "partial-contact": _KIND,
@@ -58,14 +58,14 @@ _CORRECTIONS = {
     "greenwood-williamson": _ASPERITIES,
     "peaks-then-greenwood-williamson": _ASPERITIES,
 }
-_ADHESION = {
+ADHESION = {
     "shear_stress_pa": Field(number, "shear_stress", plausible.SHEAR_STRESS),
     "reference_velocity_m_s": Field(number, "reference_velocity", plausible.VELOCITY),
     "width": Field(number, "width"),
 }
 
 
-_HEATING = {
+HEATING = {
     "density_kg_m3": Field(number, "density"),
     "heat_capacity_j_kg_k": Field(number, "heat_capacity"),
     "conductivity_w_m_k": Field(number, "conductivity"),
@@ -76,23 +76,23 @@ _HEATING = {
     "interface_share": Field(number, "interface_share"),
     "model": Field(text, "model"),
 }
-HEATING_NAMES = names_of("heating", _HEATING)
+HEATING_NAMES = names_of("heating", HEATING)
 
 
 def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
-    values = read_table(path, "heating", table, _HEATING)
-    require(path, "heating", values, tuple(_HEATING)[:4])
+    values = read_table(path, "heating", table, HEATING)
+    require(path, "heating", values, tuple(HEATING)[:4])
     with rename_in_errors(path, HEATING_NAMES):
-        heating = Heating(**arguments(values, _HEATING))
-    return heating, _with_defaults(values, _HEATING, heating)
+        heating = Heating(**arguments(values, HEATING))
+    return heating, _with_defaults(values, HEATING, heating)
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
-    values = read_table(path, "adhesion", table, _ADHESION)
+    values = read_table(path, "adhesion", table, ADHESION)
     require(path, "adhesion", values, ("shear_stress_pa",))
-    with rename_in_errors(path, names_of("adhesion", _ADHESION)):
-        adhesion = Adhesion(**arguments(values, _ADHESION))
-    return adhesion, _with_defaults(values, _ADHESION, adhesion)
+    with rename_in_errors(path, names_of("adhesion", ADHESION)):
+        adhesion = Adhesion(**arguments(values, ADHESION))
+    return adhesion, _with_defaults(values, ADHESION, adhesion)
 
 
 def build_correction(
@@ -107,10 +107,10 @@ def build_correction(
         refuse(path, "[correction]", "must be a table")
     kind = table.get("kind")
     if kind is None:
-        refuse(path, "[correction] kind", "missing, " + nearest("", _CORRECTIONS))
-    if not isinstance(kind, str) or kind not in _CORRECTIONS:
-        refuse(path, f"[correction] kind = {kind!r}", nearest(str(kind), _CORRECTIONS))
-    fields = _CORRECTIONS[kind]
+        refuse(path, "[correction] kind", "missing, " + nearest("", CORRECTIONS))
+    if not isinstance(kind, str) or kind not in CORRECTIONS:
+        refuse(path, f"[correction] kind = {kind!r}", nearest(str(kind), CORRECTIONS))
+    fields = CORRECTIONS[kind]
     values = read_table(path, "correction", table, fields)
     if "z_max_m" in fields:
         values = _with_map(path, kind, values, surface, surface_values)

@@ -67,7 +67,7 @@ _DMA = {
 _PRONY_FIT = {"prony": Field(truth)}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
 _CELSIUS = 273.15
-_RUBBER = {
+RUBBER = {
     **_PRONY,
     "master_curve": Field(file_name),
     "isotherms": Field(file_names),
@@ -104,7 +104,7 @@ class BuiltRubber:
 
 def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
     """The rubber of a scene's table; `temperature` [K] is that of its conditions."""
-    values = read_table(path, "rubber", table, _RUBBER)
+    values = read_table(path, "rubber", table, RUBBER)
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
         if key != source and key not in _WITH[source]:
@@ -216,7 +216,7 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
     with rename_in_errors(
-        path, {**names_of("rubber", {**BUILD, **_RUBBER}), "isotherms": "isotherms"}
+        path, {**names_of("rubber", {**BUILD, **RUBBER}), "isotherms": "isotherms"}
     ):
         build = build_master_curve(
             isotherms,

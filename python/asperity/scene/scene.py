@@ -1,12 +1,14 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
 import tomllib
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
+from asperity.correction import Correction
 from asperity.io import plausible
 from asperity.io.fields import (
     MOST_ROWS,
@@ -21,12 +23,13 @@ from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
 from asperity.scene.model import Scene
 from asperity.scene.parts import (
+    Values,
     build_adhesion,
     build_correction,
     build_heating,
 )
-from asperity.scene.rubber import build_rubber, stiffest
-from asperity.scene.surface import build_surface
+from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
+from asperity.scene.surface import Surface, build_surface
 
 _TABLES = dict.fromkeys(
     (
@@ -54,12 +57,24 @@ def load_scene(path: str | Path, *, for_friction: bool = False) -> Scene:
         In one line: file, table and key, the value found and what is allowed.
     """
     with plausible.collected() as notes:
-        scene = _load(path_of(path, "path"), for_friction)
+        where = path_of(path, "path")
+        scene = build_scene(where, read_scene(where), for_friction=for_friction)
     return replace(scene, unusual=tuple(notes))
 
 
-def _load(path: Path, for_friction: bool) -> Scene:
-    tables = _read_toml(path)
+@dataclass(frozen=True)
+class Builders:
+    """What builds the parts of a scene: the functions here, or others that keep what they built."""
+
+    surface: Callable[[Path, object], Surface] = build_surface
+    rubber: Callable[[Path, object, float | None], BuiltRubber] = build_rubber
+    correction: Callable[..., tuple[Correction, Values]] = build_correction
+
+
+def build_scene(
+    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
+) -> Scene:
+    """Build a scene of its tables; `path` is whose errors they are, and where its files lie."""
     conditions = read_table(path, "conditions", tables["conditions"], CONDITIONS)
     require(path, "conditions", conditions, tuple(POINTS))
     solver = read_table(path, "solver", tables.get("solver", {}), SOLVER)
@@ -73,7 +88,7 @@ def _load(path: Path, for_friction: bool) -> Scene:
         problem = f"pressure_pa times velocity_m_s are {rows} points: must be at most {MOST_ROWS}"
         refuse(path, "[conditions]", problem)
 
-    surface = build_surface(path, tables["surface"])
+    surface = builders.surface(path, tables["surface"])
     temperatures = temperatures_of(path, conditions)
     if not for_friction:
         if len(temperatures) > 1:
@@ -83,7 +98,7 @@ def _load(path: Path, for_friction: bool) -> Scene:
             refuse(
                 path, "[heating]", "is known to asperity friction and map alone: must be left out"
             )
-    rubbers = [build_rubber(path, tables["rubber"], t) for t in temperatures]
+    rubbers = [builders.rubber(path, tables["rubber"], t) for t in temperatures]
     rubber = rubbers[0]
     where = f"{path}: [conditions] pressure_pa"
     plausible.check_load(where, points["pressure_pa"], stiffest(rubber.rubber))
@@ -98,7 +113,7 @@ def _load(path: Path, for_friction: bool) -> Scene:
     }
     correction = adhesion = None
     if "correction" in tables:
-        correction, inputs["correction"] = build_correction(
+        correction, inputs["correction"] = builders.correction(
             path, tables["correction"], surface.spectrum, surface.scan, surface.values
         )
     if "adhesion" in tables:
@@ -138,11 +153,18 @@ def _load(path: Path, for_friction: bool) -> Scene:
     return replace(first, others=others)
 
 
-def _read_toml(path: Path) -> dict[str, Any]:
+def read_scene(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
+    tables = read_toml(path)
+    check_tables(path, tables)
+    return tables
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Tables of a TOML file, whatever they are."""
     try:
         check_file(path)
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -151,6 +173,10 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise InvalidInput(f"{path}: {error}") from error
     except (ValueError, RecursionError):  # Python's limits
         refuse(path, "not a TOML file", "nested too deeply, or a number of thousands of digits")
+
+
+def check_tables(path: Path, tables: Mapping[str, Any]) -> None:
+    """Refuse tables that no scene has, and a scene without those that it needs."""
     for name, table in tables.items():
         if name not in _TABLES:
             hint = nearest(name, _TABLES, "[{}]")
@@ -159,4 +185,3 @@ def _read_toml(path: Path) -> dict[str, Any]:
     for name in ("surface", "rubber", "conditions"):
         if name not in tables:
             refuse(path, f"[{name}]", "missing: a scene needs this table")
-    return tables

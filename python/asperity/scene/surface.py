@@ -52,7 +52,7 @@ _READ = {
 _TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
-_SURFACE = {
+SURFACE = {
     "file": Field(file_name),
     **_READ,
     **_TRANSFORM,
@@ -78,7 +78,7 @@ class Surface:
 
 def build_surface(path: Path, table: object) -> Surface:
     """The surface of a scene's table."""
-    values = read_table(path, "surface", table, _SURFACE)
+    values = read_table(path, "surface", table, SURFACE)
     derived: Values = {}
     scan = fit = None
     if "file" in values:

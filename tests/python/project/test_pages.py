@@ -186,13 +186,13 @@ def test_every_verb_is_shown_and_has_an_example() -> None:
 
 def test_the_page_of_scenes_has_every_key() -> None:
     page = PAGES["docs/reference/scene.md"]
-    tables = [surface._SURFACE, rubber._RUBBER, parts._ADHESION, *parts._CORRECTIONS.values()]
-    tables += [parts._HEATING]
+    tables = [surface.SURFACE, rubber.RUBBER, parts.ADHESION, *parts.CORRECTIONS.values()]
+    tables += [parts.HEATING]
     tables += [keys.CONDITIONS, keys.SOLVER, keys.UNCERTAINTY]
     missing = {key for table in tables for key in table if f"`{key}`" not in page}
     assert missing == set()
     kinds = PAGES["docs/howto/which_correction.md"]
-    assert [kind for kind in parts._CORRECTIONS if f"`{kind}`" not in kinds] == []
+    assert [kind for kind in parts.CORRECTIONS if f"`{kind}`" not in kinds] == []
 
 
 def test_the_reference_of_python_has_every_name() -> None:

@@ -79,6 +79,7 @@ UNITLESS = {
     "FrictionMap",
     "contact_notes",
     "report",
+    "sweep",
 }
 
 

@@ -23,6 +23,7 @@ from helpers.examples import (
     SLOW,
     SWEEPS,
 )
+from helpers.sweeps import SCENE
 
 # What functions return holds what they computed, and nothing is checked again.
 RESULTS = {"Friction", "FrictionBand", "FrictionSlopes", "Separation"}
@@ -109,6 +110,7 @@ def readers(tmp_path):
         "FrictionMap.load": {"path": fmap},
         "FrictionMap.save": {"path": fmap},
         "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
+        "sweep": {"scene": SCENE, "over": {"surface.hurst": [0.7, 0.8]}},
     }
 
 
@@ -156,7 +158,8 @@ def right(argument, value):
         argument == "ax"  # whatever draws
         or (argument == "heights" and np.ma.isMaskedArray(value))  # drop-outs
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
-        or (isinstance(value, str) and argument in {"text", "path", "paths"})
+        or (isinstance(value, str) and argument in {"text", "path", "paths", "scene"})
+        or (callable(value) and argument == "progress")
     )
 
 

@@ -1,0 +1,1 @@
+"""Many scenes at once: axes over their keys, tasks for any executor, stores to be resumed."""

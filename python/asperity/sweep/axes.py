@@ -1,0 +1,179 @@
+"""Axes of a sweep: what a user wrote as `over`, and the lists of the scene itself, checked."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import brief
+from asperity.io.fields import Field, nearest, read_table, sweep
+from asperity.scene.known import KEYS, KEYS_OF_KIND
+
+PRESSURE, VELOCITY = "conditions.pressure_pa", "conditions.velocity_m_s"
+POINTS = (PRESSURE, VELOCITY)  # what changes from point to point of a scene
+_SWEEP = {"from", "to", "points"}
+_LISTS = ("conditions.temperature_k", "conditions.temperature_c", *POINTS)  # lists that scenes have
+_WITHOUT = "none"  # the kind of no correction
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A dimension: its name, and of each key the values along it."""
+
+    name: str
+    values: Mapping[str, tuple[Any, ...]]
+
+    @property
+    def size(self) -> int:
+        return len(next(iter(self.values.values())))
+
+    @property
+    def of_points(self) -> bool:
+        """Whether it moves points of a scene alone, which one call computes together."""
+        return all(key in POINTS for key in self.values)
+
+    def part(self, where: slice) -> "Axis":
+        return Axis(self.name, {key: values[where] for key, values in self.values.items()})
+
+
+def axes_of(path: Path, over: object, tables: Mapping[str, Any]) -> list[Axis]:
+    """The axes of a sweep: those of `over`, then a list of the scene each.
+
+    `path` is whose errors they are.
+    """
+    axes = [_axis(path, name, given) for name, given in _entries(path, over)]
+    taken: dict[str, str] = {}
+    for axis in axes:
+        for key in axis.values:
+            if key in taken:
+                raise InvalidInput(f"{path}: {key} is in two axes, {taken[key]} and {axis.name}")
+            taken[key] = axis.name
+    own = {
+        key: values for key in _LISTS if key not in taken and (values := _listed(path, tables, key))
+    }
+    if taken.keys() & set(_LISTS[:2]):  # the one takes the place of the other
+        own = {key: values for key, values in own.items() if key in POINTS}
+    return [*axes, *(Axis(key, {key: values}) for key, values in own.items())]
+
+
+def _entries(path: Path, over: object) -> Iterator[tuple[str, Any]]:
+    """Names with what was given for each; keys of TOML may be dotted without quotation marks."""
+    if not isinstance(over, Mapping):
+        raise InvalidInput(f"{path}: over = {brief(over)}: must be a table of keys with lists")
+    for name, given in over.items():
+        if not isinstance(name, str):
+            raise InvalidInput(f"{path}: over: {brief(name)}: must be the name of a key")
+        if name in KEYS and isinstance(given, Mapping):
+            yield from _flat(name, given).items()
+        else:
+            yield name, given
+
+
+def _flat(table: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    return {f"{table}.{key}": values for key, values in given.items()}
+
+
+def _axis(path: Path, name: str, given: object) -> Axis:
+    if not isinstance(given, Mapping) or _SWEEP & given.keys():
+        return Axis(name, {name: _values(path, name, given, name)})
+    zipped: dict[str, Any] = {}
+    for key, values in given.items():
+        nested = key in KEYS and isinstance(values, Mapping)
+        zipped |= _flat(key, values) if nested else {key: values}
+    if not zipped:
+        raise InvalidInput(f"{path}: over {name}: has no keys: must be keys with lists")
+    values = {key: _values(path, key, one, name) for key, one in zipped.items()}
+    lengths = {key: len(one) for key, one in values.items()}
+    if len(set(lengths.values())) > 1:
+        found = ", ".join(f"{key} has {length}" for key, length in lengths.items())
+        raise InvalidInput(f"{path}: over {name}: {found}: must be equally long")
+    return Axis(name, values)
+
+
+def _values(path: Path, key: str, given: object, axis: str) -> tuple[Any, ...]:
+    """The values along an axis, each of the kind that the key takes."""
+    table, _, field = key.partition(".")
+    if field not in KEYS.get(table, ()):
+        inside = "" if axis == key else f"{axis}: "
+        raise InvalidInput(f"{path}: over {inside}{key}: is no key of a scene, {_meant(key)}")
+    fields = KEYS[table]
+    if isinstance(given, Mapping):
+        one = read_table(path, table, {field: given}, {field: Field(sweep)})
+        given = one[field]
+    if isinstance(given, str | bytes) or not hasattr(given, "__iter__"):
+        raise InvalidInput(f"{path}: over {key} = {brief(given)}: must be a list")
+    values = tuple(map(_plain, given))
+    if not values:
+        raise InvalidInput(f"{path}: over {key}: is empty: must have one value or more")
+    for value in values:
+        if value is None or (key == "correction.kind" and value == _WITHOUT):
+            continue
+        if key == "correction.kind" and value not in KEYS_OF_KIND:
+            allowed = nearest(str(value), {**KEYS_OF_KIND, _WITHOUT: {}})
+            raise InvalidInput(f"{path}: over {key} = {brief(value)}: {allowed}")
+        if fields[field].read is sweep and not isinstance(value, int | float):
+            raise InvalidInput(f"{path}: over {key} = {brief(value)}: must be a number")
+    if all(type(value) in (int, float) for value in values) and fields[field].read is sweep:
+        read_table(path, table, {field: list(values)}, fields)  # at once: there may be many
+        wrong = [value for value in values if not 0 < value < np.inf]
+        if key in POINTS and wrong:
+            raise InvalidInput(f"{path}: over {key} = {wrong[0]}: must be positive and finite")
+        return values
+    for value in values:
+        if value is not None:
+            read_table(path, table, {field: value}, fields)
+    return values
+
+
+def _meant(key: str) -> str:
+    """What to try instead of an unknown key: another of its table, of any, or the tables."""
+    table, _, field = key.partition(".")
+    if table in KEYS:
+        return nearest(field, KEYS[table], f"{table}.{{}}")
+    hint = nearest(key, {f"{one}.{name}": None for one, names in KEYS.items() for name in names})
+    return hint if hint.startswith("did") else nearest("", KEYS, "{}.")
+
+
+def _plain(value: Any) -> Any:
+    """A value without NumPy, and files as texts."""
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    return str(value) if isinstance(value, Path) else value
+
+
+def _listed(path: Path, tables: Mapping[str, Any], key: str) -> tuple[Any, ...]:
+    """The list of a scene's key; empty where it has a number, or nothing."""
+    table, _, field = key.partition(".")
+    given = tables.get(table)
+    if not isinstance(given, Mapping) or not isinstance(given.get(field), Mapping | list):
+        return ()
+    values = read_table(path, table, {field: given[field]}, KEYS[table])[field].tolist()
+    return _values(path, key, values, key)
+
+
+def with_values(tables: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a scene with keys set to `values`; None takes a key out.
+
+    A kind of correction takes the keys of [correction] that it knows; the kind "none" or None
+    takes the table.
+    """
+    changed = {name: dict(table) for name, table in tables.items()}
+    for key, value in values.items():
+        table, _, field = key.partition(".")
+        if value is None:
+            changed.get(table, {}).pop(field, None)
+        else:
+            changed.setdefault(table, {})[field] = value
+    if "correction.kind" in values:
+        kind = values["correction.kind"]
+        if kind in (None, _WITHOUT):
+            changed.pop("correction", None)
+        else:
+            known = KEYS_OF_KIND[kind]
+            own = {key.removeprefix("correction.") for key in values}
+            given = changed["correction"]
+            changed["correction"] = {k: v for k, v in given.items() if k in known or k in own}
+    return changed

@@ -1,0 +1,231 @@
+"""A sweep's results as xarray, Zarr and NetCDF know them: names, units, coordinates, attributes."""
+
+import hashlib
+import itertools
+import json
+import os
+import tempfile
+import warnings
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import Error, __version__
+from asperity.base.table import imported
+from asperity.sweep.axes import Axis
+from asperity.sweep.plan import MEANINGS, Plan
+
+_UNITS = {  # by how a key ends, the longest first
+    "_kg_m3": "kg/m^3",
+    "_j_kg_k": "J/(kg K)",
+    "_w_m_k": "W/(m K)",
+    "_per_m": "1/m",
+    "_m_s": "m/s",
+    "_pa": "Pa",
+    "_k": "K",
+    "_c": "degC",
+    "_m": "m",
+    "_s": "s",
+}
+_FAILURE = {
+    "long_name": "why a point has no result: 0, or a code of failure_message",
+}
+_MESSAGE = {"long_name": "what went wrong"}
+Coordinate = tuple[str, Any, dict[str, str]]  # dimension, values, attributes
+
+
+class Described:
+    """Names, units and coordinates of a plan's results."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.shape = plan.shape
+        self.variables = plan.variables
+        self.inputs = plan.inputs
+        self.notes = plan.notes
+        self.dimensions = tuple(axis.name for axis in plan.axes)
+        self.coordinates: dict[str, Coordinate] = {}
+        for axis in plan.axes:
+            self.coordinates |= _coordinates(axis)
+        self._inputs = json.dumps(self.inputs)
+        self._sha = hashlib.sha256(self._inputs.encode())
+
+    def digest_of(self, start: Sequence[int]) -> str:
+        """What a box's numbers come from: all inputs, files among them, and where it begins."""
+        sha = self._sha.copy()
+        sha.update(repr(tuple(start)).encode())
+        return sha.hexdigest()
+
+    def attributes(self) -> dict[str, Any]:
+        versions = {"numpy": np.__version__, "xarray": imported("xarray", "sweep").__version__}
+        return {
+            "title": "rubber friction over " + ", ".join(self.dimensions),
+            "source": f"asperity {__version__}",
+            "versions": json.dumps({"asperity": __version__, **versions}),
+            "sweep": self._inputs,
+        }
+
+    def dataset(self, values: Mapping[str, Any], failure: Any, tally: Any) -> Any:
+        """The results in memory."""
+        xarray = imported("xarray", "sweep")
+        variables = {name: (self.dimensions, one, _said(name)) for name, one in values.items()}
+        codes, texts = _messages(tally.messages)
+        return xarray.Dataset(
+            {
+                **variables,
+                "failure": (self.dimensions, failure, _FAILURE),
+                "failure_message": (("failure_code",), texts, _MESSAGE),
+            },
+            {**self.coordinates, "failure_code": (("failure_code",), codes)},
+            {**self.attributes(), **tally.attributes(), "complete": 1},
+        )
+
+    def create(self, zarr: Any, path: Path, cut: Sequence[int]) -> None:
+        """Create an empty Zarr store with chunks of `cut`."""
+        beside = [name for name in self.coordinates if name not in self.dimensions]
+        attributes = {**self.attributes(), "cut": list(cut), "complete": 0}
+        if beside:
+            attributes["coordinates"] = " ".join(beside)
+        group = zarr.create_group(str(path), zarr_format=3, attributes=attributes)
+        along = {"shape": self.shape, "chunks": tuple(cut), "dimension_names": self.dimensions}
+        # the last digits of results do not compress: a tenth of the size for half of the time
+        for name in self.variables:
+            group.create_array(
+                name,
+                dtype="f8",
+                fill_value=np.nan,
+                compressors=None,
+                attributes=_said(name),
+                **along,
+            )
+        group.create_array("failure", dtype="u4", fill_value=0, attributes=_FAILURE, **along)
+        for name, (dimension, values, said) in self.coordinates.items():
+            _add(group, name, dimension, values, said)
+        group.create_group("_sweep")
+        self.add_messages(group, {})
+        consolidate(path)
+
+    def add_messages(self, group: Any, messages: Mapping[int, str]) -> None:
+        codes, texts = _messages(messages)
+        _add(group, "failure_code", "failure_code", codes, {})
+        _add(group, "failure_message", "failure_code", texts, _MESSAGE)
+
+
+def consolidate(path: Path) -> None:
+    """Gather the metadata, as xarray wants it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # on what the format's third version does not have yet
+        imported("zarr", "sweep").consolidate_metadata(str(path))
+
+
+def _add(group: Any, name: str, dimension: str, values: Any, said: Mapping[str, str]) -> None:
+    """Write an array of one dimension, whole."""
+    kind = str if values.dtype.kind in "UTO" else values.dtype
+    array = group.create_array(
+        name,
+        shape=values.shape,
+        chunks=(max(1, values.size),),
+        dtype=kind,
+        dimension_names=(dimension,),
+        attributes=dict(said),
+        overwrite=True,
+    )
+    if values.size:
+        array[:] = values.astype(object) if kind is str else values
+
+
+def _messages(messages: Mapping[int, str]) -> tuple[Any, Any]:
+    codes = sorted(messages)
+    return np.array(codes, np.uint32), np.array([messages[code] for code in codes], dtype=str)
+
+
+def _said(name: str) -> dict[str, str]:
+    unit, meaning = MEANINGS[name]
+    return {"units": unit, "long_name": meaning}
+
+
+def _coordinates(axis: Axis) -> dict[str, Coordinate]:
+    """Coordinates of an axis; one of several keys has the first of them as its index."""
+    found = {key: _coordinate(axis.name, key, entries) for key, entries in axis.values.items()}
+    if axis.name in found:
+        return found
+    first = next(iter(found.values()))
+    if len(set(first[1].tolist())) < axis.size:
+        first = (axis.name, np.arange(axis.size), {})
+    return {axis.name: first, **found}
+
+
+def _coordinate(dimension: str, key: str, entries: tuple[Any, ...]) -> Coordinate:
+    if all(type(entry) in (int, float) for entry in entries):
+        unit = next((one for end, one in _UNITS.items() if key.endswith(end)), "1")
+        return dimension, np.array(entries, float), {"units": unit}
+    return dimension, np.array([label(entry) for entry in entries], dtype=str), {}
+
+
+def label(entry: Any) -> str:
+    """A value of an axis that is no number, as text."""
+    if isinstance(entry, str):
+        return entry
+    return "none" if entry is None else json.dumps(entry)
+
+
+def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
+    """Write a store as NetCDF, chunk by chunk, and put it in its place when it is whole.
+
+    `dataset` and `group` are the store as xarray and as Zarr open it.
+    """
+    netcdf = imported("netCDF4", "sweep")
+    part: str | None = None
+    try:
+        handle, part = tempfile.mkstemp(prefix=".asperity-", suffix=".nc", dir=path.parent)
+        os.close(handle)
+        with netcdf.Dataset(part, "w") as file:
+            _fill(file, dataset, group)
+        os.chmod(part, 0o666 & ~_umask())
+        os.replace(part, path)
+    except (OSError, RuntimeError) as error:  # NetCDF says RuntimeError of a full disk
+        reason = getattr(error, "strerror", None) or error
+        raise Error(f"{path}: cannot be written: {reason}; --resume goes on") from error
+    finally:
+        if part is not None:
+            with suppress(OSError):
+                os.unlink(part)
+
+
+def _fill(file: Any, dataset: Any, group: Any) -> None:
+    cut = tuple(group.attrs["cut"])
+    file.setncatts(dataset.attrs)
+    beside = [name for name in dataset.coords if name not in dataset.sizes]
+    if beside:
+        file.coordinates = " ".join(beside)
+    for name, size in dataset.sizes.items():
+        file.createDimension(name, size)
+    swept = dataset["failure"].dims
+    for name, array in dataset.variables.items():
+        of_points = array.dims == swept and bool(swept)
+        text = array.dtype.kind in "UTO"
+        made = file.createVariable(
+            name,
+            str if text else np.dtype(array.dtype.str[1:]),
+            array.dims,
+            chunksizes=cut if of_points else None,
+            fill_value=np.nan if array.dtype.kind == "f" and of_points else None,
+        )
+        made.setncatts({k: v for k, v in array.attrs.items() if k != "_FillValue"})
+        if not of_points:
+            if array.size:
+                made[...] = array.values.astype(object) if text else array.values
+            continue
+        whole = group[name]
+        ranges = (range(0, size, step) for size, step in zip(array.shape, cut, strict=True))
+        for start in itertools.product(*ranges):
+            where = tuple(slice(s, s + c) for s, c in zip(start, cut, strict=True))
+            made[where] = whole[where]
+
+
+def _umask() -> int:
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask

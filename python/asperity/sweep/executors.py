@@ -1,0 +1,86 @@
+"""Executors: whatever has the `submit` of `concurrent.futures`, and this process."""
+
+import time
+from collections.abc import Callable
+from concurrent.futures import BrokenExecutor, CancelledError, Future
+from typing import Any
+
+from asperity._core import Error, InvalidInput
+from asperity.base.arguments import brief
+
+_AGAIN = 2.0  # seconds between two questions how many workers there are
+
+
+class Lost(Exception):
+    """A task that took its workers with it; others go on."""
+
+
+class Executor:
+    """Where tasks go: an executor of the user's, or this process."""
+
+    def __init__(self, given: Any = None) -> None:
+        self._given = given
+        self._submit: Callable[..., Any] = _here
+        self._asked, self._workers = -_AGAIN, 1
+        if given is None:
+            return
+        if not callable(getattr(given, "submit", None)):
+            allowed = "must have the submit of concurrent.futures"
+            raise InvalidInput(f"executor = {brief(given)}: {allowed}")
+        if callable(getattr(given, "get_executor", None)):  # Dask: equal tasks are not one task
+            given = given.get_executor(pure=False)
+        self._submit = given.submit
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Return the future of a call."""
+        try:
+            return self._submit(function, *arguments)
+        except (BrokenExecutor, RuntimeError) as error:
+            raise Error(f"the executor takes no tasks: {error}") from error
+
+    @property
+    def room(self) -> int:
+        """How many tasks may be under way: two for each worker, and one."""
+        if self._given is None:
+            return 1
+        if time.monotonic() - self._asked > _AGAIN:
+            self._workers, self._asked = _count(self._given), time.monotonic()
+        return 2 * max(1, self._workers) + 1
+
+
+def _count(executor: Any) -> int:
+    """How many tasks an executor computes at once; a few where it does not tell."""
+    cores = getattr(executor, "ncores", None)
+    if callable(cores):  # Dask
+        return int(sum(cores().values()))
+    for name in ("num_workers", "_max_workers"):  # mpi4py.futures, concurrent.futures
+        if isinstance(found := getattr(executor, name, None), int):
+            return found
+    return 8
+
+
+def _here(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+    future: Future[Any] = Future()
+    try:
+        future.set_result(function(*arguments))
+    except Exception as error:
+        future.set_exception(error)
+    return future
+
+
+def result_of(future: Any) -> Any:
+    """The result of a task, or what its failure means for the sweep."""
+    try:
+        return future.result()
+    except Error:
+        raise
+    except MemoryError as error:
+        raise Lost(f"MemoryError: {error}") from error
+    except (BrokenExecutor, CancelledError) as error:
+        problem = f"{type(error).__name__} {error}".strip()
+        raise Error(f"the executor lost its workers: {problem}; resume goes on") from error
+    except Exception as error:
+        problem = " ".join(f"{type(error).__name__}: {error}".split())
+        if type(error).__name__ == "KilledWorker":
+            raise Lost(problem) from error
+        raise Error(f"a task failed on its worker: {problem}") from error

@@ -1,0 +1,265 @@
+"""What a sweep is to compute: its axes and inputs, checked, and how it is cut into tasks."""
+
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from asperity._core import InvalidInput, __version__
+from asperity.base.arguments import brief
+from asperity.io.fields import nearest
+from asperity.results.friction import COLUMNS, HEAT, Friction
+from asperity.scene.known import FILES
+from asperity.scene.scene import check_tables
+from asperity.sweep.axes import POINTS, PRESSURE, Axis, axes_of, with_values
+from asperity.sweep.parts import digest, files_of
+from asperity.sweep.task import BAND, Task, is_moved
+
+MOST_POINTS = 2**19  # of a task: what a worker sends back at once, 4 MB a variable
+_SECONDS = 1.0  # that a task is to take
+_LONG = 100  # values of an axis that a store's inputs hold; of longer ones their digest
+
+_UNITS = {
+    name: (one.metadata["unit"], one.metadata["meaning"])
+    for name, one in Friction.__dataclass_fields__.items()
+    if one.metadata
+}
+PLAIN = tuple(name for name in COLUMNS if name not in ("pressure", "velocity"))
+MEANINGS = {
+    **{name: _UNITS[name] for name in PLAIN},
+    **HEAT,
+    "temperature": ("K", "temperature of the roughness at q1"),
+    "mu_cold": ("1", "friction coefficient without its heat"),
+    "mu_low": ("1", "lower end of the band on mu"),
+    "mu_high": ("1", "upper end of the band on mu"),
+}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A sweep before it is cut."""
+
+    path: Path  # whose errors they are
+    tables: Mapping[str, Any]  # of the scene, as they were written
+    axes: tuple[Axis, ...]  # as they were written
+    variables: tuple[str, ...]
+    task: Task  # the whole sweep as one: with files found, and what the axes set left out
+    notes: tuple[str, ...] = ()  # numbers that their units make unlikely
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self.task.shape
+
+    @property
+    def points(self) -> int:
+        return math.prod(self.shape)
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What makes the sweep this one, by names that a message can tell."""
+        scene = {f"{name}.{key}": one for name, t in self.tables.items() for key, one in t.items()}
+        over = {axis.name: {k: _short(v) for k, v in axis.values.items()} for axis in self.axes}
+        swept = {key for axis in self.axes for key in axis.values}
+        return {
+            "asperity": __version__,
+            "over": list(self.axes and over),
+            **{f"over {name}": values for name, values in over.items()},
+            **{key: one for key, one in scene.items() if key not in swept},
+            **{f"content of {file}": sha for file, sha in self.task.digests.items()},
+            "variables": list(self.variables),
+        }
+
+    def boxes(self, cut: Sequence[int]) -> Iterator[tuple[int, ...]]:
+        """Where the boxes begin, in the order of the axes."""
+        return itertools.product(
+            *(range(0, size, step) for size, step in zip(self.shape, cut, strict=True))
+        )
+
+    def box(self, start: Sequence[int], cut: Sequence[int]) -> Task:
+        """The task of a box."""
+        ends = zip(self.task.axes, start, cut, strict=True)
+        return self.part(tuple(axis.part(slice(s, s + c)) for axis, s, c in ends), tuple(start))
+
+    def part(self, axes: tuple[Axis, ...], start: tuple[int, ...]) -> Task:
+        """A task of some of the values of each axis, with the digests that it needs."""
+        used = set(files_of(self.task.tables))
+        for axis in axes:
+            for key in FILES:
+                for value in axis.values.get(key, ()):
+                    used |= set(value if isinstance(value, list) else [value])
+        digests = {file: sha for file, sha in self.task.digests.items() if file in used}
+        return replace(self.task, axes=axes, start=start, digests=digests)
+
+
+def plan_of(
+    path: Path, tables: Mapping[str, Any], over: object, variables: Sequence[str] | None
+) -> Plan:
+    """Check a sweep as far as that is possible before anything is computed.
+
+    `path` is that of the scene, whose folder has its files.
+    """
+    tables = _plain_tables(path, tables)
+    axes = tuple(axes_of(path, over, tables))
+    check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
+    swept = {key for axis in axes for key in axis.values}
+    folder = path.parent.absolute()
+    template = {
+        name: {key: _found(folder, f"{name}.{key}", one) for key, one in table.items()}
+        for name, table in tables.items()
+    }
+    # the axis that goes over a temperature takes the place of the scene's in the other unit
+    for one, other in (("k", "c"), ("c", "k")):
+        if f"conditions.temperature_{one}" in swept:
+            template["conditions"].pop(f"temperature_{other}", None)
+    template = with_values(template, dict.fromkeys(swept - {"correction.kind"}))
+    template.setdefault("conditions", {})
+    found = tuple(
+        Axis(a.name, {k: tuple(_found(folder, k, v) for v in vs) for k, vs in a.values.items()})
+        for a in axes
+    )
+    chosen = _variables(path, template, swept, variables)
+    task = Task(
+        path=str(path),
+        tables=template,
+        axes=found,
+        start=(0,) * len(axes),
+        shape=tuple(axis.size for axis in axes),
+        pressures=_pressures(path, found, template),
+        digests={file: digest(file) for file in dict.fromkeys(_all_files(template, found))},
+        variables=chosen,
+    )
+    return Plan(path, tables, axes, chosen, task)
+
+
+def _plain_tables(path: Path, tables: object) -> dict[str, Any]:
+    if not isinstance(tables, Mapping):
+        raise InvalidInput(f"scene = {brief(tables)}: must be the path of a scene, or its tables")
+    for name, table in tables.items():
+        if not isinstance(table, Mapping):
+            raise InvalidInput(f"{path}: [{name}] must be a table")
+    try:
+        plain: dict[str, Any] = json.loads(json.dumps(tables, default=_listed))
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"{path}: {error}: must be what a scene file can hold") from None
+    return plain
+
+
+def _listed(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, Path | tuple):
+        return str(value) if isinstance(value, Path) else list(value)
+    raise TypeError(f"{brief(value)} in the scene")
+
+
+def _found(folder: Path, key: str, value: Any) -> Any:
+    """A value in which files are found from anywhere."""
+    if key in FILES and isinstance(value, str):
+        return str(folder / value)
+    if key in FILES and isinstance(value, list):
+        return [str(folder / one) for one in value]
+    return value
+
+
+def _all_files(tables: Mapping[str, Any], axes: Sequence[Axis]) -> Iterator[str]:
+    yield from files_of(tables)
+    for axis in axes:
+        for key in FILES:
+            for value in axis.values.get(key, ()):
+                yield from (value if isinstance(value, list) else [value] * (value is not None))
+
+
+def _pressures(path: Path, axes: Sequence[Axis], tables: Mapping[str, Any]) -> tuple[float, float]:
+    for axis in axes:
+        if PRESSURE in axis.values:
+            return min(axis.values[PRESSURE]), max(axis.values[PRESSURE])
+    for key in POINTS:
+        if not any(key in axis.values for axis in axes):
+            name = key.partition(".")[2]
+            if not isinstance(tables["conditions"].get(name), int | float):
+                raise InvalidInput(f"{path}: [conditions] {name}: missing: must be a number")
+    given = float(tables["conditions"][PRESSURE.partition(".")[2]])
+    return given, given
+
+
+def _variables(
+    path: Path,
+    tables: Mapping[str, Any],
+    swept: set[str],
+    wanted: Sequence[str] | None,
+) -> tuple[str, ...]:
+    """The variables that a sweep has, or those of them that are wanted."""
+    has = {name for name in tables} | {key.partition(".")[0] for key in swept}
+    every = [*PLAIN]
+    if "heating" in has:
+        every += [*HEAT, "mu_cold"]
+    if "uncertainty" in has:
+        every += BAND
+    if wanted is None:
+        return tuple(every)
+    if not isinstance(wanted, list | tuple) or not wanted:
+        raise InvalidInput(f"variables = {brief(wanted)}: must be a list of names")
+    for name in wanted:
+        if name not in every:
+            raise InvalidInput(
+                f"{path}: variables: {brief(name)} is none of this sweep, "
+                + nearest(str(name), dict.fromkeys(every))
+            )
+    band = ["mu"] if set(wanted) & set(BAND) else []  # which is relative to it
+    return tuple(name for name in every if name in {*wanted, *band})
+
+
+def _short(values: tuple[Any, ...]) -> Any:
+    if len(values) <= _LONG:
+        return list(values)
+    text = json.dumps(values).encode()
+    return {"values": len(values), "sha256": hashlib.sha256(text).hexdigest()}
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Measured seconds: of a point, of a scene that changes along each axis, of a warm one."""
+
+    point: float
+    scene: float
+    change: Mapping[int, float]  # by the axis that changes
+
+
+def cut_of(plan: Plan, cost: Cost) -> tuple[int, ...]:
+    """How long a task's box is along each axis, for tasks of about a second.
+
+    Axes of points come first, the last of them before others; then those whose scenes are cheap.
+    """
+    task = plan.task
+    moved = [i for i, axis in enumerate(task.axes) if is_moved(axis, task.variables)]
+    fixed = [i for i in range(len(task.axes)) if i not in moved]
+    fixed.sort(key=lambda i: (cost.change.get(i, cost.scene), -i))
+    cut = [1] * len(task.shape)
+    whole = set(BAND) & set(task.variables)
+    for i in moved[::-1]:
+        size = task.shape[i]
+        now = math.prod(cut)
+        each = max(now * cost.point, 1e-12)
+        most = min((_SECONDS - cost.scene) / each, MOST_POINTS / now)
+        cut[i] = size if whole else _even(size, most)
+        if cut[i] < size:
+            return tuple(cut)
+    seconds = math.prod(cut) * cost.point + cost.scene
+    for i in fixed:
+        each = seconds + max(cost.change.get(i, 0.0) - cost.scene, 0.0)
+        most = min(_SECONDS / max(each, 1e-12), MOST_POINTS / math.prod(cut))
+        cut[i] = _even(task.shape[i], most)
+        seconds = each * cut[i]
+        if cut[i] < task.shape[i]:
+            break
+    return tuple(cut)
+
+
+def _even(size: int, most: float) -> int:
+    """The length of parts that are about equal, at most so long."""
+    parts = math.ceil(size / max(1, min(size, int(most))))
+    return math.ceil(size / parts)
