@@ -193,7 +193,7 @@ class _Rows(Table):
     flag: Any
     correlation: Any
 
-    def _check(self) -> None:
+    def __post_init__(self) -> None:
         for name in ("wavenumber", "density"):
             self._set(**{name: vector(getattr(self, name), name)})
         for name in ("count", "standard_error"):
@@ -326,9 +326,6 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     flag: Flags = ABSENT
     correlation: OptionalVector = ABSENT
 
-    def __post_init__(self) -> None:
-        self._check()
-
     @property
     def rms_height(self) -> float:
         """Root mean square height sqrt(2 pi int q C dq) [m]."""
@@ -381,9 +378,6 @@ class LineSpectrum(_Rows):
     standard_error: OptionalVector = ABSENT
     flag: Flags = ABSENT
     correlation: OptionalVector = ABSENT
-
-    def __post_init__(self) -> None:
-        self._check()
 
     def isotropic(self, *, per_decade: float | None = 10.0) -> TabulatedSpectrum:
         """Return the spectrum C [m^4] of the isotropic surface that has such profiles.

@@ -1,6 +1,6 @@
-// The finished map against the solver at a twentieth of rtol, whose own error is added: at random velocities with 200
-// random pressures each, which share most of the solver's work; with heat at random pressures and temperatures with 200
-// random velocities each, along which a solution begins at the one before.
+// The finished map against the solver at a twentieth of its error, with the solver's own error added: at random
+// velocities with 200 random pressures each, which share most of the solver's work; with heat at random pressures and
+// temperatures with 200 random velocities each, along which a solution begins at the one before.
 #include "friction_map/check.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t together = 200;
-constexpr double share = 1.0 / 20;  // of rtol, for the solver
+constexpr double share = 1.0 / 20;  // of the certified error, for the solver
 
 class Check {
  public:
@@ -96,7 +96,7 @@ void check(const MapFrame& frame, const std::vector<unsigned char>& file, const 
   std::string why;
   if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
   // with heat always the same ones together, as each begins at the one before
-  const MapFrame solver = frame.with_solver_rtol(std::fmax(frame.solver_rtol(), share * request.rtol));
+  const MapFrame solver = frame.with_solver_rtol(std::fmax(frame.solver_rtol(), share * certificate.max_error));
   const std::size_t block = map.info().heat ? 6'400 : 20'000 * std::size_t{threads};
   Check points(solver, map);
   for (std::size_t done = 0; done < request.checked;) {

@@ -26,35 +26,26 @@ std::mutex& planner() {
   return mutex;
 }
 
-/// FFTW's functions of one precision.
+/// FFTW's functions of one precision, whose names differ in how they begin.
 template <class T>
 struct Functions;
 
-template <>
-struct Functions<double> {
-  using Complex = fftw_complex;
-  using Plan = fftw_plan;
-  static constexpr auto real = fftw_plan_dft_r2c_1d;
-  static constexpr auto real_inverse = fftw_plan_dft_c2r_1d;
-  static constexpr auto many = fftw_plan_many_dft;
-  static constexpr auto run = fftw_execute_dft;
-  static constexpr auto run_real = fftw_execute_dft_r2c;
-  static constexpr auto run_inverse = fftw_execute_dft_c2r;
-  static constexpr auto destroy = fftw_destroy_plan;
-};
-
-template <>
-struct Functions<float> {
-  using Complex = fftwf_complex;
-  using Plan = fftwf_plan;
-  static constexpr auto real = fftwf_plan_dft_r2c_1d;
-  static constexpr auto real_inverse = fftwf_plan_dft_c2r_1d;
-  static constexpr auto many = fftwf_plan_many_dft;
-  static constexpr auto run = fftwf_execute_dft;
-  static constexpr auto run_real = fftwf_execute_dft_r2c;
-  static constexpr auto run_inverse = fftwf_execute_dft_c2r;
-  static constexpr auto destroy = fftwf_destroy_plan;
-};
+#define ASPERITY_FUNCTIONS_OF_FFTW(T, fftw)                      \
+  template <>                                                    \
+  struct Functions<T> {                                          \
+    using Complex = fftw##_complex;                              \
+    using Plan = fftw##_plan;                                    \
+    static constexpr auto real = fftw##_plan_dft_r2c_1d;         \
+    static constexpr auto real_inverse = fftw##_plan_dft_c2r_1d; \
+    static constexpr auto many = fftw##_plan_many_dft;           \
+    static constexpr auto run = fftw##_execute_dft;              \
+    static constexpr auto run_real = fftw##_execute_dft_r2c;     \
+    static constexpr auto run_inverse = fftw##_execute_dft_c2r;  \
+    static constexpr auto destroy = fftw##_destroy_plan;         \
+  };
+ASPERITY_FUNCTIONS_OF_FFTW(double, fftw)
+ASPERITY_FUNCTIONS_OF_FFTW(float, fftwf)
+#undef ASPERITY_FUNCTIONS_OF_FFTW
 
 /// Both precisions under one name.
 template <class T>

@@ -133,6 +133,18 @@ def test_the_check_counts_what_is_beyond_the_certified_error():
     assert 0.3 * found.max_error < found.largest_checked_error <= found.max_error
 
 
+def test_the_check_adds_the_error_of_the_solver():
+    # in so narrow a box the map is as good as the solver, and all of the error is the solver's
+    q = 2e3 + 40 * np.arange(400.0)
+    road = asperity.TabulatedSpectrum(wavenumber=q, density=ROAD.at(q))
+    box = {"pressure": (1e5, 1.0001e5), "velocity": (0.1, 0.10001)}
+    scene = {"correction": NayakSFactor(), "rubber": master_curve(), "adhesion": None}
+    found = made(road=road, box=box, checked=200, **scene)
+    solved = friction(road, **scene, pressure=1e5, velocity=0.1, rtol=1e-6)
+    assert found.largest_checked_error > 0.9 * solved.error_estimate / solved.mu
+    assert found.exceeded == 0
+
+
 def test_cells_are_as_many_as_the_tolerance_needs():
     # bicubic cells: the error falls as the fourth power of a side, the square of an area
     cells = [made(rtol=rtol).cells for rtol in (1e-3, 1e-4, 1e-5, 1e-6)]
