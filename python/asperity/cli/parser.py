@@ -229,7 +229,7 @@ def parser() -> argparse.ArgumentParser:
     )
     outputs(fit)
 
-    add_sweep(verb)
+    add_sweep(verb, pictures)
 
     mapped = verb(
         "map",

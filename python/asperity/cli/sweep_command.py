@@ -17,20 +17,31 @@ from asperity.base.table import imported
 from asperity.cli.friction_commands import refuse_overwrite
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.io.fields import nearest
+from asperity.io.files import check_output, write_whole
+from asperity.io.table import Table
+from asperity.plot.curves import check_plot
+from asperity.plot.style import drawn_in
+from asperity.plot.sweep import sweep_figure
 from asperity.scene.scene import read_toml
 from asperity.sweep import run
 from asperity.sweep.executors import Executor
+from asperity.sweep.look import choose, ranks
 from asperity.sweep.plan import cut_of
-from asperity.sweep.store import remove_store
+from asperity.sweep.store import open_store, remove_store
 from asperity.sweep.timing import estimated, timed
 
 _KEYS = dict.fromkeys(("scene", "over", "variables"))
+_RANK_NOTES = [
+    "points at which every value has a result are compared; lead is that of the mean over the next",
+    "certain_share: the lead at a point exceeds the errors of the two together, half bands where "
+    "there are any, else model error and numerical error",
+]
 _TOLD = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer
 
 
 def sweep(args: Namespace) -> None:
-    """Compute a sweep, or tell what it would take."""
+    """Compute a sweep, tell what it would take, or look at what it computed."""
     try:
         _sweep(args)
     except ImportError as error:
@@ -38,6 +49,20 @@ def sweep(args: Namespace) -> None:
 
 
 def _sweep(args: Namespace) -> None:
+    looks = bool(args.plot or args.rank)
+    if args.plot is not None:
+        check_plot(FilePath(args.plot))
+        check_output(FilePath(args.plot))
+    elif args.style is not None:
+        raise InvalidInput("--style: goes with --plot")
+    if args.at and not looks:
+        raise InvalidInput("--at: goes with --plot and --rank")
+    path = FilePath(args.sweep)
+    if path.suffix in (".zarr", ".nc"):
+        _look_at_store(args, path, looks)
+        return
+    if looks and args.dry_run:
+        raise InvalidInput("--dry-run: computes nothing that --plot or --rank could show")
     if args.output is None and not args.dry_run:
         raise InvalidInput("--output: is missing: results.zarr or results.nc")
     with _executor(args) as (executor, first):
@@ -70,6 +95,7 @@ def _compute(args: Namespace, executor: Any) -> None:
         variables=variables,
     )
     with found:
+        _look(args, found)
         notes = str(found.attrs["notes"]).splitlines()
         tell_notes(notes[:_TOLD])
         if len(notes) > _TOLD:
@@ -82,6 +108,46 @@ def _compute(args: Namespace, executor: Any) -> None:
         more = f" and {len(messages) - 1} other messages" if len(messages) > 1 else ""
         raise Error(f"{output}: {failed} of {points} points failed: {messages[0]}{more}")
     print_stderr(f"{output}: {points} points, none failed\n")
+
+
+def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
+    """Draw or rank what an earlier sweep computed."""
+    given = {
+        "--output": args.output,
+        "--workers": args.workers,
+        "--scheduler": args.scheduler,
+        "--mpi": args.mpi,
+        "--resume": args.resume,
+        "--force": args.force,
+        "--dry-run": args.dry_run,
+    }
+    for option, value in given.items():
+        if value:
+            raise InvalidInput(f"{option}: {path} is a store: give a SWEEP.toml to compute")
+    if not looks:
+        raise InvalidInput(f"{path}: is a store: look at it by --plot or --rank")
+    if not path.exists():
+        raise InvalidInput(f"{path}: cannot be read: No such file or directory")
+    with open_store(path) as found:
+        if "failure" not in found or "sweep" not in found.attrs:
+            raise InvalidInput(f"{path}: is no store of a sweep")
+        if not found.attrs["complete"]:
+            print_stderr(f"note: {path} is not whole: points that are missing are left out\n")
+        _look(args, found)
+
+
+def _look(args: Namespace, found: Any) -> None:
+    """Draw and rank what is asked for, where --at says."""
+    part = choose(found, args.at)
+    if args.plot is not None:
+        picture = FilePath(args.plot)
+        name = (args.variables or "mu").split(",")[0]
+        with drawn_in(args.style):
+            write_whole(picture, sweep_figure(part, picture, name))
+    if args.rank is not None:
+        columns = ranks(part, args.rank)
+        inputs = [{"axis": args.rank, **{f"at {name}": one for name, one in args.at.items()}}]
+        print_stdout(Table("sweep --rank", inputs, _RANK_NOTES, columns).csv())
 
 
 def _read(path: Path) -> tuple[Path, Any, Any]:

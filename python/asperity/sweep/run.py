@@ -19,8 +19,8 @@ from asperity.sweep.describe import Described, write_netcdf
 from asperity.sweep.executors import Executor, Lost, result_of
 from asperity.sweep.plan import Plan, cut_of, plan_of
 from asperity.sweep.store import Memory, ZarrStore, open_store, refuse_another, refuse_taken
-from asperity.sweep.task import compute
 from asperity.sweep.timing import timed
+from asperity.sweep.work import work
 
 Progress = Callable[[int, int], object]
 
@@ -175,7 +175,7 @@ def _fill(
 
     def send() -> None:
         for task in islice(tasks, max(0, workers.room - len(pending))):
-            future = workers.submit(compute, task)
+            future = workers.submit(work, replace(task, store=sink.token))
             pending.add(future)
             future.add_done_callback(arrived.put)
 

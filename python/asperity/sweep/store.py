@@ -5,7 +5,7 @@ import json
 import os
 import shutil
 import tempfile
-import zlib
+import uuid
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -19,6 +19,7 @@ from asperity.base.arguments import FilePath
 from asperity.base.table import imported
 from asperity.sweep.describe import Described, consolidate
 from asperity.sweep.task import Outcome, keep_message
+from asperity.sweep.work import TOKEN, arrays_of, bits, where_of, write_box
 
 _JOURNAL = "_sweep/journal"  # a line a box that is whole
 
@@ -36,8 +37,8 @@ class Tally:
     def of(cls, described: Described) -> "Tally":
         return cls(notes=dict.fromkeys(described.notes, -1))
 
-    def add(self, points: int, outcome: Outcome) -> None:
-        self.points += points
+    def add(self, outcome: Outcome) -> None:
+        self.points += outcome.points
         for kind, count in outcome.kinds.items():
             self.kinds[kind] = self.kinds.get(kind, 0) + count
         for code, message in outcome.messages.items():
@@ -57,6 +58,8 @@ class Tally:
 class Memory:
     """Results that are kept in memory."""
 
+    token = None
+
     def __init__(self, described: Described) -> None:
         self._described = described
         shape = described.shape
@@ -66,12 +69,12 @@ class Memory:
         self.done: set[tuple[int, ...]] = set()
 
     def write(self, outcome: Outcome) -> None:
-        where = _where(outcome)
+        where = where_of(outcome)
         for name, values in self._values.items():
             values[where] = outcome.values[name]
         if outcome.failure is not None:
             self._failure[where] = outcome.failure
-        self.tally.add(_size(outcome), outcome)
+        self.tally.add(outcome)
 
     def finish(self) -> Any:
         return self._described.dataset(self._values, self._failure, self.tally)
@@ -81,8 +84,8 @@ class ZarrStore:
     """A Zarr store whose boxes are chunks, with a journal of those that are whole.
 
     A chunk's files take their place when they are complete, and its line in the journal is written
-    after them: whatever ends the driver, a box with a line is whole. The line has a checksum of the
-    numbers, which `resume` compares.
+    after them: whatever ends the driver, a box with a line is whole. The line has sums of the
+    numbers, which `resume` compares. Workers that see the store write their boxes themselves.
     """
 
     def __init__(self, path: Path, described: Described, cut: Sequence[int]) -> None:
@@ -95,6 +98,7 @@ class ZarrStore:
         try:
             described.create(zarr, beside, cut)
             (beside / _JOURNAL).touch()
+            (beside / TOKEN).write_text(uuid.uuid4().hex)
             os.rename(beside, path)
         except OSError as error:
             raise Error(f"{path}: cannot be written: {error.strerror or error}") from error
@@ -121,7 +125,8 @@ class ZarrStore:
         self._described = described
         zarr = imported("zarr", "sweep")
         self.group = zarr.open_group(str(path), mode="r+", use_consolidated=False)
-        self._arrays = {name: self.group[name] for name in (*described.variables, "failure")}
+        self._arrays = arrays_of(self.group, described.variables)
+        self.token = str(path.absolute()), (path / TOKEN).read_text()
         self.cut: tuple[int, ...] = tuple(self.group.attrs["cut"])
         self.tally = Tally.of(described)
         self.done: set[tuple[int, ...]] = set()
@@ -133,53 +138,45 @@ class ZarrStore:
     def _read_journal(self) -> None:
         content = self._journal.read()
         whole = content.rfind(b"\n") + 1
-        kept = 0
         for line in content[:whole].splitlines(keepends=True):
             entry = json.loads(line)
             start = tuple(entry["start"])
-            if self._checksum_of(start) == entry["checksum"]:
-                outcome = Outcome(start, {}, kinds=entry["kinds"], notes=entry["notes"])
+            if start not in self.done and self._sums_of(start) == entry["sums"]:
+                outcome = Outcome(start, tuple(entry["box"]))
+                outcome.kinds, outcome.notes = entry["kinds"], entry["notes"]
                 outcome.messages = {int(code): text for code, text in entry["messages"].items()}
-                self.tally.add(entry["points"], outcome)
+                self.tally.add(outcome)
                 self.done.add(start)
-                kept += 1
         self._journal.seek(whole)
         self._journal.truncate()
 
     def write(self, outcome: Outcome) -> None:
-        """Write a box, and then its line."""
-        where = _where(outcome)
+        """Write a box unless its worker has, and then its line."""
+        sums = outcome.sums
+        if sums is None:
+            sums = write_box(self.path, self._arrays, outcome)
+        line = {
+            "start": outcome.start,
+            "box": outcome.box,
+            "digest": self._described.digest_of(outcome.start),
+            "sums": sums,
+            "kinds": outcome.kinds,
+            "messages": outcome.messages,
+            "notes": outcome.notes,
+        }
         try:
-            for name, array in self._arrays.items():
-                if name != "failure":
-                    array[where] = outcome.values[name]
-                elif outcome.failure is not None or outcome.start in self.done:
-                    array[where] = _failure(outcome)
-            line = {
-                "start": outcome.start,
-                "points": _size(outcome),
-                "digest": self._described.digest_of(outcome.start),
-                "checksum": self._checksum(outcome),
-                "kinds": outcome.kinds,
-                "messages": outcome.messages,
-                "notes": outcome.notes,
-            }
             self._journal.write(json.dumps(line).encode() + b"\n")
             self._journal.flush()
         except OSError as error:
             reason = error.strerror or error
             raise Error(f"{self.path}: cannot be written: {reason}; --resume goes on") from error
         self.done.add(outcome.start)
-        self.tally.add(_size(outcome), outcome)
+        self.tally.add(outcome)
 
-    def _checksum(self, outcome: Outcome) -> int:
-        parts = [outcome.values[name] for name in self._described.variables]
-        return _crc([*parts, _failure(outcome)])
-
-    def _checksum_of(self, start: tuple[int, ...]) -> int | None:
+    def _sums_of(self, start: tuple[int, ...]) -> list[int] | None:
         where = tuple(slice(s, s + c) for s, c in zip(start, self.cut, strict=True))
         try:
-            return _crc([array[where] for array in self._arrays.values()])
+            return [bits(array[where], 1) for array in self._arrays.values()]
         except Exception:  # a chunk that is gone, or cut off by the machine's end
             return None
 
@@ -212,28 +209,6 @@ def _locked(file: Any) -> bool:
     except OSError:
         return False
     return True
-
-
-def _where(outcome: Outcome) -> tuple[slice, ...]:
-    box = next(iter(outcome.values.values())).shape
-    return tuple(slice(s, s + size) for s, size in zip(outcome.start, box, strict=True))
-
-
-def _size(outcome: Outcome) -> int:
-    return int(next(iter(outcome.values.values())).size)
-
-
-def _failure(outcome: Outcome) -> Any:
-    if outcome.failure is not None:
-        return outcome.failure
-    return np.zeros(next(iter(outcome.values.values())).shape, np.uint32)
-
-
-def _crc(arrays: Sequence[Any]) -> int:
-    found = 0
-    for array in arrays:
-        found = zlib.crc32(np.ascontiguousarray(array).data, found)
-    return found
 
 
 def open_store(path: Path) -> Any:

@@ -1,6 +1,7 @@
 """What a worker computes: friction in a box of the sweep's points."""
 
 import itertools
+import math
 import time
 import zlib
 from collections.abc import Iterator, Mapping
@@ -39,6 +40,7 @@ class Task:
     pressures: tuple[float, float]  # the lowest and the highest of the whole sweep
     digests: Mapping[str, str]
     variables: tuple[str, ...]
+    store: tuple[str, str] | None = None  # where results go, and the text that is in its token
     version: str = __version__
 
     @property
@@ -51,7 +53,9 @@ class Outcome:
     """What came of a task."""
 
     start: tuple[int, ...]
-    values: dict[str, Numbers]  # of the box's shape
+    box: tuple[int, ...]
+    values: dict[str, Any] = field(default_factory=dict)  # arrays of the box's shape, or a number
+    sums: list[int] | None = None  # of the bits, where the worker has written the values
     failure: NDArray[np.uint32] | None = None  # codes of messages, 0 where there is none
     messages: dict[int, str] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
@@ -62,13 +66,23 @@ class Outcome:
     def failed(self) -> int:
         return sum(self.kinds.values())
 
+    @property
+    def points(self) -> int:
+        return math.prod(self.box)
+
+    def array(self, name: str) -> Numbers:
+        """The numbers of a variable, NaN where nothing was put."""
+        if name not in self.values:
+            self.values[name] = np.full(self.box, np.nan)
+        found: Numbers = self.values[name]
+        return found
+
     def fail(self, where: Any, error: Error) -> None:
         """Note why there is nothing at `where`, an index of the box."""
         message = str(error)
         code = zlib.crc32(message.encode(errors="backslashreplace")) or 1
         if self.failure is None:
-            shape = next(iter(self.values.values())).shape
-            self.failure = np.zeros(shape, np.uint32)
+            self.failure = np.zeros(self.box, np.uint32)
         kind = type(error).__name__
         new = int(np.sum(self.failure[where] == 0))
         self.failure[where] = code
@@ -89,7 +103,7 @@ def compute(task: Task) -> Outcome:
         raise ChangedFile(f"a worker has asperity {__version__}, the sweep {task.version}")
     began = time.perf_counter()
     box = task.box
-    outcome = Outcome(task.start, {name: np.full(box, np.nan) for name in task.variables})
+    outcome = Outcome(task.start, box)
     moved = [i for i, axis in enumerate(task.axes) if is_moved(axis, task.variables)]
     fixed = [i for i in range(len(box)) if i not in moved]
     whole = tuple(task.shape[i] for i in fixed)
@@ -100,8 +114,18 @@ def compute(task: Task) -> Outcome:
         first = [task.start[i] + index for i, index in zip(fixed, place, strict=True)]
         number = int(np.ravel_multi_index(first, whole)) if whole else 0
         _compute_scene(task, outcome, tuple(at), moved, number)
+    for name in task.variables:
+        outcome.values[name] = _sent(outcome.array(name))
     outcome.seconds = time.perf_counter() - began
     return outcome
+
+
+def _sent(values: Numbers) -> Any:
+    """What is sent of numbers: one where all are the same, without adhesion or shift say."""
+    bits = values.reshape(-1).view(np.uint64)
+    if bits.size > 1 and bits[0] == bits[-1] and (bits == bits[0]).all():
+        return values.flat[0]
+    return values
 
 
 def is_moved(axis: Axis, variables: tuple[str, ...]) -> bool:
@@ -131,7 +155,6 @@ def _compute_scene(
         outcome.fail(at, error)
         return
     flat_p, flat_v = (np.broadcast_to(one, shape).ravel() for one in (pressure, velocity))
-    views = {name: values[at] for name, values in outcome.values.items()}
     for part, result in _results(scene, flat_p, flat_v):
         if isinstance(result, Error):
             where = list(at)
@@ -141,13 +164,9 @@ def _compute_scene(
             continue
         for note in result._plain_notes():
             outcome.notes[note] = min(number, outcome.notes.get(note, number))
-        for name, view in views.items():
+        for name in task.variables:
             if name not in BAND:
-                found = _found(result, name)
-                if shape:
-                    _put(view, shape, part, found)
-                else:
-                    outcome.values[name][at] = found[0]
+                _put(outcome, name, at, shape, part, _found(result, name))
     if set(BAND) & set(task.variables):
         _band(scene, points, pressure, velocity, outcome, at)
 
@@ -157,11 +176,24 @@ def _found(result: Friction, name: str) -> Any:
     return getattr(of, name.removesuffix("_cold"))
 
 
-def _put(view: Numbers, shape: tuple[int, ...], part: slice, found: Numbers) -> None:
-    if part == slice(0, view.size):
-        view[...] = np.reshape(found, shape)
+def _put(
+    outcome: Outcome,
+    name: str,
+    at: tuple[Any, ...],
+    shape: tuple[int, ...],
+    part: slice,
+    found: Numbers,
+) -> None:
+    """Put the numbers of a run of a scene's points into their places."""
+    if found.size == outcome.points:  # of a box of one scene: without a copy
+        outcome.values[name] = np.array(found, float, copy=None).reshape(outcome.box)
+    elif not shape:
+        outcome.array(name)[at] = found[0]
+    elif part == slice(0, math.prod(shape)):
+        outcome.array(name)[at] = np.reshape(found, shape)
     else:
-        view[np.unravel_index(np.arange(part.start, part.stop), shape)] = found
+        places = np.unravel_index(np.arange(part.start, part.stop), shape)
+        outcome.array(name)[at][places] = found
 
 
 def _along(points: list[Axis], key: str, tables: Mapping[str, Any]) -> Numbers:
@@ -234,7 +266,7 @@ def _band(
     """Lower and upper mu of a scene's pressures and velocities, all of which are in the box."""
     swept = replace(scene, pressure=pressure.ravel(), velocity=velocity.ravel())
     turned = bool(points) and VELOCITY in points[0].values and len(points) == 2
-    mu = next(iter(outcome.values.values()))[at]
+    mu = outcome.array("mu")[at]
     ones = np.ones((swept.pressure.size, swept.velocity.size))
     try:
         bounds = swept.band(ones)
@@ -242,8 +274,7 @@ def _band(
         outcome.fail(at, error)
         return
     for name, share in zip(BAND, (bounds.lower, bounds.upper), strict=True):
-        if name in outcome.values:
-            factor = share.T if turned else share
-            outcome.values[name][at] = outcome.values["mu"][at] * factor.reshape(np.shape(mu))
+        factor = share.T if turned else share
+        outcome.array(name)[at] = mu * factor.reshape(np.shape(mu))
     for note in bounds.notes:
         outcome.notes.setdefault(note, 0)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.sweep import describe, run, store
+from asperity.sweep import describe, run, store, work
 from helpers.cases import case
 from helpers.sweeps import SCENE as STIFF
 
@@ -107,6 +107,12 @@ def ended_after(monkeypatch, boxes):
     return written, plain
 
 
+def counting(monkeypatch, computed):
+    """Let a list have the boxes that are computed."""
+    work = run.work
+    monkeypatch.setattr(run, "work", lambda task: (computed.append(task.start), work(task))[1])
+
+
 @pytest.mark.parametrize("name", ["a.zarr", "a.nc"])
 def test_resume_computes_what_is_missing(name, expected, monkeypatch):
     written, plain = ended_after(monkeypatch, ENDED)
@@ -116,10 +122,7 @@ def test_resume_computes_what_is_missing(name, expected, monkeypatch):
     assert os.listdir() == [part]
     monkeypatch.setattr(store.ZarrStore, "write", plain)
     computed = []
-    compute = run.compute
-    monkeypatch.setattr(
-        run, "compute", lambda task: (computed.append(task.start), compute(task))[1]
-    )
+    counting(monkeypatch, computed)
     with sweep(SCENE, OVER, store=name, resume=True) as found:
         same(found, expected)
     assert len(written) == ENDED
@@ -142,10 +145,7 @@ def test_a_box_whose_numbers_are_not_those_of_its_line_is_computed_again(expecte
     chunks = sorted(os.listdir("a.zarr/mu/c/0/0/0"))
     os.remove(f"a.zarr/mu/c/0/0/0/{chunks[0]}")
     computed = []
-    compute = run.compute
-    monkeypatch.setattr(
-        run, "compute", lambda task: (computed.append(task.start), compute(task))[1]
-    )
+    counting(monkeypatch, computed)
     with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
         same(found, expected)
     assert sorted(computed) == [(0, 0, 0, 0), (2, 1, 0, 0)]
@@ -200,6 +200,23 @@ def test_what_is_no_store_is_refused_and_stays(tmp_path):
         sweep(SCENE, OVER, store="a.csv")
     assert (tmp_path / "a.zarr" / "mine").read_text() == "text"
     assert sorted(os.listdir()) == ["a.zarr", "b.nc"]
+
+
+def test_a_worker_that_does_not_see_the_store_sends_its_numbers(expected, monkeypatch):
+    sent = []
+    plain = store.ZarrStore.write
+    monkeypatch.setattr(
+        store.ZarrStore, "write", lambda self, one: (sent.append(one.sums), plain(self, one))
+    )
+    with sweep(SCENE, OVER, store="a.zarr") as found:
+        same(found, expected)
+    assert None not in sent
+    monkeypatch.setattr(work, "_sees", lambda *_: False)
+    with sweep(SCENE, OVER, store="b.zarr") as found:
+        same(found, expected)
+    assert sent[12:] == [None] * 12
+    lines = [Path(name, "_sweep/journal").read_text() for name in ("a.zarr", "b.zarr")]
+    assert lines[0] == lines[1]
 
 
 def test_two_drivers_do_not_write_to_one_store(monkeypatch):

@@ -190,6 +190,6 @@ def test_an_executor_that_ends_is_told(monkeypatch):
     pool.shutdown()
     with pytest.raises(asperity.Error, match="the executor takes no tasks"):
         asperity.sweep(SCENE, {"surface.hurst": [0.7]}, executor=pool)
-    monkeypatch.setattr(run, "compute", lambda task: 1 / 0)
+    monkeypatch.setattr(run, "work", lambda task: 1 / 0)
     with pytest.raises(asperity.Error, match="a task failed on its worker: ZeroDivisionError"):
         asperity.sweep(SCENE, {"surface.hurst": [0.7]})

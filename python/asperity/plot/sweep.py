@@ -1,0 +1,181 @@
+"""Small multiples of a sweep: panels over two axes, curves of a third (matplotlib)."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.plot.curves import MOST_ENTRIES, PRESSURE, VELOCITY, picture
+from asperity.plot.style import colours, grey, narrow, shades
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_PANELS = 8  # along either axis
+_MOST_BANDS = 3  # curves of a panel whose bands can be told apart
+_TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}
+_WIDE, _LONG = 3.0, 2.5  # inches of a panel
+_COLUMN = 3.4  # inches, of a journal of two columns
+
+
+def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
+    """A variable over velocity, or over the last axis of numbers. Of the axes that are left the
+    last has a colour a value, that before it panels in a row, the first rows under one another."""
+    dataset, fixed = _squeezed(dataset, name)
+    x, lines, columns, rows = _roles(dataset, name)
+    across, down = (1 if axis is None else dataset.sizes[axis] for axis in (columns, rows))
+    figure, panels = _grid(across, down)
+    count = 1 if lines is None else dataset.sizes[lines]
+    tints = _tints(dataset, lines, count)
+    with_band = name == "mu" and "mu_low" in dataset and "mu_high" in dataset
+    for row in range(down):
+        for column in range(across):
+            axes = panels[row * across + column]
+            places = {rows: row, columns: column}
+            at = {axis: i for axis, i in places.items() if axis is not None}
+            for i in range(count):
+                curve = dataset.isel({**at, **({} if lines is None else {lines: i})})
+                axes.plot(curve[x], curve[name], color=tints[i], linewidth=1.3)
+                if with_band and count <= _MOST_BANDS:
+                    how = {"color": tints[i], "alpha": 0.2, "linewidth": 0}
+                    axes.fill_between(curve[x], curve["mu_low"], curve["mu_high"], **how)
+            _dress(axes, dataset, x, [(axis, at[axis]) for axis in (rows, columns) if axis in at])
+            if not np.isfinite(dataset.isel(at)[name]).any():
+                axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center")
+    meaning = dataset[name].attrs.get("long_name", name)
+    label = f"{meaning[0].upper()}{meaning[1:]} [{_unit(dataset[name].attrs)}]"
+    figure.supylabel(label, fontsize="medium")
+    for axes in panels[-1 if narrow() else -across :]:
+        axes.set_xlabel(_title(dataset, x))
+    if fixed:
+        figure.suptitle(", ".join(fixed), fontsize="medium")
+    _key(figure, panels, dataset, lines, tints)
+    return picture(figure, path)
+
+
+def _squeezed(dataset: Any, name: str) -> tuple[Any, list[str]]:
+    """The dataset without axes of one value, and what these were."""
+    if name not in dataset:
+        raise InvalidInput(f"{name}: the store does not have it: it was not kept")
+    left = set(dataset[name].dims)
+    for axis in list(left):
+        if dataset.sizes[axis] == 1:
+            dataset = dataset.isel({axis: 0})
+    scalars = [one for one in dataset.coords if not dataset[one].dims]
+    told = []
+    for one in scalars:
+        number = dataset[one].dtype.kind in "fiu" and dataset[one].attrs.get("units", "1") != "1"
+        unit = f" {dataset[one].attrs['units']}" if number else ""
+        told.append(f"{_short(one)} {_text(dataset[one].values)}{unit}")
+    return dataset, told
+
+
+def _roles(dataset: Any, name: str) -> list[Any]:
+    """The axes of x, colours, columns and rows; None where there are not so many."""
+    left = [str(axis) for axis in dataset[name].dims]
+    numbers = [axis for axis in left if dataset[axis].dtype.kind in "fiu"]
+    if not numbers:
+        raise InvalidInput(
+            "--plot: there is no axis of numbers with two values or more to draw over"
+        )
+    x = "conditions.velocity_m_s" if "conditions.velocity_m_s" in numbers else numbers[-1]
+    left.remove(x)
+    if len(left) > 3:
+        names = ", ".join(left)
+        raise InvalidInput(f"--plot: {names}: must be at most 3 beside {x}: fix the others by --at")
+    lines = left.pop() if left else None
+    panels = left[::-1]
+    for axis in panels:
+        if dataset.sizes[axis] > _MOST_PANELS:
+            problem = f"has {dataset.sizes[axis]} values: must be at most {_MOST_PANELS} for panels"
+            raise InvalidInput(f"--plot: {axis} {problem}: fix it by --at")
+    if lines is not None and dataset.sizes[lines] > MOST_ENTRIES and lines not in numbers:
+        problem = f"has {dataset.sizes[lines]} values: must be at most {MOST_ENTRIES} for colours"
+        raise InvalidInput(f"--plot: {lines} {problem}: fix it by --at")
+    return [x, lines, *panels, None, None][:4]
+
+
+def _grid(across: int, down: int) -> "tuple[Figure, list[Axes]]":
+    from matplotlib.figure import Figure
+
+    if narrow():
+        across, down = 1, across * down
+        size = (_COLUMN, 0.6 * _COLUMN * down + 0.6)
+    else:
+        size = (max(_WIDE * across, 5.0) + 1.2, max(_LONG * down, 3.4) + 0.5)
+    figure = Figure(figsize=size, layout="constrained")
+    grid = figure.subplots(down, across, sharex=True, sharey=True, squeeze=False)
+    return figure, list(grid.ravel())
+
+
+def _tints(dataset: Any, lines: str | None, count: int) -> Any:
+    if lines is None or count <= MOST_ENTRIES:
+        return colours(count)
+    return shades()(_norm(dataset[lines].values)(dataset[lines].values))
+
+
+def _norm(values: Any) -> Any:
+    from matplotlib.colors import LogNorm, Normalize
+
+    low, high = float(values.min()), float(values.max())
+    return LogNorm(low, high) if low > 0 and high / low > 20 else Normalize(low, high)
+
+
+def _dress(axes: "Axes", dataset: Any, x: str, panel: list[tuple[str, int]]) -> None:
+    values = dataset[x].values
+    if values.min() > 0 and values.max() / values.min() > 20:
+        axes.set_xscale("log")
+    told = [f"{_short(axis)} {_text(dataset[axis].values[i])}" for axis, i in panel]
+    axes.set_title(", ".join(told), fontsize="small")
+    axes.tick_params(labelsize="small")
+    axes.grid(color=grey(0.9), linewidth=0.5)
+
+
+def _key(
+    figure: "Figure", panels: "list[Axes]", dataset: Any, lines: str | None, tints: Any
+) -> None:
+    """What the colours mean: a legend of a few, a bar of many."""
+    if lines is None:
+        return
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.lines import Line2D
+
+    values = dataset[lines].values
+    if len(values) > MOST_ENTRIES:
+        bar = ScalarMappable(_norm(values), shades())
+        figure.colorbar(bar, ax=panels, label=_title(dataset, lines))
+        return
+    handles = [Line2D([], [], color=tint) for tint in tints]
+    where: Any = "outside lower center" if narrow() else "outside right upper"
+    names = [_text(one) for one in values]
+    small = {"fontsize": "small", "title_fontsize": "small"}
+    figure.legend(handles, names, loc=where, title=_title(dataset, lines), **small)
+
+
+def _title(dataset: Any, axis: str) -> str:
+    if axis in _TITLES:
+        return _TITLES[axis]
+    unit = _unit(dataset[axis].attrs) if dataset[axis].dtype.kind in "fiu" else ""
+    return _short(axis) + (f" [{unit}]" if unit else "")
+
+
+def _unit(attributes: Any) -> str:
+    unit = attributes.get("units", "")
+    return "-" if unit == "1" else str(unit)
+
+
+def _short(axis: object) -> str:
+    """The name of an axis as a picture has room for it: the key without table and unit."""
+    name = str(axis).rpartition(".")[2]
+    for unit in ("_per_m", "_m_s", "_pa", "_k", "_c", "_m", "_s"):
+        name = name.removesuffix(unit)
+    return name.replace("_", " ")
+
+
+def _text(value: Any) -> str:
+    """A coordinate as a picture has room for it; of a file its name."""
+    if np.asarray(value).dtype.kind in "fiu":
+        return f"{float(value):.4g}"
+    return str(value).rpartition("/")[2]

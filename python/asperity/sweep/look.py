@@ -1,0 +1,160 @@
+"""What a store says: parts of it that are chosen, and ranks with the certainty that they have."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.io.fields import nearest
+
+_BLOCK = 1_000_000  # numbers of a variable that are looked at together
+_AGREE = 1e-6  # relative, of a number that was typed and a coordinate
+
+
+def choose(dataset: Any, at: Mapping[str, str], option: str = "--at") -> Any:
+    """The dataset where coordinates have the values that were typed."""
+    for name, text in at.items():
+        if name not in dataset.sizes:
+            known = dict.fromkeys(map(str, dataset["failure"].dims))
+            raise InvalidInput(f"{option} {name}: is no axis, {nearest(name, known)}")
+        dataset = dataset.isel({name: _index(dataset[name].values, name, text, option)})
+    return dataset
+
+
+def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
+    if values.dtype.kind in "fiu":
+        try:
+            wanted = float(text)
+        except ValueError:
+            raise InvalidInput(f"{option} {name} = {text}: must be a number") from None
+        found = int(np.abs(values - wanted).argmin())
+        if abs(values[found] - wanted) <= _AGREE * abs(wanted):
+            return found
+        known = {f"{one:g}": None for one in values}
+    else:
+        known = {str(one): None for one in values}
+        if text in known:
+            return list(known).index(text)
+    shown = list(known)
+    allowed = ", ".join(shown if len(shown) <= 12 else [*shown[:6], "...", *shown[-5:]])
+    raise InvalidInput(f"{option} {name} = {text}: is not on the axis, which has {allowed}")
+
+
+def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
+    """The values of an axis by their mean friction, as columns of a table.
+
+    Only points at which every value has a result are compared. `best_share` is how often a value
+    has the highest mu, `certain_share` how often its lead over the next exceeds the errors of the
+    two together: half of the band where the store has one, else the model error and the estimate
+    of the numerical error. `best_at` tells where along each other axis it is best more often than
+    not.
+    """
+    if axis not in dataset.sizes:
+        axes = dict.fromkeys(map(str, dataset["failure"].dims))
+        raise InvalidInput(f"--rank {axis}: is no axis, {nearest(axis, axes)}")
+    for name in ("mu", *(() if "mu_low" in dataset else ("error_estimate",))):
+        if name not in dataset:
+            raise InvalidInput(f"--rank {axis}: the store has no {name}: it was not kept")
+    count = dataset.sizes[axis]
+    if count < 2:
+        raise InvalidInput(f"--rank {axis}: has one value: must have two or more")
+    others = [str(name) for name in dataset["mu"].dims if name != axis]
+    total, known, points = np.zeros(count), 0, 0
+    best, certain = np.zeros(count, int), np.zeros(count, int)
+    places = {name: np.zeros((count, dataset.sizes[name]), int) for name in others}
+    compared = {name: np.zeros(dataset.sizes[name], int) for name in others}
+    for block, offset in _blocks(dataset, axis, others):
+        mu = _stacked(block, "mu", axis, others)
+        error = _errors(block, axis, others)
+        sound = np.isfinite(mu).all(axis=0)
+        order = np.argsort(-np.where(np.isfinite(mu), mu, -np.inf), axis=0, kind="stable")
+        first, second = order[0], order[1]
+        lead = _take(mu, first) - _take(mu, second)
+        both = np.hypot(_take(error, first), _take(error, second))
+        sure = sound & np.isfinite(both) & (lead > both)
+        points += int(sound.sum())
+        known += int((sound & np.isfinite(both)).sum())
+        total += np.where(sound, mu, 0.0).reshape(count, -1).sum(axis=1)
+        for i in range(count):
+            mine = sound & (first == i)
+            best[i] += int(mine.sum())
+            certain[i] += int((mine & sure).sum())
+            for k, name in enumerate(others):
+                rest = tuple(j for j in range(len(others)) if j != k)
+                where = slice(offset.get(name, 0), offset.get(name, 0) + mine.shape[k])
+                places[name][i, where] += mine.sum(axis=rest)
+                if i == 0:
+                    compared[name][where] += sound.sum(axis=rest)
+    if points == 0:
+        raise InvalidInput(f"--rank {axis}: there is no point at which every value has a result")
+    mean = total / points
+    by_mean = np.argsort(-mean, kind="stable")
+    labels = [str(one) for one in dataset[axis].values]
+    next_one = [*(mean[by_mean[:-1]] - mean[by_mean[1:]]), math.nan]
+    return {
+        "rank": [*range(1, count + 1)],
+        axis: [labels[i] for i in by_mean],
+        "mean_mu": [float(mean[i]) for i in by_mean],
+        "lead": [float(one) for one in next_one],
+        "best_share": [float(best[i] / points) for i in by_mean],
+        "certain_share": [float(certain[i] / known) if known else math.nan for i in by_mean],
+        "best_at": [
+            "; ".join(filter(None, (_where(dataset, n, places[n][i], compared[n]) for n in others)))
+            for i in by_mean
+        ],
+    }
+
+
+def _take(values: NDArray[np.float64], index: NDArray[np.int64]) -> NDArray[np.float64]:
+    found: NDArray[np.float64] = np.take_along_axis(values, index[None], axis=0)[0]
+    return found
+
+
+def _blocks(dataset: Any, axis: str, others: list[str]) -> Iterator[tuple[Any, dict[str, int]]]:
+    """Parts of a store that fit into memory, and where they begin along the longest axis."""
+    if not others:
+        yield dataset, {}
+        return
+    longest = max(others, key=lambda name: int(dataset.sizes[name]))
+    size = dataset.sizes[longest]
+    across = math.prod(dataset.sizes[name] for name in dataset["mu"].dims) // size
+    step = max(1, _BLOCK // max(across, 1))
+    for start in range(0, size, step):
+        yield dataset.isel({longest: slice(start, start + step)}), {longest: start}
+
+
+def _stacked(block: Any, name: str, axis: str, others: list[str]) -> NDArray[np.float64]:
+    values: NDArray[np.float64] = block[name].transpose(axis, *others).values
+    return values
+
+
+def _errors(block: Any, axis: str, others: list[str]) -> NDArray[np.float64]:
+    """How far mu may be from what it stands for; NaN where nothing is known."""
+    if "mu_low" in block and "mu_high" in block:
+        high, low = (_stacked(block, name, axis, others) for name in ("mu_high", "mu_low"))
+        return np.asarray((high - low) / 2)
+    error = _stacked(block, "error_estimate", axis, others)
+    if "model_error" not in block or "hysteresis" not in block:
+        return np.full(error.shape, np.nan)
+    model, mu = (_stacked(block, name, axis, others) for name in ("model_error", "hysteresis"))
+    return np.asarray(error + model * mu)
+
+
+def _where(dataset: Any, name: str, mine: NDArray[np.int64], all_: NDArray[np.int64]) -> str:
+    """Where along an axis a value is best more often than not: nothing where that is everywhere."""
+    often = 2 * mine > all_
+    if not often.any() or often[all_ > 0].all():
+        return ""
+    values = dataset[name].values
+    short = name.rpartition(".")[2]
+    if values.dtype.kind not in "fiu":
+        return f"{short} {' '.join(str(one) for one in values[often])}"
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], often.astype(int), [0]])))
+    runs = zip(edges[::2], edges[1::2], strict=True)
+    return f"{short} " + ", ".join(
+        f"{values[a]:.3g}" if b - a == 1 else f"{values[a]:.3g} to {values[b - 1]:.3g}"
+        for a, b in runs
+    )

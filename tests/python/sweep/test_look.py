@@ -1,0 +1,196 @@
+"""Pictures and ranks of a store: what they draw, and certainties that are counted by hand."""
+
+import csv
+import os
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.main import main
+from asperity.plot import sweep as plot
+from asperity.sweep import look
+from asperity.sweep.look import choose, ranks
+from helpers.cases import case
+from helpers.sweeps import SCENE
+
+xarray = pytest.importorskip("xarray", reason="a sweep needs asperity[sweep]")
+pytest.importorskip("zarr", reason="a store needs asperity[sweep]")
+OVER = {
+    "surface.hurst": [0.7, 0.8, 0.9],
+    "rubbers": {
+        "rubber.equilibrium_modulus_pa": [2e6, 5e6],
+        "rubber.moduli_pa": [[1e9, 1e8, 1e7]] * 2,
+    },
+    "correction.kind": ["none", "partial-contact"],
+    "conditions.pressure_pa": [1e5, 2e5, 4e5],
+}
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory):
+    path = tmp_path_factory.mktemp("stored") / "r.zarr"
+    asperity.sweep(SCENE, OVER, store=path).close()
+    return path
+
+
+@pytest.fixture
+def swept(stored):
+    with xarray.open_dataset(stored, engine="zarr") as found:
+        yield found
+
+
+def table(mu, error, band=None):
+    """A store of three rubbers over two velocities and two roads."""
+    along = ("rubber", "road", "conditions.velocity_m_s")
+    variables = {
+        "mu": (along, np.array(mu, float)),
+        "failure": (along, np.zeros(np.shape(mu), int)),
+    }
+    if band is None:
+        variables["error_estimate"] = (along, np.full(np.shape(mu), 0.0))
+        variables["hysteresis"] = variables["mu"]
+        variables["model_error"] = (along, np.array(error, float))
+    else:
+        variables["mu_low"] = (along, np.array(mu) - band)
+        variables["mu_high"] = (along, np.array(mu) + band)
+    return xarray.Dataset(
+        variables,
+        {"rubber": ["A", "B", "C"], "road": ["old", "new"], "conditions.velocity_m_s": [0.1, 1.0]},
+    )
+
+
+MU = [[[1.0, 0.5], [1.0, 0.6]], [[0.8, 0.9], [0.7, 0.59]], [[0.1, 0.1], [0.1, 0.1]]]
+
+
+def test_ranks_are_those_counted_by_hand():
+    found = ranks(table(MU, np.full((3, 2, 2), 0.1)), "rubber")
+    assert found["rubber"] == ["A", "B", "C"]
+    assert found["mean_mu"] == pytest.approx([3.1 / 4, 2.99 / 4, 0.1])
+    assert found["lead"][:2] == pytest.approx([0.11 / 4, 2.59 / 4])
+    assert found["best_share"] == [0.75, 0.25, 0]
+    # leads 0.2 over 0.128, 0.4 over 0.103, 0.3 over 0.122 and 0.01 over 0.084
+    assert found["certain_share"] == [0.5, 0.25, 0]
+    assert found["best_at"] == ["road new; velocity_m_s 0.1", "", ""]
+    found = ranks(table(MU, None, band=0.15), "rubber")  # 0.212 for two
+    assert found["certain_share"] == [0.25, 0.25, 0]
+    found = ranks(table(MU, np.full((3, 2, 2), np.nan)), "rubber")
+    assert np.isnan(found["certain_share"]).all()
+
+
+def test_points_without_a_result_are_not_compared():
+    mu = np.array(MU)
+    mu[2, 0, 0] = np.nan
+    found = ranks(table(mu, np.full((3, 2, 2), 0.1)), "rubber")
+    assert found["best_share"] == pytest.approx([1 / 3, 2 / 3, 0])
+    assert found["rubber"] == ["B", "A", "C"]  # without a place at which A leads by far
+    assert found["mean_mu"][:2] == pytest.approx([2.19 / 3, 2.1 / 3])
+    with pytest.raises(asperity.InvalidInput, match="no point at which every value"):
+        ranks(table(np.full((3, 2, 2), np.nan), mu), "rubber")
+
+
+def test_ranks_in_parts_are_those_of_the_whole(swept, monkeypatch):
+    whole = ranks(swept, "correction.kind")
+    monkeypatch.setattr(look, "_BLOCK", 40)
+    for name, column in ranks(swept, "correction.kind").items():
+        if name in ("mean_mu", "lead"):
+            assert column == pytest.approx(whole[name], rel=1e-12, nan_ok=True)
+        else:
+            assert str(column) == str(whole[name]), name
+
+
+def test_the_command_ranks_and_draws(stored, tmp_path, monkeypatch, capsys, undrawn):
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", str(stored), "--rank", "rubbers", "--at", "surface.hurst=0.8"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    assert [row["rank"] for row in rows] == ["1", "2"]
+    assert float(rows[0]["mean_mu"]) > float(rows[1]["mean_mu"])
+    at = "surface.hurst=0.8,rubbers=2e6"
+    assert main(["sweep", str(stored), "--plot", "p.png", "--at", at, "--style", "dark"]) == 0
+    assert os.listdir() == ["p.png"]
+
+
+BAD = {
+    "": "is a store: look at it by --plot or --rank",
+    "--rank rubber": "--rank rubber: is no axis, did you mean rubbers?",
+    "--rank rubbers --at rubbers=2e6": "--rank rubbers: is no axis",
+    "--rank rubbers --at surface.hurst=0.75": "is not on the axis, which has 0.7, 0.8, 0.9",
+    "--rank rubbers --at surface.hurst=soft": "must be a number",
+    "--rank rubbers --at correction.kind=non": "which has none, partial-contact",
+    "--rank rubbers --at hurst=0.7": "--at hurst: is no axis, did you mean surface.hurst?",
+    "--plot p.png": "must be at most 3 beside conditions.velocity_m_s: fix the others by --at",
+    "--plot p.txt": "must end in .png",
+    "--plot p.png --variables my --at surface.hurst=0.8": "my: the store does not have it",
+    "--plot p.png --output r.nc": "--output: ",
+    "--style dark": "--style: goes with --plot",
+    "--at surface.hurst=0.7": "--at: goes with --plot and --rank",
+}
+
+
+def test_what_cannot_be_shown_is_refused(stored, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for line, said in BAD.items():
+        with case(line=line):
+            assert main(["sweep", str(stored), *line.split()]) == 2
+            err = capsys.readouterr().err
+            assert said in err
+            assert len(err.splitlines()) == 1
+    assert main(["sweep", "gone.zarr", "--rank", "x"]) == 2
+    (tmp_path / "mine.nc").write_text("text")
+    assert main(["sweep", "mine.nc", "--rank", "x"]) == 2
+    assert os.listdir() == ["mine.nc"]
+
+
+def drawn(dataset, path, monkeypatch, **how):
+    """The figure of a dataset, which is not made a file."""
+    pytest.importorskip("matplotlib", reason="its pictures need asperity[plot]")
+    figures = []
+    monkeypatch.setattr(plot, "picture", lambda figure, path: figures.append(figure) or b"")
+    plot.sweep_figure(dataset, path, **how)
+    return figures[0]
+
+
+def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch):
+    part = choose(swept, {"correction.kind": "partial-contact"})
+    figure = drawn(part, tmp_path / "p.png", monkeypatch)
+    assert [len(axes.lines) for axes in figure.axes] == [3] * 6
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles[0] == "hurst 0.7, rubbers 2e+06"
+    assert titles[-1] == "hurst 0.9, rubbers 5e+06"
+    line = figure.axes[3].lines[1]
+    where = {"surface.hurst": 1, "rubbers": 1, "conditions.pressure_pa": 1}
+    assert np.array_equal(line.get_ydata(), part.mu.isel(where))
+    assert np.array_equal(line.get_xdata(), part["conditions.velocity_m_s"])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "1e+05",
+        "2e+05",
+        "4e+05",
+    ]
+    assert "kind partial-contact" in figure.get_suptitle()
+    area = drawn(part, tmp_path / "p.png", monkeypatch, name="contact_area")
+    assert area.get_supylabel() == "Real over nominal contact area [-]"
+    one = drawn(
+        choose(part, {"surface.hurst": "0.8", "rubbers": "2e6"}), tmp_path / "p.png", monkeypatch
+    )
+    assert len(one.axes) == 1
+    assert "rubbers 2e+06 Pa" in one.get_suptitle()
+
+
+def test_a_band_is_filled(tmp_path, monkeypatch):
+    figure = drawn(table(MU, None, band=0.1), tmp_path / "p.png", monkeypatch)
+    assert [len(axes.collections) for axes in figure.axes] == [2, 2, 2]
+
+
+def test_more_values_than_a_picture_has_room_for_are_refused(tmp_path, monkeypatch):
+    many = asperity.sweep(
+        SCENE, {"surface.hurst": np.linspace(0.6, 0.9, 9), "conditions.pressure_pa": [1e5, 2e5]}
+    )
+    with pytest.raises(
+        asperity.InvalidInput, match=r"surface\.hurst has 9 values: must be at most 8"
+    ):
+        drawn(many, tmp_path / "p.png", monkeypatch)
+    turned = many.transpose("conditions.pressure_pa", "surface.hurst", ...)
+    figure = drawn(turned, tmp_path / "p.png", monkeypatch)
+    assert [len(axes.lines) for axes in figure.axes[:2]] == [9, 9]  # and a colour bar
+    assert len(figure.axes) == 3
