@@ -90,13 +90,16 @@ class Described:
             attributes["coordinates"] = " ".join(beside)
         group = zarr.create_group(str(path), zarr_format=3, attributes=attributes)
         along = {"shape": self.shape, "chunks": tuple(cut), "dimension_names": self.dimensions}
-        # the last digits of results do not compress: a tenth of the size for half of the time
+        # as quick as none, and half of the size: what is the same at all points takes nothing
+        blosc = imported("zarr.codecs", "sweep").BloscCodec(
+            cname="lz4", clevel=1, shuffle="shuffle"
+        )
         for name in self.variables:
             group.create_array(
                 name,
                 dtype="f8",
                 fill_value=np.nan,
-                compressors=None,
+                compressors=blosc,
                 attributes=_said(name),
                 **along,
             )
