@@ -313,7 +313,7 @@ class FrictionMap {
   [[nodiscard]] double mu(const Where& at) const noexcept {
     const map_detail::Pair f = steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
     double mu = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at.ln_p, at.ln_v));
+    if (info_.shear_stress > 0) mu += map_detail::exp(f[1] + log_adhesion(at));
     return mu;
   }
 
@@ -385,7 +385,7 @@ class FrictionMap {
     for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
     MapPoint point{};
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at.ln_p, at.ln_v)) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
     point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
@@ -474,6 +474,7 @@ class FrictionMap {
   }
 
   /// ln of mu_A over A/A0.
+  [[nodiscard]] double log_adhesion(const Where& at) const noexcept { return log_adhesion(at.ln_p, at.ln_v); }
   [[nodiscard]] double log_adhesion(double ln_p, double ln_v) const noexcept {
     const double off = ln_v - ln_reference_;
     return ln_shear_stress_ - ln_p - width_ * off * off;
