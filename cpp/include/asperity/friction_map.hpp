@@ -331,7 +331,7 @@ class FrictionMap {
     // of points in the box that need a cell and nothing else, one after another; `point` says which they are
     double ln_p[together], ln_v[together], x[together], z[together], hysteresis[together], adhesion[together];
     const double* cell[together];
-    std::size_t point[together], inside = 0;
+    std::size_t point[together], inside = 0, others = 0;  // the others from the end
     const double a_T = temperature.a_T;
     const bool unshifted = a_T == 1 || temperature.shifts_adhesion;
     const bool own = temperature.background == 0 || temperature.background == info_.temperature[0];
@@ -344,14 +344,14 @@ class FrictionMap {
         ln_p[inside] = p;
         ln_v[inside++] = speed;
       } else {
-        result[i] = mu(p, velocity[i], outside, temperature);
+        point[together - ++others] = i;
       }
     }
-    for (std::size_t k = 0; k < inside; ++k) {
-      ln_p[k] = map_detail::ln(ln_p[k]);
-      x[k] = map_detail::ln(ln_v[k] * a_T);
-      if (!unshifted) ln_v[k] = map_detail::ln(ln_v[k]);
-    }
+    for (std::size_t k = together - others; k < together; ++k)
+      result[point[k]] = mu(pressure[point[k]], velocity[point[k]], outside, temperature);
+    for (std::size_t k = 0; k < inside; ++k) x[k] = map_detail::ln(ln_v[k] * a_T);
+    for (std::size_t k = 0; k < inside; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
+    for (std::size_t k = 0; k < inside && !unshifted; ++k) ln_v[k] = map_detail::ln(ln_v[k]);
     double slope = 0;
     for (std::size_t k = 0; k < inside; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
     for (std::size_t k = 0; k < inside; ++k) cell[k] = cell_at(x[k], z[k]);
