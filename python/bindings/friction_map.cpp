@@ -71,17 +71,32 @@ struct Points {
   }
 };
 
-/// (mu, the first point without a value or how many points there are).
-py::tuple mu_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
-                int outside) {
+/// (one number at each point, the first point without a value or how many points there are).
+template <MapQuantity quantity>
+py::tuple column_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
+                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
+                    int outside) {
   const Points points(p, v, a_T, background, distance);
   // not cleared: of 1e8 points that takes a second in which no signal is heeded
-  py::array_t<double> mu(static_cast<py::ssize_t>(points.size));
-  const std::span<double> to(mu.mutable_data(), points.size);
-  const std::size_t first =
-      released([&] { return look_up(map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to); });
-  return py::make_tuple(mu, first);
+  py::array_t<double> found(static_cast<py::ssize_t>(points.size));
+  const std::span<double> to(found.mutable_data(), points.size);
+  const std::size_t first = released(
+      [&] { return look_up(quantity, map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to); });
+  return py::make_tuple(found, first);
+}
+
+/// (dmu_dlnp, dmu_dlnv: a row each; the first point without them).
+py::tuple slopes_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
+                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
+                    int outside) {
+  const Points points(p, v, a_T, background, distance);
+  const std::size_t n = points.size;
+  py::array_t<double> found({std::size_t{2}, n});
+  const std::span<double> to(found.mutable_data(), 2 * n);
+  const std::size_t first = released([&] {
+    return look_up_slopes(map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to.first(n), to.last(n));
+  });
+  return py::make_tuple(found, first);
 }
 
 /// Rows of numbers at each point, and the first point whose first number is none.
@@ -112,17 +127,6 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
     map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
            points.temperature(i, shifts_adhesion));
     return std::array{at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
-  });
-}
-
-/// A row of tractions: there is one without load and at rest too.
-py::tuple traction_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                      const std::optional<Array>& background, const std::optional<Array>& distance,
-                      bool shifts_adhesion, int outside) {
-  const Points points(p, v, a_T, background, distance);
-  return rows_of<1>(points, [&](std::size_t i) {
-    return std::array{map.traction(points.pressure(i), points.velocity(i), static_cast<Outside>(outside),
-                                   points.temperature(i, shifts_adhesion))};
   });
 }
 
@@ -163,7 +167,12 @@ void bind_friction_map(py::module_& m) {
   py::classh<FrictionMap>(m, "FrictionMap")
       .def(py::init(&read))
       .def("info", &info_of)
-      .def("mu", &mu_of)
+      .def("mu", &column_of<MapQuantity::mu>)
+      .def("hysteresis", &column_of<MapQuantity::hysteresis>)
+      .def("adhesion", &column_of<MapQuantity::adhesion>)
+      .def("contact_area", &column_of<MapQuantity::contact_area>)
+      .def("traction", &column_of<MapQuantity::traction>)
+      .def("slopes", &slopes_of)
       .def("mu_at",
            [](const FrictionMap& map, double p, double v) {
              const double a_T = 1;
@@ -172,7 +181,6 @@ void bind_friction_map(py::module_& m) {
              return mu;
            })
       .def("points", &points_of)
-      .def("traction", &traction_of)
       .def("sliding_length", &sliding_length_of)
       .def("status", [](const FrictionMap& map, double p, double v, double a_T, double background, double distance,
                         bool shifts_adhesion, int outside) {

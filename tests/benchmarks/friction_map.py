@@ -176,6 +176,15 @@ def look_ups() -> timing.Report:
             times = timing.by_turns(often, RUNS)
             scaled = {k: [1e9 * t / often[k].many / count for t in times[k]] for k in times}
             add(f"Python, {count} points: {name}", scaled["map"], scaled["numpy"], error)
+        for other in ("hysteresis", "contact_area", "derivatives"):
+            calls = {
+                other: lambda made=scene.map, other=other: getattr(made, other)(p, v),
+                "numpy": lambda: (np.log(p), np.log(v), np.exp(v)),
+            }
+            often = {k: timing.Repeated(call) for k, call in calls.items()}
+            times = timing.by_turns(often, RUNS)
+            scaled = {k: [1e9 * t / often[k].many / COUNT for t in times[k]] for k in times}
+            add(f"Python, {COUNT} points, {other}: {name}", scaled[other], scaled["numpy"], error)
         for method in ("linear", "cubic"):
             nodes, grid = scene.interpolator(method)
             off = float(np.abs(scipy_mu(grid) / exact - 1).max())

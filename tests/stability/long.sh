@@ -15,6 +15,7 @@
 #   sanitize     the C++ tests under the address and undefined behaviour sanitizers
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
+#   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
 #   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
 # JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
 set -u
@@ -94,15 +95,26 @@ memcheck() {
   done
 }
 
+# The test skips itself where something is missing, this does not.
+wine() {
+  [ -x /usr/lib/wine/wine64 ] || command -v wine64 >/dev/null || { echo 'wine64 is missing'; return 1; }
+  command -v x86_64-w64-mingw32-gcc-posix >/dev/null || { echo 'g++-mingw-w64-x86-64-posix is missing'; return 1; }
+  "$python" -c 'import sys; from asperity.fmu.export import platforms; sys.exit("x86_64-windows" not in platforms())' || {
+    echo 'this asperity was built without the binary for Windows'
+    return 1
+  }
+  "$python" -m pytest -q -p no:cacheprovider tests/python/fmu/test_hosts.py -k windows
+}
+
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
 
 [ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings heat maps tests properties files interrupts fuzz \
-  sanitize threads memcheck
+  sanitize threads memcheck wine
 for step; do
   case $step in
     catalogue | isotherms | coverage | scenes | rings | heat | maps | tests | properties | files | interrupts | fuzz) ;;
-    sanitize | threads | memcheck | aarch64) ;;
-    *) sed -n '2,17s/^# //p' "$0" >&2; exit 2 ;;
+    sanitize | threads | memcheck | wine | aarch64) ;;
+    *) sed -n '2,19s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

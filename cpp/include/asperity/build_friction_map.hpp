@@ -60,4 +60,16 @@ struct MapColumns {
 ASPERITY_EXPORT std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
                                     bool shifts_adhesion, std::span<double> mu);
 
+/// A number of MapPoint, or FrictionMap::traction [Pa].
+enum class MapQuantity { mu, hysteresis, adhesion, contact_area, traction };
+
+/// The same of another number than mu.
+ASPERITY_EXPORT std::size_t look_up(MapQuantity quantity, const FrictionMap& map, const MapColumns& points,
+                                    FrictionMap::Outside outside, bool shifts_adhesion, std::span<double> result);
+
+/// The same of d mu / d ln p and d mu / d ln v, of equal length.
+ASPERITY_EXPORT std::size_t look_up_slopes(const FrictionMap& map, const MapColumns& points,
+                                           FrictionMap::Outside outside, bool shifts_adhesion,
+                                           std::span<double> dmu_dlnp, std::span<double> dmu_dlnv);
+
 }  // namespace asperity

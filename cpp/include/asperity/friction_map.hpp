@@ -337,9 +337,7 @@ class FrictionMap {
     return steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
   }
 
-  [[nodiscard]] double mu(const Where& at) const noexcept {
-    return mu_of(logarithms(at), log_adhesion(at.ln_p, at.ln_v));
-  }
+  [[nodiscard]] double mu(const Where& at) const noexcept { return mu_of(logarithms(at), log_adhesion(at)); }
 
   /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
   [[nodiscard]] double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
@@ -350,7 +348,7 @@ class FrictionMap {
 
   /// Hot and cold before the memory, whose exponentials wait for each other, so that all go on at once.
   [[nodiscard]] double mu_after(const Where& at, double distance) const noexcept {
-    const double adhesion = log_adhesion(at.ln_p, at.ln_v), x = cold_x(at), z = at.ln_p;
+    const double adhesion = log_adhesion(at), x = cold_x(at), z = at.ln_p;
     const double* const cell = cold_->cell_at(x, z);
     const map_detail::Pair of_hot = logarithms(at), of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]);
     const double hot = mu_of(of_hot, adhesion), cold = mu_of(of_cold, adhesion);
@@ -367,7 +365,7 @@ class FrictionMap {
     // of points in the box that need a cell and nothing else, one after another; `point` says which they are
     double ln_p[together], ln_v[together], x[together], z[together], hysteresis[together], adhesion[together];
     const double* cell[together];
-    std::size_t point[together], inside = 0;
+    std::size_t point[together], inside = 0, others = 0;  // the others from the end
     const double a_T = temperature.a_T;
     const bool unshifted = a_T == 1 || temperature.shifts_adhesion;
     const bool own = temperature.background == 0 || temperature.background == info_.temperature[0];
@@ -380,14 +378,14 @@ class FrictionMap {
         ln_p[inside] = p;
         ln_v[inside++] = speed;
       } else {
-        result[i] = mu(p, velocity[i], outside, temperature);
+        point[together - ++others] = i;
       }
     }
-    for (std::size_t k = 0; k < inside; ++k) {
-      ln_p[k] = map_detail::ln(ln_p[k]);
-      x[k] = map_detail::ln(ln_v[k] * a_T);
-      if (!unshifted) ln_v[k] = map_detail::ln(ln_v[k]);
-    }
+    for (std::size_t k = together - others; k < together; ++k)
+      result[point[k]] = mu(pressure[point[k]], velocity[point[k]], outside, temperature);
+    for (std::size_t k = 0; k < inside; ++k) x[k] = map_detail::ln(ln_v[k] * a_T);
+    for (std::size_t k = 0; k < inside; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
+    for (std::size_t k = 0; k < inside && !unshifted; ++k) ln_v[k] = map_detail::ln(ln_v[k]);
     double slope = 0;
     for (std::size_t k = 0; k < inside; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
     for (std::size_t k = 0; k < inside; ++k) cell[k] = cell_at(x[k], z[k]);
@@ -421,7 +419,7 @@ class FrictionMap {
     for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
     MapPoint point{};
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at.ln_p, at.ln_v)) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
     point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
@@ -511,6 +509,7 @@ class FrictionMap {
   }
 
   /// ln of mu_A over A/A0.
+  [[nodiscard]] double log_adhesion(const Where& at) const noexcept { return log_adhesion(at.ln_p, at.ln_v); }
   [[nodiscard]] double log_adhesion(double ln_p, double ln_v) const noexcept {
     const double off = ln_v - ln_reference_;
     return ln_shear_stress_ - ln_p - width_ * off * off;

@@ -1,4 +1,4 @@
-// The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu, on vector units.
+// The look-up of a map at many points at a time, in columns: the same steps as FrictionMap::mu and at, on vector units.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +13,11 @@
 namespace asperity {
 
 namespace {
+
+/// ln mu_H and ln A/A0 and their slopes over x and z, a column each.
+struct MapSlopes {
+  double *h, *a, *h_x, *a_x, *h_z, *a_z;
+};
 
 struct MapLoops {
   bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* a_T,
@@ -31,6 +36,10 @@ struct MapLoops {
   void (*exponentials)(const double* x, double* e, std::size_t n);
   void (*add_adhesion)(const double* ln_area, const double* ln_p, const double* ln_v, double ln_shear_stress,
                        double ln_reference, double fall, std::size_t n, double* mu);
+  void (*slopes)(const double* cells, std::size_t cell_size, const std::int32_t* cell, const std::int32_t* step,
+                 const double* x, const double* z, const double* t, std::size_t n, const MapSlopes& to);
+  void (*chain_rule)(const double* hysteresis, const double* adhesion, const MapSlopes& of, const double* offset_slope,
+                     const double* ln_v, double ln_reference, double fall, std::size_t n, double* by_p, double* by_v);
 };
 
 #define ASPERITY_LOOPS "friction_map/lookup_loops.inc"
@@ -59,32 +68,86 @@ class FrictionMapBatch {
   FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
       : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
 
-  /// mu of points [begin, begin + n), at most a block; how many come before the first without a value.
-  std::size_t mu(const MapColumns& points, std::size_t begin, std::size_t n, double* mu) {
-    const double* const pressure = column(points.pressure, begin, n, pressure_);
-    const double* const velocity = column(points.velocity, begin, n, velocity_);
-    const double* const a_T = column(points.a_T, begin, n, a_T_);
-    const double* const background = optional(points.background, 0, begin, n, background_);
-    const double* const distance = optional(points.distance, map_detail::long_slid, begin, n, distance_);
-    const bool within = !map_.cells_.empty() && plain(points, background, distance, n) &&
-                        loops_.prepare(map_.info_, pressure, velocity, a_T, n, speed_, x_);
-    if (!within) {  // rare: one by one
-      std::size_t good = n;
-      for (std::size_t i = n; i-- > 0;) {
-        mu[i] = map_.mu(pressure[i], velocity[i], outside_, {a_T[i], shifts_adhesion_, background[i], distance[i]});
-        if (std::isnan(mu[i])) good = i;
-      }
-      return good;
-    }
-    loops_.logarithms_of_both(x_, pressure, x_, ln_p_, n);
-    const bool unshifted = shifts_adhesion_ || is_one(points.a_T);
-    if (!unshifted && map_.info_.shear_stress > 0) loops_.logarithms(speed_, speed_, n);
-    find_mu(map_, x_, unshifted ? x_ : speed_, n, mu);
-    if (map_.info_.heat && !points.distance.empty()) blend_cold(background, distance, n, mu);
+  /// A number at points [begin, begin + n), at most a block; how many come before the first without a value.
+  std::size_t find(MapQuantity quantity, const MapColumns& points, std::size_t begin, std::size_t n, double* result) {
+    const Block at = take(points, begin, n);
+    if (!at.within)
+      return one_by_one(at, n, [&](std::size_t i, const MapTemperature& temperature) {
+        return result[i] = value(quantity, at.pressure[i], at.velocity[i], temperature);
+      });
+    find_all(quantity, map_, x_, at.ln_v, n, result);
+    if (map_.info_.heat && !points.distance.empty()) blend_cold(quantity, at, n, result);
+    if (quantity == MapQuantity::traction)
+      for (std::size_t i = 0; i < n; ++i) result[i] *= std::copysign(at.pressure[i], at.velocity[i]);
+    return n;
+  }
+
+  /// d mu / d ln p and d mu / d ln v likewise.
+  std::size_t find_slopes(const MapColumns& points, std::size_t begin, std::size_t n, double* by_p, double* by_v) {
+    const Block at = take(points, begin, n);
+    if (!at.within || (map_.info_.heat && !points.distance.empty()))
+      return one_by_one(at, n, [&](std::size_t i, const MapTemperature& temperature) {
+        MapPoint found;
+        map_.at(at.pressure[i], at.velocity[i], found, outside_, temperature);
+        by_p[i] = found.dmu_dlnp;
+        by_v[i] = found.dmu_dlnv;
+        return found.mu;
+      });
+    find_cells(map_, x_, n);
+    const MapSlopes found{h_, a_, h_x_, a_x_, h_z_, a_z_};
+    loops_.slopes(map_.cells_.data(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z_, dT_, n,
+                  found);
+    exponentials(MapQuantity::hysteresis, map_, at.ln_v, n, h_);
+    exponentials(MapQuantity::adhesion, map_, at.ln_v, n, cold_);
+    loops_.chain_rule(h_, cold_, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
     return n;
   }
 
  private:
+  struct Block {
+    const double *pressure, *velocity, *a_T, *background, *distance;
+    const double* ln_v;  // as the adhesion takes it
+    bool within;         // all of them in the box, with temperatures that the map takes: x_ and ln_p_ are there
+  };
+
+  Block take(const MapColumns& points, std::size_t begin, std::size_t n) {
+    Block at{column(points.pressure, begin, n, pressure_),
+             column(points.velocity, begin, n, velocity_),
+             column(points.a_T, begin, n, a_T_),
+             optional(points.background, 0, begin, n, background_),
+             optional(points.distance, map_detail::long_slid, begin, n, distance_),
+             x_,
+             false};
+    at.within = !map_.cells_.empty() && plain(points, at.background, at.distance, n) &&
+                loops_.prepare(map_.info_, at.pressure, at.velocity, at.a_T, n, speed_, x_);
+    if (!at.within) return at;
+    loops_.logarithms_of_both(x_, at.pressure, x_, ln_p_, n);
+    if (!shifts_adhesion_ && !is_one(points.a_T)) {
+      if (map_.info_.shear_stress > 0) loops_.logarithms(speed_, speed_, n);
+      at.ln_v = speed_;
+    }
+    return at;
+  }
+
+  /// Rare. `act` gives the number that is NaN where there is no value.
+  template <class Act>
+  std::size_t one_by_one(const Block& at, std::size_t n, Act act) {
+    std::size_t good = n;
+    for (std::size_t i = n; i-- > 0;)
+      if (std::isnan(act(i, {at.a_T[i], shifts_adhesion_, at.background[i], at.distance[i]}))) good = i;
+    return good;
+  }
+
+  [[nodiscard]] double value(MapQuantity quantity, double pressure, double velocity,
+                             const MapTemperature& temperature) const {
+    if (quantity == MapQuantity::mu) return map_.mu(pressure, velocity, outside_, temperature);
+    if (quantity == MapQuantity::traction) return map_.traction(pressure, velocity, outside_, temperature);
+    MapPoint found;
+    map_.at(pressure, velocity, found, outside_, temperature);
+    if (quantity == MapQuantity::hysteresis) return found.hysteresis;
+    return quantity == MapQuantity::adhesion ? found.adhesion : found.contact_area;
+  }
+
   static bool is_one(std::span<const double> a_T) { return a_T.size() == 1 && a_T[0] == 1; }
 
   /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
@@ -102,28 +165,35 @@ class FrictionMapBatch {
     return true;
   }
 
-  /// mu of a map at ln p and these ln v; ln_v is that which the adhesion takes.
-  void find_mu(const FrictionMap& map, const double* x, const double* ln_v, std::size_t n, double* mu) {
+  /// A number of a map at ln p and these ln v; ln_v is that which the adhesion takes.
+  void find_all(MapQuantity quantity, const FrictionMap& map, const double* x, const double* ln_v, std::size_t n,
+                double* result) {
     find_cells(map, x, n);
     if (map.steps_ == 0)
       loops_.polynomials(map.cells_.data(), cell_, x, z_, n, h_, a_);
     else
       loops_.warm_polynomials(map.cells_.data(), map.cell_size_, cell_, step_, x, z_, dT_, n, h_, a_);
-    if (map.info_.hysteresis)
-      loops_.exponentials(h_, mu, n);
-    else
-      std::fill_n(mu, n, 0.0);
-    if (map.info_.shear_stress == 0) return;
-    loops_.add_adhesion(a_, ln_p_, ln_v, map.ln_shear_stress_, map.ln_reference_, map.width_, n, mu);
+    exponentials(quantity, map, ln_v, n, result);
   }
 
-  /// z_ and cell_ of x and ln_p_.
+  /// From ln mu_H and ln A/A0, h_ and a_; mu for the traction. `result` may be h_.
+  void exponentials(MapQuantity quantity, const FrictionMap& map, const double* ln_v, std::size_t n, double* result) {
+    if (quantity == MapQuantity::contact_area) return loops_.exponentials(a_, result, n);
+    if (quantity != MapQuantity::adhesion && map.info_.hysteresis)
+      loops_.exponentials(h_, result, n);
+    else
+      std::fill_n(result, n, 0.0);
+    if (quantity != MapQuantity::hysteresis && map.info_.shear_stress > 0)
+      loops_.add_adhesion(a_, ln_p_, ln_v, map.ln_shear_stress_, map.ln_reference_, map.width_, n, result);
+  }
+
+  /// z_ with its slope over x and cell_ of x and ln_p_.
   void find_cells(const FrictionMap& map, const double* x, std::size_t n) {
     if (map.offset_.empty()) {
       std::copy_n(ln_p_, n, z_);
+      std::fill_n(offset_slope_, n, 0.0);
     } else {
-      double slope = 0;
-      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], slope);
+      for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], offset_slope_[i]);
     }
     const bool one_band = map.cuts_.size() == 2;
     if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z_, n, cell_)) return;
@@ -132,21 +202,21 @@ class FrictionMapBatch {
                                            static_cast<std::ptrdiff_t>(map.cell_size_));
   }
 
-  /// Adds to the hot mu at x_ the share of the cold one that is left after a distance.
-  void blend_cold(const double* background, const double* distance, std::size_t n, double* mu) {
+  /// Adds to the hot number at x_ the share of the cold one that is left after a distance.
+  void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* hot) {
     FrictionMap::Where at;
     double slope = 0;
     for (std::size_t i = 0; i < n; ++i) {
       at.x = x_[i];
-      at.background = background[i];
+      at.background = place.background[i];
       share_[i] = -map_.log_sliding_length(at, slope);
       speed_[i] = map_.cold_x(at);
     }
     loops_.exponentials(share_, share_, n);
-    for (std::size_t i = 0; i < n; ++i) share_[i] = std::fmax(-700, -distance[i] * share_[i]);
+    for (std::size_t i = 0; i < n; ++i) share_[i] = std::fmax(-700, -place.distance[i] * share_[i]);
     loops_.exponentials(share_, share_, n);
-    find_mu(*map_.cold_, speed_, x_, n, cold_);
-    for (std::size_t i = 0; i < n; ++i) mu[i] += share_[i] * (cold_[i] - mu[i]);
+    find_all(quantity, *map_.cold_, speed_, x_, n, cold_);
+    for (std::size_t i = 0; i < n; ++i) hot[i] += share_[i] * (cold_[i] - hot[i]);
   }
 
   /// A column's part, or its only entry as often as it is needed.
@@ -167,25 +237,53 @@ class FrictionMapBatch {
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
   double dT_[block], share_[block], cold_[block];
+  double offset_slope_[block], h_x_[block], a_x_[block], h_z_[block], a_z_[block];
   std::int32_t cell_[block], step_[block];
 };
 
-std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
-                    bool shifts_adhesion, std::span<double> mu) {
-  for (const auto& [name, column] :
+namespace {
+
+/// `act` on blocks of points, of n in all; the first point without a value.
+template <class Act>
+std::size_t in_blocks(const MapColumns& points, const char* name, std::size_t n, Act act) {
+  for (const auto& [column_name, column] :
        {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity}, std::pair{"a_T", points.a_T}})
-    if (column.size() != 1) require_same_size(name, column.size(), "mu", mu.size());
-  for (const auto& [name, column] :
+    if (column.size() != 1) require_same_size(column_name, column.size(), name, n);
+  for (const auto& [column_name, column] :
        {std::pair{"background", points.background}, std::pair{"distance", points.distance}})
-    if (column.size() > 1) require_same_size(name, column.size(), "mu", mu.size());
-  FrictionMapBatch batch(map, outside, shifts_adhesion);
-  std::size_t first_bad = mu.size();
-  for (std::size_t i = 0; i < mu.size(); i += block) {
+    if (column.size() > 1) require_same_size(column_name, column.size(), name, n);
+  std::size_t first_bad = n;
+  for (std::size_t i = 0; i < n; i += block) {
     heed();
-    const std::size_t n = std::min(block, mu.size() - i), good = batch.mu(points, i, n, &mu[i]);
-    if (good < n) first_bad = std::min(first_bad, i + good);
+    const std::size_t many = std::min(block, n - i), good = act(i, many);
+    if (good < many) first_bad = std::min(first_bad, i + good);
   }
   return first_bad;
+}
+
+}  // namespace
+
+std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                    bool shifts_adhesion, std::span<double> mu) {
+  return look_up(MapQuantity::mu, map, points, outside, shifts_adhesion, mu);
+}
+
+std::size_t look_up(MapQuantity quantity, const FrictionMap& map, const MapColumns& points,
+                    FrictionMap::Outside outside, bool shifts_adhesion, std::span<double> result) {
+  FrictionMapBatch batch(map, outside, shifts_adhesion);
+  const char* const name = quantity == MapQuantity::mu ? "mu" : "result";
+  return in_blocks(points, name, result.size(), [&](std::size_t begin, std::size_t n) {
+    return batch.find(quantity, points, begin, n, &result[begin]);
+  });
+}
+
+std::size_t look_up_slopes(const FrictionMap& map, const MapColumns& points, FrictionMap::Outside outside,
+                           bool shifts_adhesion, std::span<double> dmu_dlnp, std::span<double> dmu_dlnv) {
+  require_same_size("dmu_dlnp", dmu_dlnp.size(), "dmu_dlnv", dmu_dlnv.size());
+  FrictionMapBatch batch(map, outside, shifts_adhesion);
+  return in_blocks(points, "dmu_dlnp", dmu_dlnp.size(), [&](std::size_t begin, std::size_t n) {
+    return batch.find_slopes(points, begin, n, &dmu_dlnp[begin], &dmu_dlnv[begin]);
+  });
 }
 
 }  // namespace asperity

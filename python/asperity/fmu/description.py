@@ -26,12 +26,18 @@ _VARIABILITY = {"parameter": "tunable", "calculatedParameter": "fixed"}
 
 
 def description(
-    fmi: str, name: str, token: str, variables: Sequence[Variable], points: int | None
+    fmi: str,
+    name: str,
+    token: str,
+    variables: Sequence[Variable],
+    points: int | None,
+    platforms: Sequence[str],
 ) -> bytes:
-    """The whole file."""
+    """The whole file; `platforms` are those of which there are binaries beside it."""
     root = Element("fmiModelDescription", {"fmiVersion": fmi, "modelName": name})
     root.set("guid" if fmi == "2.0" else "instantiationToken", token)
-    root.set("description", _DESCRIPTION)
+    binaries = f"binaries for {' and '.join(platforms)}, " if platforms else ""
+    root.set("description", f"{_DESCRIPTION}; {binaries}source for any platform")
     root.set("generationTool", f"asperity {_core.__version__}")
     root.set("variableNamingConvention", "structured")
     (_version_2 if fmi == "2.0" else _version_3)(root, name, tuple(variables), points)

@@ -105,7 +105,7 @@ def _files(
     content = friction_map.to_bytes()
     digest = hashlib.sha256(f"{name} {fmi} {points} ".encode() + content).hexdigest()
     token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, digest)}}}"
-    yield "modelDescription.xml", description(fmi, name, token, listed, points)
+    yield "modelDescription.xml", description(fmi, name, token, listed, points, platforms())
     yield "resources/friction.fmap", content
     yield "resources/token.txt", f"{token}\n".encode()  # which a host must name
     yield "resources/points.txt", f"{points or 1}\n".encode()

@@ -65,8 +65,8 @@ class FrictionSlopes(Table):
         axes.legend()
 
 
-def _look_up(name: str, row: int, told: str, of: str = "points") -> Callable[..., Any]:
-    """Return the method of a map that gives a row of one of the core's look-ups."""
+def _look_up(name: str, told: str) -> Callable[..., Any]:
+    """Return the method of a map that gives one of the core's look-ups."""
 
     def look_up(
         self: "FrictionMap",
@@ -81,7 +81,7 @@ def _look_up(name: str, row: int, told: str, of: str = "points") -> Callable[...
     ) -> Any:
         given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
         more = {"temperature": temperature, "distance": distance}
-        return self._query(of, given | more, shift_adhesion, outside)[row]
+        return self._query(name, given | more, shift_adhesion, outside)
 
     look_up.__name__ = name
     look_up.__qualname__ = f"FrictionMap.{name}"
@@ -253,17 +253,15 @@ class FrictionMap(Table):
         more = {"temperature": temperature, "distance": distance}
         return self._query("mu", given | more, shift_adhesion, outside)
 
-    hysteresis = _look_up("hysteresis", 1, "Return mu_H (Eq. 22) [-].")
-    adhesion = _look_up("adhesion", 2, "Return mu_A (Eq. 23) [-].")
-    contact_area = _look_up("contact_area", 3, "Return A/A0 at q1 [-].")
+    hysteresis = _look_up("hysteresis", "Return mu_H (Eq. 22) [-].")
+    adhesion = _look_up("adhesion", "Return mu_A (Eq. 23) [-].")
+    contact_area = _look_up("contact_area", "Return A/A0 at q1 [-].")
     traction = _look_up(
         "traction",
-        0,
         """Return the shear traction sign(v) mu p [Pa].
 
         It is 0 where v = 0 or p <= 0, whatever the map covers.
         """,
-        of="traction",
     )
 
     def derivatives(
@@ -280,8 +278,8 @@ class FrictionMap(Table):
         """Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."""
         given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
         more = {"temperature": temperature, "distance": distance}
-        rows = self._query("points", given | more, shift_adhesion, outside)
-        return FrictionSlopes(dmu_dlnp=rows[4], dmu_dlnv=rows[5])
+        by_p, by_v = self._query("slopes", given | more, shift_adhesion, outside)
+        return FrictionSlopes(dmu_dlnp=by_p, dmu_dlnv=by_v)
 
     def sliding_length(
         self,

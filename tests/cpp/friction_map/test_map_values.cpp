@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "../fuzz/small_map.hpp"
+#include "asperity/build_friction_map.hpp"
+#include "asperity/errors.hpp"
 #include "asperity/friction_map.hpp"
 
 using namespace asperity;
@@ -86,6 +88,76 @@ TEST_CASE("many points at a time have the digits of one after another") {
   double mu = 0;
   nothing.mu_at_points(1, &one, &one, &mu);
   CHECK(std::isnan(mu));
+}
+
+TEST_CASE("columns of any number and of slopes are those of single points") {
+  std::minstd_rand random(4);
+  std::uniform_real_distribution<double> unit;
+  constexpr std::size_t n = 700;  // more than are looked up at a time
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const small_map::Kind& kind : small_map::kinds()) {
+    const FrictionMap map = made(kind);
+    const bool heat = kind.temperatures > 0;
+    for (const bool outside : {false, true})
+      for (const bool shifted : {false, true})
+        for (const bool slid : {false, true})
+          for (const bool shifts_adhesion : {false, true}) {
+            if (heat && (shifted || shifts_adhesion)) continue;
+            std::vector<double> p(n), v(n), a_T(n, 1.0), background(n), distance(n);
+            for (std::size_t i = 0; i < n; ++i) {
+              const bool within = !outside || i % 7 != 3;
+              p[i] = within ? 1.01e4 * std::pow(98, unit(random)) : i % 2 == 0 ? 1e3 : -1;
+              v[i] = 0.01 * std::pow(100, unit(random)) * (i % 3 == 0 ? -1 : 1);
+              if (shifted) a_T[i] = 0.5 + unit(random);
+              background[i] = heat ? small_map::coldest + unit(random) * small_map::range(kind) : 0;
+              distance[i] = i % 5 == 0 ? infinity : 2e-3 * unit(random);
+            }
+            MapColumns columns{p, v, a_T};
+            if (heat) columns.background = background;
+            if (slid) columns.distance = distance;
+            std::vector<double> mu(n), hysteresis(n), adhesion(n), area(n), traction(n), by_p(n), by_v(n);
+            for (const FrictionMap::Outside policy : {FrictionMap::Outside::nan, FrictionMap::Outside::clamp}) {
+              const std::size_t first = outside && policy == FrictionMap::Outside::nan ? 3 : n;
+              const auto found = [&](MapQuantity quantity, std::vector<double>& to) {
+                return look_up(quantity, map, columns, policy, shifts_adhesion, to);
+              };
+              CHECK(found(MapQuantity::mu, mu) == first);
+              CHECK(found(MapQuantity::hysteresis, hysteresis) == first);
+              CHECK(found(MapQuantity::adhesion, adhesion) == first);
+              CHECK(found(MapQuantity::contact_area, area) == first);
+              // there is a traction without load: that of the first point with a pressure below the box is none
+              CHECK(found(MapQuantity::traction, traction) == (first == n ? n : 10));
+              CHECK(look_up_slopes(map, columns, policy, shifts_adhesion, by_p, by_v) == first);
+              for (std::size_t i = 0; i < n; ++i) {
+                MapPoint at;
+                const MapTemperature temperature{a_T[i], shifts_adhesion, background[i],
+                                                 slid ? distance[i] : map_detail::long_slid};
+                map.at(p[i], v[i], at, policy, temperature);
+                const double pull = map.traction(p[i], v[i], policy, temperature);
+                CHECK(std::isnan(mu[i]) == std::isnan(at.mu));
+                CHECK(std::isnan(by_v[i]) == std::isnan(at.mu));
+                CHECK(std::isnan(traction[i]) == std::isnan(pull));
+                // ln mu and ln A/A0 are up to 14, of which some units in the last place are lost
+                const auto near = [](double x, double y) { return std::fabs(x - y) <= 1e-13 * std::fabs(y); };
+                if (!std::isnan(pull)) CHECK(near(traction[i], pull));
+                if (std::isnan(at.mu)) continue;
+                CHECK(near(mu[i], at.mu));
+                CHECK(near(hysteresis[i], at.hysteresis));
+                CHECK(near(adhesion[i], at.adhesion));
+                CHECK(near(area[i], at.contact_area));
+                CHECK(std::fabs(by_p[i] - at.dmu_dlnp) < 1e-12 * at.mu);
+                CHECK(std::fabs(by_v[i] - at.dmu_dlnv) < 1e-12 * at.mu);
+              }
+            }
+          }
+  }
+  const double one[] = {1e5, 1e5}, a_T = 1;
+  std::vector<double> two(2), three(3);
+  const FrictionMap map = made({});
+  CHECK_THROWS_AS(look_up(MapQuantity::hysteresis, map, {one, one, {&a_T, 1}}, FrictionMap::Outside::nan, false, three),
+                  InvalidInput);
+  CHECK_THROWS_AS(look_up_slopes(map, {one, one, {&a_T, 1}}, FrictionMap::Outside::nan, false, two, three),
+                  InvalidInput);
 }
 
 TEST_CASE("maps written by the layout that the header states are read, and give their functions") {

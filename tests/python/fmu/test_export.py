@@ -1,10 +1,21 @@
 """`export_fmu` and the command `fmu`: what they refuse, and what they tell."""
 
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
 import asperity
 from asperity import InvalidInput, export_fmu
+from asperity.cli import main
+from asperity.fmu import export
+from helpers.cases import each
+
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.mark.parametrize(
@@ -33,9 +44,50 @@ def test_other_bad_input(road, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_command(road, tmp_path, capsys):
-    from asperity.cli import main
+def test_an_fmu_says_what_is_inside(road, tmp_path, monkeypatch, capsys):
+    """A package that was built without mingw has the Linux binary alone, one elsewhere none."""
+    package = tmp_path / "package"
+    shutil.copytree(export._FILES, package)
+    monkeypatch.setattr(export, "_FILES", package)
+    road.save(tmp_path / "road.fmap")
+    listed = {"x86_64-linux": "linux64", "x86_64-windows": "win64"}
+    for platform in listed:
+        (package / "binaries" / platform).mkdir(parents=True, exist_ok=True)
+        name = f"friction{export.PLATFORMS[platform][1]}"
+        (package / "binaries" / platform / name).write_bytes(b"a library")
+    for gone in (None, *reversed(listed)):
+        if gone is not None:
+            shutil.rmtree(package / "binaries" / gone)
+        inside = export.platforms()
+        output = tmp_path / f"{len(inside)}.fmu"
+        assert main(["fmu", str(tmp_path / "road.fmap"), "--output", str(output)]) == 0
+        told = f"binaries = {', '.join(inside) or 'none'}\n"
+        if missing := [one for one in listed if one not in inside]:
+            told += f"from source alone = {', '.join(missing)}\n"
+        assert capsys.readouterr().out == told
+        with zipfile.ZipFile(output) as archive:
+            names = archive.namelist()
+        folders = {name.split("/")[1] for name in names if name.startswith("binaries/")}
+        assert folders == {listed[one] for one in inside}
+        assert "sources/fmu.cpp" in names
+        described = fmpy.read_model_description(str(output)).description
+        words = f"binaries for {' and '.join(inside)}, " if inside else ""
+        assert described.endswith(f"certified map; {words}source for any platform")
+    assert len(inside) == 0
 
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake")
+@each("mingw", [True, False])
+def test_a_build_without_mingw_tells_how_to_add_it(tmp_path, mingw):
+    command = ["cmake", "-S", ROOT, "-B", tmp_path / f"{mingw}", "-DASPERITY_LIBRARY=OFF"]
+    found = "/usr/bin/true" if mingw else "OFF"
+    command += ["-DASPERITY_FMU=ON", f"-DASPERITY_MINGW={found}"]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    line = "FMUs are without win64; for it install g++-mingw-w64-x86-64-posix (Debian)"
+    assert (line in told) == (not mingw)
+
+
+def test_command(road, tmp_path, capsys):
     road.save(tmp_path / "road.fmap")
     output = tmp_path / "road.fmu"
     assert main(["fmu", str(tmp_path / "road.fmap"), "--output", str(output), "--fmi", "3.0"]) == 0
