@@ -10,7 +10,6 @@ something on an idle machine alone; processor times do on a busy one too.
 """
 
 import argparse
-import json
 import os
 import resource
 import subprocess
@@ -22,7 +21,8 @@ from pathlib import Path
 import numpy as np
 
 import asperity
-from asperity.sweep import plan
+from asperity.sweep import plan, run
+from asperity.sweep.executors import local_cluster
 
 SCENE = {
     "surface": {"rms_height_m": 2e-4, "hurst": 0.8, "q0_per_m": 2e3, "q1_per_m": 1e5},
@@ -90,16 +90,13 @@ def overhead(points: int) -> None:
         )
 
 
-def workers(points: int) -> dict[int, dict[str, float]]:
+def workers(points: int) -> None:
     """Wall and processor seconds with one worker and with two."""
-    from distributed import Client, LocalCluster
-
     told = {}
     for count in (1, 2):
         with (
             tempfile.TemporaryDirectory() as folder,
-            LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster,
-            Client(cluster) as client,
+            local_cluster(count) as client,
         ):
             small = over(30_000)
             asperity.sweep(SCENE, small, executor=client)  # workers have imported all
@@ -122,7 +119,6 @@ def workers(points: int) -> dict[int, dict[str, float]]:
         f"two over one: {one['wall'] / two['wall']:.2f} by wall, "
         f"{bound:.2f} by processor time on two cores"
     )
-    return told
 
 
 def memory(points: int) -> None:
@@ -145,13 +141,35 @@ def memory(points: int) -> None:
 
 
 def model(points: int) -> None:
-    """Seconds of many workers: their processors in parallel, and the driver's one by one."""
-    two = workers(points)[2]
-    of_worker, of_driver = two["workers"] / points, two["driver"] / points
-    for count in (1, 2, 10, 30, 100):
-        seconds = 1e9 * max(of_worker / count, of_driver)
-        ends = "the driver" if of_driver > of_worker / count else "the workers"
-        print(json.dumps({"workers": count, "seconds of 1e9 points": round(seconds), "by": ends}))
+    """Seconds of many workers: their processors in parallel, and the driver's one task by one."""
+    loop = plain(points) / points
+    tasks, per_task, sent = 200, {}, 0.0
+    with local_cluster(1) as client:
+        for seen in (True, False):
+            for size in (1, 100):  # points of a task: what it costs, and what its numbers do
+                axes = {
+                    "conditions.velocity_m_s": np.geomspace(1e-5, 1, tasks).tolist(),
+                    "conditions.pressure_pa": np.geomspace(5e4, 5e5, size * size).tolist(),
+                }
+                run.cut_of = lambda *_, size=size: (1, size * size)
+                run.ZarrStore.token = property(
+                    lambda self, seen=seen: self.__dict__["token"] if seen else None,
+                    lambda self, given: self.__dict__.update(token=given),
+                )
+                with tempfile.TemporaryDirectory() as folder:
+                    own = time.process_time()
+                    asperity.sweep(SCENE, axes, executor=client, store=f"{folder}/r.zarr").close()
+                    per_task[seen, size] = (time.process_time() - own) / tasks
+    sent = (per_task[False, 100] - per_task[False, 1]) / 1e4
+    print(
+        f"a point {loop * 1e6:.2f} us of a worker, {sent * 1e6:.3f} us of the driver if it is sent"
+    )
+    for seen in (True, False):
+        task = per_task[seen, 1]
+        print(f"workers see the store: {seen}; a task takes {task * 1e3:.1f} ms of the driver")
+        for count in (1, 10, 100):
+            driver = task * 1e9 / plan.MOST_POINTS + (0 if seen else sent * 1e9)
+            print(f"  1e9 points, {count} workers: {max(loop * 1e9 / count, driver):.0f} s")
 
 
 if __name__ == "__main__":

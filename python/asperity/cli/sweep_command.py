@@ -24,7 +24,7 @@ from asperity.plot.style import drawn_in
 from asperity.plot.sweep import sweep_figure
 from asperity.scene.scene import read_toml
 from asperity.sweep import run
-from asperity.sweep.executors import Executor
+from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.look import choose, ranks
 from asperity.sweep.plan import cut_of
 from asperity.sweep.store import open_store, remove_store
@@ -204,16 +204,7 @@ def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
     elif args.workers is not None:
         if not 1 <= args.workers <= 10_000:
             raise InvalidInput(f"--workers {args.workers}: must be from 1 to 10000")
-        distributed = imported("distributed", "sweep")
-        with (
-            distributed.LocalCluster(
-                n_workers=args.workers,
-                threads_per_worker=1,
-                dashboard_address=None,
-                silence_logs=logging.CRITICAL,
-            ) as cluster,
-            distributed.Client(cluster) as client,
-        ):
+        with local_cluster(args.workers) as client:
             yield client, True
     else:
         yield None, True

@@ -1,12 +1,15 @@
 """Executors: whatever has the `submit` of `concurrent.futures`, and this process."""
 
+import logging
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Future
+from contextlib import contextmanager
 from typing import Any
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import brief
+from asperity.base.table import imported
 
 _AGAIN = 2.0  # seconds between two questions how many workers there are
 
@@ -46,6 +49,24 @@ class Executor:
         if time.monotonic() - self._asked > _AGAIN:
             self._workers, self._asked = _count(self._given), time.monotonic()
         return 2 * max(1, self._workers) + 1
+
+
+@contextmanager
+def local_cluster(workers: int) -> Iterator[Any]:
+    """A Dask client of processes of this machine, a thread each, which restart when they end."""
+    distributed, dask = imported("distributed", "sweep"), imported("dask", "sweep")
+    quiet = {"distributed.worker.profile.enabled": False}  # a hundred looks a second at a loop in C
+    with (
+        dask.config.set(quiet),
+        distributed.LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            dashboard_address=None,
+            silence_logs=logging.CRITICAL,
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        yield client
 
 
 def _count(executor: Any) -> int:
