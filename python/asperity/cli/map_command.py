@@ -3,7 +3,6 @@
 import json
 import os
 from argparse import Namespace
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from asperity.io.files import check_output, write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in
-from asperity.rubber import Rubber
+from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import load_scene
@@ -59,13 +58,13 @@ def friction_map_of(args: Namespace) -> None:
     if len({os.path.realpath(path) for path in outputs}) < len(outputs):
         raise InvalidInput(f"{exported}: --output, --plot and --export must be different files")
     scene = load_scene(args.scene, for_friction=True)
-    heat = _heat(scene)
+    heat = heat_of_map(scene)
     refuse_overwrite(outputs, scene.sources)
     with plausible.collected() as unusual:
         _check_sides(args, scene)
     notes = [*scene.notes, *unusual]
-    pressure = _box("pressure", args.pressure, scene.pressure, notes)
-    velocity = _box("velocity", args.velocity, scene.velocity, notes)
+    pressure = side_of_map("pressure", args.pressure, scene.pressure, notes)
+    velocity = side_of_map("velocity", args.velocity, scene.velocity, notes)
     rtol = args.rtol or scene.stated_rtol or _RTOL
     options = {**scene.options, "rtol": rtol, "correction": scene.correction}
     solver = {**scene.inputs["solver"], "rtol": rtol}
@@ -121,33 +120,7 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
             while done < int(share * len(steps)):
                 done = next(left).stop
 
-        return built(scene.spectrum, _rubber(scene), tell, **asked)
-
-
-def _heat(scene: Scene) -> dict[str, Any]:
-    """What a map takes of a scene's heat: a list of temperatures is the range of the map's."""
-    temperatures = [one.temperature for one in (scene, *scene.others)]
-    if scene.heating is None:
-        if len(temperatures) > 1:
-            problem = "must be one temperature where no [heating] is given; a_T leads to others"
-            raise InvalidInput(f"{scene.path}: [conditions] temperature: {problem}")
-        return {}
-    lowest, highest = min(map(_known, temperatures)), max(map(_known, temperatures))
-    law = scene.built_rubber.shift
-    return {"temperature": (lowest, highest), "shift": law, "heating": scene.heating}
-
-
-def _known(temperature: float | None) -> float:
-    assert temperature is not None  # seen to where the scene is read
-    return temperature
-
-
-def _rubber(scene: Scene) -> Rubber:
-    """The one that a map is made of: with heat that at the reference of its shift."""
-    at_reference = scene.built_rubber.at_reference
-    if scene.heating is None or at_reference is None:
-        return scene.rubber
-    return at_reference
+        return built(scene.spectrum, rubber_of_map(scene), tell, **asked)
 
 
 def _check_sides(args: Namespace, scene: Scene) -> None:
@@ -158,30 +131,17 @@ def _check_sides(args: Namespace, scene: Scene) -> None:
         plausible.check("--velocity", args.velocity, plausible.VELOCITY)
 
 
-def _box(
-    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[str]
-) -> tuple[float, float]:
-    """The sides of the map: as asked for, else as the scene sweeps."""
-    if given is not None:
-        return given[0], given[1]
-    lowest, highest = float(swept.min()), float(swept.max())
-    if lowest < highest:
-        return lowest, highest
-    notes.append(f"{name}: the scene has one; the map goes from a tenth to ten times of it")
-    return lowest / 10, highest * 10
-
-
 def _errors(
     made: FrictionMap, scene: Scene, pressure: NDArray[np.float64], velocity: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """|mu of the map / mu of the solver - 1|, of the arguments' shape."""
     options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
-    heat, at = _heat(scene), {}
+    heat, at = heat_of_map(scene), {}
     if heat:  # of several temperatures the lowest, as the picture of mu
         at = {"temperature": heat["temperature"][0]}
     truth = friction(
         scene.spectrum,
-        _rubber(scene),
+        rubber_of_map(scene),
         pressure=pressure,
         velocity=velocity,
         adhesion=scene.adhesion,

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from asperity.cli import fit_command, map_command, rubber_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
+from asperity.cli.app_command import app
 from asperity.cli.article_command import article
 from asperity.cli.fmu_command import fmu
 from asperity.cli.options import (
@@ -299,6 +300,25 @@ def parser() -> argparse.ArgumentParser:
     reported.add_argument("scene", metavar="SCENE.toml", nargs="+")
     reported.add_argument("--output", metavar="FILE", required=True, help="the file to write")
     reported.add_argument("--title", help="the heading (default: the names of the scenes)")
+
+    in_browser = verb(
+        "app",
+        app,
+        "the app in the browser, on this machine alone: its address with a token is printed",
+        "--port 8080 --no-browser",
+    )
+    in_browser.add_argument(
+        "--port", type=whole, default=0, metavar="N", help="to listen at (default: any free one)"
+    )
+    in_browser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="to listen at (default: %(default)s, which other machines cannot reach)",
+    )
+    in_browser.add_argument(
+        "--no-browser", action="store_true", help="print the address, open no browser"
+    )
 
     validate = verb(
         "validate",

@@ -13,7 +13,7 @@ from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
 from asperity.io import plausible
-from asperity.io.files import check_file
+from asperity.io.column_names import Lines, cells_of, find_header, numbered_lines, separator_of
 from asperity.io.instrument import brief
 from asperity.shift_factors import ShiftFactors
 from asperity.sweeps import Isotherm, StrainSweep
@@ -30,7 +30,6 @@ _UNITS = {
 _KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
 _CELSIUS = 273.15
 _STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
-_MOST_HEADER_LINES = 50  # in which the names of the columns are looked for, to show them
 _MOST_UNIT_LINES = 2  # between the names of the columns and the first numbers
 
 
@@ -267,28 +266,9 @@ def _check(
 
 def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
     """Columns by our names, as numbers; "line" has the numbers of their lines."""
-    try:
-        check_file(path)
-        data = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
-    numbered = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
+    numbered = numbered_lines(path)
     for at, (_, line) in enumerate(numbered):
-        separator = next((mark for mark in ";\t," if mark in line), None)
-        names = [
-            name.strip().strip('"') if name.count('"') > 1 else name.strip()
-            for name in line.split(separator)
-        ]
+        separator, names = separator_of(line), cells_of(line)
         if all(column in names for column in columns.values()):
             places = {ours: names.index(theirs) for ours, theirs in columns.items()}
             return _numbers(path, numbered[at + 1 :], places, separator)
@@ -297,19 +277,13 @@ def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
     raise InvalidInput(f"{path}: no line names the columns {named}{_names_there(numbered)}")
 
 
-def _names_there(numbered: list[tuple[int, str]]) -> str:
-    """The columns that a file has: its last line with a word in most cells before the numbers."""
-    last = ""
-    for number, line in numbered[:_MOST_HEADER_LINES]:
-        separator = next((mark for mark in ";\t," if mark in line), None)
-        cells = [cell.strip().strip('"') for cell in line.split(separator)]
-        words = [cell for cell in cells if any(one.isalpha() for one in cell)]
-        if 2 * len(words) <= len(cells) or len(cells) < 2:
-            continue
-        if last:  # units stand below the names
-            break
-        last = f"; line {number} has {brief(', '.join(map(repr, words)))}"
-    return last
+def _names_there(numbered: Lines) -> str:
+    """The columns that a file has, for a message."""
+    header = find_header(numbered)
+    if header is None:
+        return ""
+    words = [name for name in header.names if any(one.isalpha() for one in name)]
+    return f"; line {header.number} has {brief(', '.join(map(repr, words)))}"
 
 
 def _numbers(

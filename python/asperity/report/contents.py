@@ -131,8 +131,10 @@ def input_rows(scene: Scene) -> list[tuple[str, str]]:
     return [(key, shortened(value)) for key, _, value in lines]
 
 
-def source_rows(sources: Sequence[Source]) -> list[tuple[str, str, str]]:
-    return [(printable(one.path), f"{one.size}", one.sha256) for one in sources]
+def source_rows(sources: Sequence[Source], folder: Path | None) -> list[tuple[str, str, str]]:
+    paths = [one.path if folder is None else one.path.relative_to(folder) for one in sources]
+    rows = zip(paths, sources, strict=True)
+    return [(printable(path), f"{one.size}", one.sha256) for path, one in rows]
 
 
 def pair_texts(pair: Pair) -> dict[str, Any]:

@@ -29,13 +29,13 @@ def _numerical(scene: Scene, result: Curves) -> Told:
     )
     rtol = scene.inputs["solver"]["rtol"]
     size = f"at most {float(share.max()):.2g} of mu"
-    return Told("numerical", size, f"estimated by the solver, which was asked for {rtol:.2g}")
+    return Told("the numbers", size, f"estimated by the solver, which was asked for {rtol:.2g}")
 
 
 def _of_inputs(scene: Scene, result: Curves) -> Told:
     if result.band is None:
         return Told(
-            "inputs",
+            "the inputs",
             "not known",
             "neither the surface nor the rubber has standard errors: they are known of scans and "
             "of isotherms",
@@ -46,7 +46,7 @@ def _of_inputs(scene: Scene, result: Curves) -> Told:
     up = 100 * (high[known] / result.mu[known] - 1).max(initial=0)
     sampling = scene.sampling
     return Told(
-        "inputs",
+        "the inputs",
         f"mu is down to {down:.2g} % lower and up to {up:.2g} % higher",
         f"{100 * sampling['level']:.4g} % of {sampling['samples']} draws of the measured inputs "
         f"within their standard errors (seed {sampling['seed']})",
@@ -57,10 +57,10 @@ def _of_model(result: Curves) -> Told:
     off = result.model_error
     known = np.zeros(result.mu.shape, bool) if off is None else np.isfinite(off)
     if off is None or not known.any():
-        return Told("model", "not known", "no exact sliding contacts are like this one")
+        return Told("the model", "not known", "no exact sliding contacts are like this one")
     low, high = 100 * float(off[known].min()), 100 * float(off[known].max())
     spread = f"{high:.2g} %" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g} %"
     size = f"{spread} of the hysteresis"
     if not known.all():
         size += f"; not known at {int((~known).sum())} of {known.size} points"
-    return Told("model", size, "seen in exact sliding contacts of the same regime")
+    return Told("the model", size, "seen in exact sliding contacts of the same regime")

@@ -3,6 +3,7 @@
 import base64
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.resources import files
 from pathlib import Path
@@ -40,9 +41,12 @@ def write_report(
 
 
 def report_page(
-    paths: Sequence[Path], title: str | None = None, bar: Bar | None = None
+    paths: Sequence[Path],
+    title: str | None = None,
+    bar: Bar | None = None,
+    folder: Path | None = None,
 ) -> tuple[str, list[Source]]:
-    """The page, and the files that it was made from."""
+    """The page, and the files that it was made from; a `folder` that all are in is left unsaid."""
     jinja = imported("jinja2", "plot")
     imported("matplotlib", "plot")
     if not 1 <= len(paths) <= _MOST_SCENES:
@@ -56,6 +60,8 @@ def report_page(
     for file in loaded:
         shown = {} if bar is None else {"bar": bar}
         results.append(friction_table(with_temperatures(file), bands=True, **shown)[1])
+    if folder is not None:
+        loaded = [_without_folder(one, folder) for one in loaded]
     names = _names(paths)
     texts = [path.read_text(encoding="utf-8") for path in paths]
     all_sources = [source for of_one in sources for source in of_one]
@@ -81,7 +87,7 @@ def report_page(
                 "results": results_of(with_temperatures(file), of_file),
                 "surface": drawn.surface(file, name),
                 "rubber": drawn.rubber(file, name),
-                "sources": source_rows(of_one),
+                "sources": source_rows(of_one, folder),
                 "inputs": input_rows(file),
                 "text": text,
                 "link": _link(text, "application/toml"),
@@ -96,6 +102,11 @@ def report_page(
         versions=versions(),
     )
     return page, all_sources
+
+
+def _without_folder(scene: Scene, folder: Path) -> Scene:
+    others = [_without_folder(one, folder) for one in scene.others]
+    return replace(scene, path=scene.path.relative_to(folder), others=others)
 
 
 def _variants(names: Sequence[str], loaded: Sequence[Scene]) -> list[str]:

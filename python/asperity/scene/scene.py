@@ -45,7 +45,18 @@ _TABLES = dict.fromkeys(
 )
 
 
-def load_scene(path: str | Path, *, for_friction: bool = False) -> Scene:
+@dataclass(frozen=True)
+class Builders:
+    """What builds the parts of a scene: the functions here, or others that keep what they built."""
+
+    surface: Callable[[Path, object], Surface] = build_surface
+    rubber: Callable[[Path, object, float | None], BuiltRubber] = build_rubber
+    correction: Callable[..., tuple[Correction, Values]] = build_correction
+
+
+def load_scene(
+    path: str | Path, *, for_friction: bool = False, builders: Builders = Builders()
+) -> Scene:
     """Read a scene file and build the parts that it names.
 
     `for_friction`: it may ask for heat and for several temperatures, which only friction and its
@@ -58,17 +69,9 @@ def load_scene(path: str | Path, *, for_friction: bool = False) -> Scene:
     """
     with plausible.collected() as notes:
         where = path_of(path, "path")
-        scene = build_scene(where, read_scene(where), for_friction=for_friction)
+        tables = read_scene(where)
+        scene = build_scene(where, tables, for_friction=for_friction, builders=builders)
     return replace(scene, unusual=tuple(notes))
-
-
-@dataclass(frozen=True)
-class Builders:
-    """What builds the parts of a scene: the functions here, or others that keep what they built."""
-
-    surface: Callable[[Path, object], Surface] = build_surface
-    rubber: Callable[[Path, object, float | None], BuiltRubber] = build_rubber
-    correction: Callable[..., tuple[Correction, Values]] = build_correction
 
 
 def build_scene(

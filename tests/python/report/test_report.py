@@ -152,9 +152,9 @@ def test_all_three_errors_are_told(page: str, tree: Element) -> None:
     tables = [one for one in every(tree, "table") if "may be off" in said(one.find("caption"))]
     assert len(tables) == 2
     rows = {said(row[0]): said(row[1]) for row in every(tables[0], "tr") if len(row) == 3}
-    assert re.fullmatch(r"at most \S+ of mu", rows["numerical"])
-    assert re.fullmatch(r"mu is down to \S+ % lower and up to \S+ % higher", rows["inputs"])
-    assert re.match(r"[\d.]+ (to [\d.]+ )?% of the hysteresis", rows["model"])
+    assert re.fullmatch(r"at most \S+ of mu", rows["the numbers"])
+    assert re.fullmatch(r"mu is down to \S+ % lower and up to \S+ % higher", rows["the inputs"])
+    assert re.match(r"[\d.]+ (to [\d.]+ )?% of the hysteresis", rows["the model"])
 
 
 def test_the_comparison_tells_inputs_and_differences(tree: Element) -> None:
@@ -181,7 +181,7 @@ def test_python_writes_the_same_bytes(
     one = Path("one.html").read_bytes()
     assert one == Path("two.html").read_bytes()
     assert b"on 1970-01-02" in one
-    assert b"<td>inputs</td><td>not known</td>" in one  # of a law in numbers
+    assert b"<td>the inputs</td><td>not known</td>" in one  # of a law in numbers
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
     with pytest.raises(asperity.InvalidInput, match="SOURCE_DATE_EPOCH = 'yesterday': must be"):
         asperity.report("law.toml", "one.html")

@@ -1,0 +1,117 @@
+"""What can be taken away: scene and files, table, picture, map, FMU and report."""
+
+import io
+import os
+import tempfile
+import threading
+import zipfile
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from asperity.app.state import State
+from asperity.fmu.export import export_fmu
+from asperity.friction_map.build import built
+from asperity.friction_map.look_up import FrictionMap
+from asperity.io.table import input_lines
+from asperity.plot.friction import friction_figure
+from asperity.report.make import report_page
+from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
+from asperity.scene.model import Curves, Scene
+from asperity.scene.results import scene_inputs, table_of
+
+# What a download is made of is taken at once; making it may take its time in a thread.
+Make = Callable[[], bytes]
+
+_drawing = threading.Lock()  # settings of matplotlib are those of the process
+_DAY = (1980, 1, 1, 0, 0, 0)  # of files in an archive: equal scenes are equal bytes
+MAP_RTOL = 1e-3
+CHECKED = 10_000  # random points of a map: a million, as by the shell, take minutes
+
+
+def scene_archive(state: State) -> Make:
+    """The scene and the files that it names, as `asperity friction scene.toml` takes them."""
+    text, folder = state.text, state.folder.path
+    names = [name for name in state.folder.shown if name in text]
+
+    def make() -> bytes:
+        contents = {"scene.toml": text.encode()}
+        contents |= {name: (folder / name).read_bytes() for name in names}
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in contents.items():
+                info = zipfile.ZipInfo(name, _DAY)
+                info.external_attr = 0o644 << 16
+                archive.writestr(info, content, zipfile.ZIP_DEFLATED)
+        return out.getvalue()
+
+    return make
+
+
+def table_csv(scene: Scene, curves: Curves) -> bytes:
+    """The table, byte for byte as the shell writes it beside the scene; `curves` have no band."""
+    return table_of([_unplaced(scene)], [curves]).csv().encode()
+
+
+def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[Curves]) -> bytes:
+    """The package's own picture of the curves, by the names that they have on the page."""
+    scenes = [replace(scene, path=Path(name)) for name, scene in named]
+    with _drawing:
+        return friction_figure(scenes, curves, Path("friction.svg"))
+
+
+def map_of(scene: Scene) -> FrictionMap:
+    """The friction map over a box about the scene's pressure and its velocities."""
+    notes = list(scene.notes)
+    inputs = scene_inputs(_unplaced(scene))
+    lines = [f"{line}\n" for line in input_lines(inputs)]
+    return built(
+        scene.spectrum,
+        rubber_of_map(scene),
+        None,
+        pressure=side_of_map("pressure", None, scene.pressure, notes),
+        velocity=side_of_map("velocity", None, scene.velocity, notes),
+        adhesion=scene.adhesion,
+        correction=scene.correction,
+        text="".join([*(f"note: {note}\n" for note in notes), *lines]),
+        checked=CHECKED,
+        **{**scene.options, "rtol": MAP_RTOL},
+        **heat_of_map(scene),
+    )
+
+
+def fmu_of(made: FrictionMap) -> bytes:
+    """The map as a Functional Mock-up Unit."""
+    with tempfile.TemporaryDirectory(prefix="asperity-app-") as aside:
+        path = Path(aside) / "friction.fmu"
+        export_fmu(made, path)
+        return path.read_bytes()
+
+
+def report_of(state: State) -> Make:
+    """The report of the scene, compared with the variants that were kept."""
+    texts = {"scene.toml": state.text}
+    for i, variant in enumerate(state.variants, start=1):
+        texts[f"variant-{i}.toml"] = state.text_of(variant.tables)
+    names = ", ".join(["this scene", *(one.name for one in state.variants)])
+    title = "Friction" if len(texts) == 1 else f"Friction of {names}"
+    folder, files = state.folder.path, list(state.folder.shown)
+
+    def make() -> bytes:
+        with tempfile.TemporaryDirectory(prefix="report-", dir=folder) as name:
+            aside = Path(name)  # the session's own scene file may change meanwhile
+            for file in files:
+                os.link(folder / file, aside / file)
+            for file, text in texts.items():
+                (aside / file).write_text(text, encoding="utf-8")
+            paths = [aside / file for file in texts]
+            with _drawing:
+                page, _ = report_page(paths, title, folder=aside)
+        return page.encode()
+
+    return make
+
+
+def _unplaced(scene: Scene) -> Scene:
+    """The scene without the folder that it is in here."""
+    return replace(scene, path=Path(scene.path.name))

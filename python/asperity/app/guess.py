@@ -1,0 +1,99 @@
+"""A guess of what the columns of a DMA file are: a start for menus, never used unseen."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from asperity._core import InvalidInput
+from asperity.io.column_names import cells_of, find_header, numbered_lines
+
+QUANTITIES = ("frequency", "storage", "loss", "temperature")
+UNITS = {
+    "frequency": ("Hz", "rad/s"),
+    "modulus": ("Pa", "kPa", "MPa", "GPa"),
+    "temperature": ("C", "K"),
+}
+# What names say, by the words that instruments use; the first that fits holds.
+_NAMED = {
+    "temperature": r"temp|θ|^(?-i:T)($|[ _\[(/\d])",
+    "frequency": r"freq|^(f|w|ω|omega|ang\w*)($|[ _\[(/.])|\bhz\b|rad/s",
+    "loss": r"''|\"|″|′′|loss|verlust|[eg]_?(2|pp|dd|dprime)(?![a-z])|imag",
+    "storage": r"'|′|stor|speicher|[eg]_?(1|p|d|prime)(?![a-z])|real",
+}
+_SAID = {
+    "frequency": {"rad/s": r"rad", "Hz": r"hz|1/s"},
+    "modulus": {"GPa": r"gpa", "MPa": r"mpa", "kPa": r"kpa", "Pa": r"pa(?![a-z])"},
+    "temperature": {"C": r"cels|deg|(?<![a-z])c(?![a-z])", "K": r"kelv|(?<![a-z])k(?![a-z])"},
+}
+_ROWS = 200  # from which sizes are seen
+_MOST_KELVIN_BELOW = 150.0  # temperatures of DMA below it are in C
+_MOST_MPA = 1e5  # moduli above it are in Pa
+
+
+@dataclass(frozen=True)
+class Guess:
+    """The columns that a file has, which is which, and in which units."""
+
+    names: Sequence[str]
+    columns: dict[str, str]  # by QUANTITIES; without those that no name fits
+    units: dict[str, str]
+    modulus: str  # "E" or "G"
+
+
+def guess_columns(path: Path) -> Guess:
+    """Look at the line that names the columns, the units below it and the sizes of the numbers."""
+    lines = numbered_lines(path)
+    header = find_header(lines)
+    if header is None:
+        raise InvalidInput(f"{path}: no line names columns: must have one above the numbers")
+    names = [name for name in header.names if name]
+    columns: dict[str, str] = {}
+    for quantity, pattern in _NAMED.items():
+        left = [name for name in names if name not in columns.values()]
+        found = next((n for n in left if re.search(pattern, n, re.IGNORECASE)), None)
+        if found is not None:
+            columns[quantity] = found
+    below = dict(zip(header.names, header.units, strict=False))
+    units = {
+        kind: _unit(kind, [f"{columns[q]} {below.get(columns[q], '')}" for q in of if q in columns])
+        for kind, of in (
+            ("frequency", ["frequency"]),
+            ("modulus", ["storage", "loss"]),
+            ("temperature", ["temperature"]),
+        )
+    }
+    rows = [cells_of(line) for number, line in lines if number > header.number][:_ROWS]
+    for kind, quantity in (("modulus", "storage"), ("temperature", "temperature")):
+        if not units[kind] and quantity in columns:
+            place = header.names.index(columns[quantity])
+            units[kind] = _by_size(kind, _numbers(rows, place))
+    shear = re.match(r"\W*g|.*shear", columns.get("storage", ""), re.IGNORECASE)
+    known = {kind: unit or UNITS[kind][0] for kind, unit in units.items()}
+    return Guess(names, columns, known, "G" if shear else "E")
+
+
+def _unit(kind: str, said: Sequence[str]) -> str:
+    for text in said:
+        for unit, pattern in _SAID[kind].items():
+            if re.search(pattern, text, re.IGNORECASE):
+                return unit
+    return ""
+
+
+def _by_size(kind: str, numbers: Sequence[float]) -> str:
+    if not numbers:
+        return ""
+    if kind == "temperature":
+        return "C" if min(numbers) < _MOST_KELVIN_BELOW else "K"
+    return "Pa" if max(numbers) > _MOST_MPA else "MPa"
+
+
+def _numbers(rows: Sequence[Sequence[str]], place: int) -> list[float]:
+    found = []
+    for row in rows:
+        try:
+            found.append(float(row[place].replace(",", ".")))
+        except (ValueError, IndexError):
+            continue
+    return found

@@ -1,0 +1,61 @@
+"""The page: four parts over one state, each session with a state of its own."""
+
+import secrets
+from collections import OrderedDict
+from importlib.resources import files
+
+from nicegui import ui
+
+from asperity.app.conditions import ConditionsPart
+from asperity.app.parts import heading
+from asperity.app.result import ResultPart
+from asperity.app.rubber import RubberPart
+from asperity.app.state import State
+from asperity.app.surface import SurfacePart
+from asperity.app.worker import Worker
+
+_MOST_SESSIONS = 16  # the one that was not used for longest goes
+# the buttons of Quasar's uploads have no names of their own
+_NAME_UPLOADS = """
+for (const one of document.querySelectorAll('.q-uploader'))
+  for (const inside of one.querySelectorAll('input[type=file], .q-btn'))
+    inside.setAttribute('aria-label', one.getAttribute('aria-label'));
+"""
+_states: "OrderedDict[str, State]" = OrderedDict()
+
+_STYLE = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
+
+
+def show_page(session: str = "") -> None:
+    """The page of a session; a new one opens on the demo's scene. A reload finds it again."""
+    state = _states.get(session)
+    if state is None:
+        session, state = secrets.token_urlsafe(12), State()
+        _states[session] = state
+        while len(_states) > _MOST_SESSIONS:
+            _states.popitem(last=False)[1].close()
+    _states.move_to_end(session)
+    ui.add_css(_STYLE)
+    # a reload asks for the session; the token stays in the cookie and out of the history
+    ui.run_javascript(f"history.replaceState(null, '', '/?session={session}')")
+    worker = Worker(state)
+    with ui.element("div").classes("app"):
+        with ui.element("header").classes("flex items-baseline gap-3 py-3"):
+            heading("asperity", "h1")
+            ui.label("friction of rubber on rough surfaces").classes("soft")
+        with ui.element("div").classes("columns"):
+            with ui.element("div"):
+                surface = SurfacePart(state, worker)
+                rubber = RubberPart(state, worker)
+                ConditionsPart(state, worker)
+            with ui.element("div").classes("result"):
+                result = ResultPart(state, worker)
+    worker.shows(result, surface, rubber)
+    ui.run_javascript(_NAME_UPLOADS)
+    ui.timer(0.01, worker.changed, once=True)
+
+
+def close_all() -> None:
+    """Remove the files of all sessions."""
+    while _states:
+        _states.popitem()[1].close()

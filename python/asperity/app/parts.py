@@ -1,0 +1,144 @@
+"""What the parts of the page are made of: headings, uploads, sliders with a number beside them."""
+
+import math
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
+from html import escape
+from typing import Any
+
+from nicegui import events, ui
+
+from asperity.app.charts import Options
+from asperity.app.files import MOST_BYTES
+
+_PAUSE = 0.05  # s between two values of a slider that is moved
+_ITS_VALUE = """(event) => {
+  event.target.setAttribute('aria-valuetext', Number(SAID).toPrecision(3));
+  emit(event.target.value);
+}"""
+
+
+def heading(text: str, level: str) -> None:
+    ui.html(escape(text), sanitize=False, tag=level)
+
+
+@contextmanager
+def part(title: str, name: str) -> Iterator[None]:
+    """A section of the page with a heading that names it."""
+    with ui.element("section").classes("part").props(f'aria-labelledby="{name}"'):
+        ui.html(escape(title), sanitize=False, tag="h2").props(f'id="{name}"')
+        yield
+
+
+def chart(options: Options, name: str, height: str = "17rem") -> ui.echart:
+    """A chart with a name for who does not see it."""
+    drawn = ui.echart(options, renderer="svg").style(f"height: {height}")
+    return drawn.props(f'role="img" aria-label="{escape(name)}"')
+
+
+def redraw(drawn: ui.echart, options: Options, name: str) -> None:
+    """Let a chart show something else, with words that say so."""
+    drawn.options.clear()
+    drawn.options.update(options)
+    drawn.props(f'aria-label="{escape(name)}"')
+    drawn.update()
+
+
+def upload(
+    label: str,
+    take: Callable[[list[tuple[str, bytes]]], Awaitable[None]],
+    refused: Callable[[str], None],
+    *,
+    multiple: bool = False,
+) -> ui.upload:
+    """A place to drop files, or to choose them by a button."""
+
+    async def taken(event: events.MultiUploadEventArguments) -> None:
+        await take([(file.name, await file.read()) for file in event.files])
+        drop.reset()
+
+    most = f"a file must have at most {MOST_BYTES // 2**20} MB"
+    drop = ui.upload(
+        label=label,
+        multiple=multiple,
+        auto_upload=True,
+        max_file_size=MOST_BYTES,
+        on_multi_upload=taken,
+        on_rejected=lambda: refused(f"the file was refused: {most}"),
+    )
+    return drop.props(
+        f'flat bordered text-color="dark" color="blue-1" aria-label="{escape(label)}"'
+    )
+
+
+class Quantity:
+    """A slider and a field for one number; both in the unit that is shown.
+
+    The slider is the browser's own: it takes the focus, keys and names as programs for the blind
+    expect it.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        value: float,
+        ends: tuple[float, float],
+        changed: Callable[[float], Awaitable[None]],
+        *,
+        logarithmic: bool = False,
+        step: float = 0.01,
+    ) -> None:
+        self._log, self._changed, self._ends = logarithmic, changed, ends
+        self._value = value
+        low, high = (self._place(one) for one in ends)
+        with ui.element("div").classes("flex items-center gap-3 w-full no-wrap"):
+            self._slider = ui.element("input").classes("grow min-w-0")
+            self._slider.props(f'type="range" min="{low:g}" max="{high:g}" step="{step:g}"')
+            self._slider.props["aria-label"] = f"{name}, slider"
+            said = "10 ** event.target.value" if logarithmic else "event.target.value"
+            its_value = _ITS_VALUE.replace("SAID", said)
+            self._slider.on("input", self._slid, js_handler=its_value, throttle=_PAUSE)
+            self._field = ui.input(label=name, value=f"{value:.4g}")
+            self._field.props("dense outlined debounce=300 inputmode=decimal")
+            self._field.classes("w-44 shrink-0").on_value_change(self._typed)
+        self._move()
+
+    def _place(self, value: float) -> float:
+        return math.log10(value) if self._log else value
+
+    def _move(self) -> None:
+        """Let the slider stand where the number is, and say the number. No property of the element
+        has its value: each update of the page would set it back while it is moved."""
+        ui.run_javascript(
+            f"const slider = document.getElementById('{self._slider.html_id}');"
+            f"slider.value = {self._place(self._value):.6g};"
+            f"slider.setAttribute('aria-valuetext', '{self._value:.4g}');"
+        )
+
+    async def _slid(self, event: events.GenericEventArguments) -> None:
+        place = float(event.args)
+        if not math.isfinite(place):
+            return
+        value = float(f"{10**place if self._log else place:.3g}")
+        value = min(max(value, self._ends[0]), self._ends[1])
+        if value == self._value:
+            return
+        self._value = value
+        self._field.value = f"{value:.4g}"
+        self._field.error = None
+        await self._changed(value)
+
+    async def _typed(self, event: Any) -> None:
+        try:
+            value = float(str(event.value).replace(",", "."))
+        except ValueError:
+            value = math.nan
+        if not self._ends[0] <= value <= self._ends[1]:
+            self._field.error = f"{self._ends[0]:g} to {self._ends[1]:g}"
+            return
+        self._field.error = None
+        if value == self._value:
+            return
+        self._value = value
+        self._move()
+        await self._changed(value)

@@ -1,0 +1,235 @@
+"""The part of the result: mu(v), which roughness makes it, notes, variants and downloads."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from asperity._core import Error
+from asperity.app import downloads
+from asperity.app.charts import contributions_chart, friction_chart
+from asperity.app.parts import chart, part, redraw
+from asperity.app.state import State, contributions
+from asperity.app.worker import Found, Worker, in_thread
+from asperity.report.errors import errors_of
+
+_NOTHING = "There are no notes: input, correction and theory are within their ranges."
+
+
+class ResultPart:
+    """Where everything that was computed is shown."""
+
+    def __init__(self, state: State, worker: Worker) -> None:
+        self._state, self._worker = state, worker
+        self._at: float | None = None  # velocity of the contributions [m/s]
+        with part("Result", "result-title"):
+            self._status = ui.label("computing ...").classes("soft").props('role="status"')
+            self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._chart = chart({}, "Friction coefficient over velocity", "24rem")
+            with ui.element("div").classes("flex items-center gap-2 w-full"):
+                self._name = ui.input("Name of this curve").props("dense outlined").classes("grow")
+                ui.button("Keep for comparison", on_click=self._keep).props(
+                    'no-caps outline color="blue-9"'
+                )
+            self._kept = ui.element("div").classes("flex gap-2 w-full")
+            self._downloads()
+            with ui.expansion("Errors and notes", value=True).classes("w-full").props("dense"):
+                self._errors = ui.element("ul").classes("list-disc pl-5")
+                self._notes = ui.element("ul").classes("list-disc pl-5")
+            with (
+                ui.expansion("Which roughness makes the friction").classes("w-full").props("dense")
+            ):
+                self._velocity = ui.select([], label="At velocity [m/s]", on_change=self._chosen)
+                self._velocity.props("dense outlined").classes("w-48")
+                self._shares = chart({}, "Contributions by wavenumber")
+            with ui.expansion("Numbers").classes("w-full").props("dense"):
+                self._table = ui.table(rows=[], columns=_COLUMNS, row_key="v")
+                self._table.props('dense flat aria-label="Friction coefficient"').classes("w-full")
+            with ui.expansion("The scene file").classes("w-full").props("dense"):
+                ui.label("asperity friction scene.toml gives the same digits.").classes("soft")
+                self._text = ui.element("pre").classes("text-xs overflow-auto max-h-96 w-full")
+                self._text.props('tabindex="0" role="region" aria-label="Text of the scene file"')
+        self._draw_variants()
+
+    # --- what was computed ---
+
+    def show(self, found: Found) -> None:
+        best = found.best
+        cold = None if found.curves is None else found.cold
+        k = int(best.mu[0].argmax())
+        said = f"largest mu {best.mu[0, k]:.4g} at {found.scene.velocity[k]:.3g} m/s"
+        waits = "" if found.banded is not None or not found.scene.has_errors else "; band follows"
+        hot = "; heat follows" if found.curves is None and found.scene.heating is not None else ""
+        self._status.set_text(f"{said}{hot or waits}")
+        self._problem.set_text("")
+        options = friction_chart(found.scene, best, cold, self._state.variants)
+        redraw(self._chart, options, f"Friction coefficient mu over sliding velocity: {said}")
+        if found.curves is None:
+            return
+        self._say_notes(found)
+        self._fill_table(found)
+        self._text.clear()
+        with self._text:
+            ui.html(_escaped(self._state.text), sanitize=False, tag="code")
+        self._offer_velocities(found)
+
+    def fail(self, problem: str) -> None:
+        self._status.set_text("not computed: the curve is that of before")
+        self._problem.set_text(problem)
+
+    def _say_notes(self, found: Found) -> None:
+        best = found.best
+        self._errors.clear()
+        with self._errors:
+            for name, size, _ in errors_of(found.scene, best):
+                ui.html(_escaped(f"error of {name}: {size}"), sanitize=False, tag="li")
+        self._notes.clear()
+        notes = [self._state.folder.as_shown(one) for one in dict.fromkeys(best.notes)]
+        with self._notes:
+            for note in notes or [_NOTHING]:
+                ui.html(_escaped(note), sanitize=False, tag="li")
+
+    def _fill_table(self, found: Found) -> None:
+        best = found.best
+        rows = zip(
+            found.scene.velocity,
+            best.mu[0],
+            best.hysteresis[0],
+            best.adhesion[0],
+            best.contact_area[0],
+            best.error_estimate[0],
+            strict=True,
+        )
+        names = [one["name"] for one in _COLUMNS]
+        self._table.rows = [
+            dict(zip(names, [f"{x:.4g}" for x in row], strict=True)) for row in rows
+        ]
+
+    def _offer_velocities(self, found: Found) -> None:
+        v = found.scene.velocity
+        offered = {float(one): f"{one:.3g}" for one in v[:: max(1, v.size // 12)]}
+        k = int(found.best.mu[0].argmax())
+        if self._at not in offered:
+            self._at = min(offered, key=lambda one: abs(np.log(one / v[k])))
+        self._velocity.set_options(offered, value=self._at)
+        ui.timer(0, self._contribute, once=True)
+
+    async def _chosen(self, event: Any) -> None:
+        if event.value is not None and event.value != self._at:
+            self._at = event.value
+            await self._contribute()
+
+    async def _contribute(self) -> None:
+        found, velocity = self._worker.found, self._at
+        if found is None or velocity is None:
+            return
+        try:
+            scene = found.scene
+            q, density = await in_thread(lambda: contributions(scene, velocity))
+        except Error as error:
+            self._problem.set_text(self._state.said(error))
+            return
+        name = f"Contributions to the hysteresis by wavenumber at {velocity:.3g} m/s"
+        redraw(self._shares, contributions_chart(q, np.ravel(density)), name)
+
+    # --- variants ---
+
+    async def _keep(self) -> None:
+        found = self._worker.found
+        if found is None or found.curves is None:
+            self._problem.set_text("there is no curve to keep yet")
+            return
+        try:
+            self._state.keep_variant(self._name.value or "", found.scene, found.curves)
+        except Error as error:
+            self._problem.set_text(self._state.said(error))
+            return
+        self._name.value = ""
+        self._draw_variants()
+        self.show(found)
+
+    def _draw_variants(self) -> None:
+        self._kept.clear()
+        with self._kept:
+            for variant in self._state.variants:
+                self._chip(variant.name)
+
+    def _chip(self, name: str) -> None:
+        def remove() -> None:
+            self._state.variants = [one for one in self._state.variants if one.name != name]
+            self._draw_variants()
+            if self._worker.found is not None:
+                self.show(self._worker.found)
+
+        button = ui.button(name, icon="close", on_click=remove)
+        button.props('no-caps dense outline color="grey-9"')
+        button.props["aria-label"] = f"Remove {name} from the comparison"
+
+    # --- downloads ---
+
+    def _downloads(self) -> None:
+        with (
+            ui.element("div")
+            .classes("flex gap-2 py-2")
+            .props('role="group" aria-label="Downloads"')
+        ):
+            for label, name, make in (
+                ("Scene", "scene.zip", lambda f: downloads.scene_archive(self._state)),
+                ("CSV", "friction.csv", lambda f: lambda: downloads.table_csv(f.scene, f.curves)),
+                ("Picture", "friction.svg", self._picture),
+                ("Report", "report.html", lambda f: downloads.report_of(self._state)),
+                ("Map", "friction.fmap", lambda f: lambda: downloads.map_of(f.scene).to_bytes()),
+                (
+                    "FMU",
+                    "friction.fmu",
+                    lambda f: lambda: downloads.fmu_of(downloads.map_of(f.scene)),
+                ),
+            ):
+                self._download(label, name, make)
+
+    def _picture(self, found: Found) -> downloads.Make:
+        kept = list(self._state.variants)
+        named = [("this scene", found.scene), *((one.name, one.scene) for one in kept)]
+        curves = [found.best, *(one.curves for one in kept)]
+        return lambda: downloads.picture(named, curves)
+
+    def _download(self, label: str, name: str, make: Callable[[Any], downloads.Make]) -> None:
+        async def give() -> None:
+            found = self._worker.found
+            if found is None or found.curves is None:
+                self._problem.set_text("there is nothing to download yet")
+                return
+            button.props("loading")
+            self._status.set_text(f"{label} is made ...")
+            try:
+                content = await in_thread(make(found))
+            except Error as error:
+                self._problem.set_text(self._state.said(error))
+            else:
+                ui.download.content(content, name)
+                self._status.set_text(f"{name} is downloaded")
+            finally:
+                button.props(remove="loading")
+
+        button = ui.button(label, icon="download", on_click=give)
+        button.props('no-caps dense unelevated color="blue-9"').classes("px-2")
+
+
+_COLUMNS = [
+    {"name": name, "label": label, "field": name, "align": "right"}
+    for name, label in (
+        ("v", "v [m/s]"),
+        ("mu", "mu"),
+        ("hysteresis", "hysteresis"),
+        ("adhesion", "adhesion"),
+        ("area", "A/A0"),
+        ("error", "numerical error"),
+    )
+]
+
+
+def _escaped(text: str) -> str:
+    from html import escape
+
+    return escape(text)

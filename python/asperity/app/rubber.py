@@ -1,0 +1,139 @@
+"""The part of the rubber: the shipped surrogate, or sweeps whose columns are named by menus."""
+
+from typing import Any
+
+from nicegui import ui
+
+from asperity._core import Error, InvalidInput
+from asperity.app.charts import rubber_chart, shifts_chart
+from asperity.app.guess import QUANTITIES, UNITS
+from asperity.app.parts import chart, part, redraw, upload
+from asperity.app.state import State
+from asperity.app.worker import Found, Worker, in_thread
+
+_SAID = {
+    "frequency": "Column of the frequency",
+    "storage": "Column of the storage modulus",
+    "loss": "Column of the loss modulus",
+    "temperature": "Column of the temperature",
+}
+_UNIT_OF = {
+    "frequency": "Unit of the frequency",
+    "modulus": "Unit of the moduli",
+    "temperature": "Unit of the temperature",
+}
+_CELSIUS = {"C": "°C"}
+
+
+class RubberPart:
+    """Where the rubber is chosen, its modulus and its shift factors."""
+
+    def __init__(self, state: State, worker: Worker) -> None:
+        self._state, self._worker = state, worker
+        self._files: list[str] = []
+        self._drawn: object = None
+        with part("Rubber", "rubber-title"):
+            self._choice = (
+                ui.select(
+                    list(state.rubbers), value=state.rubber, label="Rubber", on_change=self._chosen
+                )
+                .props("dense outlined")
+                .classes("w-full")
+            )
+            upload("Drop DMA sweeps here, or choose files", self._taken, self._say, multiple=True)
+            self._menus = ui.element("div").classes("w-full")
+            self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._facts = ui.label("").classes("soft")
+            self._chart = chart({}, "Modulus of the rubber")
+            self._shifts = chart({}, "Shift factors", "13rem")
+            self._shifts.set_visibility(False)
+
+    async def _chosen(self, event: Any) -> None:
+        if event.value != self._state.rubber:
+            self._state.rubber = event.value
+            await self._worker.changed()
+
+    async def _taken(self, files: list[tuple[str, bytes]]) -> None:
+        kept = []
+        for name, content in files:
+            try:
+                one = await in_thread(lambda n=name, c=content: self._state.keep_dma(n, c))  # type: ignore[misc]
+                kept.append(one)
+            except Error as error:
+                self._say(self._state.said(error))
+                return
+        self._files = kept
+        self._ask()
+        self._say("")
+
+    def _ask(self) -> None:
+        """Menus with the guess, and a button that takes them."""
+        guess = self._state.guesses[self._files[0]]
+        chosen: dict[str, ui.select] = {}
+        units: dict[str, ui.select] = {}
+        self._menus.clear()
+        with self._menus:
+            shown = ", ".join(self._state.folder.shown[name] for name in self._files)
+            ui.label(f"Of {shown}: is this right?").classes("soft")
+            with ui.element("div").classes("grid grid-cols-2 gap-2 w-full"):
+                for quantity in QUANTITIES:
+                    value = guess.columns.get(quantity)
+                    menu = ui.select(list(guess.names), value=value, label=_SAID[quantity])
+                    chosen[quantity] = menu.props("dense outlined")
+                for kind, unit in guess.units.items():
+                    named = {one: _CELSIUS.get(one, one) for one in UNITS[kind]}
+                    menu = ui.select(named, value=unit, label=_UNIT_OF[kind])
+                    units[kind] = menu.props("dense outlined")
+                kinds = {"E": "E, Young's", "G": "G, shear"}
+                modulus = ui.select(kinds, value=guess.modulus, label="The moduli are")
+                modulus.props("dense outlined")
+            prony = ui.checkbox("Fit a Prony series", value=True)
+
+            async def take() -> None:
+                await self._use(
+                    {
+                        "columns": {name: menu.value for name, menu in chosen.items()},
+                        "units": {name: menu.value for name, menu in units.items()},
+                        "modulus": modulus.value,
+                        "prony": prony.value,
+                    }
+                )
+
+            ui.button("Make the master curve", on_click=take).props('no-caps color="blue-9"')
+
+    async def _use(self, settings: dict[str, Any]) -> None:
+        try:
+            for name, column in settings["columns"].items():
+                if column is None:
+                    raise InvalidInput(f"which column is the {name}? None is chosen")
+            self._say("making the master curve ...")
+            await in_thread(lambda: self._state.take_dma(self._files, settings))
+        except Error as error:
+            self._say(self._state.said(error))
+            return
+        self._say("")
+        self._choice.set_options(list(self._state.rubbers), value=self._state.rubber)
+        await self._worker.changed()
+
+    def _say(self, problem: str) -> None:
+        self._problem.set_text(problem)
+
+    def show(self, found: Found) -> None:
+        built = found.scene.built_rubber
+        if built is self._drawn:
+            return
+        self._drawn = built
+        facts = f"at {(built.temperature or 0) - 273.15:.4g} °C"
+        if built.build is not None:
+            n, residual = len(built.isotherms), built.build.residual
+            facts += f", of {n} isotherms that overlap to {100 * residual:.2g} %"
+        self._facts.set_text(facts)
+        name = f"Storage and loss modulus over the angular frequency, {facts}"
+        redraw(self._chart, rubber_chart(found.scene), name)
+        shifts = shifts_chart(found.scene)
+        self._shifts.set_visibility(shifts is not None)
+        if shifts is not None:
+            redraw(self._shifts, shifts, "Shift factors log10 a_T over the temperature")
+
+    def fail(self, problem: str) -> None:
+        """The result says it."""

@@ -1,0 +1,81 @@
+"""The server of the app: an address with a token, printed before anything slow is loaded."""
+
+import contextlib
+import importlib.util
+import os
+import secrets
+import signal
+import socket
+import sys
+import webbrowser
+from collections.abc import Callable
+from threading import Timer
+
+from asperity._core import InvalidInput
+from asperity.app.guard import Guard
+
+_OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
+_NEEDED = {"nicegui": "NiceGUI", "matplotlib": "matplotlib", "jinja2": "Jinja2"}
+
+
+def serve(host: str, port: int, *, browser: bool, tell: Callable[[str], None]) -> None:
+    """Serve until it is interrupted. `tell` is given the address as soon as the port is ours; a
+    `port` of 0 is any that is free."""
+    for module, name in _NEEDED.items():
+        if importlib.util.find_spec(module) is None:
+            raise InvalidInput(f"the app needs {name}: pip install asperity[app]")
+    with listening(host, port) as bound:
+        token = secrets.token_urlsafe(24)
+        number = bound.getsockname()[1]
+        shown = f"[{host}]" if ":" in host else host
+        address = f"http://{shown}:{number}/?token={token}"
+        tell(address)
+        if browser:
+            opened = Timer(_OPEN_AFTER, webbrowser.open, [address])
+            opened.daemon = True
+            opened.start()
+        _run(bound, token, number)
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """A socket that connections may wait at already."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    bound = socket.socket(family, socket.SOCK_STREAM)
+    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        bound.bind((host, port))
+        bound.listen(64)
+    except OSError as error:
+        bound.close()
+        reason = error.strerror or error
+        raise InvalidInput(
+            f"--host {host}, --port {port}: cannot be listened at: {reason}"
+        ) from error
+    except OverflowError as error:
+        bound.close()
+        raise InvalidInput(f"--port {port}: must be in 0..65535") from error
+    return bound
+
+
+def _run(bound: socket.socket, token: str, port: int) -> None:
+    import uvicorn
+    from fastapi import FastAPI
+    from nicegui import ui
+
+    from asperity.app.page import close_all, show_page
+
+    application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+    ui.page("/", title="asperity")(show_page)
+    ui.run_with(application, title="asperity", language="en-US", show_welcome_message=False)
+    guard = Guard(application, token, port)
+    config = uvicorn.Config(
+        guard, log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=2
+    )
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))  # uvicorn raises it again at its end
+    try:
+        with contextlib.suppress(KeyboardInterrupt):
+            uvicorn.Server(config).run(sockets=[bound])
+    finally:
+        close_all()
+        sys.stdout.flush()
+        os._exit(0)  # threads that still compute hold nothing that anybody waits for

@@ -1,0 +1,248 @@
+"""What the app knows: the tables of one scene, and what is computed of them. No page is in here."""
+
+import tomllib
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import Error, InvalidInput
+from asperity.app.files import Folder
+from asperity.app.guess import Guess, guess_columns
+from asperity.demo import hot_scene_text, input_files
+from asperity.friction import friction
+from asperity.io.read_dma import read_isotherms
+from asperity.scene.mapped import rubber_of_map
+from asperity.scene.model import Curves, Progress, Scene
+from asperity.scene.rubber import build_rubber
+from asperity.scene.scene import Builders, load_scene
+from asperity.scene.surface import build_surface
+from asperity.scene.write import scene_text
+
+Tables = dict[str, dict[str, Any]]
+ORDER = ("surface", "rubber", "conditions", "correction", "adhesion", "heating", "solver")
+MOST_VARIANTS = 7  # curves beside the present one: so many colours are told apart
+_Built = TypeVar("_Built")
+
+CORRECTIONS: dict[str, dict[str, Any]] = {
+    "partial-contact": {"kind": "partial-contact"},
+    "s-factor": {"kind": "s-factor", "gamma": 0.5, "applies_to": "friction"},
+    "nayak-s-factor": {"kind": "nayak-s-factor"},
+    "affine-shift": {"kind": "affine-shift", "p": 1.5},
+}
+LAW = {
+    "rms_height_m": 265.7e-6,
+    "hurst": 0.87,
+    "q0_per_m": 2000.0,
+    "q1_per_m": 1e6,
+    "slope_cutoff": 1.3,
+}
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A curve that was kept for comparison, with the scene that it came from."""
+
+    name: str
+    tables: Tables
+    scene: Scene
+    curves: Curves
+
+
+class State:
+    """One session: a folder with its files, the alternatives of each part, and which is chosen."""
+
+    def __init__(self) -> None:
+        self.folder = Folder()
+        tables = tomllib.loads(hot_scene_text())
+        name = self.folder.keep("scan.npy", input_files()["scan.npy"])
+        self.surfaces: dict[str, dict[str, Any]] = {
+            "shipped scan": {**tables["surface"], "file": name},
+            "law": dict(LAW),
+        }
+        self.rubbers: dict[str, dict[str, Any]] = {"shipped surrogate": tables["rubber"]}
+        self.surface, self.rubber = "shipped scan", "shipped surrogate"
+        self.conditions: dict[str, Any] = tables["conditions"]
+        self.correction: dict[str, Any] = dict(CORRECTIONS["partial-contact"])
+        self.adhesion: dict[str, Any] = tables["adhesion"]
+        self.heating: dict[str, Any] = tables["heating"]
+        self.used = {"correction", "adhesion"}  # of the tables that a scene can be without
+        self.scan: str | None = None  # the file that was dropped last
+        self.guesses: dict[str, Guess] = {}  # by the names of files
+        self.variants: list[Variant] = []
+        remembered = (_Remembered(build_surface), _Remembered(build_rubber))
+        self._builders = Builders(*remembered)
+
+    # --- what is edited ---
+
+    @property
+    def tables(self) -> Tables:
+        """The scene as it is now: what is not used is not in it."""
+        all_tables = {
+            "surface": self.surfaces[self.surface],
+            "rubber": self.rubbers[self.rubber],
+            "conditions": self.conditions,
+            "correction": self.correction,
+            "adhesion": self.adhesion,
+            "heating": self.heating,
+        }
+        optional = ("correction", "adhesion", "heating")
+        return {
+            name: dict(table)
+            for name, table in all_tables.items()
+            if name not in optional or name in self.used
+        }
+
+    @property
+    def text(self) -> str:
+        """The scene file."""
+        return self.text_of(self.tables)
+
+    def text_of(self, tables: Tables) -> str:
+        """A scene file, which says as what its files were dropped."""
+        text = scene_text(tables)
+        said = [f"# {n} was dropped as {s}\n" for n, s in self.folder.shown.items() if n in text]
+        return "".join(said) + text
+
+    def use(self, table: str, wanted: bool) -> None:
+        """Let the scene have a table, or be without it."""
+        (self.used.add if wanted else self.used.discard)(table)
+
+    def choose_correction(self, kind: str) -> None:
+        """One of CORRECTIONS with its usual arguments, or none."""
+        self.use("correction", kind in CORRECTIONS)
+        if kind in CORRECTIONS:
+            self.correction = dict(CORRECTIONS[kind])
+
+    def keep_scan(self, shown: str, content: bytes) -> None:
+        """Keep a scan, which is to be read with its pixel size and unit, if it states none."""
+        if self.scan is not None and self.scan not in self._named:
+            self.folder.forget(self.scan)
+        self.scan = self.folder.keep(shown, content)
+
+    def use_scan(self, settings: Mapping[str, Any]) -> None:
+        """Let the scan that was kept be the surface. What cannot be read is refused, and the
+        surface stays as it was."""
+        if self.scan is None:
+            raise InvalidInput("no scan was dropped yet")
+        table = {"file": self.scan, "detrend": "quadratic", "slope_cutoff": 1.3, **settings}
+        self._builders.surface(self._path, table)
+        self.surfaces["your scan"] = table
+        self.surface = "your scan"
+
+    @property
+    def _named(self) -> str:
+        """All that names files."""
+        return repr([self.surfaces, self.rubbers, [one.tables for one in self.variants]])
+
+    @property
+    def _path(self) -> Path:
+        return self.folder.path / "scene.toml"
+
+    def keep_dma(self, shown: str, content: bytes) -> str:
+        """Keep a file of sweeps and guess its columns; what they are is for the user to say."""
+        name = self.folder.keep(shown, content)
+        try:
+            self.guesses[name] = guess_columns(self.folder.path / name)
+        except Error as error:
+            said = self.said(error)
+            self.folder.forget(name)
+            raise type(error)(said) from None
+        return name
+
+    def take_dma(self, names: list[str], settings: Mapping[str, Any]) -> None:
+        """Let sweeps be the rubber: `columns`, `units` and `modulus` as a scene has them.
+        The master curve is that at the middle isotherm."""
+        read = {key: settings[key] for key in ("columns", "units", "modulus")}
+        isotherms = read_isotherms([self.folder.path / name for name in names], **read)
+        middle = isotherms[len(isotherms) // 2].temperature
+        prony = bool(settings.get("prony", False))
+        table = {
+            "isotherms": names,
+            **read,
+            "reference_temperature_k": round(middle, 2),
+            "prony": prony,
+            "extrapolation": "prony" if prony else "power-law",
+        }
+        self._builders.rubber(self._path, table, float(self.conditions["temperature_c"]) + 273.15)
+        self.rubbers["your sweeps"] = table
+        self.rubber = "your sweeps"
+
+    # --- what is computed ---
+
+    def load(self) -> Scene:
+        """The scene, read from its file as the shell reads it."""
+        self._path.write_text(self.text, encoding="utf-8")
+        return load_scene(self._path, for_friction=True, builders=self._builders)
+
+    def said(self, error: Exception) -> str:
+        """An error in the words of the page."""
+        return self.folder.as_shown(" ".join(str(error).split()))
+
+    def keep_variant(self, name: str, scene: Scene, curves: Curves) -> None:
+        """Keep the present curve beside those to come."""
+        if len(self.variants) >= MOST_VARIANTS:
+            raise InvalidInput(f"{MOST_VARIANTS} curves are kept: must remove one first")
+        taken = {one.name for one in self.variants}
+        plain = "".join(one for one in name if one.isprintable()).replace("/", "-").strip()[:40]
+        plain = plain or f"variant {len(self.variants) + 1}"
+        while plain in taken:
+            plain += "'"
+        self.variants.append(Variant(plain, self.tables, scene, curves))
+
+    def close(self) -> None:
+        self.folder.close()
+
+
+def without_heat(scene: Scene) -> Scene:
+    """The scene as it slides cold: what is shown first."""
+    return replace(scene, heating=None)
+
+
+def with_band(scene: Scene, curves: Curves, progress: Progress = nullcontext) -> Curves:
+    """The curves with the band of the measured inputs, where their errors are known."""
+    return curves.within(scene.band(curves.mu, progress)) if scene.has_errors else curves
+
+
+def contributions(scene: Scene, velocity: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Wavenumbers [1/m], and dmu / d ln q there, at the first pressure and one velocity [m/s]."""
+    found = friction(
+        scene.spectrum,
+        rubber_of_map(scene),
+        pressure=scene.pressure[0],
+        velocity=velocity,
+        correction=scene.correction,
+        adhesion=scene.adhesion,
+        contributions=True,
+        **scene.options,
+        **({} if scene.heating is None else _heat(scene)),
+    )
+    assert found.wavenumber is not None
+    assert found.dmu_dlnq is not None
+    return found.wavenumber, found.dmu_dlnq
+
+
+def _heat(scene: Scene) -> dict[str, Any]:
+    shift = scene.built_rubber.shift
+    return {"temperature": scene.temperature, "shift": shift, "heating": scene.heating}
+
+
+class _Remembered:
+    """A builder that keeps its last few parts: files of a session never change."""
+
+    def __init__(self, build: Callable[..., _Built]) -> None:
+        self._build = build
+        self._kept: dict[str, Any] = {}
+
+    def __call__(self, path: Path, *arguments: Any) -> Any:
+        key = repr((path, *arguments))
+        if key not in self._kept:
+            found = self._build(path, *arguments)
+            while len(self._kept) >= 4:
+                self._kept.pop(next(iter(self._kept)))
+            self._kept[key] = found
+        return self._kept[key]

@@ -1,0 +1,212 @@
+"""The part of the surface: a scan that is dropped, the shipped one, or a law."""
+
+import base64
+import io
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from asperity._core import Error
+from asperity.app.charts import spectrum_chart
+from asperity.app.parts import Quantity, chart, part, redraw, upload
+from asperity.app.state import State
+from asperity.app.worker import Found, Worker, in_thread
+from asperity.scene.model import Scene
+from asperity.scene.scan import flat
+from asperity.surface import HeightMap
+
+_UNITS = {"": "as the file says", "m": "m", "mm": "mm", "um": "µm", "nm": "nm"}
+_DETREND = {"quadratic": "curved", "plane": "tilted", "offset": "neither"}
+_MOST_PIXELS = 360  # of a side of the picture
+
+
+class SurfacePart:
+    """Where the surface is chosen, its map and its spectrum."""
+
+    def __init__(self, state: State, worker: Worker) -> None:
+        self._state, self._worker = state, worker
+        self._drawn: object = None
+        with part("Surface", "surface-title"):
+            self._choice = (
+                ui.select(
+                    list(state.surfaces),
+                    value=state.surface,
+                    label="Surface",
+                    on_change=self._chosen,
+                )
+                .props("dense outlined")
+                .classes("w-full")
+            )
+            self._scan_fields()
+            with ui.element("div").classes("w-full") as self._law:
+                self._law_fields()
+            self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._facts = ui.label("").classes("soft")
+            self._map = ui.image("").props('no-spinner alt="" fit="contain"').classes("w-full")
+            self._map_facts = ui.label("").classes("soft")
+            self._chart = chart({}, "Roughness spectrum")
+        self._see()
+
+    def _scan_fields(self) -> None:
+        upload("Drop a scan here, or choose a file", self._taken, self._say)
+        self._settings: dict[str, Any] = {"unit": "", "detrend": "quadratic"}
+        with ui.expansion("How the scan is read").classes("w-full").props("dense"):
+            field = "dense outlined debounce=500"
+            ui.input("Pixel size [µm]: one number, or dy, dx", on_change=self._pixel).props(
+                f'{field} hint="empty where the file states it"'
+            ).classes("w-full")
+            ui.select(_UNITS, value="", label="Unit of the heights", on_change=self._unit).props(
+                "dense outlined"
+            ).classes("w-full")
+            ui.select(
+                _DETREND, value="quadratic", label="The scan is", on_change=self._detrend
+            ).props("dense outlined").classes("w-full")
+            ui.input("q0 [1/m], where the spectrum begins", on_change=self._begin).props(
+                f'{field} hint="empty: as the scan is long"'
+            ).classes("w-full")
+            ui.checkbox("Take the self-affine fit instead of the rings", on_change=self._fit)
+
+    def _law_fields(self) -> None:
+        law = self._state.surfaces["law"]
+        Quantity(
+            "rms height [µm]",
+            law["rms_height_m"] * 1e6,
+            (0.01, 2000),
+            self._set("rms_height_m", 1e-6),
+            logarithmic=True,
+        )
+        Quantity("Hurst exponent H", law["hurst"], (0.05, 1.0), self._set("hurst", 1.0))
+        Quantity(
+            "q0 [1/m]", law["q0_per_m"], (10, 1e6), self._set("q0_per_m", 1.0), logarithmic=True
+        )
+        Quantity(
+            "rms slope at which it ends",
+            law["slope_cutoff"],
+            (0.01, 5),
+            self._set("slope_cutoff", 1.0),
+        )
+
+    def _set(self, key: str, unit: float) -> Any:
+        async def changed(value: float) -> None:
+            self._state.surfaces["law"][key] = float(f"{value * unit:.12g}")
+            await self._worker.changed()
+
+        return changed
+
+    async def _chosen(self, event: Any) -> None:
+        if event.value == self._state.surface:
+            return
+        self._state.surface = event.value
+        self._see()
+        await self._worker.changed()
+
+    async def _taken(self, files: list[tuple[str, bytes]]) -> None:
+        name, content = files[-1]
+        try:
+            await in_thread(lambda: self._state.keep_scan(name, content))
+        except Error as error:
+            self._say(self._state.said(error))
+            return
+        await self._use()
+
+    async def _use(self) -> None:
+        """Read the scan that was dropped as the fields say."""
+        if self._state.scan is None:
+            return
+        given = {key: value for key, value in self._settings.items() if value not in ("", None)}
+        self._say("reading the scan ...")
+        try:
+            await in_thread(lambda: self._state.use_scan(given))
+        except Error as error:
+            self._say(self._state.said(error))
+            return
+        self._say("")
+        self._choice.set_options(list(self._state.surfaces), value=self._state.surface)
+        self._see()
+        await self._worker.changed()
+
+    async def _pixel(self, event: Any) -> None:
+        try:
+            sizes = [float(one) * 1e-6 for one in str(event.value).split(",") if one.strip()]
+        except ValueError:
+            self._say(f"pixel size {event.value!r}: must be a number, or two: dy, dx")
+            return
+        sizes = [float(f"{one:.12g}") for one in sizes]
+        self._settings["pixel_size_m"] = (
+            None if not sizes else sizes[0] if len(sizes) == 1 else sizes
+        )
+        await self._use()
+
+    async def _unit(self, event: Any) -> None:
+        self._settings["unit"] = event.value
+        await self._use()
+
+    async def _detrend(self, event: Any) -> None:
+        self._settings["detrend"] = event.value
+        await self._use()
+
+    async def _begin(self, event: Any) -> None:
+        try:
+            self._settings["q0_per_m"] = float(event.value) if event.value else None
+        except ValueError:
+            self._say(f"q0 {event.value!r}: must be a number")
+            return
+        await self._use()
+
+    async def _fit(self, event: Any) -> None:
+        self._settings["fit"] = "self-affine" if event.value else None
+        await self._use()
+
+    def _see(self) -> None:
+        self._law.set_visibility(self._state.surface == "law")
+
+    def _say(self, problem: str) -> None:
+        self._problem.set_text(problem)
+
+    def show(self, found: Found) -> None:
+        if found.scene.surface is self._drawn:
+            return
+        self._drawn = found.scene.surface
+        spectrum = found.scene.spectrum
+        self._facts.set_text(
+            f"rms height {1e6 * spectrum.rms_height:.4g} µm, rms slope {spectrum.rms_slope:.3g}, "
+            f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m"
+        )
+        name = f"Roughness spectrum C(q) over the wavenumber; {self._facts.text}"
+        redraw(self._chart, spectrum_chart(found.scene), name)
+        shown = map_of(found.scene)
+        self._map.set_visibility(shown is not None)
+        self._map_facts.set_visibility(shown is not None)
+        if shown is not None:
+            picture, facts = shown
+            self._map.set_source(picture)
+            self._map.props(f'alt="Map of the heights; {facts}"')
+            self._map_facts.set_text(facts)
+
+    def fail(self, problem: str) -> None:
+        """The result says it."""
+
+
+def map_of(scene: Scene) -> tuple[str, str] | None:
+    """A picture of the map's heights as an address, and what it shows; None of lines and laws."""
+    from matplotlib.image import imsave
+
+    scan = scene.surface.scan
+    if not isinstance(scan, HeightMap):
+        return None
+    detrend = scene.surface.values["detrend"]
+    shown = flat(scan, None if detrend == "none" else detrend)
+    assert isinstance(shown, HeightMap)
+    ny, nx = shown.heights.shape
+    step = -(-max(ny, nx) // _MOST_PIXELS)
+    heights = np.asarray(shown.heights[::step, ::step], float)
+    low, high = np.nanpercentile(heights, [0.2, 99.8])
+    out = io.BytesIO()
+    imsave(out, heights, cmap="cividis", vmin=float(low), vmax=float(high), format="png")
+    dy, dx = shown.pixel_size
+    facts = (
+        f"{1e3 * nx * dx:.4g} by {1e3 * ny * dy:.4g} mm, {nx} by {ny} points; heights from "
+        f"{1e6 * low:.3g} (dark) to {1e6 * high:.3g} µm (light), trend removed"
+    )
+    return "data:image/png;base64," + base64.b64encode(out.getvalue()).decode(), facts

@@ -1,0 +1,50 @@
+"""What a friction map takes of a scene: its rubber, its heat and its sides."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.rubber import Rubber
+from asperity.scene.model import Scene
+
+
+def heat_of_map(scene: Scene) -> dict[str, Any]:
+    """What a map takes of a scene's heat: a list of temperatures is the range of the map's."""
+    temperatures = [one.temperature for one in (scene, *scene.others)]
+    if scene.heating is None:
+        if len(temperatures) > 1:
+            problem = "must be one temperature where no [heating] is given; a_T leads to others"
+            raise InvalidInput(f"{scene.path}: [conditions] temperature: {problem}")
+        return {}
+    lowest, highest = min(map(_known, temperatures)), max(map(_known, temperatures))
+    law = scene.built_rubber.shift
+    return {"temperature": (lowest, highest), "shift": law, "heating": scene.heating}
+
+
+def _known(temperature: float | None) -> float:
+    assert temperature is not None  # seen to where the scene is read
+    return temperature
+
+
+def rubber_of_map(scene: Scene) -> Rubber:
+    """The one that a map is made of: with heat that at the reference of its shift."""
+    at_reference = scene.built_rubber.at_reference
+    if scene.heating is None or at_reference is None:
+        return scene.rubber
+    return at_reference
+
+
+def side_of_map(
+    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[str]
+) -> tuple[float, float]:
+    """The sides of the map: as asked for, else as the scene sweeps."""
+    if given is not None:
+        return given[0], given[1]
+    lowest, highest = float(swept.min()), float(swept.max())
+    if lowest < highest:
+        return lowest, highest
+    notes.append(f"{name}: the scene has one; the map goes from a tenth to ten times of it")
+    return lowest / 10, highest * 10

@@ -1,0 +1,86 @@
+"""The server answers nobody without the token, and serves everything that its page needs."""
+
+import re
+import socket
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from urllib.parse import urlsplit
+
+import pytest
+
+from asperity.app import serve
+from asperity.cli.main import main
+from helpers.served import served
+
+pytest.importorskip("nicegui", reason="the app needs asperity[app]")
+pytest.importorskip("matplotlib", reason="the app needs asperity[app]")
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with served() as (line, _):
+        yield line
+
+
+def get(url: str, headers: dict[str, str] | None = None) -> tuple[int, dict[str, str], str]:
+    request = urllib.request.Request(url, headers=headers or {})
+    try:
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.status, dict(answer.headers), answer.read().decode(errors="replace")
+    except urllib.error.HTTPError as error:
+        return error.code, dict(error.headers), error.read().decode(errors="replace")
+
+
+def test_the_address_is_of_this_machine_and_has_a_long_token(address: str) -> None:
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}", address)
+
+
+def test_nothing_is_there_without_the_token(address: str) -> None:
+    root = address.partition("?")[0]
+    status, headers, page = get(address)
+    assert status == 200
+    files = set(re.findall(r'"(/_nicegui/[^"]+)"', page))
+    assert len(files) > 5
+    cookie = headers["set-cookie"].partition(";")[0]
+    for path in ["", "favicon.ico", "nowhere", "_nicegui_ws/socket.io/?EIO=4", *sorted(files)[:5]]:
+        url = root + path.removeprefix("/")
+        assert get(url)[0] == 403, url
+        assert get(f"{root}?token=wrong")[0] == 403
+        assert get(url, {"Cookie": cookie, "Origin": "http://evil.example"})[0] == 403
+    for path in sorted(files)[:5]:
+        assert get(root + path.removeprefix("/"), {"Cookie": cookie})[0] == 200, path
+
+
+def test_the_page_names_no_other_host(address: str) -> None:
+    page = get(address)[2]
+    hosts = {urlsplit(one).netloc for one in re.findall(r"https?://[^\s\"'<>\\)]+", page)}
+    assert hosts <= {"www.w3.org", urlsplit(address).netloc}
+    for path in ("docs", "redoc", "openapi.json"):
+        assert get(address.replace("/?", f"/{path}?"))[0] == 404
+
+
+def test_a_port_that_is_taken_or_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        number = taken.getsockname()[1]
+        for options, problem in (
+            (["--port", f"{number}"], f"--port {number}: cannot be listened at: "),
+            (["--port", "70000"], "--port 70000: must be in 0..65535"),
+            (["--port", "-1"], "--port -1: must be in 0..65535"),
+            (["--host", "256.0.0.1"], "--host 256.0.0.1"),
+        ):
+            assert main(["app", "--no-browser", *options]) == 2
+            out, err = capsys.readouterr()
+            assert out == ""
+            assert problem in err
+            assert err.count("\n") == 1
+
+
+def test_what_is_missing_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(serve.importlib.util, "find_spec", lambda name: None)
+    assert main(["app", "--no-browser"]) == 2
+    assert "the app needs NiceGUI: pip install asperity[app]" in capsys.readouterr().err
