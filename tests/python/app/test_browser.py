@@ -79,7 +79,7 @@ class Tab:
         inside.set_input_files(list(files))
 
     def download(self, name: str, folder: Path) -> Path:
-        with self.page.expect_download() as waited:
+        with self.page.expect_download(timeout=4 * SLOW) as waited:
             self.page.get_by_role("button", name=name, exact=True).click()
         path = folder / waited.value.suggested_filename
         waited.value.save_as(path)
