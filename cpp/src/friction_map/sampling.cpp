@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -13,29 +12,6 @@
 #include "numerics/interpolation.hpp"
 
 namespace asperity {
-
-namespace {
-
-/// An error of s(x) moves the kink at a cut by as much as s is off.
-constexpr double offset_share = 0.01;
-constexpr std::size_t most_intervals = 16384;
-
-/// States of the Greenwood-Williamson correction: none, beyond the theory's range, within it, full.
-int state_of(const Shift& shift) {
-  if (shift.state == ContactState::no_contact) return 0;
-  if (shift.state == ContactState::full) return 3;
-  return shift.separation_over_rms > 3 ? 1 : 2;
-}
-
-/// Weights of the derivative at point k of five points a unit apart (exact for polynomials of degree 4).
-std::array<double, 5> derivative_weights(std::size_t k) {
-  constexpr double w[3][5] = {{-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}};
-  std::array<double, 5> result;
-  for (std::size_t i = 0; i < 5; ++i) result[i] = k <= 2 ? w[k][i] / 12 : -w[4 - k][4 - i] / 12;
-  return result;
-}
-
-}  // namespace
 
 MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request,
                    std::optional<MapHeat> heat)
@@ -52,7 +28,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   y_hi_ = std::log(request.pressure[1]);
   unshifted_ = model_;
   if (macro_modulus(model_.correction, spectrum_, rubber_, velocity_[0], model_.poisson_ratio)) {
-    make_log_modulus_offset(offset_share * request.rtol);
+    make_log_modulus_offset();
     cut_bands();
     unshifted_.correction = NoCorrection{};
     const double s = log_modulus(x_lo_);
@@ -67,124 +43,6 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   }
   const auto* prony = std::get_if<PronySeries>(&rubber_);
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
-}
-
-ValueAndSlope MapFrame::spline(double x) const {
-  if (offset_.empty()) return {0, 0};
-  const std::size_t intervals = offset_.size() / 2 - 1;
-  const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), at = (x - x_lo_) / h;
-  const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(intervals - 1)));
-  const double* const s = &offset_[2 * i];
-  return hermite(s[0], s[1], s[2], s[3], h, at - static_cast<double>(i));
-}
-
-std::optional<double> MapFrame::least_smooth(double from, double to) const {
-  if (offset_.empty()) return {};
-  const double h = (x_hi_ - x_lo_) / (static_cast<double>(offset_.size()) / 2 - 1);
-  const ValueAndSlope a = spline(from), b = spline(to);
-  std::optional<double> result;
-  double most = 0;
-  for (auto i = static_cast<std::size_t>((from - x_lo_) / h) + 1; 2 * i < offset_.size(); ++i) {
-    const double x = x_lo_ + static_cast<double>(i) * h;
-    if (x >= to) break;
-    const double cubic = hermite(a.value, a.slope, b.value, b.slope, to - from, (x - from) / (to - from)).value;
-    const double off = std::fabs(offset_[2 * i] - cubic);
-    if (off > most) {
-      most = off;
-      result = x;
-    }
-  }
-  return result;
-}
-
-double MapFrame::log_modulus(double x) const {
-  const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
-  const auto found = macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio);
-  return found ? std::log(*found) : 0;
-}
-
-bool MapFrame::touches_box(const MapPlace& corner, const MapPlace& size) const {
-  if (offset_.empty()) return true;
-  constexpr double margin = 1e-9;
-  constexpr int steps = 16;
-  double lowest = log_modulus_offset(corner.x), highest = lowest;
-  for (int i = 1; i <= steps; ++i) {
-    const double s = log_modulus_offset(corner.x + i * (size.x / steps));
-    lowest = std::fmin(lowest, s);
-    highest = std::fmax(highest, s);
-  }
-  const double slack = (highest - lowest) / steps + margin;
-  return corner.z + size.z + highest >= y_lo_ - slack && corner.z + lowest <= y_hi_ + slack;
-}
-
-void MapFrame::make_log_modulus_offset(double tolerance) {
-  const auto exact = [&](double x) { return log_modulus(x); };
-  for (std::size_t intervals = 16;; intervals *= 2) {
-    const double h = (x_hi_ - x_lo_) / static_cast<double>(intervals), step = h / 8;
-    offset_.clear();
-    for (std::size_t i = 0; i <= intervals; ++i) {
-      const double x = x_lo_ + static_cast<double>(i) * h;
-      const std::size_t k = i == 0 ? 0 : i == intervals ? 4 : 2;
-      const std::array<double, 5> weights = derivative_weights(k);
-      double slope = 0;
-      for (std::size_t j = 0; j < 5; ++j)
-        slope += weights[j] * exact(x + (static_cast<double>(j) - static_cast<double>(k)) * step) / step;
-      offset_.insert(offset_.end(), {exact(x), slope});
-    }
-    double error = 0;
-    for (std::size_t i = 0; i < 4 * intervals; ++i) {
-      const double x = x_lo_ + (static_cast<double>(i) + 0.5) * h / 4;
-      error = std::fmax(error, std::fabs(log_modulus_offset(x) - exact(x)));
-    }
-    if (error <= tolerance || intervals == most_intervals) return;
-  }
-}
-
-std::array<double, 2> MapFrame::offsets() const {
-  std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i < offset_.size(); i += 2)
-    range = {std::fmin(range[0], offset_[i]), std::fmax(range[1], offset_[i])};
-  return range;
-}
-
-void MapFrame::cut_bands() {
-  const auto [lowest, highest] = offsets();
-  const double bottom = y_lo_ - highest, top = y_hi_ - lowest;
-  const auto state = [&](double z) {
-    return state_of(affine_shift(model_.correction, spectrum_, rubber_, std::exp(z + log_modulus_offset(x_lo_)),
-                                 velocity_[0], model_.poisson_ratio));
-  };
-  constexpr double step = 0.02;
-  const auto steps = static_cast<std::size_t>(std::ceil((top - bottom) / step));
-  cuts_ = {bottom};
-  int before = state(bottom);
-  const auto refuse_no_contact = [&](double z) {
-    const std::size_t last = offset_.size() / 2 - 1;
-    const double apart = (x_hi_ - x_lo_) / static_cast<double>(last);
-    std::size_t node = 0;  // one where z is in the box, or nearly
-    while (node < last && (z + offset_[2 * node] < y_lo_ || z + offset_[2 * node] > y_hi_)) ++node;
-    const double y = std::clamp(z + offset_[2 * node], y_lo_, y_hi_);
-    throw InvalidInput("pressure = (" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + "): at " +
-                       show(std::exp(y), 6) + " Pa and " +
-                       show(std::exp(x_lo_ + static_cast<double>(node) * apart), 6) +
-                       " m/s the Greenwood-Williamson correction finds no contact (d~ >= z_max): must be such that "
-                       "there is contact everywhere");
-  };
-  if (before == 0) refuse_no_contact(bottom);
-  for (std::size_t i = 1; i <= steps; ++i) {
-    double a = cuts_.front() + static_cast<double>(i - 1) * step, b = i == steps ? top : a + step;
-    int after = state(b);
-    if (after == 0) refuse_no_contact(b);
-    if (after != before) {
-      for (int k = 0; k < 50 && b - a > 1e-14; ++k) {
-        const double middle = a + (b - a) / 2;
-        (state(middle) == before ? a : b) = middle;
-      }
-      cuts_.push_back(b);
-      before = after;
-    }
-  }
-  cuts_.push_back(top);
 }
 
 namespace {

@@ -87,7 +87,7 @@ class MapFrame {
   [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction) const;
   [[nodiscard]] std::vector<MapSample> with_heat(std::span<const double> pressure, std::span<const double> velocity,
                                                  std::span<const double> temperature, unsigned threads) const;
-  void make_log_modulus_offset(double tolerance);
+  void make_log_modulus_offset();
   void cut_bands();
 
   const Spectrum& spectrum_;
