@@ -82,8 +82,8 @@ def draw_correction(rng: Any, road: Any) -> Any:
     ][int(rng.integers(6))]
 
 
-def compute(seed: int, scene: int, *, rings: float = 0.0) -> Outcome:
-    rng = np.random.default_rng([seed, scene])
+def draw_scene(rng: Any, rings: float) -> tuple[Any, Any, dict[str, Any]]:
+    """Road, rubber and conditions."""
     of_rings = rng.random() < rings
     road = draw_rings(rng) if of_rings else draw_road(rng)
     correction = draw_correction(rng, road)
@@ -107,7 +107,12 @@ def compute(seed: int, scene: int, *, rings: float = 0.0) -> Outcome:
         "form": "exact" if exact else "interpolated",
         "adhesion": sticky if rng.random() < 0.5 else None,
     }
-    compound = draw_rubber(rng)
+    return road, draw_rubber(rng), at
+
+
+def compute(seed: int, scene: int, *, rings: float = 0.0) -> Outcome:
+    road, compound, at = draw_scene(np.random.default_rng([seed, scene]), rings)
+    of_rings = isinstance(road, asperity.TabulatedSpectrum)
     outcome = Outcome()
     try:
         truth = asperity.friction(road, compound, **at, rtol=1e-9 if of_rings else 1e-11)

@@ -1,7 +1,5 @@
 // theta = F(theta) by Newton's method with the exact Jacobian. Plain iteration diverges where an eigenvalue of dF is
-// below -1, and where it is above 0 there may be several solutions: then theta = eps F(theta) with theta(q1) = tau
-// given is solved for the profile and eps, by bordered Newton steps from tau to tau. eps(tau) has one value, is small
-// for small tau and large for large tau, so that its crossings of 1 are all the solutions; a rising one is stable.
+// below -1, and where one is above 0 there may be several solutions, which the march finds.
 #include "heat/fixed_point.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -47,12 +45,6 @@ double size_of(const VectorXd& residual, const VectorXd& theta) {
   return residual.lpNorm<Eigen::Infinity>() / std::fmax(theta.lpNorm<Eigen::Infinity>(), 1e-300);
 }
 
-MatrixXd identity_less(const MatrixXd& jacobian, double factor = 1) {
-  MatrixXd matrix = -factor * jacobian;
-  matrix.diagonal().array() += 1;
-  return matrix;
-}
-
 /// Newton's steps, each of which must lower the residual, with the slopes of an earlier pass as long as they do; the
 /// map is left at the solution.
 std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, int passes, Tangent& tangent) {
@@ -91,95 +83,6 @@ std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, 
   return theta;
 }
 
-/// A place on the curve theta = eps F(theta).
-struct Place {
-  double tau, eps;
-  VectorXd theta;
-};
-
-class March {
- public:
-  March(FlashMap& map, double background, const VectorXd& cold_rise)
-      : map_(map), highest_(std::fmax(highest_rubber_temperature - background, 1)) {
-    const Index last = cold_rise.size() - 1;
-    constexpr double first = 0.02;
-    at_ = {first * cold_rise[last], first, first * cold_rise};
-  }
-
-  /// The next place, at up to twice the tau; nothing beyond the highest temperature.
-  std::optional<Place> next() {
-    for (double stride = std::numbers::ln2; stride > 1e-4; stride /= 2) {
-      heed();
-      const double tau = at_.tau * std::exp(stride);
-      if (tau > 2 * highest_) return {};
-      if (auto found = solve(tau)) {
-        at_ = *found;
-        return found;
-      }
-    }
-    throw NotConverged("the flash temperature is not found beyond a rise of " + show(at_.tau, 6) + " K at q1");
-  }
-  [[nodiscard]] const Place& at() const { return at_; }
-
-  /// The profile where eps is near 1, between two places.
-  VectorXd between(Place low, Place high) {
-    double from = std::log(low.eps), to = std::log(high.eps);
-    for (int i = 0; i < 40; ++i) {
-      const Place& nearer = std::fabs(from) < std::fabs(to) ? low : high;
-      if (std::fabs(std::log(nearer.eps)) < 0.1) return nearer.theta;
-      const double share = i % 3 == 2 ? 0.5 : std::clamp(from / (from - to), 0.05, 0.95);
-      const double tau = low.tau * std::pow(high.tau / low.tau, share);
-      at_ = nearer;
-      const std::optional<Place> found = solve(tau);
-      if (!found) break;
-      if ((std::log(found->eps) < 0) == (from < 0)) {
-        low = *found;
-        from = std::log(low.eps);
-      } else {
-        high = *found;
-        to = std::log(high.eps);
-      }
-    }
-    return std::fabs(from) < std::fabs(to) ? low.theta : high.theta;
-  }
-
- private:
-  std::optional<Place> solve(double tau) {
-    const double grown = tau / at_.tau;
-    VectorXd theta = at_.theta * grown;
-    const Index n = theta.size();
-    double eps = at_.eps;
-    double before = HUGE_VAL;
-    for (int pass = 0; pass < 8; ++pass) {
-      map_(theta);
-      if (pass == 0) eps = theta[n - 1] / map_.rise()[n - 1];
-      const VectorXd residual = eps * map_.rise() - theta;
-      const double size = residual.lpNorm<Eigen::Infinity>() / tau;
-      if (size < 1e-3) return Place{tau, eps, theta};
-      if (!(size < 2 * before)) return {};
-      before = size;
-      MatrixXd bordered(n + 1, n + 1);
-      bordered.topLeftCorner(n, n) = identity_less(map_.jacobian(), eps);
-      bordered.topRightCorner(n, 1) = -map_.rise();
-      bordered.bottomRows(1).setZero();
-      bordered(n, n - 1) = 1;
-      VectorXd right(n + 1);
-      right.head(n) = residual;
-      right[n] = tau - theta[n - 1];
-      const VectorXd step = bordered.partialPivLu().solve(right);
-      if (!step.allFinite()) return {};
-      theta = (theta + step.head(n)).cwiseMax(0.0);
-      eps += step[n];
-      if (!(eps > 0)) return {};
-    }
-    return {};
-  }
-
-  FlashMap& map_;
-  double highest_;
-  Place at_;
-};
-
 /// What a step that is not taken any more would do to mu, at most: slopes of an earlier pass may cancel where those of
 /// the solution do not.
 double effect_on_mu(const Tangent& tangent, const VectorXd& step) {
@@ -194,43 +97,25 @@ FixedPoint finished(const FlashMap& map, const VectorXd& theta, const Tangent& t
   return found;
 }
 
-/// Whether tau over the rise at the last point from tau times a shape, that of the rise before, grows all along tau,
-/// and by how much it should: the march would have one crossing then.
-bool one_crossing(FlashMap& map, const HeatPoint& point, const VectorXd& cold_rise) {
-  constexpr double stride = 2, least = 0.1;  // of ln eps a stride, whose ln is 0.7
-  const Index last = cold_rise.size() - 1;
-  VectorXd shape = cold_rise / cold_rise[last];
-  const double highest = 2 * std::fmax(highest_rubber_temperature - point.temperature, 1);
-  double before = -std::numeric_limits<double>::infinity();
-  for (double tau = 0.02 * cold_rise[last]; tau < stride * highest; tau *= stride) {
-    map(tau * shape);
-    const double rise = map.rise()[last], log_eps = std::log(tau / rise);
-    if (!(log_eps > before + least)) return false;
-    before = log_eps;
-    shape = map.rise() / rise;
-  }
-  return true;
-}
-
 FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_rise, Branch branch, double tolerance,
                     Tangent& tangent) {
   March march(map, point.temperature, cold_rise);
-  std::vector<std::pair<Place, Place>> crossings;
-  Place before = march.at();
-  if (before.eps >= 1) throw NotConverged("the flash temperature: no start of the search");
-  while (const std::optional<Place> here = march.next()) {
-    if ((here->eps < 1) != (before.eps < 1)) crossings.emplace_back(before, *here);
-    before = *here;
-  }
+  const std::vector<std::pair<Place, Place>> crossings = march.crossings();
   if (crossings.empty())
     throw OutOfRange("temperature = " + show(point.temperature, 6) + ": the rubber heats itself above " +
                      show(highest_rubber_temperature) + " K, which it does not stand");
   const auto& [low, high] = branch == Branch::coldest ? crossings.front() : crossings.back();
-  const std::optional<VectorXd> theta = newton(map, march.between(low, high), tolerance, 30, tangent);
-  if (!theta) throw NotConverged("the flash temperature: Newton's steps do not end");
-  FixedPoint found = finished(map, *theta, tangent);
-  found.solutions = static_cast<int>(crossings.size());
-  return found;
+  for (const double near : {0.1, 0.01, 1e-3}) {
+    const std::optional<VectorXd> theta = newton(map, march.between(low, high, near), tolerance, 30, tangent);
+    if (!theta) continue;
+    const double tau = (*theta)[theta->size() - 1];
+    constexpr double off = 1e-3;                                            // of places
+    if (tau < low.tau * (1 - off) || tau > high.tau * (1 + off)) continue;  // another solution
+    FixedPoint found = finished(map, *theta, tangent);
+    found.solutions = static_cast<int>(crossings.size());
+    return found;
+  }
+  throw NotConverged("the flash temperature: Newton's steps do not end");
 }
 
 }  // namespace
@@ -241,20 +126,20 @@ void Tangent::take(FlashMap& map) {
   slope_of_mu = map.slope_of_mu();
 }
 
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, Branch branch,
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, bool alone, Branch branch,
                              double tolerance, Tangent& tangent) {
+  constexpr int passes = 12;
+  if (alone && guess.size() != 0)
+    if (const auto theta = newton(map, guess, tolerance, passes, tangent)) return finished(map, *theta, tangent);
   map(VectorXd::Zero(map.rise_size()));
   const VectorXd cold_rise = map.rise();
   if (cold_rise.lpNorm<Eigen::Infinity>() == 0) {
     tangent.take(map);
     return finished(map, cold_rise, tangent);
   }
-  // one power tells the sign of the eigenvalue, as heat of any roughness warms all
-  const double cold_gain = cold_rise.dot(map.along(cold_rise)) / cold_rise.squaredNorm();
-  const bool alone = cold_gain <= 0 || one_crossing(map, point, cold_rise);
   if (alone) {
-    constexpr int passes = 12;
-    const VectorXd start = guess.size() != 0 ? guess : (cold_rise / (1 - std::fmin(cold_gain, 0.5))).eval();
+    const double gain = cold_rise.dot(map.along(cold_rise)) / cold_rise.squaredNorm();
+    const VectorXd start = cold_rise / (1 - std::fmin(gain, 0.5));
     if (const auto theta = newton(map, start, tolerance, passes, tangent)) return finished(map, *theta, tangent);
   }
   return by_march(map, point, cold_rise, branch, tolerance, tangent);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "heat/flash_map.hpp"
+#include "heat/march.hpp"
 
 namespace asperity {
 
@@ -24,13 +24,11 @@ struct Tangent {
   void take(FlashMap& map);
 };
 
-/// A solution of theta = F(theta), from `guess` by Newton's method where there is one: where heat takes from itself,
-/// that is where the cold eigenvalue is not positive, or where eps below grows all along a scan. Otherwise theta = eps
-/// F(theta) is followed along theta(q1), which finds all crossings of eps = 1. Tolerance relative to the largest rise.
-/// Leaves the map at the solution. NotConverged, or OutOfRange where there is none up to the temperature that rubber
-/// stands.
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, Branch branch,
-                             double tolerance, Tangent& tangent);
+/// A solution of theta = F(theta): where it is `alone`, from `guess` by Newton's method; otherwise, or where that does
+/// not end, the march finds all. Tolerance relative to the largest rise. Leaves the map at the solution. NotConverged,
+/// or OutOfRange where there is none up to the temperature that rubber stands.
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, bool alone,
+                             Branch branch, double tolerance, Tangent& tangent);
 
 /// The same on a finer grid from the solution of a coarser one, whose slopes do: `up` and `down` carry profiles from
 /// the coarser grid to the finer one and back.
@@ -39,8 +37,5 @@ FixedPoint polish(FlashMap& map, const Eigen::VectorXd& theta, const Tangent& ta
 
 /// The eigenvalue of dF/dtheta of the largest size at the last pass, near which `tangent` was taken; to `tolerance`.
 double gain_of(FlashMap& map, const Tangent& tangent, double tolerance);
-
-/// Rubber does not stand more [K].
-inline constexpr double highest_rubber_temperature = 700;
 
 }  // namespace asperity

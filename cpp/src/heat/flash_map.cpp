@@ -42,33 +42,53 @@ double FlashMap::reduced_frequency(double wavenumber, double temperature) const 
   return point_.velocity * wavenumber * std::pow(10.0, held_shift(scene_.shift, temperature).log10_a_T);
 }
 
-void FlashMap::frequencies(const VectorXd& theta) {
-  const VectorXd temperature = (grid_.to_nodes() * theta).array() + point_.temperature;
-  for (std::size_t j = 0; j < reduced_.size(); ++j) {
-    const auto at = static_cast<Index>(j);
-    const ShiftValue shift = held_shift(scene_.shift, temperature[at]);
-    reduced_[j] = point_.velocity * grid_.wavenumber()[j] * std::exp(std::numbers::ln10 * shift.log10_a_T);
-    rate_[at] = std::numbers::ln10 * shift.slope;
-    // beyond the band the modulus keeps the value that it has at the last frequency that is known
-    if (j >= grid_.band_size() && known_ && reduced_[j] > known_->highest) {
-      reduced_[j] = known_->highest;
-      rate_[at] = 0;
-    }
+void FlashMap::take_frequency(std::size_t node, const ShiftValue& shift) {
+  const auto at = static_cast<Index>(node);
+  reduced_[node] = point_.velocity * grid_.wavenumber()[node] * std::exp(std::numbers::ln10 * shift.log10_a_T);
+  rate_[at] = std::numbers::ln10 * shift.slope;
+  // beyond the band the modulus keeps the value that it has at the last frequency that is known
+  if (node >= grid_.band_size() && known_ && reduced_[node] > known_->highest) {
+    reduced_[node] = known_->highest;
+    rate_[at] = 0;
   }
 }
 
 void FlashMap::operator()(const VectorXd& theta) {
+  const VectorXd temperature = (grid_.to_nodes() * theta).array() + point_.temperature;
+  for (std::size_t j = 0; j < reduced_.size(); ++j)
+    take_frequency(j, held_shift(scene_.shift, temperature[static_cast<Index>(j)]));
+  const bool shifted = grid_.also_felt().size() != 0;
+  pass(shifted ? held_shift(scene_.shift, point_.temperature + grid_.also_felt().dot(theta)) : ShiftValue{});
+}
+
+void FlashMap::at_one_shift(double log_a_T) {
+  const ShiftValue shift{log_a_T / std::numbers::ln10, 0};
+  for (std::size_t j = 0; j < reduced_.size(); ++j) take_frequency(j, shift);
+  pass(shift);
+}
+
+FlashMap::ContactHeat FlashMap::contact_heat() const {
+  if (!touches()) return {VectorXd::Zero(static_cast<Index>(grid_.size())), 0, 1};
+  return {contact_->part(), contact_->area(), macro_area_};
+}
+
+double FlashMap::last_rise(const ContactHeat& contact) const {
+  const Index last = kernel_.rows() - 1;
+  const double by_depth = 2 * mu_factor_ * kernel_.row(last).dot(contact.part);
+  const double by_surface = scene_.heating.interface_share * point_.adhesion_per_area * contact.area * surface_[last];
+  return per_flux_ / contact.macro_area * (by_depth + by_surface);
+}
+
+void FlashMap::pass(const ShiftValue& also_felt) {
   differentiated_ = sloped_ = false;
-  frequencies(theta);
   angular_.values(reduced_, columns_);
   for (Index j = 0; j < rate_.size(); ++j) {
     const auto at = static_cast<std::size_t>(j);
     modulus_.i2[j] = columns_.i2[at];
     modulus_.ratio[j] = columns_.i1[at] / columns_.i2[at];
   }
-  const double felt = grid_.also_felt().size() == 0 ? 0 : grid_.also_felt().dot(theta);
-  shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, scene_.shift, scene_.model.poisson_ratio,
-                     point_.pressure, point_.velocity, point_.temperature + felt);
+  shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, also_felt, scene_.model.poisson_ratio,
+                     point_.pressure, point_.velocity);
   heat();
 }
 

@@ -42,7 +42,18 @@ class FlashMap {
   /// A pass; theta at the temperature points [K].
   void operator()(const Eigen::VectorXd& theta);
 
+  /// A pass with one a_T for all roughness.
+  void at_one_shift(double log_a_T);
+  /// What the contact was in the last pass, and the rise [K] at the last temperature point that another contact makes.
+  struct ContactHeat {
+    Eigen::VectorXd part;  // as HeatContact has it
+    double area = 0, macro_area = 1;
+  };
+  [[nodiscard]] ContactHeat contact_heat() const;
+  [[nodiscard]] double last_rise(const ContactHeat& contact) const;
+
   [[nodiscard]] const HeatGrid& grid() const { return grid_; }
+  [[nodiscard]] const HeatScene& scene() const { return scene_; }
   [[nodiscard]] const Eigen::VectorXd& rise() const { return rise_; }  // F
   /// Slopes of the last pass: dF_i / dtheta_j, and d(mu_H + mu_A) / dtheta.
   [[nodiscard]] const Eigen::MatrixXd& jacobian();
@@ -71,7 +82,8 @@ class FlashMap {
   [[nodiscard]] double hysteresis_density(double wavenumber, double temperature) const;
 
  private:
-  void frequencies(const Eigen::VectorXd& theta);
+  void take_frequency(std::size_t node, const ShiftValue& shift);
+  void pass(const ShiftValue& also_felt);
   void heat();
   void take_slopes();
   [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, Eigen::RowVectorXd& of_mu);

@@ -53,7 +53,7 @@ double macro_wavenumber(const Heating& heating, const Spectrum& spectrum) {
 }
 
 FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
-    : scene_(scene), branch_(branch), known_(known_range(scene.rubber)), levels_(levels) {
+    : scene_(scene), branch_(branch), known_(known_range(scene.rubber)), levels_(levels), uniform_(scene) {
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
   while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;
@@ -62,6 +62,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
 
 void FlashSolver::forget() {
   before_.clear();
+  uniform_.forget();
   level_ = first_level_;
 }
 
@@ -132,6 +133,7 @@ bool FlashSolver::end_panel_where_held(const HeatPoint& point, const VectorXd& t
   if (!found && !held_from_) return false;
   if (found && held_from_ && std::fabs(std::log(*found / *held_from_)) < near) return false;
   held_from_ = found;
+  uniform_.forget();
   levels_.clear();
   levels_.resize(levels);
   return true;
@@ -147,7 +149,9 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
   do {
     map = &map_of(level_);
     map->start(point);
-    found = solve_fixed_point(*map, point, start, branch_, tolerance, tangent_);
+    if (uniform_level_ != level_) uniform_.forget();
+    uniform_level_ = level_;
+    found = solve_fixed_point(*map, point, start, uniform_.one_state(*map, point), branch_, tolerance, tangent_);
     start = found.theta;
   } while (--moves > 0 && end_panel_where_held(point, found.theta));
   const int branches = found.solutions;

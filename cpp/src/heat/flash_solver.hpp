@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "heat/fixed_point.hpp"
+#include "heat/uniform_heat.hpp"
 
 namespace asperity {
 
@@ -70,6 +71,8 @@ class FlashSolver {
   Tangent tangent_;
   Eigen::VectorXd theta_;  // of the last point on the finest grid
   std::size_t finest_ = 0;
+  UniformHeat uniform_;
+  std::size_t uniform_level_ = 0;
 };
 
 /// q_m: as given, or 2 pi / diameter held to the band.

@@ -25,8 +25,7 @@ ShiftValue held_shift(const TemperatureShift& shift, double temperature) {
 }
 
 HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
-                   const TemperatureShift& law, double poisson_ratio, double pressure, double velocity,
-                   double temperature) {
+                   const ShiftValue& value, double poisson_ratio, double pressure, double velocity) {
   HotShift result;
   const auto at_velocity = [&](double v) {
     return affine_shift(correction, spectrum, rubber, pressure, v, poisson_ratio);
@@ -36,7 +35,6 @@ HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const
     result.shift = at_velocity(velocity);
     return result;
   }
-  const ShiftValue value = held_shift(law, temperature);
   const double reduced = velocity * std::pow(10.0, value.log10_a_T);
   const std::optional<FrequencyRange> known = known_range(rubber);
   const auto inside = [&](double v) { return known ? std::clamp(v, known->lowest / *q0, known->highest / *q0) : v; };

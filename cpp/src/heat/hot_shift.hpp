@@ -18,10 +18,9 @@ struct HotShift {
   double slope = 0;
 };
 
-/// That of corrections by Greenwood-Williamson's model follows |E(q0 v a_T)| at the temperature that q0 feels; those of
+/// That of corrections by Greenwood-Williamson's model follows |E(q0 v a_T)| with the a_T of what q0 feels; those of
 /// the others stay.
 HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
-                   const TemperatureShift& law, double poisson_ratio, double pressure, double velocity,
-                   double temperature);
+                   const ShiftValue& value, double poisson_ratio, double pressure, double velocity);
 
 }  // namespace asperity

@@ -211,6 +211,37 @@ def test_the_estimate_is_kept_on_random_scenes():
     assert not any(outcome.refused for outcome in told)
 
 
+@each("scene", [336, 1044, 1584, 1785, 1949])
+def test_of_several_states_all_tolerances_find_the_coldest(scene):
+    """From the velocity before, or where cold heat takes from itself, Newton may miss it."""
+    outcome = random_heat.compute(1, scene, rings=0.1)
+    assert len(outcome.ratios) >= 3
+    assert max(outcome.ratios.values()) <= 1
+
+
+COLDEST = {  # of three states, by a march in strides of 0.08 in ln theta(q1)
+    (493, 1): 0.161656,
+    (508, 3): 0.117812,
+    (558, 2): 0.224594,
+    (634, 1): 0.0732537,
+    (715, 3): 0.0311666,
+    (971, 1): 0.0654848,
+    (1341, 1): 0.0635398,
+    (1740, 2): 0.0880876,
+}
+
+
+@each("point", list(COLDEST))
+def test_states_that_are_near_each_other_or_at_a_thin_front(point):
+    scene, which = point
+    road, compound, at = random_heat.draw_scene(np.random.default_rng([1, scene]), rings=0.1)
+    at["velocity"] = at["velocity"][which]
+    for rtol in (1e-3, 1e-6):
+        found = asperity.friction(road, compound, **at, rtol=rtol)
+        assert found.mu == pytest.approx(COLDEST[point], rel=rtol + 2e-5)
+        assert found.branches == 3
+
+
 @each("correction", [None, asperity.PartialContact(), "rings"])
 def test_points_do_not_depend_on_the_threads_that_share_them(correction):
     v = np.geomspace(1e-4, 1, 150)
