@@ -95,7 +95,7 @@ def _scatter(measured: TabulatedSpectrum) -> list[Options]:
 def rubber_chart(scene: Scene) -> Options:
     """Storage and loss modulus as they are computed with, and the points of the master curve."""
     built = scene.built_rubber
-    columns = {"storage modulus": COLOURS[0], "loss modulus": COLOURS[1]}
+    columns = {"E' storage": COLOURS[0], "E'' loss": COLOURS[1]}
     w, *moduli = _moduli(scene)
     series = [
         _line(name, w, values, colour, width=2)
@@ -109,7 +109,9 @@ def rubber_chart(scene: Scene) -> Options:
         ):
             data = _points(*_thin(points.angular_frequency / a_t, values))
             mark = {"itemStyle": {"color": colour}, "symbolSize": 4}
-            series.append({"type": "scatter", "name": f"{name}, measured", "data": data} | mark)
+            series.append(
+                {"type": "scatter", "name": f"{name.split()[0]} points", "data": data} | mark
+            )
     return _chart(series, "angular frequency [rad/s]", "modulus [Pa]", y="log")
 
 

@@ -75,8 +75,14 @@ class ResultPart:
         self._offer_velocities(found)
 
     def fail(self, problem: str) -> None:
-        self._status.set_text("not computed: the curve is that of before")
+        found = self._worker.found
         self._problem.set_text(problem)
+        if found is None or found.curves is not None:
+            self._status.set_text("not computed: the curve is that of before")
+            return
+        self._status.set_text("computed without heat alone")
+        self._say_notes(found)
+        self._fill_table(found)
 
     def _say_notes(self, found: Found) -> None:
         best = found.best

@@ -12,15 +12,15 @@ from asperity.app.state import State
 from asperity.app.worker import Found, Worker, in_thread
 
 _SAID = {
-    "frequency": "Column of the frequency",
-    "storage": "Column of the storage modulus",
-    "loss": "Column of the loss modulus",
-    "temperature": "Column of the temperature",
+    "frequency": "Frequency is column",
+    "storage": "Storage is column",
+    "loss": "Loss is column",
+    "temperature": "Temp. is column",
 }
 _UNIT_OF = {
-    "frequency": "Unit of the frequency",
-    "modulus": "Unit of the moduli",
-    "temperature": "Unit of the temperature",
+    "frequency": "Frequency in",
+    "modulus": "Moduli in",
+    "temperature": "Temperature in",
 }
 _CELSIUS = {"C": "°C"}
 

@@ -123,13 +123,13 @@ def test_from_two_files_to_a_report(
 
     tab.drop("Rubber", file_of("dma.csv", dma_bytes()))
     for label, value in (
-        ("Column of the frequency", "Freq"),
-        ("Column of the storage modulus", "G'"),
-        ("Column of the loss modulus", 'G"'),
-        ("Column of the temperature", "Temperature"),
-        ("Unit of the frequency", "Hz"),
-        ("Unit of the moduli", "MPa"),
-        ("Unit of the temperature", "°C"),
+        ("Frequency is column", "Freq"),
+        ("Storage is column", "G'"),
+        ("Loss is column", 'G"'),
+        ("Temp. is column", "Temperature"),
+        ("Frequency in", "Hz"),
+        ("Moduli in", "MPa"),
+        ("Temperature in", "°C"),
         ("The moduli are", "G, shear"),
     ):
         playwright.expect(page.get_by_label(label, exact=True)).to_have_value(value)

@@ -1,5 +1,6 @@
 """Reports that cannot be made are refused in one line, and verdicts of differences by hand."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,18 @@ def test_bad_input_is_one_line(folder: Path, capsys: pytest.CaptureFixture[str])
         assert problem in refused(arguments, capsys)
     assert Path("scene.toml").read_bytes() == before
     assert not Path("r.html").exists()
+
+
+@pytest.mark.parametrize("module", ["jinja2", "matplotlib"])
+def test_what_is_missing_is_named(
+    module: str,
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, module, None)
+    line = refused(["scene.toml", "--output", "r.html"], capsys)
+    assert line == f"asperity: report: {module} is missing: pip install asperity[plot]"
 
 
 def test_bad_calls(folder: Path) -> None:
