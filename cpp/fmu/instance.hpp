@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include "model.hpp"
 
@@ -78,7 +79,7 @@ struct Instance {
       return error("a simulation from " + std::to_string(start) + " to " + std::to_string(end) +
                    " s: must begin at a finite time and end no earlier");
     model->set_time(start);
-    if (has_stop) stop = end;
+    stop = has_stop ? end : std::numeric_limits<double>::infinity();
     return Told::ok;
   }
 
