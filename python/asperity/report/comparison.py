@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.io.table import json_text
+from asperity.report.texts import percent_text
 from asperity.scene.model import Curves, Scene
 
 _SAME = 1e-9  # relative: pressures and velocities of a sweep that are one point
@@ -35,7 +36,7 @@ class Difference:
     def percent(self) -> str:
         if self.first == 0:
             return "-"
-        return f"{100 * (self.second / self.first - 1):+.2g} %"
+        return percent_text(100 * (self.second / self.first - 1), "+")
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from asperity.plot.curves import pressure_text
 from asperity.report.comparison import VERDICTS, Pair, shortened
 from asperity.report.digests import Source
 from asperity.report.errors import Told, errors_of
+from asperity.report.texts import number_text, printable
 from asperity.scene.model import Curves, Scene
 from asperity.scene.results import scene_inputs, table_of
 
@@ -98,15 +99,6 @@ def _rows(scene: Scene, result: Curves) -> tuple[list[str], list[list[str]]]:
     return list(columns), [list(line) for line in zip(*cells, strict=True)]
 
 
-def number_text(value: float) -> str:
-    """Four digits, without an exponent where a reader does not need one."""
-    if np.isnan(value):
-        return "not known"
-    if 1e4 <= abs(value) < 1e6:
-        return np.format_float_positional(value, 4, fractional=False, trim="-")
-    return f"{value:.4g}"
-
-
 def _facts(scene: Scene, result: Curves) -> list[Fact]:
     i, k = np.unravel_index(int(result.mu.argmax()), result.mu.shape)
     at = f"at {scene.velocity[k]:.3g} m/s, {pressure_text(float(scene.pressure[i]))}"
@@ -164,8 +156,3 @@ def versions() -> list[tuple[str, str]]:
         except metadata.PackageNotFoundError:
             continue
     return [*found, ("system", f"{platform.system()} {platform.machine()}")]
-
-
-def printable(path: Path) -> str:
-    """A file's name as text: what is none is written out."""
-    return f"{path}".encode(errors="backslashreplace").decode()

@@ -9,6 +9,7 @@ from asperity.plot import friction as plot_friction
 from asperity.plot import scene as plot_scene
 from asperity.plot.style import drawn_in
 from asperity.report.inline import inline_svg
+from asperity.report.texts import printable
 from asperity.scene.model import Curves, Scene
 from asperity.spectrum import SelfAffineSpectrum
 
@@ -40,7 +41,10 @@ class Drawings:
     def friction(self, scenes: Sequence[Scene], curves: Sequence[Curves]) -> Figure:
         """mu of every scene."""
         spans = [f"from {c.mu.min():.3g} to {c.mu.max():.3g}" for c in curves]
-        names = [f"{scene.path.name}: mu {span}" for scene, span in zip(scenes, spans, strict=True)]
+        names = [
+            f"{printable(Path(scene.path.name))}: mu {span}"
+            for scene, span in zip(scenes, spans, strict=True)
+        ]
         heat = "; with heat also mu without it and the rise of the temperature"
         heated = any(scene.heating is not None for scene in scenes)
         caption = (

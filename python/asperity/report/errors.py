@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from asperity.report.texts import percent_text
 from asperity.scene.model import Curves, Scene
 
 
@@ -47,7 +48,7 @@ def _of_inputs(scene: Scene, result: Curves) -> Told:
     sampling = scene.sampling
     return Told(
         "the inputs",
-        f"mu is down to {down:.2g} % lower and up to {up:.2g} % higher",
+        f"mu is down to {percent_text(down)} lower and up to {percent_text(up)} higher",
         f"{100 * sampling['level']:.4g} % of {sampling['samples']} draws of the measured inputs "
         f"within their standard errors (seed {sampling['seed']})",
     )
@@ -59,7 +60,8 @@ def _of_model(result: Curves) -> Told:
     if off is None or not known.any():
         return Told("the model", "not known", "no exact sliding contacts are like this one")
     low, high = 100 * float(off[known].min()), 100 * float(off[known].max())
-    spread = f"{high:.2g} %" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g} %"
+    least, most = percent_text(low), percent_text(high)
+    spread = most if least == most else f"{least.removesuffix(' %')} to {most}"
     size = f"{spread} of the hysteresis"
     if not known.all():
         size += f"; not known at {int((~known).sum())} of {known.size} points"

@@ -15,13 +15,13 @@ from asperity.report.comparison import compared, differing_inputs
 from asperity.report.contents import (
     input_rows,
     pair_texts,
-    printable,
     results_of,
     source_rows,
     versions,
 )
 from asperity.report.digests import Source, check_unchanged, digests
 from asperity.report.drawings import Drawings
+from asperity.report.texts import printable
 from asperity.scene.model import Curves, Scene
 from asperity.scene.results import Bar, friction_table, table_of, with_temperatures
 from asperity.scene.scene import load_scene
@@ -34,10 +34,8 @@ def write_report(
 ) -> None:
     """Write the report of scenes; `bar` shows how far it is."""
     check_output(output)
-    page, sources = report_page(paths, title, bar)
-    if os.path.realpath(output) in {os.path.realpath(one.path) for one in sources}:
-        raise InvalidInput(f"{output}: is an input: choose another name for the output")
-    write_whole(output, page.encode())
+    page, _ = report_page(paths, title, bar, output=output)
+    write_whole(output, page.encode(errors="backslashreplace"))  # a name that is no text
 
 
 def report_page(
@@ -45,8 +43,12 @@ def report_page(
     title: str | None = None,
     bar: Bar | None = None,
     folder: Path | None = None,
+    output: Path | None = None,
 ) -> tuple[str, list[Source]]:
-    """The page, and the files that it was made from; a `folder` that all are in is left unsaid."""
+    """The page, and the files that it was made from, none of which may be the `output`.
+
+    A `folder` that all are in is left unsaid.
+    """
     jinja = imported("jinja2", "plot")
     imported("matplotlib", "plot")
     if not 1 <= len(paths) <= _MOST_SCENES:
@@ -55,6 +57,11 @@ def report_page(
         raise InvalidInput("scenes: must be different files")
     # their names are known once they are read; what is computed is read after the digests
     sources = [digests(load_scene(path, for_friction=True).sources) for path in paths]
+    all_sources = [source for of_one in sources for source in of_one]
+    if output is not None and os.path.realpath(output) in {
+        os.path.realpath(one.path) for one in all_sources
+    }:
+        raise InvalidInput(f"{output}: is an input: choose another name for the output")
     loaded = [load_scene(path, for_friction=True) for path in paths]
     results: list[list[Curves]] = []
     for file in loaded:
@@ -64,7 +71,6 @@ def report_page(
         loaded = [_without_folder(one, folder) for one in loaded]
     names = _names(paths)
     texts = [path.read_text(encoding="utf-8") for path in paths]
-    all_sources = [source for of_one in sources for source in of_one]
     check_unchanged(all_sources)
     scenes = [scene for file in loaded for scene in with_temperatures(file)]
     curves = [result for of_file in results for result in of_file]

@@ -1,5 +1,6 @@
 """Reports that cannot be made are refused in one line, and verdicts of differences by hand."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import asperity
 from asperity.cli.main import main
 from asperity.report import make
 from asperity.report.comparison import VERDICTS, compared
+from asperity.report.texts import percent_text
 from asperity.scene.model import Curves
 from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, RUBBER, SURFACE
@@ -146,4 +148,29 @@ def test_only_points_that_are_shared_are_compared(folder: Path) -> None:
     assert pair.differences == []
     assert pair.summary == [
         "The two have no pressure and velocity in common: give both the same sweep."
+    ]
+
+
+def test_an_output_that_is_an_input_is_refused_before_anything_is_computed(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(make, "friction_table", None)
+    with pytest.raises(asperity.InvalidInput, match="is an input"):
+        asperity.report(["scene.toml"], "scene.toml")
+
+
+def test_a_scene_may_have_a_name_that_is_no_text(folder: Path) -> None:
+    name = os.fsdecode(b"\xff.toml")
+    Path(name).write_bytes(Path("scene.toml").read_bytes())
+    asperity.report([name], "r.html")
+    assert r"\udcff.toml: mu from" in Path("r.html").read_text()
+
+
+def test_percents_have_no_exponent() -> None:
+    assert [percent_text(x, "+") for x in (0.0123, 12.34, 99.4, 99.6, -900)] == [
+        "+0.012 %",
+        "+12 %",
+        "+99 %",
+        "+100 %",
+        "-900 %",
     ]
