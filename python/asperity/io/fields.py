@@ -16,6 +16,18 @@ from asperity.io import plausible
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
 _SWEEP = dict.fromkeys(("from", "to", "points"))
+_UNITS = (
+    "pa",
+    "m_s",
+    "m",
+    "per_m",
+    "s",
+    "k",
+    "c",
+    "kg_m3",
+    "j_kg_k",
+    "w_m_k",
+)  # at the end of keys
 
 
 @dataclass(frozen=True)
@@ -148,8 +160,16 @@ def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
 
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
     if close:
-        return "did you mean " + form.format(close[0]) + "?"
+        unit = " Its number is in another unit." if _other_unit(name, close[0]) else ""
+        return "did you mean " + form.format(close[0]) + "?" + unit
     return "allowed are " + ", ".join(form.format(key) for key in known)
+
+
+def _other_unit(name: str, key: str) -> bool:
+    """Whether a name is a key's but for the unit at its end."""
+    return any(
+        key.endswith(f"_{unit}") and name.startswith(key.removesuffix(unit)) for unit in _UNITS
+    )
 
 
 def read_table(

@@ -271,7 +271,8 @@ def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
         separator, names = separator_of(line), cells_of(line)
         if all(column in names for column in columns.values()):
             places = {ours: names.index(theirs) for ours, theirs in columns.items()}
-            return _numbers(path, numbered[at + 1 :], places, separator)
+            most = len(names) if separator == "," else None
+            return _numbers(path, numbered[at + 1 :], places, separator, most)
     missing = [c for c in columns.values() if not any(c in line for _, line in numbered)]
     named = ", ".join(map(repr, missing or columns.values()))
     raise InvalidInput(f"{path}: no line names the columns {named}{_names_there(numbered)}")
@@ -287,13 +288,24 @@ def _names_there(numbered: Lines) -> str:
 
 
 def _numbers(
-    path: Path, rows: list[tuple[int, str]], places: Mapping[str, int], separator: str | None
+    path: Path,
+    rows: list[tuple[int, str]],
+    places: Mapping[str, int],
+    separator: str | None,
+    most: int | None,
 ) -> dict[str, Column]:
+    """The columns at `places` of rows with at most so many cells.
+
+    Decimal commas between commas make more: their numbers would be others.
+    """
     table: dict[str, list[float]] = {name: [] for name in (*places, "line")}
     skipped = 0
     for number, line in rows:
         # names parted by tabs may stand over numbers parted by blanks
         cells = line.split(separator if separator != "\t" or separator in line else None)
+        if most is not None and any(cell.strip() for cell in cells[most:]):
+            problem = f"has {len(cells)} cells, the names {most}: numbers have a decimal point"
+            raise InvalidInput(f"{path}: line {number} {problem}")
         values: dict[str, Any] = {"line": number}
         for name, place in places.items():
             if place >= len(cells):

@@ -160,6 +160,10 @@ def test_bad_values_are_named_by_file_and_line(tmp_path, row, column, value, mes
     [
         (text().replace("0.5\n", "oops\n", 1), "line 4: loss = 'oops'"),
         (text() + "10.0,1\n", "line 12 has 2 cells, must have"),
+        (
+            text() + "10,0,20,0,5e6,1,2,3,4,5,6\n",
+            r"line 12 has 11 cells, the names \d: numbers have a decimal point",
+        ),
         (text(rows=[]), "no numbers below the names of the columns"),
         ("", "no line names the columns 'f', 'T', 'stor', 'loss'"),
         (text(rows=ROWS[:3]), "has 3 different entries .* must have 4 or more for an isotherm"),

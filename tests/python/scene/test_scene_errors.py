@@ -59,6 +59,10 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
             BASE.replace("pressure_pa", "presure_pa"),
             "[conditions] presure_pa: unknown key, did you mean pressure_pa?",
         ),
+        (
+            BASE.replace("pressure_pa", "pressure_kpa"),
+            "did you mean pressure_pa? Its number is in another unit.",
+        ),
         (BASE.replace("hurst", "Hurst"), "[surface] Hurst: unknown key, did you mean hurst?"),
         (
             BASE.replace("moduli_pa", "modulus_pa"),
