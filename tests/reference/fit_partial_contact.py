@@ -6,9 +6,10 @@ With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2
     A(q) = erf(1 / (2 sqrt(kappa G)))                   and A1 = A(q1)
     R = A / (1 + Z)^2,   Z = Q A^2 K I2 w,              w = (M(y + 1) - M(y - 1)) / 2
     Q = obstacle (4 w(q_e) / M(q1))^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
-    T = edges A1 (1 - A1^(1/4)) K I2(q_e) w(q_e) (I2 / I2(q_e))^(5/4) x^-3,  x = q / q_e to 33
+    T = edges A1 (1 - A1^(1/4)) max(1, 0.1 / rho) K I2(q_e) w(q_e) (I2 / I2(q_e))^(5/4) x^-3,
+    x = q / q_e to 33,   rho = K I2(q_e) M(q1) / G1
     int R dG + int T d ln x = F(kappa G1) B,            F(g) = int_0^g erf(1 / (2 sqrt(u))) du
-    B = 1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8),   rho = K I2(q_e) M(q1) / G1, 1 or more
+    B = 1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)
     mu = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln x)
 where ln q_e is the mean of ln q over the last tenth of M. Least squares in ln A and ln mu, with a
 soft loss, over the rows fit of exact_sliding.csv, sliding_contacts.csv and the elastic areas of
@@ -128,6 +129,7 @@ class Contacts:
         q *= 1 + light * (1 - a1**0.1) ** 3
         r = share / (1 + (q * self.k)[:, None] * self.i2 * self.window * share**2) ** 2
         t = edges * a1 * (1 - a1**0.25) * self.k * self.end_i2 * self.end_window
+        t *= np.maximum(1, 0.1 / self.stiffness)
         t = t[:, None] * (self.t2 / self.end_i2[:, None]) ** 1.25 * np.exp(-3 * TAIL)
         step = np.log(33) / TAIL.size
         f = g * a1 + np.sqrt(g / np.pi) * np.exp(-(s**2)) - rest / 2

@@ -1,6 +1,6 @@
 """Friction by the rule of PartialContact with the heat that it makes, from its definition.
 
-The rule is that of make_partial_contact.py with I1 and I2 at v q a_T(T0 + theta(q)). q' runs over
+The rule is that of partial_rule.py with I1 and I2 at v q a_T(T0 + theta(q)). q' runs over
 the band and over the edges, from q_e to 33 q_e whether or not that is beyond q1:
   theta(q) = (2 v sigma0 / (rho c_v P_m)) int q' g(q, q') dmu_H(q'),
   dmu_H = 4 (1 - nu^2) sigma0 (I1 / I2) (R dG + T dln x), P_m = erf(1 / (2 sqrt(kappa G(q_m)))),
@@ -14,25 +14,17 @@ edges in 1 / x^3, the rise summed over time, the root in 1 / (2 sqrt(kappa G1)).
 
 import numpy as np
 import tables
-from make_partial_contact import (
-    EDGES,
-    LIGHT,
-    OBSTACLE,
-    ROAD,
-    SBR,
-    TAIL_END,
-    by_inverse,
-    by_kappa,
+from make_partial_contact import ROAD, SBR, rings
+from partial_rule import EDGES, LIGHT, OBSTACLE, TAIL_END, by_inverse, by_kappa, sums
+from partial_surface import (
     closed_end,
     closed_moment,
     gauss,
     nodes_on,
-    rings,
     roughness,
     rows_of,
     summed_end,
     summed_moment,
-    sums,
 )
 from scipy.special import erf, erfc, erfcx
 
@@ -195,10 +187,9 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
         share = erf(0.5 / np.sqrt(kappa * np.maximum(g_here, 1e-300)))
         tenth, fourth = (1 - (1 - rest) ** p for p in (0.1, 0.25))
         waves = OBSTACLE * nodes[5] ** 0.2 * kappa**0.25 * rest**0.125 * (1 + LIGHT * tenth**3)
+        at_edges = EDGES * (1 - rest) * fourth
         stress = nodes[1] * share / (1 + waves * share**2 * nodes[2]) ** 2
-        carried = np.concatenate(
-            [(stress * nodes[3]).ravel(), EDGES * (1 - rest) * fourth * edge * i1[on_edges]]
-        )
+        carried = np.concatenate([(stress * nodes[3]).ravel(), at_edges * edge * i1[on_edges]])
         tables.agree(
             "hot_partial_contact", carried.sum() / hysteresis * 4 * pressure * 0.75, 1, 1e-11
         )

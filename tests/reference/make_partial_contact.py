@@ -1,17 +1,6 @@
 """Area and friction by the rule of PartialContact, from its definition.
 
-With y = ln q, c = q^4 C, K = 1 / (8 ((1 - nu^2) sigma0)^2), G = K int c I2 dy, M = int c dy, c_w
-half of the integral of c over [y - 1, y + 1] (c is 0 off the band), ln q_e the mean of y over that
-last part of the band that has a tenth of M(q1), and rho = K I2(v q_e) M(q1) / G(q1), at least 1:
-  A = erf(1 / (2 sqrt(kappa G))), A1 = A(q1), R = A / (1 + Z)^2,
-  Z = OBSTACLE (4 c_w(q_e) / M(q1))^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3)
-      A^2 K I2 c_w,
-  T = EDGES A1 (1 - A1^(1/4)) K c_w(q_e) I2(v q_e) (I2(v q) / I2(v q_e))^1.25 x^-3,
-  x = q / q_e from 1 to 33,
-  2 (int R dG + int T dln x) = m (1 + (SPREAD A1 + STIFF (1 - 1 / rho)^4) (1 - A1^8)) with
-  m = (1 + 2 g) erf(s) + 2 sqrt(g / pi) exp(-s^2) - 1, g = kappa G(q1), s = 1 / (2 sqrt g): the
-  variance of Persson's pressure over sigma0^2. This fixes kappa, and
-  mu_H = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T dln x).
+The rule is in partial_rule.py, rows and windows of a spectrum in partial_surface.py.
 Above the last frequency of a table I1 and I2 keep their last values.
 Method one: Gauss panels of 20 nodes that end at every row, a unit of ln q beside every row and
 at every frequency of the table, and grow from the front on; windows from closed moments, the end
@@ -22,17 +11,22 @@ their definition (a table's by Gauss rules in phi), the tail in 1 / x^3, the roo
 1 / (2 sqrt(kappa G1)).
 """
 
-from functools import cache
-
 import numpy as np
 import tables
 from make_friction_tabulated import angular_integrals, sampled
-from scipy.optimize import brentq
-from scipy.special import erf, erfc
+from partial_rule import TAIL_END, by_inverse, by_kappa, sums
+from partial_surface import (
+    closed_end,
+    closed_moment,
+    gauss,
+    nodes_on,
+    roughness,
+    rows_of,
+    summed_end,
+    summed_moment,
+)
+from scipy.special import erf
 
-OBSTACLE, LIGHT, EDGES, SPREAD, STIFF = 0.67, 6.3, 3.55, 0.105, 0.45
-TAIL_END = 33.0
-LAST = 0.1  # of M(q1), about the end
 SBR = {
     "equilibrium_modulus": 1e6,
     "moduli": [1e6, 1e6, 1e6, 1e7, 1e7, 1e7, 3e8, 3e8],
@@ -91,6 +85,12 @@ SCENES = {
         "velocity": 0.1,
         "pressure": 1e5,
     },
+    "stiff rows beyond the end": {
+        "surface": [[1e3, 4e3, 4.1e3, 1e6], [1e-15, 3.9e-18, 3.5e-25, 1e-34]],
+        "rubber": SOLID,
+        "velocity": 0.1,
+        "pressure": 1e4,
+    },
     "two rows": {"surface": [[1e3, 4e4], [1e-15, 1e-21]], "pressure": 3e4},
     "table": {"table": sampled(-4, 10, 5), "velocity": 1e-3},
     "light table": {"table": sampled(-4, 10, 5), "velocity": 1e-3, "pressure": 1e3},
@@ -106,113 +106,6 @@ SCENES = {
 USUAL = {"surface": ROAD, "rubber": SBR, "pressure": 2e5, "velocity": 1e-2, "poisson_ratio": 0.5}
 
 
-@cache
-def gauss(n):
-    """Return nodes, weights and the matrix of integrals up to each node, from -1 to 1."""
-    nodes, weights = np.polynomial.legendre.leggauss(n)
-    powers = np.polynomial.legendre.legvander(nodes, n - 1)
-    integrals = [np.polynomial.legendre.legint(row, lbnd=-1) for row in np.eye(n)]
-    values = np.array([np.polynomial.legendre.legval(nodes, row) for row in integrals]).T
-    return nodes, weights, values @ np.linalg.inv(powers)
-
-
-def rows_of(surface):
-    """Return wavenumbers and densities between which C is a power law or, at zeros, straight."""
-    if not isinstance(surface, dict):
-        return [np.array(column) for column in surface]
-    h, q0, q1 = surface["hurst"], surface["q0"], surface["q1"]
-    knee = surface["rolloff"] or q0
-    moment = (knee**2 - q0**2) / 2 + knee**2 * (1 - (q1 / knee) ** (-2 * h)) / (2 * h)
-    top = surface["rms_height"] ** 2 / (2 * np.pi * moment)
-    q = np.array([q0, knee, q1] if knee > q0 else [q0, q1])
-    return [q, top * np.maximum(q / knee, 1.0) ** (-2 * (h + 1))]
-
-
-def roughness(q, c):
-    """Return c = q^4 C as a function of y and of the number of the interval."""
-    power = np.zeros(len(c) - 1)
-    straight = (c[:-1] == 0) | (c[1:] == 0)
-    slopes = np.diff(np.log(np.where(c > 0, c, 1))) / np.diff(np.log(q))
-    power[~straight] = slopes[~straight]
-
-    def at(y, i):
-        k = np.exp(y)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            law = c[i] * np.exp(power[i] * (y - np.log(q[i])))
-        line = c[i] + (c[i + 1] - c[i]) * (k - q[i]) / (q[i + 1] - q[i])
-        return k**4 * np.where(straight[i], line, law)
-
-    return at, power, straight
-
-
-def closed_moment(q, c):
-    """Return y, y' -> int c dy between them, in closed form."""
-    _, power, straight = roughness(q, c)
-
-    def inside(y, i):
-        if straight[i]:
-            k, b = np.exp(y), (c[i + 1] - c[i]) / (q[i + 1] - q[i])
-            a = c[i] - b * q[i]
-            return a * (k**4 - q[i] ** 4) / 4 + b * (k**5 - q[i] ** 5) / 5
-        p, s = 4 + power[i], y - np.log(q[i])
-        return c[i] * q[i] ** 4 * (np.expm1(p * s) / p if abs(p * s) > 1e-9 else s)
-
-    before = np.cumsum([0.0, *(inside(np.log(q[i + 1]), i) for i in range(len(q) - 1))])
-
-    def moment(y):
-        result = np.empty(y.size)
-        for at, one in enumerate(y.ravel()):
-            i = min(max(np.searchsorted(np.log(q), one, side="right") - 1, 0), len(q) - 2)
-            result[at] = before[i] + inside(min(max(one, np.log(q[0])), np.log(q[-1])), i)
-        return result.reshape(y.shape)
-
-    return lambda low, high: moment(high) - moment(low)
-
-
-def summed_moment(q, c):
-    """Return the same by Gauss rules on the parts between rows."""
-    at, _, _ = roughness(q, c)
-    nodes, weights, _ = gauss(28)
-    places = np.log(q)
-
-    def between(low, high):
-        low = np.maximum(low[..., None], places[:-1])
-        high = np.minimum(high[..., None], places[1:])
-        half = np.maximum(high - low, 0)[..., None] / 2
-        rate = at(low[..., None] + half * (1 + nodes), np.arange(len(q) - 1)[:, None])
-        return (half * weights * rate).sum(axis=(-2, -1))
-
-    return between
-
-
-def closed_end(q, c):
-    """Return ln q_e from closed moments."""
-    between, places = closed_moment(q, c), np.log(q)
-    end = places[-1:]
-    whole = between(places[:1], end)[0]
-    start = brentq(
-        lambda y: between(np.array([y]), end)[0] - LAST * whole, places[0], end[0], xtol=1e-15
-    )
-    y, weights, _ = nodes_on(np.array([start, *places[places > start]]), gauss(20))
-    risen = between(np.full(y.shape, start), y)
-    return end[0] - (weights * risen).sum() / (LAST * whole)
-
-
-def summed_end(q, c):
-    """Return the same by Gauss rules over y c."""
-    between, places = summed_moment(q, c), np.log(q)
-    end = places[-1:]
-    whole = between(places[:1], end)[0]
-    start = brentq(
-        lambda y: between(np.array([y]), end)[0] / whole - LAST, places[0], end[0], xtol=1e-15
-    )
-    edges = np.array([start, *places[places > start]])
-    i = np.searchsorted(places, (edges[:-1] + edges[1:]) / 2, side="right") - 1
-    y, weights, _ = nodes_on(edges, gauss(28))
-    mass = weights * roughness(q, c)[0](y, i[:, None])
-    return (mass * y).sum() / mass.sum()
-
-
 def held(integrals, highest):
     """Return I1, I2 of frequencies that are held at `highest`."""
 
@@ -221,12 +114,6 @@ def held(integrals, highest):
         return i1.reshape(w.shape), i2.reshape(w.shape)
 
     return at
-
-
-def nodes_on(edges, rule):
-    """Return nodes, weights and half lengths of panels between edges."""
-    half = np.diff(edges)[:, None] / 2
-    return edges[:-1, None] + half * (1 + rule[0]), half * rule[1], half
 
 
 def band(scene, integrals, between, last, rule, first, growth, longest):
@@ -263,7 +150,7 @@ def band(scene, integrals, between, last, rule, first, growth, longest):
         i1 / i2,
         before[-1],
         4 * window / whole,
-        max(0.0, 1 - before[-1] / at_end),
+        1 - before[-1] / at_end,
     )
 
 
@@ -295,53 +182,6 @@ def tail_in_power(scene, integrals, between, last):
     end = np.array([last])
     factor = stiff**2 / 16 * between(end - 1, end + 1)[0] * excess * weights / 3
     return (factor * i2).sum(), (factor * i1).sum()
-
-
-def sums(kappa, nodes, tail):
-    """Return int R dG + int T dln x, over the factor of m, and the same with I1 / I2."""
-    g, weights, steepness, ratio, g1, end, excess = nodes
-    s = 0.5 / np.sqrt(kappa * g1)
-    rest, share1 = erfc(s), erf(s)
-    share = erf(0.5 / np.sqrt(kappa * np.maximum(g, 1e-300)))
-    log_share = np.log1p(-rest) if rest < 0.5 else np.log(share1)
-    tenth, fourth, eighth = (-np.expm1(p * log_share) for p in (0.1, 0.25, 8))
-    obstacle = OBSTACLE * end**0.2 * kappa**0.25 * rest**0.125 * (1 + LIGHT * tenth**3)
-    stress = share / (1 + obstacle * share**2 * steepness) ** 2 * weights
-    edges = EDGES * share1 * fourth
-    factor = 1 + (SPREAD * share1 + STIFF * excess**4) * eighth
-    return (stress.sum() + edges * tail[0]) / factor, (stress * ratio).sum() + edges * tail[1]
-
-
-def variance(g):
-    """Return half the variance of Persson's pressure over sigma0^2."""
-    s = 0.5 / np.sqrt(g)
-    most = g * erf(s) if s < 1 else g - g * erfc(s)
-    return most - erfc(s) / 2 + np.sqrt(g / np.pi) * np.exp(-s * s)
-
-
-def by_kappa(nodes, tail):
-    """Return kappa, searched for in its logarithm."""
-    g1 = nodes[4]
-
-    def miss(x):
-        return np.log(variance(np.exp(x) * g1) / sums(np.exp(x), nodes, tail)[0])
-
-    return np.exp(brentq(miss, -5, 5, xtol=1e-14))
-
-
-def by_inverse(nodes, tail):
-    """Return kappa, searched for in s = 1 / (2 sqrt(kappa G1)); 1 where A1 = erf(s) is 1."""
-    g1 = nodes[4]
-    usual = 0.5 / np.sqrt(g1)
-    if erfc(usual / 1.5) < 1e-30:
-        return 1.0
-
-    def miss(s):
-        g = 0.25 / s**2
-        moment = (1 + 2 * g) * erf(s) + 2 * np.sqrt(g / np.pi) * np.exp(-s * s) - 1
-        return moment / 2 - sums(g / g1, nodes, tail)[0]
-
-    return 0.25 / brentq(miss, usual / 3, 3 * usual, xtol=1e-15 * usual, rtol=1e-15) ** 2 / g1
 
 
 def prony_integrals(rubber):

@@ -2,6 +2,7 @@
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
+#   partial      PartialContact: the roots of ten thousand random scenes, and the estimates of five thousand
 #   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
@@ -48,6 +49,11 @@ rings() {
   "$python" tests/stability/random_scenes.py --scenes 4000 --seed 5 --tables 0 --rings 1 --curves 0.5 &&
     "$python" tests/stability/random_scenes.py --scenes 3000 --seed 6 --tables 0 --rings 1 --curves 1 &&
     "$python" tests/stability/random_scenes.py --scenes 3000 --seed 7 --tables 1 --rings 1 --curves 0.3
+}
+
+partial() {
+  "$python" tests/stability/random_roots.py --scenes 10000 &&
+    "$python" tests/stability/random_partial_contact.py --scenes 5000
 }
 
 heat() { "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1; }
@@ -108,13 +114,13 @@ wine() {
 
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
 
-[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings heat maps tests properties files interrupts fuzz \
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings partial heat maps tests properties files interrupts fuzz \
   sanitize threads memcheck wine
 for step; do
   case $step in
-    catalogue | isotherms | coverage | scenes | rings | heat | maps | tests | properties | files | interrupts | fuzz) ;;
+    catalogue | isotherms | coverage | scenes | rings | partial | heat | maps | tests | properties | files | interrupts | fuzz) ;;
     sanitize | threads | memcheck | wine | aarch64) ;;
-    *) sed -n '2,19s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,20s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -21,17 +21,17 @@ struct Tables {
 };
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Tables no_correction{
-    {{0.131, 0.155, 0.111, 0.068}, {0.467, 0.385, 0.264, 0.162}, {0.961, 0.721, 0.452, 0.199}},
-    {{unknown, unknown, unknown, unknown}, {unknown, 0.529, 0.410, 0.174}, {1.360, 0.898, 0.531, 0.229}}};
+    {{0.131, 0.155, 0.111, 0.068}, {0.467, 0.388, 0.262, 0.162}, {0.961, 0.697, 0.476, 0.199}},
+    {{unknown, unknown, unknown, unknown}, {unknown, 0.529, 0.410, 0.174}, {1.360, 0.898, 0.531, 0.249}}};
 constexpr Tables s_of_0_4{
-    {{0.604, 0.595, 0.502, 0.243}, {0.417, 0.389, 0.345, 0.154}, {0.211, 0.222, 0.201, 0.080}},
-    {{unknown, unknown, unknown, unknown}, {unknown, 0.327, 0.270, 0.149}, {0.077, 0.146, 0.187, 0.108}}};
+    {{0.604, 0.595, 0.503, 0.243}, {0.417, 0.386, 0.343, 0.154}, {0.211, 0.245, 0.182, 0.080}},
+    {{unknown, unknown, unknown, unknown}, {unknown, 0.327, 0.270, 0.149}, {0.077, 0.146, 0.187, 0.118}}};
 constexpr Tables s_of_0_5{
-    {{0.508, 0.503, 0.416, 0.195}, {0.285, 0.270, 0.249, 0.102}, {0.135, 0.109, 0.125, 0.045}},
-    {{unknown, unknown, unknown, unknown}, {unknown, 0.191, 0.157, 0.099}, {0.238, 0.089, 0.088, 0.053}}};
+    {{0.508, 0.503, 0.416, 0.195}, {0.285, 0.268, 0.248, 0.102}, {0.135, 0.135, 0.105, 0.045}},
+    {{unknown, unknown, unknown, unknown}, {unknown, 0.191, 0.157, 0.099}, {0.238, 0.089, 0.088, 0.058}}};
 constexpr Tables partial_contact{
-    {{0.048, 0.047, 0.032, 0.013}, {0.067, 0.040, 0.035, 0.031}, {0.109, 0.053, 0.027, 0.022}},
-    {{unknown, unknown, unknown, unknown}, {unknown, 0.016, 0.067, 0.035}, {0.144, 0.109, 0.022, 0.022}}};
+    {{0.048, 0.046, 0.030, 0.012}, {0.068, 0.038, 0.035, 0.031}, {0.112, 0.056, 0.027, 0.022}},
+    {{unknown, unknown, unknown, unknown}, {unknown, 0.014, 0.065, 0.035}, {0.147, 0.112, 0.021, 0.017}}};
 constexpr double loads[] = {0.02, 0.06, 0.2}, lightest = 0.0015, lightest_of_narrow = 0.009, heaviest = 0.6;
 constexpr double narrowest = 3, wide = 5, widest = 128;  // q1 / q0
 

@@ -1,15 +1,17 @@
 // The rule of PartialContact: how the stress of waves falls short of complete contact, on the band and beyond the end
 // of its roughness. With K = 1 / (8 ((1 - nu^2) sigma0)^2), c = q^4 C, M = int c d ln q over the band, w(q) = (int c d
 // ln q from q / e to e q) / 2, c being 0 off the band, ln q_e the mean of ln q over that last part of the band that has
-// a tenth of M, rho = K I2(v q_e) M / G(q1), at least 1, A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
+// a tenth of M, rho = K I2(v q_e) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
 //   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
 //     Z = obstacle (4 w(q_e) / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
 //     g' = K I2(v q) w(q);
-//   T(x) = edges A1 (1 - A1^(1/4)) g'(q_e) (I2(v q) / I2(v q_e))^1.25 x^-3, x = q / q_e from 1 to tail_end, that of the
-//     edges of contacts.
+//   T(x) = edges A1 (1 - A1^(1/4)) g'(q_e) max(1, last / rho) (I2(v q) / I2(v q_e))^1.25 x^-3, x = q / q_e from 1 to
+//     tail_end, that of the edges of contacts.
 // kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
 // for a factor near 1:
-//   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff (1 - 1 / rho)^4) (1 - A1^8)).
+//   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)).
+// last is that tenth. rho is below it where a rubber that stiffens meets faint waves beyond
+// q_e that have nearly all of G: without last / rho in T the last equation has several roots there.
 // In complete contact R = 1, T = 0 and kappa = 1. The form came from the stress spectra of exact sliding contacts, the
 // numbers were fitted to their area and friction. F and G as in B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #pragma once
@@ -18,6 +20,7 @@
 
 namespace asperity::partial_contact {
 
+inline constexpr double last = 0.1;
 inline constexpr double obstacle = 0.67, light = 6.3, edges = 3.55, spread = 0.105, stiff = 0.45;
 /// Beyond q_e: where it ends, the power of x, and that of I2 beside the one in G.
 inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
@@ -25,7 +28,7 @@ inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
 /// R of A and Z; partial_loops.inc has the same for many nodes.
 inline double stress(double share, double of_waves) { return share / ((1 + of_waves) * (1 + of_waves)); }
 
-/// What the surface and the rubber have beside G: (4 w(q_e) / M)^0.2, and 1 - 1 / rho.
+/// What the surface and the rubber have beside G: (4 w(q_e) / M)^0.2, and 1 - 1 / rho, which may be negative.
 struct Band {
   double end_factor = 1, excess = 0;
 };
@@ -65,9 +68,11 @@ inline AtEnd::AtEnd(double g, double kappa, const Band& band) {
   obstacle = {partial_contact::obstacle * band.end_factor * std::sqrt(std::sqrt(kappa * std::sqrt(rest))) * far,
               0.25 + (rest > 0 ? -0.125 * share_slope / rest : 0) + 3 * light * tenth * tenth * tenth_slope / far};
   const auto [fourth, fourth_slope] = below_one(0.25);
-  edges = {partial_contact::edges * share * fourth, log_slope + (fourth > 0 ? fourth_slope / fourth : 0)};
+  edges = {partial_contact::edges * share * fourth * std::fmax(1, last * (1 - band.excess)),
+           log_slope + (fourth > 0 ? fourth_slope / fourth : 0)};
   const auto [eighth, eighth_slope] = below_one(8);
-  const double square = band.excess * band.excess, part = partial_contact::spread * share + stiff * square * square;
+  const double excess = std::fmax(0, band.excess), square = excess * excess,
+               part = partial_contact::spread * share + stiff * square * square;
   const double value = 1 + part * eighth;
   spread = {value, (partial_contact::spread * share_slope * eighth + part * eighth_slope) / value};
 }

@@ -147,12 +147,13 @@ std::vector<std::string> Notes::texts(bool heated) const {
   if (light_)
     result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
                      show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
-  for (const auto& [flag, regime, error] : {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5"},
-                                            {constant_, "about constant loss tangents", "3 to 7"},
-                                            {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 14"}})
+  for (const auto& [flag, regime, error] :
+       {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5 % rms"},
+        {constant_, "about constant loss tangents", "3 to 7 % rms (1 to 7 where q1/q0 is below 5)"},
+        {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 11 % rms (2 to 15 where q1/q0 is below 5)"}})
     if (flag)
       result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
-                       ": mu +-" + error + " % rms, the more the lighter the load: see model_error");
+                       ": mu +-" + error + ", the more the lighter the load: see model_error");
   if (unmeasured_)
     result.emplace_back(
         "the model error of PartialContact is not known where model_error is NaN: exact sliding contacts were solved "

@@ -58,7 +58,8 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
     area_ = macro_ = 1;
     return;
   }
-  excess_ = beyond.end->band(g_unit_, i2_at_end).excess;
+  // long waves are colder and may be stiffer than those at the end: T keeps the modulus there
+  excess_ = std::fmax(0, beyond.end->band(g_unit_, i2_at_end).excess);
   in_tail_.resize(count);
   for (Index t = 0; t < count; ++t)
     in_tail_[t] =

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "asperity/watch.hpp"
 #include "spectrum/roughness_window.hpp"
@@ -37,7 +38,8 @@ constexpr double longest = 0.12, beside_foot = 0.25;
 /// By which part of itself the window may grow along a piece, and the root of int c dy from a unit before on, of which
 /// a part of that of the next unit will do where it is small. At level 0.
 constexpr double growth = 0.3, least_growth = 0.05;
-constexpr double steepest = 1.5;  // |d ln c / dy| times the length of an atom
+constexpr double most_turned = 40;  // of ln c, beside which nothing of c is left
+constexpr double steepest = 1.5;    // |d ln c / dy| times the length of an atom
 
 }  // namespace
 
@@ -52,18 +54,30 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
     before_.push_back(m);
     m += segment.moment(3, segment.b);
   }
-  constexpr double sharply = 0.25;  // change of ln c along a segment, by what it changes along the next
+  // the slope of the window has a kink where it meets a row; rules on longer atoms are some 1e-3 of its cube off
+  constexpr double unseen = 1e-6;
+  const auto power = [&](std::size_t k) { return 4 + surface[k].slope; };
+  const double end = std::log1p((surface.back().b - foot_) / foot_);
   for (std::size_t i = 0; i < surface.size(); ++i) {
-    const auto change = [&](std::size_t k) {
-      return k >= surface.size() ? 0 : surface[k].straight ? 1e9 : (4 + surface[k].slope) * surface[k].length();
-    };
-    if (std::fabs(change(i)) < sharply && (i == 0 || std::fabs(change(i - 1)) < sharply)) continue;
-    for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
-      bends_.push_back(start_[i] + side);
+    const bool sharp = i == 0 || surface[i].straight || surface[i - 1].straight;
+    const double kink = sharp ? std::numeric_limits<double>::infinity() : std::fabs(power(i) - power(i - 1));
+    for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length}) {
+      const double at = start_[i] + side;
+      if (!(at > 0 && at < end)) continue;
+      const double atom = std::fmin(longest, surface[segment_at(at)].length());
+      if (kink * atom * atom * atom > unseen) bends_.push_back(at);
+    }
+  }
+  // along a steep segment the window turns beside the end at which c is large
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const double p = surface[i].straight ? 0 : power(i), length = surface[i].length();
+    for (double turned = steepest; turned < std::fmin(std::fabs(p) * length, most_turned); turned *= 2)
+      for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
+        bends_.push_back(start_[i] + side + (p < 0 ? turned / -p : length - turned / p));
   }
   std::ranges::sort(bends_);
   // the window has kinks where it meets the ends of the band
-  std::vector<double> edges{0, std::log1p((surface.back().b - foot_) / foot_)};
+  std::vector<double> edges{0, end};
   for (const double q : window_.ends())
     if (q > foot_ && q < surface.back().b) edges.push_back(std::log1p((q - foot_) / foot_));
   std::ranges::sort(edges);
@@ -145,17 +159,22 @@ RoughnessPieces::Points RoughnessPieces::points_of(double lower, double upper) c
     const FewPoints& rule = !segment.straight && change < 0.05 && to - from < 0.01 ? two_points : four;
     for (double k = 0; k < atoms; ++k) {
       const double s = from + (to - from) * (k / atoms), half = (to - from) / atoms / 2;
+      double by_rule = 0;
       for (std::size_t j = 0; j < rule.n; ++j) {
         const double at = s + half * (1 + rule.node[j]), q = segment.a * std::exp(at), square = q * q;
         const RoughnessMoments up_to = roughness_moments(segment, s, at);
         result.y.push_back(start + at);
         result.weight.push_back(half * rule.weight[j] * square * square * segment.density_at(at));
+        by_rule += result.weight.back();
         result.window.push_back(window_(std::fmin(q, surface_.back().b)));
         result.m.push_back(m + up_to.zeroth);
         result.zeroth.push_back(up_to.zeroth);
         result.first.push_back(up_to.first);
       }
       const RoughnessMoments whole = roughness_moments(segment, s, s + 2 * half);
+      if (by_rule > 0)  // the roughness is that of the rows to the last digit
+        for (std::size_t j = result.weight.size() - rule.n; j < result.weight.size(); ++j)
+          result.weight[j] *= whole.zeroth / by_rule;
       result.atoms.push_back({start + s, whole.zeroth, whole.first, rule.n});
       m += whole.zeroth;
     }

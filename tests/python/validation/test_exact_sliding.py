@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import case
+from helpers.cases import case, each
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
 import fit_partial_contact
@@ -26,21 +26,25 @@ def test_rows_are_what_the_solver_gives(name):
     assert float(found["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
 
 
-def by_the_package(row):
-    """mu and A/A0 of a Gaussian map by PartialContact, from the closed form of its spectrum."""
+def parts(row):
+    """The closed form of the spectrum of a Gaussian map, its rubber and its conditions."""
     spectrum = asperity.SelfAffineSpectrum(
         rms_height=1,
         hurst=float(row["hurst"]),
         q0=2 * np.pi * float(row["k0"]),
         q1=2 * np.pi * float(row["k1"]),
     )
-    found = asperity.friction(
+    return (
         spectrum.scaled(1 / spectrum.rms_slope**2),
         make_exact_sliding.rubber(row["rubber"]),
-        pressure=float(row["pressure"]),
-        velocity=float(row["velocity"]),
-        correction=asperity.PartialContact(),
+        {"pressure": float(row["pressure"]), "velocity": float(row["velocity"])},
     )
+
+
+def by_the_package(row):
+    """mu and A/A0 by PartialContact."""
+    surface, rubber, conditions = parts(row)
+    found = asperity.friction(surface, rubber, **conditions, correction=asperity.PartialContact())
     return float(found.hysteresis), float(found.contact_area)
 
 
@@ -72,9 +76,69 @@ def test_the_rule_holds_on_maps_that_no_fit_saw():
     assert np.sqrt(np.mean(errors**2, axis=0)) == pytest.approx([0.038, 0.027], rel=0.02)
 
 
+def cells(scenes, correction):
+    """model_error of each regime and load, and the errors of mu that contacts have there.
+
+    Without a correction no two of them are alike, so that tells them apart.
+    """
+    errors = {}
+    for surface, rubber, conditions, mu in scenes:
+        found = asperity.friction(surface, rubber, **conditions, correction=correction)
+        cell = float(asperity.friction(surface, rubber, **conditions).model_error)
+        if np.isfinite(cell):
+            some = errors.setdefault(cell, (float(found.model_error), []))[1]
+            some.append(float(found.hysteresis) / mu - 1)
+    return errors.values()
+
+
+@pytest.mark.parametrize(
+    "correction",
+    [None, asperity.SFactor(gamma=0.4), asperity.SFactor(gamma=0.5), asperity.PartialContact()],
+)
+@each(("chosen", "count"), [("wide", 12), ("narrow", 7)])
+def test_model_error_is_what_contacts_that_no_fit_saw_are_off(correction, chosen, count):
+    if chosen == "wide":
+        scenes = [(*parts(row), float(row["mu"])) for row in gaussian("judge") + gaussian("curve")]
+    else:
+        scenes = [
+            (
+                make_exact_sliding_ends.spectrum(row),
+                make_exact_sliding.rubber(row["rubber"]),
+                {"pressure": float(row["pressure"]), "velocity": float(row["velocity"])},
+                float(row["mu"]),
+            )
+            for row in make_exact_sliding_ends.rows()
+            if row["set"] == "narrow" and float(row["A"]) < 0.96 and ratio(row) < 5
+        ]
+    found = cells(scenes, correction)
+    assert len(found) == count
+    for told, errors in found:
+        with case(told=told, contacts=len(errors)):
+            assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(told, abs=6e-4)
+
+
+def test_notes_tell_the_range_of_model_error():
+    told = {}
+    for row in gaussian("judge") + gaussian("curve"):
+        surface, rubber, conditions = parts(row)
+        found = asperity.friction(
+            surface, rubber, **conditions, correction=asperity.PartialContact()
+        )
+        (note,) = [note for note in found.notes if "exact sliding contacts of Gaussian" in note]
+        told.setdefault(note, []).append(100 * float(found.model_error))
+    assert len(told) == 3
+    for note, errors in told.items():
+        low, high = round(min(errors)), round(max(errors))
+        assert f"+-{low} to {high} % rms" in note
+
+
+def ratio(row):
+    return float(row["k1"]) / float(row["k0"])
+
+
 def ends(chosen):
     """Errors of mu and A by the package on rows of exact_sliding_ends.csv, and k1/k0."""
-    errors, ratio = [], []
+    errors, wide = [], []
     for row in make_exact_sliding_ends.rows():
         if row["set"] != chosen or float(row["A"]) > 0.96:
             continue
@@ -87,8 +151,8 @@ def ends(chosen):
         )
         truth = float(row["mu"]), float(row["A"])
         errors.append((found.hysteresis / truth[0] - 1, found.contact_area / truth[1] - 1))
-        ratio.append(float(row["k1"]) / float(row["k0"]))
-    return np.array(errors), np.array(ratio)
+        wide.append(ratio(row))
+    return np.array(errors), np.array(wide)
 
 
 @pytest.mark.parametrize("name", ["e_12", "n_40"])
@@ -106,7 +170,7 @@ def test_the_rule_holds_where_a_spectrum_ends_softly():
 
 
 def test_the_rule_holds_on_narrow_bands_from_5_on():
-    errors, ratio = ends("narrow")
-    known = ratio > 5
+    errors, wide = ends("narrow")
+    known = wide > 5
     assert np.sqrt(np.mean(errors[known] ** 2, axis=0)) == pytest.approx([0.025, 0.033], rel=0.03)
     assert np.sqrt(np.mean(errors[~known] ** 2, axis=0)) == pytest.approx([0.08, 0.05], rel=0.03)

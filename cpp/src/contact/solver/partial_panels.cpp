@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "contact/partial_contact_rule.hpp"
-#include "contact/solver/partial_error.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {
@@ -18,8 +17,6 @@ constexpr std::size_t most = LegendreRule::most;
 constexpr double longest = 2;     // in y: I1 and I2 of a Prony series have singularities pi / 2 off the axis
 constexpr double root_reach = 1;  // panels that begin before have t as their variable
 constexpr double rounding = 4e-16;
-/// Tables of more rows have too many for panels of their own where the window meets each of them.
-constexpr std::size_t most_met = 40;
 
 bool rough(const Segment& segment) { return segment.at_a > 0 || segment.at_b > 0; }
 
@@ -31,7 +28,8 @@ PartialPanels::PartialPanels(std::span<const Segment> surface, const Rubber& rub
       window_(surface),
       g_factor_(1 / (8 * (1 - poisson_ratio * poisson_ratio) * (1 - poisson_ratio * poisson_ratio))),
       end_(window_, g_factor_),
-      nodes_(rtol < 1e-8 ? 16 : 12) {
+      nodes_(rtol < 1e-8 ? 16 : 12),
+      least_fall_(std::holds_alternative<MasterCurve>(rubber) ? kinked_fall : analytic_fall) {
   const auto first = std::ranges::find_if(surface, rough);
   foot_ = first == surface.end() ? surface.back().b : first->a;
   start_.reserve(surface.size());
@@ -90,7 +88,7 @@ void PartialPanels::fill(PartialPanel& p) {
                                                        : p.rule->cumulative_cubic;
   kernels().integrate(*p.rule, columns, rows + PartialPanel::rate * n, rows + PartialPanel::cumulative * n, &p.g_total,
                       tail);
-  p.g_error = rule_error(tail) + rounding * p.g_total;
+  p.g_error = rule_error(tail, least_fall_) + rounding * p.g_total;
 }
 
 std::size_t PartialPanels::children(std::size_t index) {
@@ -116,10 +114,9 @@ void PartialPanels::lay_out(std::span<const double> stops) {
   roots_.clear();
   std::vector<double> also = window_.ends();
   also.insert(also.end(), stops.begin(), stops.end());
-  if (surface_.size() <= most_met)
-    for (const Segment& segment : surface_)
-      for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
-        also.push_back(segment.a * std::exp(side));
+  for (const Segment& segment : surface_)
+    for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
+      also.push_back(segment.a * std::exp(side));
   std::ranges::sort(also);
   std::vector<double> edges;
   auto next = also.begin();

@@ -14,7 +14,7 @@ namespace {
 constexpr double for_tail = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
-constexpr double of_change = 0.75, of_change_with_knots = 1, of_others = 0.3, of_rest = 2;
+constexpr double of_change = 0.75, of_change_with_knots = 1.5, of_others = 0.3, of_rest = 2;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;

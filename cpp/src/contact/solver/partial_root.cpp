@@ -55,6 +55,7 @@ PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, doubl
     if (!(std::fabs(step) <= longest_step)) step = std::copysign(longest_step, -found.value);
     if (std::fabs(step) <= good) {
       // the step's own error is its square, and so is what is left out here
+      found.at.missed = step * step;
       PartialRoot& at = found.at;
       at.kappa *= std::exp(step);
       at.share = partial_contact::AtEnd(at.kappa * scale * end.g, at.kappa, end.band).share;

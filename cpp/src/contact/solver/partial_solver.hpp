@@ -25,6 +25,7 @@ struct PartialRoot {
   double edges = 0, obstacle = 0;     // the factors of T and Z
   double share_slope = 0, friction_slope = 0;  // of ln A1 and ln friction over ln kappa
   double slope = 0;                            // of ln F - ln variance, which is 0 at the root
+  double missed = 0;                           // and is up to this off it, as Newton's steps end
 };
 
 /// The end of the roughness, at unit load: q_e [1/m], K w(q_e) and K M, and the first factor of Z.
@@ -32,9 +33,7 @@ struct RoughnessEnd {
   double wavenumber, window, total, factor;
   RoughnessEnd(const RoughnessWindow& window, double g_factor);
   /// What is known of a velocity with G(q1) and I2(v q_e).
-  [[nodiscard]] partial_contact::Band band(double g, double i2) const {
-    return {factor, std::fmax(0, 1 - g / (total * i2))};
-  }
+  [[nodiscard]] partial_contact::Band band(double g, double i2) const { return {factor, 1 - g / (total * i2)}; }
 };
 
 /// The same at a velocity: G1, the window's g' / I2, and what lies beyond.

@@ -30,6 +30,7 @@ double factor(double of_i2, double x) {
 }
 
 TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
+  const double least_fall = std::holds_alternative<MasterCurve>(rubber) ? kinked_fall : analytic_fall;
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
   std::array<double, nodes> w, i1, i2, weight;
@@ -44,9 +45,9 @@ TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end,
   }
   const Kernels& loops = kernels();
   loops.add_up(rule, i1.data(), &result.i1, tail);
-  result.i1_error = rule_error(tail);
+  result.i1_error = rule_error(tail, least_fall);
   loops.add_up(rule, i2.data(), &result.i2, tail);
-  result.i2_error = rule_error(tail);
+  result.i2_error = rule_error(tail, least_fall);
   return result;
 }
 
