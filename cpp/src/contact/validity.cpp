@@ -17,7 +17,7 @@ namespace {
 
 // Lorenz et al., the article's Ref. [37]: the spectrum is cut where the rms slope reaches it.
 constexpr double slope_limit = 1.3;
-// B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006): local heating lowers the friction above it.
+// B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006): local heating matters above it.
 constexpr double flash_velocity = 0.01;  // [m/s]
 // Beyond it the contact area of the Greenwood-Williamson shift stops falling with the load.
 constexpr double separation_limit = 3;  // d~ / h_rms
@@ -126,7 +126,7 @@ std::vector<std::string> Notes::texts(bool heated) const {
                      " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
   if (fast_ && !heated)
     result.push_back("above " + show(flash_velocity) +
-                     " m/s flash heating, which is not modelled, lowers the friction (Persson 2006, J. Phys.: Condens. "
+                     " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. Phys.: Condens. "
                      "Matter 18, 7789)");
   if (extrapolated_)
     result.push_back("more than " + show(100 * share_limit) +
