@@ -125,9 +125,10 @@ std::vector<std::string> Notes::texts(bool heated) const {
     result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
                      " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
   if (fast_ && !heated)
-    result.push_back("above " + show(flash_velocity) +
-                     " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. Phys.: Condens. "
-                     "Matter 18, 7789)");
+    result.push_back(
+        "above " + show(flash_velocity) +
+        " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. Phys.: Condens. "
+        "Matter 18, 7789)");
   if (extrapolated_)
     result.push_back("more than " + show(100 * share_limit) +
                      " % of the hysteresis comes from frequencies outside of the measured ones at some points: see "
