@@ -18,7 +18,7 @@ class PartialRingSolver : public PartialSolver {
  public:
   /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached.
   static constexpr std::size_t least_rows = 8;
-  static constexpr double least_rtol = 1e-8;
+  static constexpr double least_rtol = 1e-7;
 
   PartialRingSolver(const TabulatedSpectrum& table, std::span<const Segment> surface, const Rubber& rubber,
                     const ContactModel& model);
