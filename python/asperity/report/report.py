@@ -42,6 +42,8 @@ def report(scenes: Paths, path: str | os.PathLike[str], *, title: str | None = N
     if title is not None and not isinstance(title, str):
         raise InvalidInput(f"title = {brief(title)}: must be a text")
     try:
+        if isinstance(scenes, dict):
+            raise TypeError
         names = [scenes] if isinstance(scenes, str | os.PathLike) else list(scenes)
     except TypeError:
         raise InvalidInput(f"scenes = {brief(scenes)}: must be paths of scene files") from None

@@ -23,6 +23,7 @@ from helpers.examples import (
     SLOW,
     SWEEPS,
 )
+from helpers.scenes import SCENE as TOML
 from helpers.sweeps import SCENE
 
 # What functions return holds what they computed, and nothing is checked again.
@@ -99,6 +100,8 @@ def readers(tmp_path):
     factors.write_text(FACTORS)
     np.save(scan, ROUGH.heights)
     FMAP.save(fmap)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(TOML)
     without = {name: column for name, column in ROWS["columns"].items() if name != "temperature"}
     strains = {name: {**ROWS[name], "strain": "e"} for name in ("columns", "units")}
     strains["units"]["strain"] = "%"
@@ -111,6 +114,7 @@ def readers(tmp_path):
         "FrictionMap.save": {"path": fmap},
         "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
         "sweep": {"scene": SCENE, "over": {"surface.hurst": [0.7, 0.8]}},
+        "report": {"scenes": scene, "path": tmp_path / "report.html"},
     }
 
 
@@ -158,7 +162,7 @@ def right(argument, value):
         argument == "ax"  # whatever draws
         or (argument == "heights" and np.ma.isMaskedArray(value))  # drop-outs
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
-        or (isinstance(value, str) and argument in {"text", "path", "paths", "scene"})
+        or (isinstance(value, str) and argument in {"text", "path", "paths", "scene", "scenes", "title"})
         or (callable(value) and argument == "progress")
     )
 
