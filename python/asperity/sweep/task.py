@@ -55,7 +55,7 @@ class Outcome:
     start: tuple[int, ...]
     box: tuple[int, ...]
     values: dict[str, Any] = field(default_factory=dict)  # arrays of the box's shape, or a number
-    sums: list[int] | None = None  # of the bits, where the worker has written the values
+    sums: list[int] | None = None  # checksums, where the worker has written the values
     failure: NDArray[np.uint32] | None = None  # codes of messages, 0 where there is none
     messages: dict[int, str] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error

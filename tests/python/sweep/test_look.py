@@ -123,6 +123,8 @@ BAD = {
     "--plot p.txt": "must end in .png",
     "--plot p.png --variables my --at surface.hurst=0.8": "my: the store does not have it",
     "--plot p.png --output r.nc": "--output: ",
+    "--rank rubbers --variables mu": "--variables: goes with --plot",
+    "--plot p.png --variables mu,hysteresis": "--variables mu,hysteresis: must be one",
     "--style dark": "--style: goes with --plot",
     "--at surface.hurst=0.7": "--at: goes with --plot and --rank",
 }

@@ -97,8 +97,8 @@ def ended_after(monkeypatch, boxes):
         if len(written) == boxes:
             half = next(iter(self._arrays.values()))
             half[tuple(slice(s, s + c) for s, c in zip(outcome.start, CUT, strict=True))] = 7.0
-            self._journal.write(b'{"start": [')
-            self._journal.flush()
+            self._journal._file.write(b'{"start": [')
+            self._journal._file.flush()
             raise Ended
         written.append(outcome.start)
         plain(self, outcome)
@@ -142,13 +142,14 @@ def test_a_box_whose_numbers_are_not_those_of_its_line_is_computed_again(expecte
     assert len({json.loads(line)["digest"] for line in lines}) == 12
     array = zarr.open_group("a.zarr", mode="r+")["hysteresis"]
     array[2, 1, 0, 0] += 1e-16
+    array[1, 0, 0, :2] = array[1, 0, 0, :2][::-1]  # the same numbers in another order
     chunks = sorted(os.listdir("a.zarr/mu/c/0/0/0"))
     os.remove(f"a.zarr/mu/c/0/0/0/{chunks[0]}")
     computed = []
     counting(monkeypatch, computed)
     with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
         same(found, expected)
-    assert sorted(computed) == [(0, 0, 0, 0), (2, 1, 0, 0)]
+    assert sorted(computed) == [(0, 0, 0, 0), (1, 0, 0, 0), (2, 1, 0, 0)]
 
 
 @pytest.mark.parametrize("name", ["a.zarr", "a.nc"])
@@ -174,7 +175,7 @@ def test_the_store_of_another_sweep_is_refused_by_its_key(name):
         ("variables is", SCENE, OVER, ["mu"]),
     ):
         with case(key=key):
-            with pytest.raises(asperity.InvalidInput, match=f"a.{name[2:]}.*: is of another") as no:
+            with pytest.raises(asperity.InvalidInput, match="is the store of another") as no:
                 sweep(scene, over, store=name, resume=True, variables=variables or BOTH)
             assert key in str(no.value)
             assert "\n" not in str(no.value)
