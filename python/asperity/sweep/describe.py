@@ -33,7 +33,9 @@ _UNITS = {  # by how a key ends, the longest first
 _FAILURE = {
     "long_name": "why a point has no result: 0, or a code of failure_message",
 }
-_MESSAGE = {"long_name": "what went wrong"}
+_MESSAGE = {
+    "long_name": "what went wrong; where texts differ in their numbers alone, one of them",
+}
 Coordinate = tuple[str, Any, dict[str, str]]  # dimension, values, attributes
 
 
@@ -103,7 +105,7 @@ class Described:
                 attributes=_said(name),
                 **along,
             )
-        group.create_array("failure", dtype="u4", fill_value=0, attributes=_FAILURE, **along)
+        group.create_array("failure", dtype="i8", fill_value=0, attributes=_FAILURE, **along)
         for name, (dimension, values, said) in self.coordinates.items():
             _add(group, name, dimension, values, said)
         group.create_group("_sweep")
@@ -141,7 +143,7 @@ def _add(group: Any, name: str, dimension: str, values: Any, said: Mapping[str, 
 
 def _messages(messages: Mapping[int, str]) -> tuple[Any, Any]:
     codes = sorted(messages)
-    return np.array(codes, np.uint32), np.array([messages[code] for code in codes], dtype=str)
+    return np.array(codes, np.int64), np.array([messages[code] for code in codes], dtype=str)
 
 
 def _said(name: str) -> dict[str, str]:

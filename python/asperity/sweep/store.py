@@ -18,7 +18,7 @@ from asperity.base.arguments import FilePath
 from asperity.base.table import imported
 from asperity.sweep.describe import Described, consolidate
 from asperity.sweep.journal import JOURNAL, Journal
-from asperity.sweep.task import Outcome, keep_message
+from asperity.sweep.outcome import Outcome, keep_message
 from asperity.sweep.work import TOKEN, arrays_of, checksum, token_of, where_of, write_box
 
 
@@ -62,7 +62,7 @@ class Memory:
         self._described = described
         shape = described.shape
         self._values = {name: np.full(shape, np.nan) for name in described.variables}
-        self._failure = np.zeros(shape, np.uint32)
+        self._failure = np.zeros(shape, np.int64)
         self.tally = Tally.of(described)
         self.done: set[tuple[int, ...]] = set()
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from asperity._core import Error
 from asperity.base.table import imported
-from asperity.sweep.task import Outcome, Task, compute
+from asperity.sweep.outcome import Outcome
+from asperity.sweep.task import Task, compute
 
 TOKEN = "_sweep/token"  # a text that no other store has, by which a worker knows this one
 
@@ -28,7 +29,7 @@ def work(task: Task) -> Outcome:
 def write_box(path: Path, arrays: Mapping[str, Any], outcome: Outcome) -> list[int]:
     """Write the chunks of a box, each whole or not at all; return their checksums."""
     where = where_of(outcome)
-    failure: Any = np.uint32(0) if outcome.failure is None else outcome.failure
+    failure: Any = np.int64(0) if outcome.failure is None else outcome.failure
     parts = {**outcome.values, "failure": failure}
     try:
         for name, array in arrays.items():

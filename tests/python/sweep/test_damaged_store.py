@@ -156,10 +156,10 @@ def test_force_removes_nothing_before_the_new_sweep_is_known_to_work(folder, cap
             pass
     (folder / "sweep.toml").write_text(SWEEP.replace("hurst", "hurts"))
     assert "did you mean" in refused(capsys, "--output", "a.zarr", "--force")
-    text = SWEEP.replace("hurst = [0.7, 0.8, 0.9]", "q1_per_m = [1.0, 2.0]")  # all below q0
+    text = SWEEP.replace("hurst = [0.7, 0.8, 0.9]", "q1_per_m = [1.5e3, 1.6e3]")  # both below q0
     (folder / "sweep.toml").write_text(text)
     for name in ("a.zarr", "a.nc"):
-        assert "q1_per_m" in refused(capsys, "--output", name, "--force")
+        assert "q1" in refused(capsys, "--output", name, "--force")
         with xarray.open_dataset(name) as found:
             assert found.sizes["surface.hurst"] == 3
     (folder / "sweep.toml").write_text(SWEEP)

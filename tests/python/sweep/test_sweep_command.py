@@ -73,7 +73,7 @@ def test_a_dry_run_tells_what_it_would_take(capsys):
     assert main(["sweep", "sweep.toml", "--dry-run"]) == 0
     told = dict(line.split(" = ") for line in capsys.readouterr().out.splitlines())
     assert told["points"] == "168"
-    assert told["bytes"] == str(168 * 20)
+    assert told["bytes"] == str(168 * 24)
     assert int(told["tasks"]) >= 1
     assert float(told["seconds_of_one_worker"]) > 0
     assert sorted(os.listdir()) == ["scene.toml", "sweep.toml"]
