@@ -33,8 +33,8 @@ from asperity.sweep.timing import estimated, timed
 _KEYS = dict.fromkeys(("scene", "over", "variables"))
 _RANK_NOTES = [
     "points at which every value has a result are compared; lead is that of the mean over the next",
-    "certain_share: the lead at a point exceeds the errors of the two together, half bands where "
-    "there are any, else model error and numerical error",
+    "certain_share: the lead at a point exceeds the sum of the errors of the two: numerical "
+    "error, model error, and half the band where there is one",
 ]
 _TOLD = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer

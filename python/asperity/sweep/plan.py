@@ -104,6 +104,10 @@ def plan_of(
     """
     tables = _plain_tables(path, tables)
     axes = tuple(axes_of(path, over, tables))
+    for axis in axes:
+        if axis.name in MEANINGS or axis.name.startswith("failure") or axis.name == "zarr.json":
+            problem = "is the name of a variable or of a file in the store: must be another"
+            raise InvalidInput(f"{path}: over {brief(axis.name)}: {problem}")
     check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()

@@ -113,6 +113,13 @@ BAD = {
     "[over.road]\nsurface.hurst = [0.7, 0.8]\nsurface.q0_per_m = [1e3]": "must be equally long",
     "surface.hurst = [0.7]\n[over.road]\nsurface.hurst = [0.7]": "is in two axes",
     "surface.rolloff_per_m = [1e9]": "rolloff",
+    "[over.mu]\nsurface.hurst = [0.7]": "over 'mu': is the name of a variable",
+    "[over.gain]\nsurface.hurst = [0.7]": "over 'gain': is the name of a variable",
+    "[over.failure_code]\nsurface.hurst = [0.7]": "is the name of a variable",
+    '[over.""]\nsurface.hurst = [0.7]': "over '': must be of letters",
+    '[over."../x"]\nsurface.hurst = [0.7]': "over '../x': must be of letters",
+    '[over."a/b"]\nsurface.hurst = [0.7]': "over 'a/b': must be of letters",
+    '[over."conditions.velocity_m_s"]\nsurface.hurst = [0.7]': "is a key of a scene",
 }
 
 
@@ -159,6 +166,14 @@ def test_a_bad_file_is_refused(text, said, folder, capsys):
 def test_bad_options_are_refused(line, said, capsys):
     assert said in refused(capsys, *line.split())
     assert sorted(os.listdir()) == ["scene.toml", "sweep.toml"]
+
+
+def test_a_picture_does_not_take_the_place_of_an_input(folder, capsys):
+    os.rename("scene.toml", "scene.png")
+    (folder / "sweep.toml").write_text(SWEEP.replace("scene.toml", "scene.png"))
+    said = refused(capsys, "sweep.toml", "--output", "r.zarr", "--plot", "scene.png")
+    assert "scene.png: is an input" in said
+    assert sorted(os.listdir()) == ["scene.png", "sweep.toml"]
 
 
 class Silent:
