@@ -4,7 +4,7 @@ import hashlib
 import itertools
 import json
 import os
-import tempfile
+import uuid
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -184,11 +184,10 @@ def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
     netcdf = imported("netCDF4", "sweep")
     part: str | None = None
     try:
-        handle, part = tempfile.mkstemp(prefix=".asperity-", suffix=".nc", dir=path.parent)
-        os.close(handle)
+        part = str(path.with_name(f".asperity-{uuid.uuid4().hex}.nc"))
+        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
         with netcdf.Dataset(part, "w") as file:
             _fill(file, dataset, group)
-        os.chmod(part, 0o666 & ~_umask())
         os.replace(part, path)
     except (OSError, RuntimeError) as error:  # NetCDF says RuntimeError of a full disk
         reason = getattr(error, "strerror", None) or error
@@ -228,9 +227,3 @@ def _fill(file: Any, dataset: Any, group: Any) -> None:
         for start in itertools.product(*ranges):
             where = tuple(slice(s, s + c) for s, c in zip(start, cut, strict=True))
             made[where] = whole[where]
-
-
-def _umask() -> int:
-    mask = os.umask(0o077)
-    os.umask(mask)
-    return mask

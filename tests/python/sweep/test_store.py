@@ -1,9 +1,10 @@
-"""Stores: what is written can be opened, gone on with, and told from that of another sweep."""
+"""Stores: what is written can be opened, resumed, and told from that of another sweep."""
 
 import errno
 import json
 import os
 import shutil
+import stat
 from pathlib import Path
 
 import numpy as np
@@ -234,7 +235,7 @@ def test_two_drivers_do_not_write_to_one_store(monkeypatch):
         assert found.attrs["complete"] == 1
 
 
-def test_a_full_disk_ends_in_a_line_and_can_be_gone_on_with(expected, monkeypatch):
+def test_a_full_disk_ends_in_a_line_and_can_be_resumed(expected, monkeypatch):
     plain = zarr.Array.__setitem__
     count = []
 
@@ -254,7 +255,7 @@ def test_a_full_disk_ends_in_a_line_and_can_be_gone_on_with(expected, monkeypatc
         same(found, expected)
 
 
-def test_netcdf_that_cannot_be_written_leaves_what_can_be_gone_on_with(expected, monkeypatch):
+def test_netcdf_that_cannot_be_written_leaves_what_can_be_resumed(expected, monkeypatch):
     def full(*_, **__):
         raise RuntimeError("NetCDF: HDF error")  # as it says of a full disk
 
@@ -265,6 +266,18 @@ def test_netcdf_that_cannot_be_written_leaves_what_can_be_gone_on_with(expected,
     assert os.listdir() == ["a.nc.part"]
     with sweep(SCENE, OVER, store="a.nc", resume=True) as found:
         same(found, expected)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="has no such permissions")
+def test_netcdf_has_the_permissions_of_any_new_file(monkeypatch):
+    before = os.umask(0o027)
+    try:
+        with monkeypatch.context() as patched:
+            patched.setattr(os, "umask", None)  # it is that of all threads
+            sweep(SCENE, OVER, store="a.nc").close()
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE(os.stat("a.nc").st_mode) == 0o640
 
 
 def test_a_file_that_changes_ends_the_sweep(tmp_path, monkeypatch):
