@@ -27,14 +27,14 @@ from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.look import choose, ranks
 from asperity.sweep.plan import cut_of
-from asperity.sweep.store import open_store, remove_store
+from asperity.sweep.store import open_store
 from asperity.sweep.timing import estimated, timed
 
 _KEYS = dict.fromkeys(("scene", "over", "variables"))
 _RANK_NOTES = [
     "points at which every value has a result are compared; lead is that of the mean over the next",
-    "certain_share: the lead at a point exceeds the errors of the two together, half bands where "
-    "there are any, else model error and numerical error",
+    "certain_share: the lead at a point exceeds the sum of the errors of the two: numerical "
+    "error, model error, and half the band where there is one",
 ]
 _TOLD = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer
@@ -61,6 +61,11 @@ def _sweep(args: Namespace) -> None:
     if path.suffix in (".zarr", ".nc"):
         _look_at_store(args, path, looks)
         return
+    if args.force and args.resume:
+        raise InvalidInput("--force, --resume: must be one of them")
+    for option, value in {"--force": args.force, "--resume": args.resume}.items():
+        if value and args.dry_run:
+            raise InvalidInput(f"{option}: must be left out with --dry-run, which writes nothing")
     if looks and args.dry_run:
         raise InvalidInput("--dry-run: computes nothing that --plot or --rank could show")
     if args.output is None and not args.dry_run:
@@ -78,21 +83,18 @@ def _compute(args: Namespace, executor: Any) -> None:
     plan = run.planned(scene, over, variables)
     if args.output is not None:
         output = run.store_path(args.output)
-        refuse_overwrite([output], [path, scene, *map(Path, plan.task.digests)])
+        outputs = [output] if args.plot is None else [output, FilePath(args.plot)]
+        refuse_overwrite(outputs, [path, scene, *map(Path, plan.task.digests)])
     if args.dry_run:
         _tell(plan, Executor(executor))
         return
-    if args.force and not args.resume:
-        for old in (output, output.with_name(output.name + ".part")):
-            remove_store(old)
-    found = run.sweep(
-        scene,
-        over,
-        executor=executor,
-        store=output,
+    found = run.computed(
+        plan,
+        executor,
+        output,
         resume=args.resume,
+        force=args.force,
         progress=_bar(path),
-        variables=variables,
     )
     with found:
         _look(args, found)
@@ -126,6 +128,10 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
             raise InvalidInput(f"{option}: {path} is a store: give a SWEEP.toml to compute")
     if not looks:
         raise InvalidInput(f"{path}: is a store: look at it by --plot or --rank")
+    if args.variables is not None and args.plot is None:
+        raise InvalidInput("--variables: goes with --plot, a rank is of mu")
+    if args.variables is not None and "," in args.variables:
+        raise InvalidInput(f"--variables {args.variables}: must be one, the one to draw")
     if not path.exists():
         raise InvalidInput(f"{path}: cannot be read: No such file or directory")
     with open_store(path) as found:
@@ -169,7 +175,7 @@ def _tell(plan: Any, executor: Executor) -> None:
     cost = timed(plan, executor)
     cut = cut_of(plan, cost)
     tasks = math.prod(math.ceil(n / c) for n, c in zip(plan.shape, cut, strict=True))
-    size = plan.points * (8 * len(plan.variables) + 4)
+    size = plan.points * 8 * (len(plan.variables) + 1)
     seconds = estimated(plan, cost)
     told = {
         "points": plan.points,

@@ -1,5 +1,6 @@
 """Axes of a sweep: what a user wrote as `over`, and the lists of the scene itself, checked."""
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,7 @@ POINTS = (PRESSURE, VELOCITY)  # what changes from point to point of a scene
 _SWEEP = {"from", "to", "points"}
 _LISTS = ("conditions.temperature_k", "conditions.temperature_c", *POINTS)  # lists that scenes have
 _WITHOUT = "none"  # the kind of no correction
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,7 @@ def _flat(table: str, given: Mapping[str, Any]) -> dict[str, Any]:
 def _axis(path: Path, name: str, given: object) -> Axis:
     if not isinstance(given, Mapping) or _SWEEP & given.keys():
         return Axis(name, {name: _values(path, name, given, name)})
+    _check_name(path, name)
     zipped: dict[str, Any] = {}
     for key, values in given.items():
         nested = key in KEYS and isinstance(values, Mapping)
@@ -91,6 +94,17 @@ def _axis(path: Path, name: str, given: object) -> Axis:
         found = ", ".join(f"{key} has {length}" for key, length in lengths.items())
         raise InvalidInput(f"{path}: over {name}: {found}: must be equally long")
     return Axis(name, values)
+
+
+def _check_name(path: Path, name: str) -> None:
+    """Refuse a name of several keys that is no name of a file, or that of a key."""
+    problem = None
+    if not _NAME.fullmatch(name):
+        problem = "must be of letters, digits, _, - and points, a letter or digit first"
+    elif name.partition(".")[2] in KEYS.get(name.partition(".")[0], ()):
+        problem = "is a key of a scene, which has values alone: must be a name of your own"
+    if problem:
+        raise InvalidInput(f"{path}: over {brief(name)}: {problem}")
 
 
 def _values(path: Path, key: str, given: object, axis: str) -> tuple[Any, ...]:

@@ -4,7 +4,7 @@ import hashlib
 import itertools
 import json
 import os
-import tempfile
+import uuid
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -33,7 +33,9 @@ _UNITS = {  # by how a key ends, the longest first
 _FAILURE = {
     "long_name": "why a point has no result: 0, or a code of failure_message",
 }
-_MESSAGE = {"long_name": "what went wrong"}
+_MESSAGE = {
+    "long_name": "what went wrong; where texts differ in their numbers alone, one of them",
+}
 Coordinate = tuple[str, Any, dict[str, str]]  # dimension, values, attributes
 
 
@@ -103,7 +105,7 @@ class Described:
                 attributes=_said(name),
                 **along,
             )
-        group.create_array("failure", dtype="u4", fill_value=0, attributes=_FAILURE, **along)
+        group.create_array("failure", dtype="i8", fill_value=0, attributes=_FAILURE, **along)
         for name, (dimension, values, said) in self.coordinates.items():
             _add(group, name, dimension, values, said)
         group.create_group("_sweep")
@@ -141,7 +143,7 @@ def _add(group: Any, name: str, dimension: str, values: Any, said: Mapping[str, 
 
 def _messages(messages: Mapping[int, str]) -> tuple[Any, Any]:
     codes = sorted(messages)
-    return np.array(codes, np.uint32), np.array([messages[code] for code in codes], dtype=str)
+    return np.array(codes, np.int64), np.array([messages[code] for code in codes], dtype=str)
 
 
 def _said(name: str) -> dict[str, str]:
@@ -182,11 +184,10 @@ def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
     netcdf = imported("netCDF4", "sweep")
     part: str | None = None
     try:
-        handle, part = tempfile.mkstemp(prefix=".asperity-", suffix=".nc", dir=path.parent)
-        os.close(handle)
+        part = str(path.with_name(f".asperity-{uuid.uuid4().hex}.nc"))
+        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
         with netcdf.Dataset(part, "w") as file:
             _fill(file, dataset, group)
-        os.chmod(part, 0o666 & ~_umask())
         os.replace(part, path)
     except (OSError, RuntimeError) as error:  # NetCDF says RuntimeError of a full disk
         reason = getattr(error, "strerror", None) or error
@@ -226,9 +227,3 @@ def _fill(file: Any, dataset: Any, group: Any) -> None:
         for start in itertools.product(*ranges):
             where = tuple(slice(s, s + c) for s, c in zip(start, cut, strict=True))
             made[where] = whole[where]
-
-
-def _umask() -> int:
-    mask = os.umask(0o077)
-    os.umask(mask)
-    return mask

@@ -47,15 +47,15 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
     """The values of an axis by their mean friction, as columns of a table.
 
     Only points at which every value has a result are compared. `best_share` is how often a value
-    has the highest mu, `certain_share` how often its lead over the next exceeds the errors of the
-    two together: half of the band where the store has one, else the model error and the estimate
-    of the numerical error. `best_at` tells where along each other axis it is best more often than
-    not.
+    has the highest mu, `certain_share` how often its lead over the next exceeds the sum of the
+    errors of the two: of each the numerical error, the model error of the hysteresis, and half of
+    the band where the store has one. `best_at` tells where along each other axis it is best more
+    often than not.
     """
     if axis not in dataset.sizes:
         axes = dict.fromkeys(map(str, dataset["failure"].dims))
         raise InvalidInput(f"--rank {axis}: is no axis, {nearest(axis, axes)}")
-    for name in ("mu", *(() if "mu_low" in dataset else ("error_estimate",))):
+    for name in ("mu", "error_estimate"):
         if name not in dataset:
             raise InvalidInput(f"--rank {axis}: the store has no {name}: it was not kept")
     count = dataset.sizes[axis]
@@ -73,7 +73,7 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
         order = np.argsort(-np.where(np.isfinite(mu), mu, -np.inf), axis=0, kind="stable")
         first, second = order[0], order[1]
         lead = _take(mu, first) - _take(mu, second)
-        both = np.hypot(_take(error, first), _take(error, second))
+        both = _take(error, first) + _take(error, second)  # else their intervals overlap
         sure = sound & np.isfinite(both) & (lead > both)
         points += int(sound.sum())
         known += int((sound & np.isfinite(both)).sum())
@@ -132,11 +132,11 @@ def _stacked(block: Any, name: str, axis: str, others: list[str]) -> NDArray[np.
 
 
 def _errors(block: Any, axis: str, others: list[str]) -> NDArray[np.float64]:
-    """How far mu may be from what it stands for; NaN where nothing is known."""
+    """How far mu may be from what it stands for, all errors added; NaN where one is unknown."""
+    error = _stacked(block, "error_estimate", axis, others)
     if "mu_low" in block and "mu_high" in block:
         high, low = (_stacked(block, name, axis, others) for name in ("mu_high", "mu_low"))
-        return np.asarray((high - low) / 2)
-    error = _stacked(block, "error_estimate", axis, others)
+        error = error + (high - low) / 2
     if "model_error" not in block or "hysteresis" not in block:
         return np.full(error.shape, np.nan)
     model, mu = (_stacked(block, name, axis, others) for name in ("model_error", "hysteresis"))

@@ -70,13 +70,13 @@ class KeptBuilders:
             return replace(made, scan=None), notes
 
         self._surface = key, whole
-        found: Surface = _told(_SURFACES.get(key, lean))
+        found: Surface = _with_notes(_SURFACES.get(key, lean))
         return found
 
     def rubber(self, path: Path, table: object, temperature: float | None) -> BuiltRubber:
         key = self._key(path, "rubber", table, temperature)
         build = self._noting(lambda: build_rubber(path, table, temperature), "rubber", table)
-        found: BuiltRubber = _told(_RUBBERS.get(key, build))
+        found: BuiltRubber = _with_notes(_RUBBERS.get(key, build))
         return found
 
     def correction(self, path: Path, table: object, *_: Any) -> Any:
@@ -88,7 +88,7 @@ class KeptBuilders:
             return build_correction(path, table, surface.spectrum, surface.scan, surface.values)
 
         key = (of_surface, self._key(path, "correction", table))
-        return _told(_CORRECTIONS.get(key, self._noting(build, "correction", table)))
+        return _with_notes(_CORRECTIONS.get(key, self._noting(build, "correction", table)))
 
     def _key(self, path: Path, name: str, table: object, *more: Any) -> Any:
         digests = tuple(self._digests.get(file, "") for file in files_of({name: table}))
@@ -112,7 +112,7 @@ class ChangedFile(InvalidInput):
     """A file is not what it was when the sweep began: no failure of a scene, the sweep ends."""
 
 
-def _told(made: tuple[Any, tuple[str, ...]]) -> Any:
+def _with_notes(made: tuple[Any, tuple[str, ...]]) -> Any:
     part, notes = made
     plausible.tell_again(notes)
     return part

@@ -17,7 +17,7 @@ from asperity.scene.known import FILES
 from asperity.scene.scene import check_tables
 from asperity.sweep.axes import POINTS, PRESSURE, Axis, axes_of, with_values
 from asperity.sweep.parts import digest, files_of
-from asperity.sweep.task import BAND, Task, is_moved
+from asperity.sweep.task import BAND, Task
 
 MOST_POINTS = 2**19  # of a task: what a worker sends back at once, 4 MB a variable
 _SECONDS = 1.0  # that a task is to take
@@ -104,6 +104,10 @@ def plan_of(
     """
     tables = _plain_tables(path, tables)
     axes = tuple(axes_of(path, over, tables))
+    for axis in axes:
+        if axis.name in MEANINGS or axis.name.startswith("failure") or axis.name == "zarr.json":
+            problem = "is the name of a variable or of a file in the store: must be another"
+            raise InvalidInput(f"{path}: over {brief(axis.name)}: {problem}")
     check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
@@ -235,17 +239,16 @@ def cut_of(plan: Plan, cost: Cost) -> tuple[int, ...]:
     Axes of points come first, the last of them before others; then those whose scenes are cheap.
     """
     task = plan.task
-    moved = [i for i, axis in enumerate(task.axes) if is_moved(axis, task.variables)]
+    moved = task.moved
     fixed = [i for i in range(len(task.axes)) if i not in moved]
     fixed.sort(key=lambda i: (cost.change.get(i, cost.scene), -i))
     cut = [1] * len(task.shape)
-    whole = set(BAND) & set(task.variables)
     for i in moved[::-1]:
         size = task.shape[i]
         now = math.prod(cut)
         each = max(now * cost.point, 1e-12)
         most = min((_SECONDS - cost.scene) / each, MOST_POINTS / now)
-        cut[i] = size if whole else _even(size, most)
+        cut[i] = size if task.is_whole else _even(size, most)
         if cut[i] < size:
             return tuple(cut)
     seconds = math.prod(cut) * cost.point + cost.scene

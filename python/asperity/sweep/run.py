@@ -18,7 +18,15 @@ from asperity.scene.scene import read_scene
 from asperity.sweep.describe import Described, write_netcdf
 from asperity.sweep.executors import Executor, Lost, result_of
 from asperity.sweep.plan import Plan, cut_of, plan_of
-from asperity.sweep.store import Memory, ZarrStore, open_store, refuse_another, refuse_taken
+from asperity.sweep.store import (
+    Memory,
+    ZarrStore,
+    open_store,
+    refuse_another,
+    refuse_foreign,
+    refuse_taken,
+    remove_store,
+)
 from asperity.sweep.timing import timed
 from asperity.sweep.work import work
 
@@ -95,27 +103,52 @@ def sweep(
     >>> found.mu.sizes  # doctest: +SKIP
     Frozen({'surface.hurst': 3, 'conditions.velocity_m_s': 2})
     """
-    go_on = flag(resume, "resume")
-    told = _progress(progress)
-    if go_on and store is None:
-        raise InvalidInput("resume = True: needs store=, the one to go on with")
+    resumes = flag(resume, "resume")
+    report = _progress(progress)
+    if resumes and store is None:
+        raise InvalidInput("resume = True: needs store=, the store of the earlier run")
     plan = planned(scene, over, variables)
+    return computed(plan, executor, store, resume=resumes, progress=report)
+
+
+def computed(
+    plan: Plan,
+    executor: Any = None,
+    store: Any = None,
+    *,
+    resume: bool = False,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> Any:
+    """The results of a plan. `force` replaces the store of a sweep that is there already."""
     workers = Executor(executor)
     described = Described(plan)
     if store is None:
         memory = Memory(described)
-        _fill(memory, plan, cut_of(plan, timed(plan, workers)), workers, told)
+        _fill(memory, plan, cut_of(plan, timed(plan, workers)), workers, progress)
         return memory.finish()
     path = store_path(store)
-    if path.suffix == ".nc" and os.path.lexists(path):
-        if not go_on:
+    if path.suffix == ".nc" and os.path.lexists(path) and not force:
+        if not resume:
             refuse_taken(path)
         found = open_store(path)
         refuse_another(path, found.attrs, described.inputs)
         return found
     part = path if path.suffix == ".zarr" else path.with_name(path.name + ".part")
-    with _opened(part, plan, described, workers, go_on) as zarr:
-        _fill(zarr, plan, zarr.cut, workers, told)
+    if resume and os.path.lexists(part):
+        opened = ZarrStore.resumed(part, described)
+    else:
+        there = (path, part) if force else ()
+        for old in there:
+            refuse_foreign(old)
+        if not force:
+            refuse_taken(part)
+        cut = cut_of(plan, timed(plan, workers))
+        for old in there:  # only now is the new sweep known to work
+            remove_store(old)
+        opened = ZarrStore(part, described, cut)
+    with opened as zarr:
+        _fill(zarr, plan, zarr.cut, workers, progress)
         found = zarr.finish()
         if part == path:
             return found
@@ -150,22 +183,12 @@ def store_path(given: Any) -> Path:
     return path
 
 
-def _opened(
-    path: Path, plan: Plan, described: Described, workers: Executor, resume: bool
-) -> ZarrStore:
-    """The store of an earlier run, or a new one."""
-    if resume and os.path.lexists(path):
-        return ZarrStore.resumed(path, described)
-    refuse_taken(path)
-    return ZarrStore(path, described, cut_of(plan, timed(plan, workers)))
-
-
 def _fill(
     sink: Memory | ZarrStore,
     plan: Plan,
     cut: Sequence[int],
     workers: Executor,
-    told: Progress | None,
+    progress: Progress | None,
 ) -> None:
     """Compute what the sink does not have yet."""
     tasks = (plan.box(at, cut) for at in plan.boxes(cut) if at not in sink.done)
@@ -189,8 +212,8 @@ def _fill(
             except Lost as error:
                 lost.append(str(error))
             del future  # and with it the numbers
-            if told is not None:
-                told(sink.tally.points, plan.points)
+            if progress is not None:
+                progress(sink.tally.points, plan.points)
             send()
     finally:
         for future in pending:
@@ -216,10 +239,10 @@ def bar(title: str) -> Progress:
     """A bar with points a second and the time that is left."""
     made = imported("tqdm", "all").tqdm(desc=title, unit=" points", unit_scale=True, delay=1)
 
-    def told(done: int, points: int) -> None:
+    def show(done: int, points: int) -> None:
         made.total = points
         made.update(done - made.n)
         if done == points:
             made.close()
 
-    return told
+    return show

@@ -7,7 +7,6 @@ import shutil
 import tempfile
 import uuid
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,10 +17,9 @@ from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.table import imported
 from asperity.sweep.describe import Described, consolidate
-from asperity.sweep.task import Outcome, keep_message
-from asperity.sweep.work import TOKEN, arrays_of, bits, where_of, write_box
-
-_JOURNAL = "_sweep/journal"  # a line a box that is whole
+from asperity.sweep.journal import JOURNAL, Journal
+from asperity.sweep.outcome import Outcome, keep_message
+from asperity.sweep.work import TOKEN, arrays_of, checksum, token_of, where_of, write_box
 
 
 @dataclass
@@ -64,7 +62,7 @@ class Memory:
         self._described = described
         shape = described.shape
         self._values = {name: np.full(shape, np.nan) for name in described.variables}
-        self._failure = np.zeros(shape, np.uint32)
+        self._failure = np.zeros(shape, np.int64)
         self.tally = Tally.of(described)
         self.done: set[tuple[int, ...]] = set()
 
@@ -84,7 +82,7 @@ class ZarrStore:
     """A Zarr store whose boxes are chunks, with a journal of those that are whole.
 
     A chunk's files take their place when they are complete, and its line in the journal is written
-    after them: whatever ends the driver, a box with a line is whole. The line has sums of the
+    after them: whatever ends the driver, a box with a line is whole. The line has checksums of the
     numbers, which `resume` compares. Workers that see the store write their boxes themselves.
     """
 
@@ -97,7 +95,7 @@ class ZarrStore:
             raise InvalidInput(f"{path}: cannot be written: {error.strerror}") from error
         try:
             described.create(zarr, beside, cut)
-            (beside / _JOURNAL).touch()
+            (beside / JOURNAL).touch()
             (beside / TOKEN).write_text(uuid.uuid4().hex)
             os.rename(beside, path)
         except OSError as error:
@@ -110,48 +108,71 @@ class ZarrStore:
     def resumed(cls, path: Path, described: Described) -> "ZarrStore":
         """The store of an earlier run of the same sweep."""
         store = cls.__new__(cls)
-        try:
-            group = imported("zarr", "sweep").open_group(str(path), mode="r")
-            known = dict(group.attrs)
-        except Exception:
-            known = {}
-        refuse_another(path, known, described.inputs)
+        refuse_another(path, attributes_of(path), described.inputs)
         store._open(path, described)
-        store._read_journal()
+        try:
+            store._read_journal()
+        except BaseException:
+            store._journal.close()
+            raise
         return store
 
     def _open(self, path: Path, described: Described) -> None:
         self.path = path
         self._described = described
         zarr = imported("zarr", "sweep")
-        self.group = zarr.open_group(str(path), mode="r+", use_consolidated=False)
-        self._arrays = arrays_of(self.group, described.variables)
-        self.token = str(path.absolute()), (path / TOKEN).read_text()
-        self.cut: tuple[int, ...] = tuple(self.group.attrs["cut"])
+        try:
+            self.group = zarr.open_group(str(path), mode="r+", use_consolidated=False)
+            self._arrays = arrays_of(self.group, described.variables)
+            self.cut: tuple[int, ...] = tuple(self.group.attrs["cut"])
+            form = described.shape, self.cut
+            for name, array in self._arrays.items():
+                if (array.shape, array.chunks) != form:
+                    raise InvalidInput(f"{FilePath(path)}: is damaged: the shape of {name}")
+        except InvalidInput:
+            raise
+        except Exception as error:  # whatever Zarr finds wrong
+            problem = " ".join(f"{type(error).__name__}: {error}".split())
+            raise InvalidInput(f"{FilePath(path)}: is damaged: {problem}") from error
+        token = token_of(path)
+        if not token:
+            raise InvalidInput(f"{FilePath(path)}: is damaged: {TOKEN} cannot be read")
+        self.token = str(path.absolute()), token
         self.tally = Tally.of(described)
         self.done: set[tuple[int, ...]] = set()
-        self._journal = (path / _JOURNAL).open("r+b")
-        if not _locked(self._journal):
-            self._journal.close()
-            raise InvalidInput(f"{FilePath(path)}: another sweep is writing to it")
+        self._journal = Journal(path)
 
     def _read_journal(self) -> None:
-        content = self._journal.read()
-        whole = content.rfind(b"\n") + 1
-        for line in content[:whole].splitlines(keepends=True):
-            entry = json.loads(line)
-            start = tuple(entry["start"])
-            if start not in self.done and self._sums_of(start) == entry["sums"]:
-                outcome = Outcome(start, tuple(entry["box"]))
-                outcome.kinds, outcome.notes = entry["kinds"], entry["notes"]
-                outcome.messages = {int(code): text for code, text in entry["messages"].items()}
+        for number, line in enumerate(self._journal.lines(), 1):
+            outcome = self._outcome_of(line)
+            if outcome is None:
+                problem = f"line {number} of {JOURNAL} is none of this sweep"
+                raise InvalidInput(f"{FilePath(self.path)}: is damaged: {problem}")
+            start = outcome.start
+            if start not in self.done and self._sums_of(outcome) == outcome.sums:
                 self.tally.add(outcome)
                 self.done.add(start)
-        self._journal.seek(whole)
-        self._journal.truncate()
+
+    def _outcome_of(self, line: bytes) -> Outcome | None:
+        """What a line says of its box; None where it is no line of this sweep."""
+        try:
+            entry = json.loads(line)
+            start = tuple(entry["start"])
+            if entry["digest"] != self._described.digest_of(start):
+                return None
+            along = zip(start, self.cut, self._described.shape, strict=True)
+            box = tuple(min(c, size - s) for s, c, size in along)
+            outcome = Outcome(start, box, sums=list(entry["sums"]))
+            outcome.kinds = {str(kind): int(n) for kind, n in entry["kinds"].items()}
+            outcome.notes = {str(note): int(n) for note, n in entry["notes"].items()}
+            outcome.messages = {int(code): str(one) for code, one in entry["messages"].items()}
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            return None
+        return outcome if list(box) == entry["box"] else None
 
     def write(self, outcome: Outcome) -> None:
         """Write a box unless its worker has, and then its line."""
+        self._refuse_replaced()
         sums = outcome.sums
         if sums is None:
             sums = write_box(self.path, self._arrays, outcome)
@@ -165,23 +186,28 @@ class ZarrStore:
             "notes": outcome.notes,
         }
         try:
-            self._journal.write(json.dumps(line).encode() + b"\n")
-            self._journal.flush()
+            self._journal.add(json.dumps(line).encode())
         except OSError as error:
             reason = error.strerror or error
             raise Error(f"{self.path}: cannot be written: {reason}; --resume goes on") from error
         self.done.add(outcome.start)
         self.tally.add(outcome)
 
-    def _sums_of(self, start: tuple[int, ...]) -> list[int] | None:
-        where = tuple(slice(s, s + c) for s, c in zip(start, self.cut, strict=True))
+    def _refuse_replaced(self) -> None:
+        """End where the store at the path is not the one that was opened: no lock is everywhere."""
+        if token_of(self.path) != self.token[1]:
+            raise Error(f"{self.path}: was removed or replaced while the sweep ran")
+
+    def _sums_of(self, outcome: Outcome) -> list[int] | None:
+        where = where_of(outcome)
         try:
-            return [bits(array[where], 1) for array in self._arrays.values()]
+            return [checksum(array[where], outcome.box) for array in self._arrays.values()]
         except Exception:  # a chunk that is gone, or cut off by the machine's end
             return None
 
     def finish(self) -> Any:
         """Say that the store is whole, and open it."""
+        self._refuse_replaced()
         attributes = {**self.tally.attributes(), "complete": 1}
         try:
             self._described.add_messages(self.group, self.tally.messages)
@@ -198,17 +224,17 @@ class ZarrStore:
         self._journal.close()
 
 
-def _locked(file: Any) -> bool:
-    """Whether nobody else has the file, who then waits for this process to end."""
+def attributes_of(path: Path) -> dict[str, Any]:
+    """Attributes of a store, whole or not; none of what is no store."""
     try:
-        import fcntl
-    except ModuleNotFoundError:  # Windows keeps others from the open file on its own
-        return True
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True
+        if path.suffix == ".nc":
+            with open_store(path) as found:
+                return dict(found.attrs)
+        return dict(imported("zarr", "sweep").open_group(str(path), mode="r").attrs)
+    except ImportError:
+        raise
+    except Exception:  # whatever Zarr or NetCDF finds wrong
+        return {}
 
 
 def open_store(path: Path) -> Any:
@@ -235,7 +261,9 @@ def refuse_another(path: Path, attributes: Mapping[str, Any], asked: Mapping[str
     for key in dict.fromkeys(itertools.chain(asked, known)):
         there, here = (json.dumps(inputs.get(key)) for inputs in (known, asked))
         if there != here:
-            problem = f"is of another sweep: {key} is {_cut(there)} there and {_cut(here)} here"
+            problem = (
+                f"is the store of another sweep: {key} is {_cut(there)} there and {_cut(here)} here"
+            )
             raise InvalidInput(f"{FilePath(path)}: {problem}")
 
 
@@ -243,14 +271,27 @@ def _cut(text: str) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
 
 
+def refuse_foreign(path: Path) -> None:
+    """Refuse to remove what is there but no store of a sweep."""
+    if os.path.lexists(path) and (path.is_symlink() or "sweep" not in attributes_of(path)):
+        raise InvalidInput(f"{FilePath(path)}: is no store of a sweep: remove it yourself")
+
+
 def remove_store(path: Path) -> None:
-    """Remove the store of a sweep, and nothing else."""
-    if path.is_dir():
-        with suppress(Exception):
-            group = imported("zarr", "sweep").open_group(str(path), mode="r")
-            if "sweep" in group.attrs:
-                shutil.rmtree(path)
-                return
-        raise InvalidInput(f"{FilePath(path)}: is no store of a sweep: it stays")
-    if path.is_file():
-        path.unlink()
+    """Remove the store of a sweep, if there is one that nobody writes to, and nothing else."""
+    refuse_foreign(path)
+    if not os.path.lexists(path):
+        return
+    try:
+        if path.is_file():
+            path.unlink()
+            return
+        journal = Journal(path)
+        try:  # away from its place at once: no half of it is left there
+            beside = Path(tempfile.mkdtemp(prefix=".asperity-", dir=path.parent))
+            os.rename(path, beside / "store")
+        finally:
+            journal.close()
+        shutil.rmtree(beside)
+    except OSError as error:
+        raise Error(f"{path}: cannot be removed: {error.strerror or error}") from error

@@ -3,15 +3,13 @@
 import itertools
 import math
 import time
-import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
 from asperity.friction import Friction
@@ -20,12 +18,11 @@ from asperity.scene.model import Scene
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Builders, build_scene
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
+from asperity.sweep.outcome import Numbers, Outcome
 from asperity.sweep.parts import ChangedFile, KeptBuilders
 
-MOST_MESSAGES = 1000  # that a sweep keeps: those with the smallest codes
 _FAILURES = (InvalidInput, NotConverged, OutOfRange)
 BAND = ("mu_low", "mu_high")
-Numbers = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -47,54 +44,33 @@ class Task:
     def box(self) -> tuple[int, ...]:
         return tuple(axis.size for axis in self.axes)
 
-
-@dataclass
-class Outcome:
-    """What came of a task."""
-
-    start: tuple[int, ...]
-    box: tuple[int, ...]
-    values: dict[str, Any] = field(default_factory=dict)  # arrays of the box's shape, or a number
-    sums: list[int] | None = None  # of the bits, where the worker has written the values
-    failure: NDArray[np.uint32] | None = None  # codes of messages, 0 where there is none
-    messages: dict[int, str] = field(default_factory=dict)
-    kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
-    notes: dict[str, int] = field(default_factory=dict)  # with the first scene that has it
-    seconds: float = 0.0
+    @property
+    def wants_band(self) -> bool:
+        return bool(set(BAND) & set(self.variables))
 
     @property
-    def failed(self) -> int:
-        return sum(self.kinds.values())
+    def has_heat(self) -> bool:
+        swept = (key for axis in self.axes for key in axis.values)
+        return "heating" in self.tables or any(key.startswith("heating.") for key in swept)
 
     @property
-    def points(self) -> int:
-        return math.prod(self.box)
+    def is_whole(self) -> bool:
+        """Whether points of a scene are never cut: heat at a velocity begins from the one before
+        it, and a band is of all points."""
+        return self.has_heat or self.wants_band
 
-    def array(self, name: str) -> Numbers:
-        """The numbers of a variable, NaN where nothing was put."""
-        if name not in self.values:
-            self.values[name] = np.full(self.box, np.nan)
-        found: Numbers = self.values[name]
-        return found
+    @property
+    def moved(self) -> list[int]:
+        """Axes that move points of a scene, which one call computes together.
 
-    def fail(self, where: Any, error: Error) -> None:
-        """Note why there is nothing at `where`, an index of the box."""
-        message = str(error)
-        code = zlib.crc32(message.encode(errors="backslashreplace")) or 1
-        if self.failure is None:
-            self.failure = np.zeros(self.box, np.uint32)
-        kind = type(error).__name__
-        new = int(np.sum(self.failure[where] == 0))
-        self.failure[where] = code
-        self.kinds[kind] = self.kinds.get(kind, 0) + new
-        keep_message(self.messages, code, message)
+        A band needs all pressures at all velocities. With heat a call has one pressure.
+        """
+        return [i for i, axis in enumerate(self.axes) if self._is_moved(axis)]
 
-
-def keep_message(messages: dict[int, str], code: int, message: str) -> None:
-    """Keep a message, and no more than a sweep keeps; which ones does not depend on their order."""
-    messages[code] = message
-    if len(messages) > MOST_MESSAGES:
-        del messages[max(messages)]
+    def _is_moved(self, axis: Axis) -> bool:
+        if self.wants_band:
+            return axis.of_points and len(axis.values) == 1
+        return axis.of_points and (VELOCITY in axis.values or not self.has_heat)
 
 
 def compute(task: Task) -> Outcome:
@@ -104,7 +80,7 @@ def compute(task: Task) -> Outcome:
     began = time.perf_counter()
     box = task.box
     outcome = Outcome(task.start, box)
-    moved = [i for i, axis in enumerate(task.axes) if is_moved(axis, task.variables)]
+    moved = task.moved
     fixed = [i for i in range(len(box)) if i not in moved]
     whole = tuple(task.shape[i] for i in fixed)
     for place in itertools.product(*(range(box[i]) for i in fixed)):
@@ -128,11 +104,6 @@ def _sent(values: Numbers) -> Any:
     return values
 
 
-def is_moved(axis: Axis, variables: tuple[str, ...]) -> bool:
-    """Whether an axis moves points of a scene; a band needs all pressures at all velocities."""
-    return axis.of_points and (len(axis.values) == 1 or not set(BAND) & set(variables))
-
-
 def _compute_scene(
     task: Task, outcome: Outcome, at: tuple[Any, ...], moved: list[int], number: int
 ) -> None:
@@ -148,10 +119,11 @@ def _compute_scene(
     try:
         pressure = _along(points, PRESSURE, tables)
         velocity = _along(points, VELOCITY, tables)
-        scene = _scene(task, tables, pressure, outcome, number)
+        scene = _scene(task, tables, pressure, velocity, outcome, number)
     except ChangedFile:
         raise
     except _FAILURES as error:
+        outcome.refused += isinstance(error, InvalidInput)
         outcome.fail(at, error)
         return
     flat_p, flat_v = (np.broadcast_to(one, shape).ravel() for one in (pressure, velocity))
@@ -167,8 +139,8 @@ def _compute_scene(
         for name in task.variables:
             if name not in BAND:
                 _put(outcome, name, at, shape, part, _found(result, name))
-    if set(BAND) & set(task.variables):
-        _band(scene, points, pressure, velocity, outcome, at)
+    if task.wants_band:
+        _band(scene, points, pressure, velocity, outcome, at, number)
 
 
 def _found(result: Friction, name: str) -> Any:
@@ -211,13 +183,22 @@ def _along(points: list[Axis], key: str, tables: Mapping[str, Any]) -> Numbers:
 
 
 def _scene(
-    task: Task, tables: dict[str, Any], pressure: Numbers, outcome: Outcome, number: int
+    task: Task,
+    tables: dict[str, Any],
+    pressure: Numbers,
+    velocity: Numbers,
+    outcome: Outcome,
+    number: int,
 ) -> Scene:
-    """The scene of a place, whose own points are not used; its notes are kept."""
+    """The scene of a place, whose own points are not used; its notes are kept.
+
+    Numbers of an axis of points were checked when the sweep was planned.
+    """
     path = Path(task.path)
     placed = {**tables, "conditions": {**tables["conditions"]}}
     lowest, highest = task.pressures if np.ndim(pressure) else (float(pressure),) * 2
-    placed["conditions"] |= {"pressure_pa": lowest, "velocity_m_s": 1.0}
+    alone = 1.0 if np.ndim(velocity) else float(velocity)
+    placed["conditions"] |= {"pressure_pa": lowest, "velocity_m_s": alone}
     kept = KeptBuilders(task.digests)
     builders = Builders(kept.surface, kept.rubber, kept.correction)
     with plausible.collected() as notes:
@@ -251,8 +232,7 @@ def _results(
             if part.stop - part.start == 1:
                 yield part, error
                 continue
-            middle = (part.start + part.stop) // 2
-            pending += [slice(middle, part.stop), slice(part.start, middle)]
+            pending += _halves(part)
 
 
 def _band(
@@ -262,19 +242,43 @@ def _band(
     velocity: Numbers,
     outcome: Outcome,
     at: tuple[Any, ...],
+    number: int,
 ) -> None:
     """Lower and upper mu of a scene's pressures and velocities, all of which are in the box."""
-    swept = replace(scene, pressure=pressure.ravel(), velocity=velocity.ravel())
-    turned = bool(points) and VELOCITY in points[0].values and len(points) == 2
     mu = outcome.array("mu")[at]
-    ones = np.ones((swept.pressure.size, swept.velocity.size))
-    try:
-        bounds = swept.band(ones)
-    except _FAILURES as error:
-        outcome.fail(at, error)
-        return
-    for name, share in zip(BAND, (bounds.lower, bounds.upper), strict=True):
+    turned = len(points) == 2 and VELOCITY in points[0].values
+    grid = (pressure.size, velocity.size)
+    shares = np.full((2, *grid), np.nan)
+    pending = [(slice(0, grid[0]), slice(0, grid[1]))]
+    while pending:  # what fails is cut, pressures first, until single points are left
+        part = pending.pop()
+        rows, columns = part
+        swept = replace(scene, pressure=pressure.ravel()[rows], velocity=velocity.ravel()[columns])
+        try:
+            bounds = swept.band(np.ones((swept.pressure.size, swept.velocity.size)))
+        except _FAILURES as error:
+            if swept.pressure.size > 1:
+                pending += [(half, columns) for half in _halves(rows)]
+            elif swept.velocity.size > 1:
+                pending += [(rows, half) for half in _halves(columns)]
+            else:
+                place = (columns.start, rows.start) if turned else (rows.start, columns.start)
+                outcome.fail(_place_of(at, place, np.shape(mu)), error)
+            continue
+        shares[(slice(None), *part)] = bounds.lower, bounds.upper
+        for note in bounds.notes:
+            outcome.notes[note] = min(number, outcome.notes.get(note, number))
+    for name, share in zip(BAND, shares, strict=True):
         factor = share.T if turned else share
         outcome.array(name)[at] = mu * factor.reshape(np.shape(mu))
-    for note in bounds.notes:
-        outcome.notes.setdefault(note, 0)
+
+
+def _halves(part: slice) -> tuple[slice, slice]:
+    middle = (part.start + part.stop) // 2
+    return slice(middle, part.stop), slice(part.start, middle)
+
+
+def _place_of(at: tuple[Any, ...], place: tuple[int, ...], shape: tuple[int, ...]) -> Any:
+    """The index of a point in the box, of that in a scene's pressures and velocities."""
+    inside = iter(place if len(shape) == 2 else [max(place)])
+    return tuple(one if isinstance(one, int) else next(inside) for one in at)

@@ -1,5 +1,7 @@
 """What a sweep costs, from tasks that a worker was timed on."""
 
+import itertools
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -7,11 +9,14 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.sweep.executors import Executor, result_of
+from asperity.sweep.outcome import Outcome
 from asperity.sweep.plan import Cost, Plan
-from asperity.sweep.task import compute, is_moved
+from asperity.sweep.task import compute
 
 _TIMED = 0.2  # seconds that a timed task takes at least
 _MOST_TIMED = 20_000  # points of it at most
+_MOST_TRIED = 1000  # scenes that are tried until one can be built
+_UNKNOWN = 1e-3  # seconds of a scene where none could be timed
 
 
 def timed(plan: Plan, executor: Executor) -> Cost:
@@ -19,13 +24,16 @@ def timed(plan: Plan, executor: Executor) -> Cost:
 
     What an axis of scenes costs is measured by a step along it. Points are taken from all over
     their axes, for some are harder than others.
+
+    Raises
+    ------
+    InvalidInput
+        No scene of the sweep can be built of its values; the message is that of the first.
     """
     task = plan.task
-    moved = [i for i, axis in enumerate(task.axes) if is_moved(axis, task.variables)]
+    moved = task.moved
 
-    refused: list[str] = []  # places that make no scene
-
-    def seconds(points: int, at: Mapping[int, int]) -> tuple[float, int]:
+    def outcome_of(points: int, at: Mapping[int, int]) -> Outcome:
         axes = []
         for i, axis in enumerate(task.axes):
             if i in moved:
@@ -36,33 +44,40 @@ def timed(plan: Plan, executor: Executor) -> Cost:
             entries = {key: tuple(v[j] for j in chosen) for key, v in axis.values.items()}
             axes.append(replace(axis, values=entries))
         part = plan.part(tuple(axes), (0,) * len(axes))
-        outcome = result_of(executor.submit(compute, replace(part, shape=part.box)))
-        size = int(np.prod(part.box))
-        if outcome.kinds.get("InvalidInput") == size:
-            refused.extend(outcome.messages.values())
-        return outcome.seconds, size
+        found: Outcome = result_of(executor.submit(compute, replace(part, shape=part.box)))
+        return found
 
-    seconds(1, {})  # a cold worker
-    warm = seconds(1, {})[0]
-    points, took, count = 64, warm, 1
-    while moved and not refused and took < _TIMED and points <= _MOST_TIMED:
-        took, now = seconds(points, {})
-        if now <= count:
+    fixed = [i for i in range(len(task.axes)) if i not in moved]
+    refusal: str | None = None
+    for count, place in enumerate(itertools.product(*(range(task.shape[i]) for i in fixed))):
+        if count == _MOST_TRIED:
+            return Cost(_UNKNOWN, _UNKNOWN, {})
+        at = dict(zip(fixed, place, strict=True))
+        cold = outcome_of(1, at)
+        if not cold.refused:
             break
-        count, points = now, 4 * points
+        refusal = refusal or next(iter(cold.messages.values()))
+    else:
+        raise InvalidInput(refusal or "")
+    warm = outcome_of(1, at).seconds
+    points, took, size = 64, warm, 1
+    while moved and took < _TIMED and points <= _MOST_TIMED:
+        found = outcome_of(points, at)
+        took = found.seconds
+        if found.points <= size:
+            break
+        size, points = found.points, 4 * points
     change = {
-        i: max(warm, seconds(1, {i: 1})[0])
-        for i, axis in enumerate(task.axes)
-        if i not in moved and axis.size > 1
+        i: max(warm, outcome_of(1, {**at, i: (at[i] + 1) % task.shape[i]}).seconds)
+        for i in fixed
+        if task.shape[i] > 1
     }
-    if len(refused) >= 2 + len(change):  # the scene, not some of the values
-        raise InvalidInput(refused[0])
-    return Cost(max(took - warm, 1e-9) / max(count - 1, 1), warm, change)
+    return Cost(max(took - warm, 1e-9) / max(size - 1, 1), warm, change)
 
 
 def estimated(plan: Plan, cost: Cost) -> float:
     """Seconds that one worker would take, without what is built once."""
-    moved = [is_moved(axis, plan.task.variables) for axis in plan.task.axes]
-    scenes = int(np.prod([n for n, m in zip(plan.shape, moved, strict=True) if not m], initial=1))
+    moved = plan.task.moved
+    scenes = math.prod(n for i, n in enumerate(plan.shape) if i not in moved)
     each = max([cost.scene, *cost.change.values()])
     return plan.points * cost.point + scenes * each

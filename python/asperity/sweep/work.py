@@ -1,5 +1,6 @@
 """A task as a worker does it: computed, and written where the worker sees the store."""
 
+import zlib
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -9,7 +10,8 @@ import numpy as np
 
 from asperity._core import Error
 from asperity.base.table import imported
-from asperity.sweep.task import Outcome, Task, compute
+from asperity.sweep.outcome import Outcome
+from asperity.sweep.task import Task, compute
 
 TOKEN = "_sweep/token"  # a text that no other store has, by which a worker knows this one
 
@@ -25,9 +27,9 @@ def work(task: Task) -> Outcome:
 
 
 def write_box(path: Path, arrays: Mapping[str, Any], outcome: Outcome) -> list[int]:
-    """Write the chunks of a box, each whole or not at all; return sums to know them by."""
+    """Write the chunks of a box, each whole or not at all; return their checksums."""
     where = where_of(outcome)
-    failure: Any = np.uint32(0) if outcome.failure is None else outcome.failure
+    failure: Any = np.int64(0) if outcome.failure is None else outcome.failure
     parts = {**outcome.values, "failure": failure}
     try:
         for name, array in arrays.items():
@@ -35,29 +37,32 @@ def write_box(path: Path, arrays: Mapping[str, Any], outcome: Outcome) -> list[i
     except OSError as error:
         reason = error.strerror or error
         raise Error(f"{path}: cannot be written: {reason}; --resume goes on") from error
-    return [bits(parts[name], outcome.points) for name in arrays]
+    return [checksum(parts[name], outcome.box) for name in arrays]
 
 
 def where_of(outcome: Outcome) -> tuple[slice, ...]:
     return tuple(slice(s, s + size) for s, size in zip(outcome.start, outcome.box, strict=True))
 
 
-def bits(numbers: Any, points: int) -> int:
-    """The sum of the bits as whole numbers, by which numbers that are missing or torn are seen."""
-    array = np.asarray(numbers)
-    whole = np.ascontiguousarray(array).view(f"u{array.itemsize}")
-    return int(whole.sum(dtype=np.uint64)) * (points if array.ndim == 0 else 1) % 2**64
+def checksum(numbers: Any, box: tuple[int, ...]) -> int:
+    """CRC-32 of the numbers of a box in order, by which missing, torn or moved ones are seen."""
+    return zlib.crc32(np.ascontiguousarray(np.broadcast_to(numbers, box)).data)
 
 
 def arrays_of(group: Any, variables: Sequence[str]) -> dict[str, Any]:
     return {name: group[name] for name in (*variables, "failure")}
 
 
-def _sees(path: str, token: str) -> bool:
+def token_of(path: Path) -> str | None:
+    """The text that is in a store's token; None where it cannot be read."""
     try:
-        return (Path(path) / TOKEN).read_text() == token
-    except OSError:
-        return False
+        return (path / TOKEN).read_text()
+    except (OSError, ValueError):
+        return None
+
+
+def _sees(path: str, token: str) -> bool:
+    return token_of(Path(path)) == token
 
 
 @lru_cache(maxsize=4)

@@ -40,18 +40,17 @@ def swept(stored):
         yield found
 
 
-def table(mu, error, band=None):
+def table(mu, error, band=None, numerical=0.0):
     """A store of three rubbers over two velocities and two roads."""
     along = ("rubber", "road", "conditions.velocity_m_s")
     variables = {
         "mu": (along, np.array(mu, float)),
         "failure": (along, np.zeros(np.shape(mu), int)),
     }
-    if band is None:
-        variables["error_estimate"] = (along, np.full(np.shape(mu), 0.0))
-        variables["hysteresis"] = variables["mu"]
-        variables["model_error"] = (along, np.array(error, float))
-    else:
+    variables["error_estimate"] = (along, np.full(np.shape(mu), numerical))
+    variables["hysteresis"] = variables["mu"]
+    variables["model_error"] = (along, np.array(error, float))
+    if band is not None:
         variables["mu_low"] = (along, np.array(mu) - band)
         variables["mu_high"] = (along, np.array(mu) + band)
     return xarray.Dataset(
@@ -69,11 +68,20 @@ def test_ranks_are_those_counted_by_hand():
     assert found["mean_mu"] == pytest.approx([3.1 / 4, 2.99 / 4, 0.1])
     assert found["lead"][:2] == pytest.approx([0.11 / 4, 2.59 / 4])
     assert found["best_share"] == [0.75, 0.25, 0]
-    # leads 0.2 over 0.128, 0.4 over 0.103, 0.3 over 0.122 and 0.01 over 0.084
+    # leads 0.2 over 0.18, 0.4 over 0.14, 0.3 over 0.17 and 0.01 over 0.119
     assert found["certain_share"] == [0.5, 0.25, 0]
     assert found["best_at"] == ["road new; velocity_m_s 0.1", "", ""]
-    found = ranks(table(MU, None, band=0.15), "rubber")  # 0.212 for two
+    found = ranks(table(MU, np.full((3, 2, 2), 0.11)), "rubber")  # 0.198, 0.154, 0.187, 0.131
+    assert found["certain_share"] == [0.5, 0.25, 0]
+    found = ranks(table(MU, np.full((3, 2, 2), 0.12)), "rubber")  # 0.216, 0.168, 0.204, 0.143
+    assert found["certain_share"] == [0.25, 0.25, 0]  # 0.2 is more than 0.153, and no sum
+    none = np.zeros((3, 2, 2))
+    found = ranks(table(MU, none, band=0.14), "rubber")  # 0.28 for two
     assert found["certain_share"] == [0.25, 0.25, 0]
+    found = ranks(table(MU, none, band=0.14, numerical=0.02), "rubber")  # 0.32
+    assert found["certain_share"] == [0, 0.25, 0]
+    found = ranks(table(MU, np.full((3, 2, 2), 0.1), band=0.14), "rubber")  # 0.42 with 0.14 of it
+    assert found["certain_share"] == [0, 0, 0]
     found = ranks(table(MU, np.full((3, 2, 2), np.nan)), "rubber")
     assert np.isnan(found["certain_share"]).all()
 
@@ -123,6 +131,8 @@ BAD = {
     "--plot p.txt": "must end in .png",
     "--plot p.png --variables my --at surface.hurst=0.8": "my: the store does not have it",
     "--plot p.png --output r.nc": "--output: ",
+    "--rank rubbers --variables mu": "--variables: goes with --plot",
+    "--plot p.png --variables mu,hysteresis": "--variables mu,hysteresis: must be one",
     "--style dark": "--style: goes with --plot",
     "--at surface.hurst=0.7": "--at: goes with --plot and --rank",
 }
@@ -178,7 +188,7 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
 
 
 def test_a_band_is_filled(tmp_path, monkeypatch):
-    figure = drawn(table(MU, None, band=0.1), tmp_path / "p.png", monkeypatch)
+    figure = drawn(table(MU, np.zeros((3, 2, 2)), band=0.1), tmp_path / "p.png", monkeypatch)
     assert [len(axes.collections) for axes in figure.axes] == [2, 2, 2]
 
 

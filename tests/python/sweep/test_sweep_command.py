@@ -73,7 +73,7 @@ def test_a_dry_run_tells_what_it_would_take(capsys):
     assert main(["sweep", "sweep.toml", "--dry-run"]) == 0
     told = dict(line.split(" = ") for line in capsys.readouterr().out.splitlines())
     assert told["points"] == "168"
-    assert told["bytes"] == str(168 * 20)
+    assert told["bytes"] == str(168 * 24)
     assert int(told["tasks"]) >= 1
     assert float(told["seconds_of_one_worker"]) > 0
     assert sorted(os.listdir()) == ["scene.toml", "sweep.toml"]
@@ -113,6 +113,13 @@ BAD = {
     "[over.road]\nsurface.hurst = [0.7, 0.8]\nsurface.q0_per_m = [1e3]": "must be equally long",
     "surface.hurst = [0.7]\n[over.road]\nsurface.hurst = [0.7]": "is in two axes",
     "surface.rolloff_per_m = [1e9]": "rolloff",
+    "[over.mu]\nsurface.hurst = [0.7]": "over 'mu': is the name of a variable",
+    "[over.gain]\nsurface.hurst = [0.7]": "over 'gain': is the name of a variable",
+    "[over.failure_code]\nsurface.hurst = [0.7]": "is the name of a variable",
+    '[over.""]\nsurface.hurst = [0.7]': "over '': must be of letters",
+    '[over."../x"]\nsurface.hurst = [0.7]': "over '../x': must be of letters",
+    '[over."a/b"]\nsurface.hurst = [0.7]': "over 'a/b': must be of letters",
+    '[over."conditions.velocity_m_s"]\nsurface.hurst = [0.7]': "is a key of a scene",
 }
 
 
@@ -146,6 +153,9 @@ def test_a_bad_file_is_refused(text, said, folder, capsys):
         ("sweep.toml", "--output: is missing"),
         ("sweep.toml --output r.csv", "must end in .zarr or .nc"),
         ("sweep.toml --output gone/r.zarr", "gone does not exist"),
+        ("sweep.toml --output r.zarr --force --resume", "--force, --resume: must be one of them"),
+        ("sweep.toml --dry-run --resume", "--resume: must be left out with --dry-run"),
+        ("sweep.toml --dry-run --force", "--force: must be left out with --dry-run"),
         ("sweep.toml --output r.zarr --workers 0", "--workers 0: must be from 1"),
         ("sweep.toml --output r.zarr --workers 2 --mpi", "must be one of them"),
         ("sweep.toml --output r.zarr --variables mu,my", "did you mean mu?"),
@@ -156,6 +166,14 @@ def test_a_bad_file_is_refused(text, said, folder, capsys):
 def test_bad_options_are_refused(line, said, capsys):
     assert said in refused(capsys, *line.split())
     assert sorted(os.listdir()) == ["scene.toml", "sweep.toml"]
+
+
+def test_a_picture_does_not_take_the_place_of_an_input(folder, capsys):
+    os.rename("scene.toml", "scene.png")
+    (folder / "sweep.toml").write_text(SWEEP.replace("scene.toml", "scene.png"))
+    said = refused(capsys, "sweep.toml", "--output", "r.zarr", "--plot", "scene.png")
+    assert "scene.png: is an input" in said
+    assert sorted(os.listdir()) == ["scene.png", "sweep.toml"]
 
 
 class Silent:

@@ -167,7 +167,7 @@ asperity.sweep(SCENE, {over}, store="killed{ending}", resume=True, variables=["m
 
 
 @pytest.mark.parametrize("ending", [".zarr", pytest.param(".nc", marks=pytest.mark.long)])
-def test_what_a_killed_driver_wrote_is_gone_on_with(ending, expected, tmp_path, monkeypatch):
+def test_what_a_killed_driver_wrote_is_resumed(ending, expected, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     part = Path("killed.zarr" if ending == ".zarr" else "killed.nc.part")
     journal = part / "_sweep/journal"
