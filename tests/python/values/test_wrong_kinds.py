@@ -162,7 +162,10 @@ def right(argument, value):
         argument == "ax"  # whatever draws
         or (argument == "heights" and np.ma.isMaskedArray(value))  # drop-outs
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
-        or (isinstance(value, str) and argument in {"text", "path", "paths", "scene", "scenes", "title"})
+        or (
+            isinstance(value, str)
+            and argument in {"text", "path", "paths", "scene", "scenes", "title"}
+        )
         or (callable(value) and argument == "progress")
     )
 
