@@ -104,17 +104,18 @@ class PartialContact(Value):
     G(q)))), A1 = A(q1) and g' = dG / d ln q with the mean of q^4 C over two units of ln q about q:
 
     - R = A / (1 + Q A^2 g')^2 stands in the integrand of Eq. 22 where A S stands;
-    - T = 3.55 A1 (1 - A1^(1/4)) g'(q_e) max(1, 0.1 / rho) (I2(v q) / I2(v q_e))^1.25 (q_e / q)^3
+    - T = 3.55 A1 (1 - A1^(1/4)) g'_e max(1, 0.1 / rho) (I2(v q) / I2(v q_e))^1.25 (q_e / q)^3
       is what the edges of contacts carry from q_e, the end of the roughness, to 33 q_e;
     - kappa makes the stress as uneven as Persson's pressure is: 2 (int R dG + int T d ln q) is B
       times the variance of the distribution of `pressure_distribution`, over sigma0^2.
 
     Q = 0.67 (4 w / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + 6.3 (1 - A1^(1/10))^3) and B = 1 + (0.105
     A1 + 0.45 max(0, 1 - 1 / rho)^4) (1 - A1^8), where M = int q^3 C dq, ln q_e is the mean of ln q
-    over the last tenth of M, w the mean of q^4 C over two units of ln q about q_e and rho =
-    I2(v q_e) M / int q^3 C I2 dq. So rows that a spectrum has beyond its roughness do not matter.
-    The area is A1, the hysteresis 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln
-    q). In complete contact all of it is Persson's theory as it stands.
+    over the last tenth of M, w the mean of q^4 C over two units of ln q about q_e or M / 20 if that
+    is more, g'_e = dG / d ln q at q_e with it and rho = I2(v q_e) M / int q^3 C I2 dq. So rows that
+    a spectrum has beyond its roughness do not matter. The area is A1, the hysteresis 4 (1 - nu^2)
+    sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln q). In complete contact all of it is Persson's
+    theory as it stands.
 
     Notes
     -----

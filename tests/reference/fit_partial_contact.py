@@ -5,9 +5,9 @@
 With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2), dG = K I2 c dy:
     A(q) = erf(1 / (2 sqrt(kappa G)))                   and A1 = A(q1)
     R = A / (1 + Z)^2,   Z = Q A^2 K I2 w,              w = (M(y + 1) - M(y - 1)) / 2
-    Q = obstacle (4 w(q_e) / M(q1))^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
-    T = edges A1 (1 - A1^(1/4)) max(1, 0.1 / rho) K I2(q_e) w(q_e) (I2 / I2(q_e))^(5/4) x^-3,
-    x = q / q_e to 33,   rho = K I2(q_e) M(q1) / G1
+    Q = obstacle (4 w_e / M(q1))^(1/5) kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3)
+    T = edges A1 (1 - A1^(1/4)) max(1, 0.1 / rho) K I2(q_e) w_e (I2 / I2(q_e))^(5/4) x^-3,
+    x = q / q_e to 33,   rho = K I2(q_e) M(q1) / G1,   w_e = max(w(q_e), M(q1) / 20)
     int R dG + int T d ln x = F(kappa G1) B,            F(g) = int_0^g erf(1 / (2 sqrt(u))) du
     B = 1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)
     mu = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln x)
@@ -93,7 +93,7 @@ class Contacts:
         last = 1 - 0.1 * (np.arange(100) + 0.5) / 100  # of M, and where it is reached
         end = np.log1p(last * np.expm1(rise * band[:, None])) / rise
         end = end.mean(1)[:, None]
-        self.end_window = ((mass(end + 1) - mass(end - 1)) / 2)[:, 0]
+        self.end_window = np.maximum((mass(end + 1) - mass(end - 1))[:, 0] / 2, 0.05 / (2 * np.pi))
         self.k = 1 / (8 * ((1 - NU**2) * pressure) ** 2)
         self.i1, self.i2 = np.empty_like(y), np.empty_like(y)
         self.t1, self.t2 = np.empty((len(rows), TAIL.size)), np.empty((len(rows), TAIL.size))

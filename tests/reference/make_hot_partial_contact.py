@@ -19,6 +19,7 @@ from partial_rule import EDGES, LIGHT, OBSTACLE, TAIL_END, by_inverse, by_kappa,
 from partial_surface import (
     closed_end,
     closed_moment,
+    end_window,
     gauss,
     nodes_on,
     roughness,
@@ -147,7 +148,7 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     rough = stiff**2 / 8 * at(y, i[:, None])
     window = stiff**2 / 8 * between(y - 1, y + 1) / 2
     here = np.array([last])
-    window_at_end, whole = between(here - 1, here + 1)[0] / 2, between(places[:1], places[-1:])[0]
+    window_at_end, whole = end_window(between, places, here), between(places[:1], places[-1:])[0]
     if in_power:
         u, tail_weights, _ = nodes_on(np.geomspace(TAIL_END**-3, 1, 16), rule)
         x, tail_weights = u.ravel() ** (-1 / 3), tail_weights.ravel() / 3

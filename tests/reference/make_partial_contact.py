@@ -18,6 +18,7 @@ from partial_rule import TAIL_END, by_inverse, by_kappa, sums
 from partial_surface import (
     closed_end,
     closed_moment,
+    end_window,
     gauss,
     nodes_on,
     roughness,
@@ -117,7 +118,7 @@ def held(integrals, highest):
 
 
 def band(scene, integrals, between, last, rule, first, growth, longest):
-    """Return G, its weights, g' and I1 / I2 on the band, G(q1), 4 c_w(q_e) / M, 1 - 1 / rho."""
+    """Return G, its weights, g' and I1 / I2 on the band, G(q1), 4 c_e / M, 1 - 1 / rho."""
     q, c = rows_of(scene["surface"])
     at, _, _ = roughness(q, c)
     places = np.log(q)
@@ -141,7 +142,7 @@ def band(scene, integrals, between, last, rule, first, growth, longest):
     g = before[:-1, None] + half * (rate @ rule[2].T)
     steepness = stiff**2 / 8 * i2 * between(y - 1, y + 1) / 2
     last = np.array([last])
-    window, whole = between(last - 1, last + 1)[0] / 2, between(places[:1], places[-1:])[0]
+    window, whole = end_window(between, places, last), between(places[:1], places[-1:])[0]
     at_end = stiff**2 / 8 * whole * integrals(scene["velocity"] * np.exp(last))[1][0]
     return (
         g,
@@ -164,8 +165,8 @@ def tail_in_logarithm(scene, integrals, between, last):
     i1, i2 = integrals(scene["velocity"] * q_e * np.exp(z))
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
     excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
-    end = np.array([last])
-    factor = stiff**2 / 16 * between(end - 1, end + 1)[0] * excess * weights * np.exp(-3 * z)
+    places, end = np.log(rows_of(scene["surface"])[0]), np.array([last])
+    factor = stiff**2 / 8 * end_window(between, places, end) * excess * weights * np.exp(-3 * z)
     return (factor * i2).sum(), (factor * i1).sum()
 
 
@@ -179,8 +180,8 @@ def tail_in_power(scene, integrals, between, last):
     i1, i2 = integrals(scene["velocity"] * q_e * u ** (-1 / 3))
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
     excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
-    end = np.array([last])
-    factor = stiff**2 / 16 * between(end - 1, end + 1)[0] * excess * weights / 3
+    places, end = np.log(rows_of(scene["surface"])[0]), np.array([last])
+    factor = stiff**2 / 8 * end_window(between, places, end) * excess * weights / 3
     return (factor * i2).sum(), (factor * i1).sum()
 
 

@@ -2,11 +2,12 @@
 
 With y = ln q, c = q^4 C, K = 1 / (8 ((1 - nu^2) sigma0)^2), G = K int c I2 dy, M = int c dy, c_w
 half of the integral of c over [y - 1, y + 1] (c is 0 off the band), ln q_e the mean of y over that
-last part of the band that has a tenth of M(q1), and rho = K I2(v q_e) M(q1) / G(q1):
+last part of the band that has a tenth of M(q1), c_e = max(c_w(q_e), M(q1) / 20), and rho =
+K I2(v q_e) M(q1) / G(q1):
   A = erf(1 / (2 sqrt(kappa G))), A1 = A(q1), R = A / (1 + Z)^2,
-  Z = OBSTACLE (4 c_w(q_e) / M(q1))^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3)
+  Z = OBSTACLE (4 c_e / M(q1))^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + LIGHT (1 - A1^(1/10))^3)
       A^2 K I2 c_w,
-  T = EDGES A1 (1 - A1^(1/4)) max(1, 0.1 / rho) K c_w(q_e) I2(v q_e) (I2(v q) / I2(v q_e))^1.25
+  T = EDGES A1 (1 - A1^(1/4)) max(1, 0.1 / rho) K c_e I2(v q_e) (I2(v q) / I2(v q_e))^1.25
       x^-3, x = q / q_e from 1 to 33,
   2 (int R dG + int T dln x) = m (1 + (SPREAD A1 + STIFF max(0, 1 - 1 / rho)^4) (1 - A1^8)) with
   m = (1 + 2 g) erf(s) + 2 sqrt(g / pi) exp(-s^2) - 1, g = kappa G(q1), s = 1 / (2 sqrt g): the

@@ -123,3 +123,9 @@ def summed_end(q, c):
     y, weights, _ = nodes_on(edges, gauss(28))
     mass = weights * roughness(q, c)[0](y, i[:, None])
     return (mass * y).sum() / mass.sum()
+
+
+def end_window(between, places, end):
+    """Return c_e, half of the integral of c within a unit of the end, or LAST of all if more."""
+    whole = between(places[:1], places[-1:])[0]
+    return max(between(end - 1, end + 1)[0], LAST * whole) / 2

@@ -63,8 +63,8 @@ class Rule:
 
     g: np.ndarray  # at the places, beginning with 0
     steepness: np.ndarray  # g' = K I2 w
-    tail: float  # int K w(q_e) I2 (I2 / I2(q_e))^(1/4) x^-3 d ln x
-    end_factor: float
+    tail: float  # int K w_e I2 (I2 / I2(q_e))^(1/4) x^-3 d ln x
+    end_factor: float  # (4 w_e / M)^(1/5)
     excess: float  # 1 - 1 / rho
 
     def residual(self, log_kappa: np.ndarray, load: float) -> np.ndarray:
@@ -119,6 +119,7 @@ def rule_of(q: np.ndarray, c: np.ndarray, rubber: Any, velocity: float) -> Rule:
     last = np.clip((0.1 * total[-1] - (behind - mass)) / np.where(mass > 0, mass, 1), 0, 1)
     end = (last * mass * middle).sum() / (last * mass).sum()
     at_end = (np.interp(end + 1, places, total) - np.interp(end - 1, places, total)) / 2
+    at_end = max(at_end, total[-1] / 20)
     factor = 1 / (8 * 0.75**2)
     i2 = second_integral(rubber, velocity * np.exp(np.concatenate([places, end + TAIL])))
     on_band, beyond = i2[: places.size], i2[places.size :]

@@ -40,11 +40,11 @@ struct NayakSFactor {
 /// waves, which knows that the pressure varies by as much as the stress does. With G, I1 and I2 of Persson's theory,
 /// A(q) = erf(1 / (2 sqrt(kappa G))) and A1 that at q1: the integrand of Eq. 22 is multiplied by R = A / (1 + Z)^2,
 /// Z = Q A^2 g', g' = K I2 w = dG / d ln q with the mean w of q^4 C over two units of ln q, and edges of contacts carry
-/// T = 3.55 A1 (1 - A1^(1/4)) g'(q_e) max(1, 0.1 / rho) (I2(v q) / I2(v q_e))^1.25 (q_e / q)^3 from q_e to 33 q_e, ln
-/// q_e the mean of ln q over the last tenth of M = int q^3 C dq, rho = K I2(v q_e) M / G(q1). kappa is such that 2 (int
-/// R dG + int T d ln q) is B times the variance of Persson's pressure over sigma0^2. Q = 0.67 (4 w(q_e) / M)^0.2
-/// kappa^(1/4) (1 - A1)^(1/8) (1 + 6.3 (1 - A1^(1/10))^3), B = 1 + (0.105 A1 + 0.45 max(0, 1 - 1 / rho)^4) (1 - A1^8).
-/// The area is A1. Exact form only.
+/// T = 3.55 A1 (1 - A1^(1/4)) K I2(v q_e) w_e max(1, 0.1 / rho) (I2(v q) / I2(v q_e))^1.25 (q_e / q)^3 from q_e to 33
+/// q_e, ln q_e the mean of ln q over the last tenth of M = int q^3 C dq, w_e w(q_e) or M / 20 if that is more, rho = K
+/// I2(v q_e) M / G(q1). kappa is such that 2 (int R dG + int T d ln q) is B times the variance of Persson's pressure
+/// over sigma0^2. Q = 0.67 (4 w_e / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + 6.3 (1 - A1^(1/10))^3), B = 1 + (0.105 A1 +
+/// 0.45 max(0, 1 - 1 / rho)^4) (1 - A1^8). The area is A1. Exact form only.
 struct PartialContact {
   bool operator==(const PartialContact&) const = default;
 };

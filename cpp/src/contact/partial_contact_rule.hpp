@@ -3,17 +3,18 @@
 // ln q from q / e to e q) / 2, c being 0 off the band, ln q_e the mean of ln q over that last part of the band that has
 // a tenth of M, rho = K I2(v q_e) M / G(q1), A(q) = erf(1 / (2 sqrt(kappa G(q)))) and A1 that at q1
 //   R(q) = A / (1 + Z)^2, the stress on the band over that of complete contact, with
-//     Z = obstacle (4 w(q_e) / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
-//     g' = K I2(v q) w(q);
-//   T(x) = edges A1 (1 - A1^(1/4)) g'(q_e) max(1, last / rho) (I2(v q) / I2(v q_e))^1.25 x^-3, x = q / q_e from 1 to
-//     tail_end, that of the edges of contacts.
+//     Z = obstacle (4 w_e / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
+//     g' = K I2(v q) w(q), w_e = max(w(q_e), M / 20), as if all of that tenth stood in one window;
+//   T(x) = edges A1 (1 - A1^(1/4)) K I2(v q_e) w_e max(1, last / rho) (I2(v q) / I2(v q_e))^1.25 x^-3, that of
+//     the edges of contacts, x = q / q_e from 1 to tail_end.
 // kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
 // for a factor near 1:
 //   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)).
-// last is that tenth. rho is below it where a rubber that stiffens meets faint waves beyond
-// q_e that have nearly all of G: without last / rho in T the last equation has several roots there.
-// In complete contact R = 1, T = 0 and kappa = 1. The form came from the stress spectra of exact sliding contacts, the
-// numbers were fitted to their area and friction. F and G as in B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
+// last is that tenth. rho is below it where a rubber that stiffens meets faint waves beyond q_e that have nearly all of
+// G, and w(q_e) below its share where q_e falls in a gap: without both limits the last equation has several roots
+// there. In complete contact R = 1, T = 0 and kappa = 1. The form came from the stress spectra of exact sliding
+// contacts, the numbers were fitted to their area and friction. F and G as in B. N. J. Persson, J. Chem. Phys. 115,
+// 3840 (2001).
 #pragma once
 
 #include <cmath>
@@ -28,7 +29,7 @@ inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
 /// R of A and Z; partial_loops.inc has the same for many nodes.
 inline double stress(double share, double of_waves) { return share / ((1 + of_waves) * (1 + of_waves)); }
 
-/// What the surface and the rubber have beside G: (4 w(q_e) / M)^0.2, and 1 - 1 / rho, which may be negative.
+/// What the surface and the rubber have beside G: (4 w_e / M)^0.2, and 1 - 1 / rho, which may be negative.
 struct Band {
   double end_factor = 1, excess = 0;
 };

@@ -44,16 +44,33 @@ def test_the_rule_has_one_root(count):
             assert random_roots.compute(3, scene).kept
 
 
-def test_the_rule_has_one_root_where_faint_rows_are_stiff():
-    # with T of I2(v q_e) alone there are three at G = 10^5.5, and areas jump by 20 beside it
-    rng = np.random.default_rng([1, 1459])
-    _, q, c, rubber, velocity = random_roots.draw_parts(rng)
+@each(("scene", "kind"), [(1459, "faint, two steps"), (4182, "steps, one step")])
+def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
+    # with T of I2(v q_e) and w(q_e) alone there are three, at G = 10^5.5 and 10^10, and areas jump
+    # by 20 beside them: rows beyond q_e have nearly all of G, or q_e falls in a gap
+    found, q, c, rubber, velocity = random_roots.draw_parts(np.random.default_rng([1, scene]))
+    assert found == kind
     rule = random_roots.rule_of(q, c, rubber, velocity)
-    assert rule.excess < -100  # 1 - 1 / rho
-    found = [random_roots.scan(rule, g / rule.g[-1]) for g in 10.0 ** np.arange(-2, 13, 0.5)]
+    loads = 10.0 ** np.arange(-2, 13, 0.5) / rule.g[-1]
+    found = [random_roots.scan(rule, load) for load in loads]
     assert [len(roots) for roots, _, _ in found] == [1] * 30
-    assert min(slope for _, slope, _ in found) > 0.3
-    assert max(abs(roots[0]) for roots, _, _ in found) < 4
+    assert min(slope for _, slope, _ in found) > 0.2
+    areas = asperity.contact_area(
+        asperity.TabulatedSpectrum(wavenumber=q, density=c),
+        rubber,
+        pressure=1 / np.sqrt(loads),
+        velocity=velocity,
+        correction=RULE,
+    )
+    assert np.all(np.diff(np.log(areas)) > -1)  # loads fall by 10^(1/4) = e^0.58
+    kappa = np.exp([roots[0] for roots, _, _ in found])
+    same = np.array(
+        [
+            random_roots.share_and_integral(k * g)[0]
+            for k, g in zip(kappa, loads * rule.g[-1], strict=True)
+        ]
+    )
+    np.testing.assert_allclose(areas, same, rtol=0.02)
 
 
 def test_estimates_hold_where_they_were_exceeded():

@@ -27,7 +27,7 @@ std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Seg
 
 RoughnessEnd::RoughnessEnd(const RoughnessWindow& roughness, double g_factor)
     : wavenumber(roughness.end()),
-      window(g_factor * roughness(wavenumber)),
+      window(g_factor * std::fmax(roughness(wavenumber), partial_contact::last / 2 * roughness.total())),
       total(g_factor * roughness.total()),
       factor(total > 0 ? std::pow(4 * (window / total), 0.2) : 1) {}
 

@@ -28,7 +28,7 @@ struct PartialRoot {
   double missed = 0;                           // and is up to this off it, as Newton's steps end
 };
 
-/// The end of the roughness, at unit load: q_e [1/m], K w(q_e) and K M, and the first factor of Z.
+/// The end of the roughness, at unit load: q_e [1/m], K w_e and K M, and the first factor of Z.
 struct RoughnessEnd {
   double wavenumber, window, total, factor;
   RoughnessEnd(const RoughnessWindow& window, double g_factor);
