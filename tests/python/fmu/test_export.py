@@ -79,7 +79,8 @@ def test_an_fmu_says_what_is_inside(road, tmp_path, monkeypatch, capsys):
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake")
 @each("mingw", [True, False])
 def test_a_build_without_mingw_tells_how_to_add_it(tmp_path, mingw):
-    command = ["cmake", "-S", ROOT, "-B", tmp_path / f"{mingw}", "-DASPERITY_LIBRARY=OFF"]
+    command = ["cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path / f"{mingw}"]
+    command += ["-DASPERITY_LIBRARY=OFF"]
     found = "/usr/bin/true" if mingw else "OFF"
     command += ["-DASPERITY_FMU=ON", f"-DASPERITY_MINGW={found}"]
     told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
