@@ -108,7 +108,7 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
     right.legend(loc="upper left", fontsize="small", frameon=False)
     for name, label, colour in (
         ("rings", "20 Prony terms", COLOURS[0]),
-        ("rings, master curve", "master curve of 140 rows", COLOURS[1]),
+        ("rings, master curve", "master curve of 140 rows, 1 % noise", COLOURS[1]),
     ):
         n, times = np.array(list(found[name].items())).T
         last.plot(n, 1e6 * times / 60, "o-", color=colour, label=label)
