@@ -80,7 +80,7 @@ def _compute(args: Namespace, executor: Any) -> None:
     scene, over, variables = _read(path)
     if args.variables is not None:
         variables = args.variables.split(",")
-    plan = run.planned(scene, over, variables)
+    plan = run.planned(scene, over, variables, path)
     if args.output is not None:
         output = run.store_path(args.output)
         outputs = [output] if args.plot is None else [output, FilePath(args.plot)]

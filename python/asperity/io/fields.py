@@ -16,18 +16,18 @@ from asperity.io import plausible
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
 _SWEEP = dict.fromkeys(("from", "to", "points"))
-_UNITS = (
-    "pa",
-    "m_s",
-    "m",
-    "per_m",
-    "s",
-    "k",
-    "c",
-    "kg_m3",
-    "j_kg_k",
-    "w_m_k",
-)  # at the end of keys
+KEY_UNITS = {  # by how keys end, the longest first
+    "kg_m3": "kg/m^3",
+    "j_kg_k": "J/(kg K)",
+    "w_m_k": "W/(m K)",
+    "per_m": "1/m",
+    "m_s": "m/s",
+    "pa": "Pa",
+    "k": "K",
+    "c": "degC",
+    "m": "m",
+    "s": "s",
+}
 
 
 @dataclass(frozen=True)
@@ -165,11 +165,18 @@ def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
     return "allowed are " + ", ".join(form.format(key) for key in known)
 
 
+def without_unit(key: str) -> tuple[str, str]:
+    """What a key is of, and the unit at its end: "pressure_pa" has "pressure" and "Pa"."""
+    for end, unit in KEY_UNITS.items():
+        if key.endswith(f"_{end}"):
+            return key.removesuffix(f"_{end}"), unit
+    return key, ""
+
+
 def _other_unit(name: str, key: str) -> bool:
     """Whether a name is a key's but for the unit at its end."""
-    return any(
-        key.endswith(f"_{unit}") and name.startswith(key.removesuffix(unit)) for unit in _UNITS
-    )
+    quantity, unit = without_unit(key)
+    return bool(unit) and name.startswith(f"{quantity}_")
 
 
 def read_table(

@@ -52,6 +52,26 @@ def check_file(path: Path) -> None:
     path.open("rb").close()
 
 
+def sha256(path: Path) -> str:
+    """SHA-256 of a file's content.
+
+    Raises
+    ------
+    InvalidInput
+        In one line: the file, and why it cannot be read.
+    """
+    import hashlib  # here: `import asperity` is to be quick
+
+    try:
+        check_file(path)
+        with path.open("rb") as content:
+            return hashlib.file_digest(content, "sha256").hexdigest()
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from error
+
+
 def check_output(path: Path) -> None:
     """Refuse, before any work, a path that cannot be written."""
     import tempfile  # here: `import asperity` is to be quick

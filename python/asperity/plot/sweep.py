@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.io.fields import without_unit
 from asperity.plot.curves import MOST_ENTRIES, PRESSURE, VELOCITY, picture
 from asperity.plot.style import colours, grey, narrow, shades
 
@@ -64,12 +65,7 @@ def _squeezed(dataset: Any, name: str) -> tuple[Any, list[str]]:
         if dataset.sizes[axis] == 1:
             dataset = dataset.isel({axis: 0})
     scalars = [one for one in dataset.coords if not dataset[one].dims]
-    told = []
-    for one in scalars:
-        number = dataset[one].dtype.kind in "fiu" and dataset[one].attrs.get("units", "1") != "1"
-        unit = f" {dataset[one].attrs['units']}" if number else ""
-        told.append(f"{_short(one)} {_text(dataset[one].values)}{unit}")
-    return dataset, told
+    return dataset, [_value(dataset[one]) for one in scalars]
 
 
 def _roles(dataset: Any, name: str) -> list[Any]:
@@ -127,8 +123,7 @@ def _dress(axes: "Axes", dataset: Any, x: str, panel: list[tuple[str, int]]) -> 
     values = dataset[x].values
     if values.min() > 0 and values.max() / values.min() > 20:
         axes.set_xscale("log")
-    told = [f"{_short(axis)} {_text(dataset[axis].values[i])}" for axis, i in panel]
-    axes.set_title(", ".join(told), fontsize="small")
+    axes.set_title(", ".join(_value(dataset[axis][i]) for axis, i in panel), fontsize="small")
     axes.tick_params(labelsize="small")
     axes.grid(color=grey(0.9), linewidth=0.5)
 
@@ -168,10 +163,13 @@ def _unit(attributes: Any) -> str:
 
 def _short(axis: object) -> str:
     """The name of an axis as a picture has room for it: the key without table and unit."""
-    name = str(axis).rpartition(".")[2]
-    for unit in ("_per_m", "_m_s", "_pa", "_k", "_c", "_m", "_s"):
-        name = name.removesuffix(unit)
-    return name.replace("_", " ")
+    return without_unit(str(axis).rpartition(".")[2])[0].replace("_", " ")
+
+
+def _value(coordinate: Any) -> str:
+    """One value of an axis, with its name and unit."""
+    unit = coordinate.attrs.get("units", "1") if coordinate.dtype.kind in "fiu" else "1"
+    return f"{_short(coordinate.name)} {_text(coordinate.values)}" + f" {unit}" * (unit != "1")
 
 
 def _text(value: Any) -> str:

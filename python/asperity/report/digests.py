@@ -1,12 +1,11 @@
 """Digests of the files that a report was made from."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from asperity._core import InvalidInput
-from asperity.io.files import check_file
+from asperity.io.files import sha256
 
 
 @dataclass(frozen=True)
@@ -31,12 +30,5 @@ def check_unchanged(sources: Sequence[Source]) -> None:
 
 
 def _digest(path: Path) -> Source:
-    try:
-        check_file(path)
-        with path.open("rb") as file:
-            found = hashlib.file_digest(file, "sha256").hexdigest()
-            return Source(path, file.tell(), found)
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
-    except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+    found = sha256(path)
+    return Source(path, path.stat().st_size, found)

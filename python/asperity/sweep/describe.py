@@ -15,21 +15,10 @@ import numpy as np
 
 from asperity._core import Error, __version__
 from asperity.base.table import imported
+from asperity.io.fields import without_unit
 from asperity.sweep.axes import Axis
 from asperity.sweep.plan import MEANINGS, Plan
 
-_UNITS = {  # by how a key ends, the longest first
-    "_kg_m3": "kg/m^3",
-    "_j_kg_k": "J/(kg K)",
-    "_w_m_k": "W/(m K)",
-    "_per_m": "1/m",
-    "_m_s": "m/s",
-    "_pa": "Pa",
-    "_k": "K",
-    "_c": "degC",
-    "_m": "m",
-    "_s": "s",
-}
 _FAILURE = {
     "long_name": "why a point has no result: 0, or a code of failure_message",
 }
@@ -164,8 +153,8 @@ def _coordinates(axis: Axis) -> dict[str, Coordinate]:
 
 def _coordinate(dimension: str, key: str, entries: tuple[Any, ...]) -> Coordinate:
     if all(type(entry) in (int, float) for entry in entries):
-        unit = next((one for end, one in _UNITS.items() if key.endswith(end)), "1")
-        return dimension, np.array(entries, float), {"units": unit}
+        _, unit = without_unit(key)
+        return dimension, np.array(entries, float), {"units": unit or "1"}
     return dimension, np.array([label(entry) for entry in entries], dtype=str), {}
 
 

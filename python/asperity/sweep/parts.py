@@ -1,6 +1,5 @@
 """Parts of scenes that a worker keeps: what an axis does not change is built once a process."""
 
-import hashlib
 import json
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
@@ -12,6 +11,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.io import plausible
+from asperity.io.files import sha256
 from asperity.scene.known import FILES
 from asperity.scene.parts import build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
@@ -119,12 +119,11 @@ def _with_notes(made: tuple[Any, tuple[str, ...]]) -> Any:
 
 
 def digest(file: str) -> str:
-    """SHA-256 of a file's content."""
+    """SHA-256 of a file's content; a file that cannot be read is no failure of one scene."""
     try:
-        with open(file, "rb") as content:
-            return hashlib.file_digest(content, "sha256").hexdigest()
-    except OSError as error:
-        raise ChangedFile(f"{file}: cannot be read: {error.strerror or error}") from error
+        return sha256(Path(file))
+    except InvalidInput as error:
+        raise ChangedFile(str(error)) from error
 
 
 def files_of(tables: Mapping[str, Any]) -> list[str]:

@@ -96,18 +96,22 @@ class Plan:
 
 
 def plan_of(
-    path: Path, tables: Mapping[str, Any], over: object, variables: Sequence[str] | None
+    path: Path,
+    tables: Mapping[str, Any],
+    over: object,
+    variables: Sequence[str] | None,
+    where: Path,
 ) -> Plan:
     """Check a sweep as far as that is possible before anything is computed.
 
-    `path` is that of the scene, whose folder has its files.
+    `path` is that of the scene, whose folder has its files, `where` that of the axes and variables.
     """
     tables = _plain_tables(path, tables)
-    axes = tuple(axes_of(path, over, tables))
+    axes = tuple(axes_of(where, over, tables))
     for axis in axes:
         if axis.name in MEANINGS or axis.name.startswith("failure") or axis.name == "zarr.json":
             problem = "is the name of a variable or of a file in the store: must be another"
-            raise InvalidInput(f"{path}: over {brief(axis.name)}: {problem}")
+            raise InvalidInput(f"{where}: over {brief(axis.name)}: {problem}")
     check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
@@ -125,7 +129,7 @@ def plan_of(
         Axis(a.name, {k: tuple(_found(folder, k, v) for v in vs) for k, vs in a.values.items()})
         for a in axes
     )
-    chosen = _variables(path, template, swept, variables)
+    chosen = _variables(where, template, swept, variables)
     task = Task(
         path=str(path),
         tables=template,

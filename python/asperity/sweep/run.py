@@ -158,14 +158,16 @@ def computed(
     return open_store(path)
 
 
-def planned(scene: Any, over: Any, variables: Any = None) -> Plan:
-    """A sweep, checked."""
+def planned(scene: Any, over: Any, variables: Any = None, where: Path | None = None) -> Plan:
+    """A sweep, checked; `where` is the file that has its axes, where they are in one."""
     with plausible.collected() as notes:
         if isinstance(scene, Mapping):
-            plan = plan_of(FilePath("scene"), scene, over, variables)
+            path: Path = FilePath("scene")
+            tables = scene
         else:
             path = path_of(scene, "scene")
-            plan = plan_of(path, read_scene(path), over, variables)
+            tables = read_scene(path)
+        plan = plan_of(path, tables, over, variables, where or path)
     plan = replace(plan, notes=tuple(notes))
     try:
         pickle.dumps(plan.task)

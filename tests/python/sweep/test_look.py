@@ -166,8 +166,8 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
     figure = drawn(part, tmp_path / "p.png", monkeypatch)
     assert [len(axes.lines) for axes in figure.axes] == [3] * 6
     titles = [axes.get_title() for axes in figure.axes]
-    assert titles[0] == "hurst 0.7, rubbers 2e+06"
-    assert titles[-1] == "hurst 0.9, rubbers 5e+06"
+    assert titles[0] == "hurst 0.7, rubbers 2e+06 Pa"
+    assert titles[-1] == "hurst 0.9, rubbers 5e+06 Pa"
     line = figure.axes[3].lines[1]
     where = {"surface.hurst": 1, "rubbers": 1, "conditions.pressure_pa": 1}
     assert np.array_equal(line.get_ydata(), part.mu.isel(where))
