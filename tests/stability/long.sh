@@ -13,7 +13,7 @@
 #   files        mutated files of every kind, commands killed while they write, two writers with equal numbers
 #   interrupts   Ctrl-C in single calls of 1e8 points and of 8192 x 8192 heights; wants 8 GB
 #   fuzz         the reader of friction maps under libFuzzer, ten minutes
-#   sanitize     the C++ tests under the address and undefined behaviour sanitizers
+#   sanitize     the C++ tests under the address and undefined behaviour sanitizers, on a static and on a shared library
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
 #   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
@@ -28,15 +28,15 @@ trap 'rm -rf "$scratch"' EXIT
 trap 'exit 1' HUP INT TERM
 failed=
 
-built() { # PRESET: a preset's build, with its log
-  cmake --preset "$1" >"$scratch/$1.log" 2>&1 && cmake --build --preset "$1" -j "$jobs" >>"$scratch/$1.log" 2>&1 || {
+built() { # PRESET [OPTION]: a preset's build, with its log
+  { cmake --preset "$1" -DBUILD_SHARED_LIBS=OFF ${2:+"$2"} && cmake --build --preset "$1" -j "$jobs"; } >"$scratch/$1.log" 2>&1 || {
     tail -n 40 "$scratch/$1.log"
     return 1
   }
 }
 
 # A stranger's project is built by the usual runs.
-ctests() { built "$1" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consumer|install'; }
+ctests() { built "$@" && ctest --preset "$1" -j "$jobs" --exclude-regex 'consumer|install'; }
 
 scenes() {
   "$python" tests/stability/random_scenes.py --scenes 9000 --seed 1 --tables 0 &&
@@ -84,7 +84,7 @@ interrupts() { "$python" tests/stability/interrupts.py; }
 
 fuzz() { sh tests/fuzz/run.sh build/fuzz; }
 
-sanitize() { ctests sanitize; }
+sanitize() { ctests sanitize && ctests sanitize -DBUILD_SHARED_LIBS=ON; }
 
 threads() { ctests threads; }
 
