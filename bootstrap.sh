@@ -165,6 +165,7 @@ tests() {
   check ctest keep "$scratch/ctest.log" ctest --preset dev -j "$jobs"
   install_package test
   check ruff .venv/bin/ruff check
+  check "ruff's layout" .venv/bin/ruff format --check
   check mypy .venv/bin/mypy
   if command -v clang-format >/dev/null; then
     check clang-format format_check

@@ -123,9 +123,9 @@ def another_runs_during(call, seconds):
         ran.set()
 
     thread = threading.Thread(target=other)
-    thread.start()
-    sys.setswitchinterval(1e3)  # [s]
+    sys.setswitchinterval(1e3)  # [s], before the thread can ask for a turn that comes too soon
     try:
+        thread.start()  # runs on until it waits
         waiting.set()
         end = time.monotonic() + seconds
         while time.monotonic() < end:
@@ -135,6 +135,7 @@ def another_runs_during(call, seconds):
         return False
     finally:
         sys.setswitchinterval(interval)
+        waiting.set()
         thread.join()
 
 
