@@ -1,22 +1,19 @@
-"""The part of the conditions: pressure, temperature, velocities, correction, adhesion, heat."""
+"""The part of the conditions: pressure, temperature, velocities, adhesion, heat."""
 
 import math
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+import numpy as np
 from nicegui import ui
 
+from asperity.app.correction_part import CorrectionFields
 from asperity.app.parts import Quantity, part
-from asperity.app.state import CORRECTIONS, State
-from asperity.app.worker import Worker
+from asperity.app.state import State
+from asperity.app.worker import Found, Worker
 
-_CORRECTIONS = {
-    "none": "none: Persson's theory alone",
-    "partial-contact": "partial contact (recommended)",
-    "s-factor": "S-factor, gamma 0.5",
-    "nayak-s-factor": "S-factor after Nayak",
-    "affine-shift": "affine shift, p 1.5",
-}
+_CELSIUS = 273.15
+_ADHESION = {"reference_velocity_m_s": 6e-3, "width": 0.1}  # what a scene may leave out
 
 
 class ConditionsPart:
@@ -24,75 +21,82 @@ class ConditionsPart:
 
     def __init__(self, state: State, worker: Worker) -> None:
         self._state, self._worker = state, worker
-        self._fields: dict[str, Any] = {}  # of a table, shown while it is used
-        conditions = state.conditions
+        self._fields: dict[str, ui.element] = {}  # of a table, shown while it is used
         with part("Conditions", "conditions-title"):
+            self._inside = ui.element("div").classes("w-full")
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the conditions of another scene."""
+        self._inside.clear()
+        with self._inside:
+            conditions = self._state.conditions
             Quantity(
                 "Pressure [MPa]",
                 conditions["pressure_pa"] / 1e6,
                 (0.001, 10),
-                self._set(conditions, "pressure_pa", 1e6),
+                self._set("conditions", "pressure_pa", 1e6),
                 logarithmic=True,
             )
-            Quantity(
-                "Temperature [°C]",
-                conditions["temperature_c"],
-                (-60, 120),
-                self._set(conditions, "temperature_c", 1.0),
-                step=1,
-            )
+            self._temperature()
             self._velocities()
-            kind = state.correction["kind"] if "correction" in state.used else "none"
-            ui.select(
-                _CORRECTIONS, value=kind, label="Correction", on_change=self._correction
-            ).props("dense outlined").classes("w-full mt-2")
+            self._correction = CorrectionFields(self._state, self._worker, self._set)
             self._adhesion()
             self._heat()
 
+    def _temperature(self) -> None:
+        conditions = self._state.conditions
+        if "temperature_k" in conditions:
+            celsius = conditions["temperature_k"] - _CELSIUS
+        elif "temperature_c" in conditions:
+            celsius = conditions["temperature_c"]
+        else:
+            ui.label("This rubber is known at one temperature.").classes("soft")
+            return
+
+        async def changed(value: float) -> None:
+            self._state.conditions = {
+                key: one for key, one in self._state.conditions.items() if key != "temperature_k"
+            } | {"temperature_c": value}
+            await self._worker.changed()
+
+        Quantity("Temperature [°C]", celsius, (-60, 120), changed, step=1)
+
     def _velocities(self) -> None:
-        sweep = self._state.conditions["velocity_m_s"]
+        low, high = _ends(self._state.conditions["velocity_m_s"])
+        ends = {"from": low, "to": high}
 
         def end(key: str) -> Callable[[float], Awaitable[None]]:
             async def changed(value: float) -> None:
-                ends = {**self._state.conditions["velocity_m_s"], key: value}
+                ends[key] = value
                 decades = abs(math.log10(ends["to"] / ends["from"]))
-                ends["points"] = max(round(4 * decades) + 1, 9)
-                self._state.conditions["velocity_m_s"] = ends
+                points = {"points": max(round(4 * decades) + 1, 9)}
+                self._state.conditions = {
+                    **self._state.conditions,
+                    "velocity_m_s": {**ends, **points},
+                }
                 await self._worker.changed()
 
             return changed
 
         for name, key in (("Slowest velocity [m/s]", "from"), ("Fastest velocity [m/s]", "to")):
-            Quantity(name, sweep[key], (1e-9, 100), end(key), logarithmic=True)
+            Quantity(name, ends[key], (1e-9, 100), end(key), logarithmic=True)
 
     def _adhesion(self) -> None:
-        table = self._state.adhesion
-        self._switch("Adhesion", "adhesion")
-        with ui.element("div").classes("w-full") as fields:
-            stress = self._set(table, "shear_stress_pa", 1e6)
-            Quantity(
-                "Shear stress [MPa]",
-                table["shear_stress_pa"] / 1e6,
-                (0.01, 100),
-                stress,
-                logarithmic=True,
-            )
-            velocity = self._set(table, "reference_velocity_m_s", 1e-3)
-            Quantity(
-                "Reference velocity [mm/s]",
-                1e3 * table["reference_velocity_m_s"],
-                (1e-3, 1e3),
-                velocity,
-                logarithmic=True,
-            )
-            Quantity("Width", table["width"], (0.01, 1), self._set(table, "width", 1.0))
-        self._fields["adhesion"] = fields
+        table = {**_ADHESION, **self._state.adhesion}
+        with self._switched("Adhesion", "adhesion"):
+            for name, key, unit, ends in (
+                ("Shear stress [MPa]", "shear_stress_pa", 1e6, (0.01, 100)),
+                ("Reference velocity [mm/s]", "reference_velocity_m_s", 1e-3, (1e-3, 1e3)),
+            ):
+                changed = self._set("adhesion", key, unit)
+                Quantity(name, table[key] / unit, ends, changed, logarithmic=True)
+            Quantity("Width", table["width"], (0.01, 1), self._set("adhesion", "width", 1.0))
 
     def _heat(self) -> None:
         table = self._state.heating
-        self._switch("Heat of sliding", "heating")
-        with ui.element("div").classes("w-full") as fields:
-            diameter = self._set(table, "contact_diameter_m", 1e-3)
+        with self._switched("Heat of sliding", "heating"):
+            diameter = self._set("heating", "contact_diameter_m", 1e-3)
             Quantity(
                 "Contact diameter [mm]",
                 1e3 * table["contact_diameter_m"],
@@ -100,32 +104,44 @@ class ConditionsPart:
                 diameter,
                 logarithmic=True,
             )
-            conductivity = self._set(table, "conductivity_w_m_k", 1.0)
+            conductivity = self._set("heating", "conductivity_w_m_k", 1.0)
             Quantity("Conductivity [W/(m K)]", table["conductivity_w_m_k"], (0.05, 2), conductivity)
-        fields.set_visibility(False)
-        self._fields["heating"] = fields
 
-    def _switch(self, name: str, table: str) -> None:
+    def _switched(self, name: str, table: str) -> ui.element:
+        """A switch for a table of the scene, and the place of its fields."""
+
         async def changed(event: Any) -> None:
             self._state.use(table, event.value)
             self._fields[table].set_visibility(event.value)
             await self._worker.changed()
 
-        switch = ui.switch(name, value=table in self._state.used, on_change=changed)
-        switch.props('color="blue-9"').classes("mt-1")
+        used = table in self._state.used
+        ui.switch(name, value=used, on_change=changed).props('color="blue-9"').classes("mt-1")
+        fields = ui.element("div").classes("w-full")
+        fields.set_visibility(used)
+        self._fields[table] = fields
+        return fields
 
-    async def _correction(self, event: Any) -> None:
-        self._state.choose_correction(event.value)
-        await self._worker.changed()
-
-    def _set(
-        self, table: dict[str, Any], key: str, unit: float
-    ) -> Callable[[float], Awaitable[None]]:
+    def _set(self, table: str, key: str, unit: float) -> Callable[[float], Awaitable[None]]:
         async def changed(value: float) -> None:
-            table[key] = float(f"{value * unit:.12g}")
+            number = float(f"{value * unit:.12g}")
+            setattr(self._state, table, {**getattr(self._state, table), key: number})
             await self._worker.changed()
 
         return changed
 
+    def show_curve(self, found: Found) -> None:
+        """The curve is not here."""
 
-assert {*_CORRECTIONS} == {"none", *CORRECTIONS}
+    def show(self, found: Found) -> None:
+        self._correction.offer(found.scene)
+
+    def fail(self, problem: str) -> None:
+        """The result says it."""
+
+
+def _ends(velocities: Any) -> tuple[float, float]:
+    """The slowest and the fastest of a scene's velocities, however it has them."""
+    if isinstance(velocities, dict):
+        return velocities["from"], velocities["to"]
+    return float(np.min(velocities)), float(np.max(velocities))

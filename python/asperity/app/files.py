@@ -25,18 +25,18 @@ class Folder:
         """Write a file and return its name here; of the client's name only the ending is used."""
         if len(content) > MOST_BYTES:
             sizes = f"has {len(content) // 2**20} MB: must have at most {MOST_BYTES // 2**20}"
-            raise InvalidInput(f"{_plain(shown)}: {sizes}")
+            raise InvalidInput(f"{plain(shown)}: {sizes}")
         if not content:
-            raise InvalidInput(f"{_plain(shown)}: is empty")
+            raise InvalidInput(f"{plain(shown)}: is empty")
         held = sum(one.stat().st_size for one in self.path.iterdir())
         if len(self.shown) >= MOST_FILES or held + len(content) > MOST_TOGETHER:
             most = f"{MOST_FILES} files and {MOST_TOGETHER // 2**20} MB"
-            raise InvalidInput(f"{_plain(shown)}: a session holds at most {most}: begin a new one")
+            raise InvalidInput(f"{plain(shown)}: a session holds at most {most}: begin a new one")
         ending = _ENDING.fullmatch(Path(shown.replace("\\", "/")).suffix)
         self._numbered += 1
         name = f"file-{self._numbered}{ending[0].lower() if ending else ''}"
         (self.path / name).write_bytes(content)
-        self.shown[name] = _plain(shown)
+        self.shown[name] = plain(shown)
         return name
 
     def forget(self, name: str) -> None:
@@ -56,7 +56,7 @@ class Folder:
         shutil.rmtree(self.path, ignore_errors=True)
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
     """The last part of a client's name, as a text of one line."""
     last = name.replace("\\", "/").rsplit("/", 1)[-1]
     return "".join(one for one in last if one.isprintable())[:80] or "file"

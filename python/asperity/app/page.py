@@ -7,6 +7,7 @@ from importlib.resources import files
 from nicegui import ui
 
 from asperity.app.conditions import ConditionsPart
+from asperity.app.open_part import OpenPart
 from asperity.app.parts import heading
 from asperity.app.result import ResultPart
 from asperity.app.rubber import RubberPart
@@ -43,14 +44,17 @@ def show_page(session: str = "") -> None:
         with ui.element("header").classes("flex items-baseline gap-3 py-3"):
             heading("asperity", "h1")
             ui.label("friction of rubber on rough surfaces").classes("soft")
+        opening = ui.element("div")
         with ui.element("div").classes("columns"):
             with ui.element("div"):
                 surface = SurfacePart(state, worker)
                 rubber = RubberPart(state, worker)
-                ConditionsPart(state, worker)
+                conditions = ConditionsPart(state, worker)
             with ui.element("div").classes("result"):
                 result = ResultPart(state, worker)
-    worker.shows(result, surface, rubber)
+    with opening:
+        OpenPart(state, worker, (surface, rubber, conditions))
+    worker.shows(result, surface, rubber, conditions)
     ui.run_javascript(_NAME_UPLOADS)
     ui.timer(0.01, worker.changed, once=True)
 

@@ -1,19 +1,27 @@
 """What the parts of the page are made of: headings, uploads, sliders with a number beside them."""
 
+import asyncio
+import json
 import math
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
 from html import escape
-from typing import Any
+from typing import Any, Literal
 
 from nicegui import events, ui
 
 from asperity.app.charts import Options
 from asperity.app.files import MOST_BYTES
 
-_PAUSE = 0.05  # s between two values of a slider that is moved
+_PAUSE = 0.02  # s between two values of a slider that is moved, or of a number that is typed
+_LATER = 0.1  # s after which the field is told what its slider already shows in it
+_PATIENCE = 0.7  # s that a number may be out of its range, since it is being typed
+# The page is drawn anew with each update, which takes longer than the curve: the number beside the
+# slider does not wait for one.
 _ITS_VALUE = """(event) => {
-  event.target.setAttribute('aria-valuetext', Number(SAID).toPrecision(3));
+  const said = String(Number(Number(SAID).toPrecision(3)));
+  event.target.setAttribute('aria-valuetext', said);
+  event.target.parentElement.querySelector('input:not([type=range])').value = said;
   emit(event.target.value);
 }"""
 
@@ -23,17 +31,27 @@ def heading(text: str, level: str) -> None:
 
 
 @contextmanager
-def part(title: str, name: str) -> Iterator[None]:
+def part(title: str, name: str) -> Iterator[ui.element]:
     """A section of the page with a heading that names it."""
-    with ui.element("section").classes("part").props(f'aria-labelledby="{name}"'):
+    with ui.element("section").classes("part").props(f'aria-labelledby="{name}"') as section:
         ui.html(escape(title), sanitize=False, tag="h2").props(f'id="{name}"')
-        yield
+        yield section
 
 
-def chart(options: Options, name: str, height: str = "17rem") -> ui.echart:
-    """A chart with a name for who does not see it."""
-    drawn = ui.echart(options, renderer="svg").style(f"height: {height}")
+def chart(
+    options: Options, name: str, height: str = "17rem", renderer: Literal["svg", "canvas"] = "svg"
+) -> ui.echart:
+    """A chart with a name for who does not see it; of many points a canvas is drawn sooner."""
+    drawn = ui.echart(options, renderer=renderer).style(f"height: {height}")
     return drawn.props(f'role="img" aria-label="{escape(name)}"')
+
+
+def redraw_series(drawn: ui.echart, options: Options) -> None:
+    """Let a chart show other curves at once, without an update of the page."""
+    shown = {"series": options["series"], "legend": {"data": options["legend"]["data"]}}
+    shown["xAxis"] = {key: options["xAxis"][key] for key in ("min", "max")}
+    code = f"?.chart?.setOption({json.dumps(shown)}, {{ replaceMerge: ['series'] }})"
+    drawn.client.run_javascript(f"getElement({drawn.id}){code}")
 
 
 def redraw(drawn: ui.echart, options: Options, name: str) -> None:
@@ -99,7 +117,7 @@ class Quantity:
             its_value = _ITS_VALUE.replace("SAID", said)
             self._slider.on("input", self._slid, js_handler=its_value, throttle=_PAUSE)
             self._field = ui.input(label=name, value=f"{value:.4g}")
-            self._field.props("dense outlined debounce=300 inputmode=decimal")
+            self._field.props("dense outlined inputmode=decimal")
             self._field.classes("w-44 shrink-0").on_value_change(self._typed)
         self._move()
 
@@ -124,9 +142,11 @@ class Quantity:
         if value == self._value:
             return
         self._value = value
-        self._field.value = f"{value:.4g}"
-        self._field.error = None
         await self._changed(value)
+        await asyncio.sleep(_LATER)
+        if value == self._value:
+            self._field.error = None
+            self._field.value = f"{value:.4g}"
 
     async def _typed(self, event: Any) -> None:
         try:
@@ -134,11 +154,12 @@ class Quantity:
         except ValueError:
             value = math.nan
         if not self._ends[0] <= value <= self._ends[1]:
-            self._field.error = f"{self._ends[0]:g} to {self._ends[1]:g}"
+            await asyncio.sleep(_PATIENCE)
+            if self._field.value == event.value:
+                self._field.error = f"{self._ends[0]:g} to {self._ends[1]:g}"
             return
+        if value != self._value:
+            self._value = value
+            await self._changed(value)
+            self._move()
         self._field.error = None
-        if value == self._value:
-            return
-        self._value = value
-        self._move()
-        await self._changed(value)

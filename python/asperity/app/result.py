@@ -1,18 +1,20 @@
 """The part of the result: mu(v), which roughness makes it, notes, variants and downloads."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from html import escape
 from typing import Any
 
 import numpy as np
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from asperity._core import Error
 from asperity.app import downloads
-from asperity.app.charts import contributions_chart, friction_chart
-from asperity.app.parts import chart, part, redraw
+from asperity.app.charts import Options, contributions_chart, friction_chart
+from asperity.app.parts import chart, part, redraw, redraw_series
 from asperity.app.state import State, contributions
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.report.errors import errors_of
+from asperity.scene.model import Curves, Scene
 
 _NOTHING = "There are no notes: input, correction and theory are within their ranges."
 
@@ -23,7 +25,7 @@ class ResultPart:
     def __init__(self, state: State, worker: Worker) -> None:
         self._state, self._worker = state, worker
         self._at: float | None = None  # velocity of the contributions [m/s]
-        with part("Result", "result-title"):
+        with part("Result", "result-title") as self._whole:
             self._status = ui.label("computing ...").classes("soft").props('role="status"')
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._chart = chart({}, "Friction coefficient over velocity", "24rem")
@@ -35,82 +37,75 @@ class ResultPart:
             self._kept = ui.element("div").classes("flex gap-2 w-full")
             self._downloads()
             with ui.expansion("Errors and notes", value=True).classes("w-full").props("dense"):
-                self._errors = ui.element("ul").classes("list-disc pl-5")
-                self._notes = ui.element("ul").classes("list-disc pl-5")
-            with (
-                ui.expansion("Which roughness makes the friction").classes("w-full").props("dense")
-            ):
+                self._notes = ui.html("", sanitize=False, tag="ul").classes("list-disc pl-5")
+            opened = ui.expansion("Which roughness makes the friction", on_value_change=self._seen)
+            with opened.classes("w-full").props("dense") as self._origin:
                 self._velocity = ui.select([], label="At velocity [m/s]", on_change=self._chosen)
                 self._velocity.props("dense outlined").classes("w-48")
                 self._shares = chart({}, "Contributions by wavenumber")
             with ui.expansion("Numbers").classes("w-full").props("dense"):
-                self._table = ui.table(rows=[], columns=_COLUMNS, row_key="v")
-                self._table.props('dense flat aria-label="Friction coefficient"').classes("w-full")
+                self._table = ui.html("", sanitize=False).classes("w-full overflow-auto max-h-96")
+                self._table.props('tabindex="0" role="region" aria-label="Table of the numbers"')
             with ui.expansion("The scene file").classes("w-full").props("dense"):
                 ui.label("asperity friction scene.toml gives the same digits.").classes("soft")
-                self._text = ui.element("pre").classes("text-xs overflow-auto max-h-96 w-full")
+                self._text = ui.html("", sanitize=False, tag="pre")
+                self._text.classes("text-xs overflow-auto max-h-96 w-full")
                 self._text.props('tabindex="0" role="region" aria-label="Text of the scene file"')
         self._draw_variants()
 
     # --- what was computed ---
 
+    def show_curve(self, found: Found) -> None:
+        """The curve alone, at once: the rest of the page follows."""
+        if not self._chart.options:  # there is nothing on the page yet
+            self.show(found)
+            return
+        self._busy(True)
+        redraw_series(self._chart, self._drawn(found))
+
     def show(self, found: Found) -> None:
         best = found.best
-        cold = None if found.curves is None else found.cold
         k = int(best.mu[0].argmax())
         said = f"largest mu {best.mu[0, k]:.4g} at {found.scene.velocity[k]:.3g} m/s"
-        waits = "" if found.banded is not None or not found.scene.has_errors else "; band follows"
-        hot = "; heat follows" if found.curves is None and found.scene.heating is not None else ""
-        self._status.set_text(f"{said}{hot or waits}")
+        follows = (
+            "" if found.whole else "; heat follows" if found.curves is None else "; band follows"
+        )
+        self._status.set_text(f"{said}{follows}")
         self._problem.set_text("")
-        options = friction_chart(found.scene, best, cold, self._state.variants)
-        redraw(self._chart, options, f"Friction coefficient mu over sliding velocity: {said}")
-        if found.curves is None:
-            return
-        self._say_notes(found)
-        self._fill_table(found)
-        self._text.clear()
-        with self._text:
-            ui.html(_escaped(self._state.text), sanitize=False, tag="code")
-        self._offer_velocities(found)
+        redraw(self._chart, self._drawn(found), f"Friction coefficient mu over velocity: {said}")
+        if found.curves is not None:
+            self._tell(found)
+            self._text.set_content(f"<code>{escape(self._state.text)}</code>")
+            self._offer_velocities(found)
+        self._busy(not found.whole)
 
     def fail(self, problem: str) -> None:
         found = self._worker.found
         self._problem.set_text(problem)
+        self._busy(False)
         if found is None or found.curves is not None:
             self._status.set_text("not computed: the curve is that of before")
             return
         self._status.set_text("computed without heat alone")
-        self._say_notes(found)
-        self._fill_table(found)
+        self._tell(found)
 
-    def _say_notes(self, found: Found) -> None:
-        best = found.best
-        self._errors.clear()
-        with self._errors:
-            for name, size, _ in errors_of(found.scene, best):
-                ui.html(_escaped(f"error of {name}: {size}"), sanitize=False, tag="li")
-        self._notes.clear()
-        notes = [self._state.folder.as_shown(one) for one in dict.fromkeys(best.notes)]
-        with self._notes:
-            for note in notes or [_NOTHING]:
-                ui.html(_escaped(note), sanitize=False, tag="li")
+    def _drawn(self, found: Found) -> Options:
+        cold = None if found.curves is None else found.cold
+        return friction_chart(found.scene, found.best, cold, self._state.variants)
 
-    def _fill_table(self, found: Found) -> None:
-        best = found.best
-        rows = zip(
-            found.scene.velocity,
-            best.mu[0],
-            best.hysteresis[0],
-            best.adhesion[0],
-            best.contact_area[0],
-            best.error_estimate[0],
-            strict=True,
-        )
-        names = [one["name"] for one in _COLUMNS]
-        self._table.rows = [
-            dict(zip(names, [f"{x:.4g}" for x in row], strict=True)) for row in rows
-        ]
+    def _busy(self, busy: bool) -> None:
+        """Whether more of this scene is to follow, for whoever reads the page with a program."""
+        said = "true" if busy else "false"
+        code = f"document.getElementById('{self._whole.html_id}').ariaBusy = '{said}'"
+        self._chart.client.run_javascript(code)
+
+    def _tell(self, found: Found) -> None:
+        """Errors, notes and numbers, each as one piece of HTML: single elements take the page
+        longer than the curve."""
+        errors = [f"error of {one}: {size}" for one, size, _ in errors_of(found.scene, found.best)]
+        notes = [self._state.folder.as_shown(one) for one in dict.fromkeys(found.best.notes)]
+        self._notes.set_content(_items([*errors, *(notes or [_NOTHING])]))
+        self._table.set_content(_table(found.scene, found.best))
 
     def _offer_velocities(self, found: Found) -> None:
         v = found.scene.velocity
@@ -119,7 +114,11 @@ class ResultPart:
         if self._at not in offered:
             self._at = min(offered, key=lambda one: abs(np.log(one / v[k])))
         self._velocity.set_options(offered, value=self._at)
-        ui.timer(0, self._contribute, once=True)
+        background_tasks.create(self._contribute())
+
+    async def _seen(self, event: Any) -> None:
+        if event.value:
+            await self._contribute()
 
     async def _chosen(self, event: Any) -> None:
         if event.value is not None and event.value != self._at:
@@ -128,7 +127,7 @@ class ResultPart:
 
     async def _contribute(self) -> None:
         found, velocity = self._worker.found, self._at
-        if found is None or velocity is None:
+        if found is None or velocity is None or not self._origin.value:
             return
         try:
             scene = found.scene
@@ -222,20 +221,25 @@ class ResultPart:
         button.props('no-caps dense unelevated color="blue-9"').classes("px-2")
 
 
-_COLUMNS = [
-    {"name": name, "label": label, "field": name, "align": "right"}
-    for name, label in (
-        ("v", "v [m/s]"),
-        ("mu", "mu"),
-        ("hysteresis", "hysteresis"),
-        ("adhesion", "adhesion"),
-        ("area", "A/A0"),
-        ("error", "numerical error"),
+def _items(lines: Sequence[str]) -> str:
+    return "".join(f"<li>{escape(line)}</li>" for line in lines)
+
+
+def _table(scene: Scene, curves: Curves) -> str:
+    """The numbers at the first pressure, as HTML."""
+    columns = {
+        "v [m/s]": scene.velocity,
+        "mu": curves.mu[0],
+        "hysteresis": curves.hysteresis[0],
+        "adhesion": curves.adhesion[0],
+        "A/A0": curves.contact_area[0],
+        "numerical error": curves.error_estimate[0],
+    }
+    head = "".join(f'<th scope="col">{name}</th>' for name in columns)
+    rows = zip(*columns.values(), strict=True)
+    cells = ["".join(f"<td>{x:.4g}</td>" for x in row) for row in rows]
+    body = "".join(f"<tr>{row}</tr>" for row in cells)
+    title = "<caption>Friction coefficient</caption>"
+    return (
+        f'<table class="numbers">{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
     )
-]
-
-
-def _escaped(text: str) -> str:
-    from html import escape
-
-    return escape(text)

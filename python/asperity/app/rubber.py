@@ -44,7 +44,7 @@ class RubberPart:
             self._menus = ui.element("div").classes("w-full")
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._facts = ui.label("").classes("soft")
-            self._chart = chart({}, "Modulus of the rubber")
+            self._chart = chart({}, "Modulus of the rubber", renderer="canvas")
             self._shifts = chart({}, "Shift factors", "13rem")
             self._shifts.set_visibility(False)
 
@@ -112,11 +112,18 @@ class RubberPart:
             self._say(self._state.said(error))
             return
         self._say("")
-        self._choice.set_options(list(self._state.rubbers), value=self._state.rubber)
+        self.refresh()
         await self._worker.changed()
 
     def _say(self, problem: str) -> None:
         self._problem.set_text(problem)
+
+    def refresh(self) -> None:
+        """Show the choices of another scene."""
+        self._choice.set_options(list(self._state.rubbers), value=self._state.rubber)
+
+    def show_curve(self, found: Found) -> None:
+        """The curve is not here."""
 
     def show(self, found: Found) -> None:
         built = found.scene.built_rubber

@@ -15,6 +15,7 @@ from asperity._core import InvalidInput
 from asperity.app.guard import Guard
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
+_TURN = 5e-4  # s after which a thread that computes lets the server answer
 _NEEDED = {"nicegui": "NiceGUI", "matplotlib": "matplotlib", "jinja2": "Jinja2"}
 
 
@@ -71,6 +72,7 @@ def _run(bound: socket.socket, token: str, port: int) -> None:
     config = uvicorn.Config(
         guard, log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=2
     )
+    sys.setswitchinterval(_TURN)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))  # uvicorn raises it again at its end
     try:
         with contextlib.suppress(KeyboardInterrupt):

@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput
+from asperity.app.corrections import OF_PEAKS, RememberedCorrection, usual
 from asperity.app.files import Folder
 from asperity.app.guess import Guess, guess_columns
+from asperity.app.opened import Dropped, Tables, opened
 from asperity.demo import hot_scene_text, input_files
 from asperity.friction import friction
 from asperity.io.read_dma import read_isotherms
@@ -23,17 +25,10 @@ from asperity.scene.scene import Builders, load_scene
 from asperity.scene.surface import build_surface
 from asperity.scene.write import scene_text
 
-Tables = dict[str, dict[str, Any]]
-ORDER = ("surface", "rubber", "conditions", "correction", "adhesion", "heating", "solver")
+OPTIONAL = ("correction", "adhesion", "heating", "solver", "uncertainty")
 MOST_VARIANTS = 7  # curves beside the present one: so many colours are told apart
 _Built = TypeVar("_Built")
 
-CORRECTIONS: dict[str, dict[str, Any]] = {
-    "partial-contact": {"kind": "partial-contact"},
-    "s-factor": {"kind": "s-factor", "gamma": 0.5, "applies_to": "friction"},
-    "nayak-s-factor": {"kind": "nayak-s-factor"},
-    "affine-shift": {"kind": "affine-shift", "p": 1.5},
-}
 LAW = {
     "rms_height_m": 265.7e-6,
     "hurst": 0.87,
@@ -67,15 +62,17 @@ class State:
         self.rubbers: dict[str, dict[str, Any]] = {"shipped surrogate": tables["rubber"]}
         self.surface, self.rubber = "shipped scan", "shipped surrogate"
         self.conditions: dict[str, Any] = tables["conditions"]
-        self.correction: dict[str, Any] = dict(CORRECTIONS["partial-contact"])
+        self.correction: dict[str, Any] = usual("partial-contact", None)
         self.adhesion: dict[str, Any] = tables["adhesion"]
         self.heating: dict[str, Any] = tables["heating"]
+        self.solver: dict[str, Any] = {}
+        self.uncertainty: dict[str, Any] = {}
         self.used = {"correction", "adhesion"}  # of the tables that a scene can be without
         self.scan: str | None = None  # the file that was dropped last
         self.guesses: dict[str, Guess] = {}  # by the names of files
         self.variants: list[Variant] = []
         remembered = (_Remembered(build_surface), _Remembered(build_rubber))
-        self._builders = Builders(*remembered)
+        self._builders = Builders(*remembered, RememberedCorrection())
 
     # --- what is edited ---
 
@@ -89,12 +86,13 @@ class State:
             "correction": self.correction,
             "adhesion": self.adhesion,
             "heating": self.heating,
+            "solver": self.solver,
+            "uncertainty": self.uncertainty,
         }
-        optional = ("correction", "adhesion", "heating")
         return {
             name: dict(table)
             for name, table in all_tables.items()
-            if name not in optional or name in self.used
+            if name not in OPTIONAL or name in self.used
         }
 
     @property
@@ -112,11 +110,43 @@ class State:
         """Let the scene have a table, or be without it."""
         (self.used.add if wanted else self.used.discard)(table)
 
-    def choose_correction(self, kind: str) -> None:
-        """One of CORRECTIONS with its usual arguments, or none."""
-        self.use("correction", kind in CORRECTIONS)
-        if kind in CORRECTIONS:
-            self.correction = dict(CORRECTIONS[kind])
+    def choose_correction(self, kind: str, scene: Scene | None = None) -> None:
+        """One of those that are offered for the scene, with its usual arguments, or none."""
+        self.use("correction", kind != "none")
+        if kind != "none":
+            self.correction = usual(kind, scene)
+
+    def open_scene(self, dropped: Dropped) -> str:
+        """Let a scene file be what is shown, and return its name; of other files only those that
+        were dropped with it are read. One that is refused changes nothing."""
+        before = dict(vars(self))
+        shown = dict(self.folder.shown)
+        name, tables = opened(dropped, self.folder)
+        try:
+            _check_shown(name, tables)
+            self._take(name, tables)
+            self.load()
+        except Error as error:
+            said = self.said(error)
+            vars(self).update(before)
+            for one in self.folder.shown.keys() - shown.keys():
+                self.folder.forget(one)
+            raise type(error)(said) from None
+        return name
+
+    def _take(self, name: str, tables: Tables) -> None:
+        self.surface, self.rubber = f"surface of {name}", f"rubber of {name}"
+        rubber, conditions = tables["rubber"], tables["conditions"]
+        for key in ("temperature_k", "temperature_c"):  # the slider's place
+            if key in rubber:
+                rubber, conditions = dict(rubber), {**conditions, key: rubber[key]}
+                del rubber[key]
+        self.surfaces = {**self.surfaces, self.surface: tables["surface"]}
+        self.rubbers = {**self.rubbers, self.rubber: rubber}
+        self.conditions = conditions
+        self.used = {table for table in OPTIONAL if table in tables}
+        for table in self.used:
+            setattr(self, table, tables[table])
 
     def keep_scan(self, shown: str, content: bytes) -> None:
         """Keep a scan, which is to be read with its pixel size and unit, if it states none."""
@@ -176,6 +206,10 @@ class State:
 
     def load(self) -> Scene:
         """The scene, read from its file as the shell reads it."""
+        of_peaks = self.correction["kind"] in OF_PEAKS if "correction" in self.used else False
+        if of_peaks and "file" not in self.surfaces[self.surface]:
+            problem = "this correction takes the peaks of a scan: choose a scan, or another one"
+            raise InvalidInput(problem)
         self._path.write_text(self.text, encoding="utf-8")
         return load_scene(self._path, for_friction=True, builders=self._builders)
 
@@ -196,6 +230,15 @@ class State:
 
     def close(self) -> None:
         self.folder.close()
+
+
+def _check_shown(name: str, tables: Tables) -> None:
+    """Refuse what the shell computes but the page has no place for."""
+    conditions = tables["conditions"]
+    for key in ("pressure_pa", "temperature_k", "temperature_c"):
+        if isinstance(conditions.get(key, 0.0), list | dict):
+            problem = "the page shows one pressure and one temperature: must be a number"
+            raise InvalidInput(f"{name}: [conditions] {key}: {problem}")
 
 
 def without_heat(scene: Scene) -> Scene:

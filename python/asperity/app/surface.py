@@ -5,7 +5,7 @@ import io
 from typing import Any
 
 import numpy as np
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from asperity._core import Error
 from asperity.app.charts import spectrum_chart
@@ -45,7 +45,7 @@ class SurfacePart:
             self._facts = ui.label("").classes("soft")
             self._map = ui.image("").props('no-spinner alt="" fit="contain"').classes("w-full")
             self._map_facts = ui.label("").classes("soft")
-            self._chart = chart({}, "Roughness spectrum")
+            self._chart = chart({}, "Roughness spectrum", renderer="canvas")
         self._see()
 
     def _scan_fields(self) -> None:
@@ -122,8 +122,7 @@ class SurfacePart:
             self._say(self._state.said(error))
             return
         self._say("")
-        self._choice.set_options(list(self._state.surfaces), value=self._state.surface)
-        self._see()
+        self.refresh()
         await self._worker.changed()
 
     async def _pixel(self, event: Any) -> None:
@@ -164,6 +163,14 @@ class SurfacePart:
     def _say(self, problem: str) -> None:
         self._problem.set_text(problem)
 
+    def refresh(self) -> None:
+        """Show the choices of another scene."""
+        self._choice.set_options(list(self._state.surfaces), value=self._state.surface)
+        self._see()
+
+    def show_curve(self, found: Found) -> None:
+        """The curve is not here."""
+
     def show(self, found: Found) -> None:
         if found.scene.surface is self._drawn:
             return
@@ -175,7 +182,12 @@ class SurfacePart:
         )
         name = f"Roughness spectrum C(q) over the wavenumber; {self._facts.text}"
         redraw(self._chart, spectrum_chart(found.scene), name)
-        shown = map_of(found.scene)
+        background_tasks.create(self._show_map(found.scene))
+
+    async def _show_map(self, scene: Scene) -> None:
+        shown = await in_thread(lambda: map_of(scene))
+        if scene.surface is not self._drawn:
+            return
         self._map.set_visibility(shown is not None)
         self._map_facts.set_visibility(shown is not None)
         if shown is not None:

@@ -1,9 +1,9 @@
-"""Computes what was changed, the quick first, and drops what has been overtaken by a change."""
+"""Computes what was changed: the curve at once, heat and band when changes have paused."""
 
 import asyncio
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
 
 from asperity._core import Error
@@ -11,10 +11,13 @@ from asperity.app.state import State, with_band, without_heat
 from asperity.scene.model import Curves, Progress, Scene
 
 _Made = TypeVar("_Made")
+_QUIET = 0.05  # s without a change, after which all that is slower follows
 
 
 class Shows(Protocol):
     """A part of the page that shows what was computed."""
+
+    def show_curve(self, found: "Found") -> None: ...
 
     def show(self, found: "Found") -> None: ...
 
@@ -26,15 +29,18 @@ class Found:
     """What is known of the present scene by now."""
 
     scene: Scene
-    cold: Curves | None  # without heat
+    cold: Curves  # without heat
     curves: Curves | None = None  # as the scene is: the digits of the shell
     banded: Curves | None = None
 
     @property
     def best(self) -> Curves:
-        best = self.banded or self.curves or self.cold
-        assert best is not None
-        return best
+        return self.banded or self.curves or self.cold
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is to follow."""
+        return self.curves is not None and (self.banded is not None or not self.scene.has_errors)
 
 
 class _OvertakenError(Exception):
@@ -42,7 +48,7 @@ class _OvertakenError(Exception):
 
 
 class Worker:
-    """One computation at a time for one session; a change meanwhile starts it again."""
+    """The computations of one session: a curve for each change, and one at a time of the rest."""
 
     def __init__(self, state: State) -> None:
         self.state = state
@@ -50,72 +56,90 @@ class Worker:
         self._parts: tuple[Shows, ...] = ()
         self._wanted = self._done = 0
         self._running = False
+        self._slow = asyncio.Lock()
+        self._following: set[asyncio.Task[None]] = set()
 
     def shows(self, *parts: Shows) -> None:
         self._parts = parts
 
     async def changed(self) -> None:
-        """Compute anew, unless that is under way: then it begins again when it next can."""
+        """Show the curve of the scene as it is now; of changes meanwhile, that of the last."""
         self._wanted += 1
         if self._running:
             return
         self._running = True
         try:
             while self._done != self._wanted:
-                await self._once(self._wanted)
+                mine = self._wanted
+                await self._curve(mine)
+                self._done = mine
         finally:
             self._running = False
 
-    async def _once(self, mine: int) -> None:
+    async def _curve(self, mine: int) -> None:
+        checked = self._unless_overtaken(mine)
+
+        def compute() -> Found:
+            scene = self.state.load()
+            cold = without_heat(scene).friction(checked)
+            return Found(scene, cold, cold if scene.heating is None else None)
+
         try:
-            for step in (self._cold, self._whole, self._band):
-                found = await step(self._unless_overtaken(mine))
-                if self._wanted != mine:
-                    return
-                if found is not self.found:
-                    self.found = found
-                    for part in self._parts:
-                        part.show(found)
-                await asyncio.sleep(0)
-            self._done = mine
+            self.found = await in_thread(compute)
         except _OvertakenError:
             return
         except Error as error:
-            self._done = mine
-            for part in self._parts:
-                part.fail(self.state.said(error))
+            self._fail(error)
+            return
+        for part in self._parts:
+            part.show_curve(self.found)
+        following = asyncio.create_task(self._follow(mine, self.found))
+        self._following.add(following)  # else it might be collected while it runs
+        following.add_done_callback(self._following.discard)
+
+    async def _follow(self, mine: int, found: Found) -> None:
+        """What takes longer, and the parts of the page that are not the curve."""
+        await asyncio.sleep(_QUIET)
+        progress = self._unless_overtaken(mine)
+        async with self._slow:  # what was overtaken ends within a chunk
+            try:
+                self._show(mine, found)
+                if found.curves is None:
+                    hot = await in_thread(lambda: found.scene.friction(progress))
+                    found = replace(found, curves=hot)
+                    self._show(mine, found)
+                if not found.whole:
+                    scene, curves = found.scene, found.best
+                    banded = await in_thread(lambda: with_band(scene, curves, progress))
+                    self._show(mine, replace(found, banded=banded))
+            except _OvertakenError:
+                return
+            except Error as error:
+                if self._wanted == mine:
+                    self._fail(error)
+
+    def _show(self, mine: int, found: Found) -> None:
+        if self._wanted != mine:
+            raise _OvertakenError
+        self.found = found
+        for part in self._parts:
+            part.show(found)
+
+    def _fail(self, error: Error) -> None:
+        for part in self._parts:
+            part.fail(self.state.said(error))
 
     def _unless_overtaken(self, mine: int) -> Progress:
-        """Looks, between the chunks of a computation, whether it is still wanted."""
+        """Looks, between the chunks of a computation, whether it is still wanted: a computation of
+        one chunk is always finished, so that a slider that is moved for long shows some curves."""
 
-        def checked(chunks: list[slice]) -> Iterator[slice]:
-            for chunk in chunks:
-                if self._wanted != mine:
+        def checked(chunks: Iterable[slice]) -> Iterator[slice]:
+            for i, chunk in enumerate(chunks):
+                if i > 0 and self._wanted != mine:
                     raise _OvertakenError
                 yield chunk
 
         return lambda chunks: nullcontext(checked(chunks))
-
-    async def _cold(self, progress: Progress) -> Found:
-        scene = await in_thread(self.state.load)
-        return Found(scene, await in_thread(lambda: without_heat(scene).friction(progress)))
-
-    async def _whole(self, progress: Progress) -> Found:
-        assert self.found is not None
-        scene, cold = self.found.scene, self.found.cold
-        if scene.heating is None:
-            return Found(scene, cold, cold)
-        return Found(scene, cold, await in_thread(lambda: scene.friction(progress)))
-
-    async def _band(self, progress: Progress) -> Found:
-        found = self.found
-        assert found is not None
-        assert found.curves is not None
-        if not found.scene.has_errors:
-            return found
-        scene, curves = found.scene, found.curves
-        banded = await in_thread(lambda: with_band(scene, curves, progress))
-        return Found(scene, found.cold, curves, banded)
 
 
 async def in_thread(compute: Callable[[], _Made]) -> _Made:

@@ -14,9 +14,10 @@ import pytest
 
 import asperity
 from asperity.app import files
+from asperity.app.corrections import OF_PEAKS, PLAIN, offered
 from asperity.app.downloads import map_of, picture, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
-from asperity.app.state import CORRECTIONS, MOST_VARIANTS, State, contributions, without_heat
+from asperity.app.state import MOST_VARIANTS, State, contributions, without_heat
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.scene.write import scene_text
@@ -56,10 +57,7 @@ CASES = {
         state.use("adhesion", False),
     ),
     "two files": drop_both,
-    **{
-        kind: lambda state, kind=kind: state.choose_correction(kind)
-        for kind in (*CORRECTIONS, "none")
-    },
+    **{kind: lambda state, kind=kind: state.choose_correction(kind) for kind in (*PLAIN, "none")},
 }
 
 
@@ -75,6 +73,19 @@ def test_the_downloaded_scene_gives_the_same_bytes_in_the_shell(
     monkeypatch.chdir(tmp_path)
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 0
     assert (tmp_path / "mu.csv").read_bytes() == table_csv(scene, scene.friction())
+
+
+def test_corrections_of_peaks_are_offered_with_a_map_alone(state: State) -> None:
+    assert offered(state.load()) == (*PLAIN, *OF_PEAKS)
+    state.choose_correction("local-peaks", state.load())
+    first = state.load()
+    state.conditions = {**state.conditions, "pressure_pa": 2e5}
+    assert state.load().correction is first.correction  # the peaks are looked for once
+    state.surface = "law"
+    with pytest.raises(asperity.InvalidInput, match="takes the peaks of a scan: choose a scan"):
+        state.load()
+    state.choose_correction("partial-contact")
+    assert offered(state.load()) == tuple(PLAIN)
 
 
 def test_a_scene_reads_back_as_it_was_written() -> None:

@@ -1,0 +1,138 @@
+"""A change is shown at once, whatever is still computed of the one before."""
+
+import asyncio
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from asperity.app import worker as app_worker
+from asperity.app.state import State, with_band
+from asperity.app.worker import Found, Worker
+
+
+class Page:
+    """Keeps what it is shown."""
+
+    def __init__(self) -> None:
+        self.curves: list[Found] = []
+        self.shown: list[Found] = []
+        self.problems: list[str] = []
+
+    def show_curve(self, found: Found) -> None:
+        self.curves.append(found)
+
+    def show(self, found: Found) -> None:
+        self.shown.append(found)
+
+    def fail(self, problem: str) -> None:
+        self.problems.append(problem)
+
+
+@pytest.fixture
+def state() -> Iterator[State]:
+    made = State()
+    yield made
+    made.close()
+
+
+async def until(holds: Any) -> None:
+    for _ in range(6000):
+        if holds():
+            return
+        await asyncio.sleep(0.01)
+    raise AssertionError("waited for a minute")
+
+
+@pytest.mark.parametrize("heat", [False, True])
+def test_curve_then_heat_then_band(state: State, heat: bool) -> None:
+    state.use("heating", heat)
+    page = Page()
+
+    async def run() -> None:
+        worker = Worker(state)
+        worker.shows(page)
+        await worker.changed()
+        assert [one.whole for one in page.curves] == [False]
+        await until(lambda: page.shown and page.shown[-1].whole)
+        assert worker.found is page.shown[-1]
+
+    asyncio.run(run())
+    kinds = [(one.curves is not None, one.banded is not None) for one in page.shown]
+    hot = [(False, False), (True, False), (True, True)]
+    assert kinds == (hot if heat else hot[1:])
+    scene = state.load()
+    assert np.array_equal(page.shown[-1].best.mu, scene.friction().mu)
+    assert (page.curves[0].curves is None) == heat
+
+
+def test_a_band_does_not_keep_the_next_change_waiting(
+    state: State, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, go_on = threading.Event(), threading.Event()
+    computed = []
+
+    def held(scene: Any, curves: Any, progress: Any) -> Any:
+        computed.append(scene)
+        begun.set()
+        assert go_on.wait(60)
+        return with_band(scene, curves, progress)
+
+    monkeypatch.setattr(app_worker, "with_band", held)
+    page = Page()
+
+    async def run() -> None:
+        worker = Worker(state)
+        worker.shows(page)
+        await worker.changed()
+        await until(begun.is_set)
+        for celsius in (30, 40):
+            state.conditions["temperature_c"] = celsius
+            await worker.changed()
+            assert page.curves[-1].scene.temperature == celsius + 273.15
+        go_on.set()
+        await until(lambda: page.shown[-1].whole)
+
+    asyncio.run(run())
+    assert [one.temperature for one in computed] == [293.15, 313.15]  # that of 30 C was overtaken
+    assert [one.scene.temperature for one in page.shown if one.whole] == [313.15]
+    assert page.problems == []
+
+
+def test_changes_that_never_pause_are_shown_all_the_same(state: State) -> None:
+    page = Page()
+
+    async def run() -> None:
+        worker = Worker(state)
+        worker.shows(page)
+        waiting = []
+        for i in range(40):
+            state.conditions["temperature_c"] = 20 + i
+            waiting.append(asyncio.create_task(worker.changed()))
+            await asyncio.sleep(0.002)
+        await asyncio.gather(*waiting)
+        await until(lambda: page.shown and page.shown[-1].whole)
+
+    asyncio.run(run())
+    assert len(page.curves) > 2
+    assert page.shown[-1].scene.temperature == 59 + 273.15
+
+
+def test_an_error_is_told_and_the_next_change_is_computed(state: State) -> None:
+    page = Page()
+
+    async def run() -> None:
+        worker = Worker(state)
+        worker.shows(page)
+        state.conditions["pressure_pa"] = -1.0
+        await worker.changed()
+        assert len(page.problems) == 1
+        assert "pressure_pa" in page.problems[0]
+        state.conditions["pressure_pa"] = 81e3
+        await worker.changed()
+        await until(lambda: page.shown and page.shown[-1].whole)
+
+    asyncio.run(run())
+    assert len(page.problems) == 1
