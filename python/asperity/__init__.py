@@ -38,6 +38,7 @@ from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectru
 from asperity.surface import HeightMap, LineScan
 from asperity.sweep.run import sweep
 from asperity.sweeps import Isotherm, StrainSweep
+from asperity.tiles.statistics import HeightStatistics, height_statistics
 from asperity.uncertainty.band import FrictionBand, friction_band
 
 __all__ = [
@@ -53,6 +54,7 @@ __all__ = [
     "FrictionSlopes",
     "Heating",
     "HeightMap",
+    "HeightStatistics",
     "InvalidInput",
     "Isotherm",
     "LineScan",
@@ -87,6 +89,7 @@ __all__ = [
     "friction_band",
     "friction_map",
     "heat_kernel",
+    "height_statistics",
     "hertz_penetration",
     "line_spectrum",
     "mean_pressure",

@@ -159,6 +159,9 @@ RESULTS = {
     "Anisotropy": asperity.anisotropy(
         asperity.HeightMap(np.random.default_rng(1).normal(size=(80, 80)), pixel_size=1.0)
     ),
+    "HeightStatistics": asperity.height_statistics(
+        np.random.default_rng(1).normal(size=(9, 8)), pixel_size=1.0
+    ),
     "SpectralDensity": asperity.spectral_density(asperity.HeightMap(HEIGHTS, pixel_size=1.0)),
     "MasterCurveBuild": BUILD,
     "MasterPoints": BUILD.points,

@@ -144,7 +144,7 @@ def used(value):
             return None
 
 
-RESULTS = {"Friction", "Separation", "Anisotropy", "SpectralDensity"}
+RESULTS = {"Friction", "Separation", "Anisotropy", "SpectralDensity", "HeightStatistics"}
 RESULTS |= {"MasterPoints", "FrictionBand", "FrictionSlopes"}
 
 

@@ -1,0 +1,1 @@
+"""Maps that do not fit in memory, read and transformed a tile at a time."""

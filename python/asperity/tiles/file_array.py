@@ -1,0 +1,106 @@
+"""The file behind a memory map, read by file reads.
+
+A mapped page that another process cuts off ends this process (SIGBUS); a read that comes short is
+an error like others. Reads also leave no pages behind that count as memory of this process.
+"""
+
+import mmap
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import FilePath
+
+Stamp = tuple[int, int, int, int]
+
+
+@dataclass(frozen=True)
+class FileArray:
+    """Numbers of two axes in a file; `place` is the byte at which the first of them begins."""
+
+    path: str
+    place: int
+    shape: tuple[int, int]
+    strides: tuple[int, int]
+    dtype: np.dtype[Any]
+    stamp: Stamp
+
+    def __getitem__(self, box: tuple[slice, slice]) -> NDArray[Any]:
+        """Return a copy of a rectangle."""
+        (y0, y1), (x0, x1) = ((part.start, part.stop) for part in box)
+        (down, along), item = self.strides, self.dtype.itemsize
+        if abs(along) > abs(down):  # a transposed file: its rows are these columns
+            turned = FileArray(
+                self.path, self.place, self.shape[::-1], (along, down), self.dtype, self.stamp
+            )
+            return np.ascontiguousarray(turned[box[::-1]].T)
+        found = np.empty((y1 - y0, x1 - x0), self.dtype)
+        length = (x1 - x0 - 1) * abs(along) + item
+        first = min(x0 * along, (x1 - 1) * along)
+        packed = along == item
+        line = bytearray(length)
+        with self._opened() as file:
+            self._check(os.fstat(file.fileno()))
+            for row in range(y1 - y0):
+                file.seek(self.place + (y0 + row) * down + first)
+                self._fill(file, memoryview(found[row]).cast("B") if packed else line)
+                if not packed:
+                    start = 0 if along >= 0 else length - item
+                    found[row] = np.ndarray(x1 - x0, self.dtype, line, start, (along,))
+            self._check(os.fstat(file.fileno()))
+        return found
+
+    def _opened(self) -> Any:
+        try:
+            return open(self.path, "rb", buffering=0)
+        except OSError as error:
+            raise InvalidInput(f"{self}: cannot be read: {error.strerror or error}") from error
+
+    def _fill(self, file: Any, into: Any) -> None:
+        got, view = 0, memoryview(into)
+        while got < len(view):
+            try:
+                count = file.readinto(view[got:])
+            except OSError as error:
+                raise InvalidInput(f"{self}: cannot be read: {error.strerror or error}") from error
+            if not count:
+                raise InvalidInput(f"{self}: ends before its heights do; was it cut short?")
+            got += count
+
+    def _check(self, now: os.stat_result) -> None:
+        if stamp_of(now) != self.stamp:
+            raise InvalidInput(f"{self}: was changed while it was read")
+
+    def __str__(self) -> str:
+        return f"{FilePath(self.path)}"
+
+
+def stamp_of(status: os.stat_result) -> Stamp:
+    """Return what changes with a file: where it is, how long, when it was last written."""
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
+
+
+def file_behind(array: NDArray[Any]) -> FileArray | None:
+    """Return the file that an array of two axes is a memory map of, or a view of one, if any."""
+    owner: Any = array
+    while owner is not None and not isinstance(owner, np.memmap):
+        owner = getattr(owner, "base", None)
+    if owner is None or owner.filename is None or owner.mode == "c":  # "c": changes stay in memory
+        return None
+    mapping: Any = owner
+    mapped = np.frombuffer(mapping._mmap, np.uint8)
+    start = owner.offset - owner.offset % mmap.ALLOCATIONGRANULARITY
+    place = start + array.ctypes.data - mapped.ctypes.data
+    path = os.fspath(owner.filename)
+    try:
+        stamp = stamp_of(os.stat(path))
+    except OSError as error:
+        problem = f"cannot be read: {error.strerror or error}"
+        raise InvalidInput(f"{FilePath(path)}: {problem}") from error
+    ny, nx = array.shape
+    down, along = array.strides
+    return FileArray(path, place, (ny, nx), (down, along), array.dtype, stamp)

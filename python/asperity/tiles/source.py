@@ -1,0 +1,152 @@
+"""Heights that need not fit in memory: memory maps, Zarr, Dask and other arrays, read in pieces."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import Error, InvalidInput
+from asperity.base.arguments import brief, is_masked
+from asperity.surface import HeightMap, LineScan, pixel_sizes
+from asperity.tiles.file_array import FileArray, file_behind
+
+Box = tuple[slice, slice]
+Shape = tuple[int, int]
+DEFAULT = 4096  # points a side of what is read at a time
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A rectangle of a map that a worker reads for itself; of a map in memory, its heights."""
+
+    array: Any
+    box: Box
+    scale: float
+
+    def read(self) -> NDArray[Any]:
+        """Return float32 or float64 heights in memory of their own, or views of what is there."""
+        try:
+            found = self.array[self.box]
+            if callable(getattr(found, "compute", None)):  # Dask
+                found = found.compute(scheduler="synchronous")
+            if is_masked(found):
+                found = np.where(found.mask, np.nan, found.data)
+            found = np.asarray(found)
+        except (Error, MemoryError):
+            raise
+        except Exception as error:
+            problem = " ".join(f"{type(error).__name__}: {error}".split())
+            raise InvalidInput(f"heights: cannot be read: {problem}") from error
+        wanted = tuple(part.stop - part.start for part in self.box)
+        if found.shape != wanted:
+            raise InvalidInput(f"heights: gave {found.shape} points where {wanted} were asked for")
+        single = found.dtype.kind == "f" and found.dtype.itemsize == 4
+        real = np.dtype(np.float32 if single else np.float64)
+        if self.scale != 1:
+            found = np.multiply(found, self.scale, dtype=real, casting="same_kind")
+        with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
+            heights: NDArray[Any] = found.astype(real, copy=False)
+        return heights
+
+
+@dataclass(frozen=True)
+class Source:
+    """A map, wherever it is."""
+
+    array: Any
+    shape: Shape
+    pixel_size: tuple[float, float]
+    scale: float = 1.0  # metres in a unit of the numbers
+
+    def piece(self, box: Box) -> Piece:
+        """Return a rectangle, which holds no more than a worker needs."""
+        if isinstance(self.array, np.ndarray):
+            part = self.array[box]
+            whole = slice(0, part.shape[0]), slice(0, part.shape[1])
+            return Piece(part, whole, self.scale)
+        return Piece(self.array, box, self.scale)
+
+
+def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
+    """Return the heights of a HeightMap or of an array, checked but not read."""
+    if isinstance(surface, LineScan):
+        raise InvalidInput("surface = a LineScan: must be a map; a line scan has no tiles")
+    if isinstance(surface, HeightMap):
+        if pixel_size is not None:
+            raise InvalidInput("pixel_size: a HeightMap has its own; give it with an array only")
+        return Source(_held(surface.heights), _shape(surface.heights.shape), surface.pixel_size)
+    array = _array(surface)
+    if pixel_size is None:
+        raise InvalidInput("pixel_size is missing: an array does not state the distance [m]")
+    sizes = pixel_sizes(pixel_size)
+    for size in sizes:
+        if not (math.isfinite(size) and size > 0):
+            raise InvalidInput(f"pixel_size = {size}: must be positive and finite")
+    return Source(array, _shape(array.shape), sizes, scale)
+
+
+def _array(found: Any) -> Any:
+    """Return an array of two axes of real numbers that can be sliced."""
+    if isinstance(found, list | tuple):
+        found = np.array(found)
+    if _is_group(found):
+        names = ", ".join(sorted(map(str, found))) or "none"
+        raise InvalidInput(f"surface = a group of arrays: give one of them ({names})")
+    dtype, shape = getattr(found, "dtype", None), getattr(found, "shape", None)
+    if dtype is None or shape is None or not hasattr(found, "__getitem__"):
+        allowed = "must be a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
+        raise InvalidInput(f"surface = {brief(found)}: {allowed}")
+    if len(shape) != 2:
+        raise InvalidInput(f"surface has shape {tuple(shape)}: must have two axes, (ny, nx)")
+    if not all(isinstance(side, int | np.integer) and side > 0 for side in shape):
+        allowed = "must be known and not empty"
+        raise InvalidInput(f"surface has shape {tuple(shape)}: {allowed}")
+    if getattr(dtype, "kind", "?") not in "biuf":
+        raise InvalidInput(f"surface holds {dtype} values: must be real numbers")
+    packing = sorted({"scale_factor", "add_offset"} & set(getattr(found, "attrs", ())))
+    if packing and not _is_decoded(found):
+        problem = f"is packed ({', '.join(packing)})"
+        raise InvalidInput(f"surface {problem}: unpack it first, as xarray.open_zarr does")
+    return _held(found) if isinstance(found, np.ndarray) else found
+
+
+def _held(array: NDArray[Any]) -> Any:
+    """Return the array, or the file behind a memory map."""
+    if is_masked(array):
+        return array
+    found: FileArray | None = file_behind(array)
+    return array if found is None else found
+
+
+def _is_group(found: Any) -> bool:
+    """Whether this is a Zarr or HDF5 group, or anything else that holds arrays by names."""
+    named = isinstance(found, Mapping) or callable(getattr(found, "arrays", None))
+    return named and getattr(found, "dtype", None) is None
+
+
+def _is_decoded(found: Any) -> bool:
+    """Whether this is xarray's, which unpacks numbers as it reads them."""
+    return type(found).__module__.startswith("xarray.")
+
+
+def _shape(found: Any) -> Shape:
+    ny, nx = found
+    return int(ny), int(nx)
+
+
+def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:
+    """Refuse an infinite height by its place in the map; `corner` is that of the first one."""
+    endless = np.isinf(heights)
+    if endless.any():
+        y, x = np.unravel_index(int(endless.argmax()), heights.shape)
+        place = f"heights[{corner[0] + int(y)}, {corner[1] + int(x)}]"
+        allowed = "must be finite, or NaN for a drop-out"
+        raise InvalidInput(f"{place} = {heights[y, x]}: {allowed}")
+
+
+def corner_of(box: Box) -> Shape:
+    """Return where a box begins."""
+    return box[0].start, box[1].start

@@ -1,0 +1,121 @@
+"""Height statistics of maps that need not fit in memory: they are those of a HeightMap."""
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+
+import numpy as np
+import pytest
+
+from asperity import HeightMap, HeightStatistics, InvalidInput, height_statistics
+from asperity.tiles import statistics
+from helpers.cases import each
+from helpers.known_surfaces import law, surface, tilted, with_holes
+
+PIXEL = (2e-6, 1e-6)
+SHARED = ("rms_height", "rms_slope", "skewness", "kurtosis", "z_max", "z_min", "dropout_fraction")
+
+
+@pytest.fixture
+def small_pieces(monkeypatch):
+    """Pieces of 100 points a side: the map below has edges, corners and rests of pieces."""
+    monkeypatch.setattr(statistics, "DEFAULT", 100)
+
+
+def scan(dtype=np.float64, *, holes=0.05):
+    z = surface(law(0.8, rolloff=2e5), (301, 453), PIXEL, 1)
+    return with_holes(tilted(1e-3 + z, tilt=1e-4, bow=1e-5), holes, 2).astype(dtype)
+
+
+@each("holes", [0, 0.05])
+@each("detrend", ["offset", "plane", "quadratic"])
+@each("dtype", [np.float64, np.float32])
+def test_they_are_those_of_the_map_in_memory(small_pieces, detrend, dtype, holes):
+    z = scan(dtype, holes=holes)
+    found = height_statistics(z, pixel_size=PIXEL, detrend=detrend)
+    kept = HeightMap(z.astype(float), pixel_size=PIXEL).detrend(detrend)
+    for name in SHARED:
+        assert getattr(found, name) == pytest.approx(getattr(kept, name), rel=1e-9, abs=1e-12), name
+    assert found.mean == pytest.approx(np.nanmean(z.astype(float)), rel=1e-12)
+
+
+def test_they_are_those_of_the_definition(small_pieces):
+    z = scan(holes=0)
+    found = height_statistics(z, pixel_size=PIXEL)
+    h = z - z.mean()
+    rms = np.sqrt(np.mean(h**2))
+    slope_y, slope_x = (z[2:] - z[:-2]) / (2 * PIXEL[0]), (z[:, 2:] - z[:, :-2]) / (2 * PIXEL[1])
+    assert found.rms_height == pytest.approx(rms, rel=1e-12)
+    assert found.skewness == pytest.approx(np.mean(h**3) / rms**3, rel=1e-9)
+    assert found.kurtosis == pytest.approx(np.mean(h**4) / rms**4, rel=1e-11)
+    slope = np.sqrt(np.mean(slope_y**2) + np.mean(slope_x**2))
+    assert found.rms_slope == pytest.approx(slope, rel=1e-12)
+    assert (found.z_max, found.z_min) == pytest.approx((h.max(), h.min()), rel=1e-10)
+
+
+def test_they_do_not_depend_on_who_computes(small_pieces):
+    z = scan()
+    alone = height_statistics(z, pixel_size=PIXEL, detrend="quadratic")
+    assert alone == height_statistics(z, pixel_size=PIXEL, detrend="quadratic", threads=3)
+    with ThreadPoolExecutor(2) as threads:
+        shared = height_statistics(z, pixel_size=PIXEL, detrend="quadratic", executor=threads)
+    with ProcessPoolExecutor(2, mp_context=get_context("forkserver")) as processes:
+        sent = height_statistics(z, pixel_size=PIXEL, detrend="quadratic", executor=processes)
+    assert alone == shared == sent
+
+
+def test_a_flat_map_has_no_skewness():
+    flat = height_statistics(np.full((5, 6), 2.0), pixel_size=1)
+    assert (flat.rms_height, flat.skewness, flat.kurtosis, flat.rms_slope) == (0, 0, 0, 0)
+    assert flat.mean == 2
+
+
+def test_they_are_a_value_and_a_table():
+    found = height_statistics(scan(), pixel_size=PIXEL)
+    assert HeightStatistics(**{name: getattr(found, name) for name in found.__match_args__}) == (
+        found
+    )
+    assert repr(found).startswith("HeightStatistics(mean=")
+    table = pytest.importorskip("xarray") and found.to_xarray()
+    assert table.rms_height.item() == found.rms_height
+    assert table.rms_height.units == "m"
+    assert table.kurtosis.units == "1"
+
+
+REFUSED = [
+    ({"surface": [1.0, 2.0, 3.0], "pixel_size": 1}, r"has shape \(3,\): must have two axes"),
+    ({"surface": np.ones((2, 9)), "pixel_size": 1}, r"has shape \(2, 9\): must be 3 x 3 or more"),
+    ({"surface": np.ones((9, 9))}, "pixel_size is missing: an array does not state"),
+    ({"surface": np.ones((9, 9)), "pixel_size": 0}, "pixel_size = 0.0: must be positive"),
+    ({"surface": np.ones((9, 9)), "pixel_size": (1, 2, 3)}, r"must be a number or \(dy, dx\)"),
+    ({"surface": np.ones((9, 9)) + 1j, "pixel_size": 1}, "holds complex128 values: must be real"),
+    ({"surface": np.full((9, 9), np.nan), "pixel_size": 1}, "every point is a drop-out"),
+    ({"surface": "scan.npy", "pixel_size": 1}, "must be a HeightMap or an array of two axes"),
+    ({"surface": HeightMap(np.ones((9, 9)), pixel_size=1), "pixel_size": 1}, "has its own"),
+    ({"surface": np.ones((9, 9)), "pixel_size": 1, "detrend": "cubic"}, 'detrend = "cubic"'),
+    ({"surface": np.ones((9, 9)), "pixel_size": 1, "detrend": None}, "detrend = None"),
+    ({"surface": np.ones((9, 9)), "pixel_size": 1, "threads": 0}, "threads = 0: must be a whole"),
+    ({"surface": np.ones((9, 9)), "pixel_size": 1, "executor": 3}, "executor = 3: must have the"),
+]
+
+
+@each(("given", "message"), REFUSED)
+def test_bad_input_is_one_line(given, message):
+    with pytest.raises(InvalidInput, match=message) as caught:
+        height_statistics(**given)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_infinite_height_is_named_by_its_place_in_the_map(small_pieces):
+    z = scan()
+    z[217, 345] = -np.inf
+    with pytest.raises(InvalidInput, match=r"heights\[217, 345\] = -inf: must be finite"):
+        height_statistics(z, pixel_size=PIXEL)
+
+
+def test_no_slope_where_no_neighbours_are_measured():
+    z = np.full((9, 9), np.nan)
+    z[::2, ::2] = 1.0
+    z[::2, 1::2] = np.nan
+    z[::4, ::4], z[2::4, 2::4] = np.nan, np.nan
+    with pytest.raises(InvalidInput, match="no point has both neighbours measured"):
+        height_statistics(z, pixel_size=1)
