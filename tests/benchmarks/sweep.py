@@ -33,15 +33,16 @@ SCENE = {
     },
     "conditions": {"pressure_pa": 1e5, "velocity_m_s": 1e-2},
 }
-TREADS = [2e6, 3e6, 4e6]
+TREADS = 3
+MOST_OF_TREAD = 3_333_400  # points, of more there are more treads
 
 
-def over(points: int) -> dict[str, list[float]]:
-    velocities = max(1, points // (len(TREADS) * 100))
+def over(points: int) -> dict[str, np.ndarray]:
+    treads = max(TREADS, -(-points // MOST_OF_TREAD))
     return {
-        "rubber.equilibrium_modulus_pa": TREADS,
-        "conditions.pressure_pa": np.geomspace(5e4, 5e5, 100).tolist(),
-        "conditions.velocity_m_s": np.geomspace(1e-5, 1, velocities).tolist(),
+        "rubber.equilibrium_modulus_pa": np.linspace(2e6, 4e6, treads),
+        "conditions.pressure_pa": np.geomspace(5e4, 5e5, 100),
+        "conditions.velocity_m_s": np.geomspace(1e-5, 1, max(1, points // (treads * 100))),
     }
 
 
@@ -49,12 +50,11 @@ def plain(points: int) -> float:
     """Processor time of the loop that a sweep takes the place of, which keeps what it computes."""
     axes = over(points)
     surface, rubber = SCENE["surface"], SCENE["rubber"]
-    p = np.array(axes["conditions.pressure_pa"])
-    v = np.array(axes["conditions.velocity_m_s"])
+    treads, p, v = axes.values()
     step = max(1, plan.MOST_POINTS // v.size)
     began = time.process_time()
-    kept = {name: np.full((len(TREADS), p.size, v.size), np.nan) for name in plan.PLAIN}
-    for k, modulus in enumerate(TREADS):
+    kept = {name: np.full((treads.size, p.size, v.size), np.nan) for name in plan.PLAIN}
+    for k, modulus in enumerate(treads.tolist()):
         road = asperity.SelfAffineSpectrum(
             rms_height=surface["rms_height_m"],
             hurst=surface["hurst"],

@@ -25,9 +25,9 @@ from asperity.plot.sweep import sweep_figure
 from asperity.scene.scene import read_toml
 from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
+from asperity.sweep.existing import open_store
 from asperity.sweep.look import choose, ranks
 from asperity.sweep.plan import cut_of
-from asperity.sweep.store import open_store
 from asperity.sweep.timing import estimated, timed
 
 _KEYS = dict.fromkeys(("scene", "over", "variables"))

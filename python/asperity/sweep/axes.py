@@ -1,7 +1,8 @@
 """Axes of a sweep: what a user wrote as `over`, and the lists of the scene itself, checked."""
 
 import re
-from collections.abc import Iterator, Mapping
+from array import array
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief
+from asperity.io import plausible
 from asperity.io.fields import Field, nearest, read_table, sweep
 from asperity.scene.known import KEYS, KEYS_OF_KIND
 
@@ -18,6 +20,7 @@ POINTS = (PRESSURE, VELOCITY)  # what changes from point to point of a scene
 _SWEEP = {"from", "to", "points"}
 _LISTS = ("conditions.temperature_k", "conditions.temperature_c", *POINTS)  # lists that scenes have
 _WITHOUT = "none"  # the kind of no correction
+_NUMBERS = (int, float, np.integer, np.floating)
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
@@ -26,7 +29,7 @@ class Axis:
     """A dimension: its name, and of each key the values along it."""
 
     name: str
-    values: Mapping[str, tuple[Any, ...]]
+    values: Mapping[str, Sequence[Any]]
 
     @property
     def size(self) -> int:
@@ -107,7 +110,7 @@ def _check_name(path: Path, name: str) -> None:
         raise InvalidInput(f"{path}: over {brief(name)}: {problem}")
 
 
-def _values(path: Path, key: str, given: object, axis: str) -> tuple[Any, ...]:
+def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
     """The values along an axis, each of the kind that the key takes."""
     table, _, field = key.partition(".")
     if field not in KEYS.get(table, ()):
@@ -119,27 +122,50 @@ def _values(path: Path, key: str, given: object, axis: str) -> tuple[Any, ...]:
         given = one[field]
     if isinstance(given, str | bytes) or not hasattr(given, "__iter__"):
         raise InvalidInput(f"{path}: over {key} = {brief(given)}: must be a list")
+    if not isinstance(given, np.ndarray):
+        given = tuple(given)
+    if fields[field].read is sweep and (numbers := _numbers(given)):
+        return _checked(path, key, numbers, fields[field])
     values = tuple(map(_plain, given))
     if not values:
         raise InvalidInput(f"{path}: over {key}: is empty: must have one value or more")
     for value in values:
-        if value is None or (key == "correction.kind" and value == _WITHOUT):
+        if value is None and key not in POINTS:
+            continue
+        if key == "correction.kind" and value == _WITHOUT:
             continue
         if key == "correction.kind" and value not in KEYS_OF_KIND:
             allowed = nearest(str(value), {**KEYS_OF_KIND, _WITHOUT: {}})
             raise InvalidInput(f"{path}: over {key} = {brief(value)}: {allowed}")
         if fields[field].read is sweep and not isinstance(value, int | float):
             raise InvalidInput(f"{path}: over {key} = {brief(value)}: must be a number")
-    if all(type(value) in (int, float) for value in values) and fields[field].read is sweep:
-        read_table(path, table, {field: list(values)}, fields)  # at once: there may be many
-        wrong = [value for value in values if not 0 < value < np.inf]
-        if key in POINTS and wrong:
-            raise InvalidInput(f"{path}: over {key} = {wrong[0]}: must be positive and finite")
-        return values
-    for value in values:
-        if value is not None:
-            read_table(path, table, {field: value}, fields)
+        read_table(path, table, {field: value}, fields)
     return values
+
+
+def _numbers(given: Any) -> "array[float] | None":
+    """Values that are all numbers, in 8 bytes each; None of others."""
+    if isinstance(given, np.ndarray):
+        plain = given.ndim == 1 and given.dtype.kind in "fiu"
+        return array("d", given.astype("d").tobytes()) if plain else None
+    if not all(issubclass(kind, _NUMBERS) and kind is not bool for kind in {*map(type, given)}):
+        return None
+    try:
+        return array("d", given)
+    except OverflowError:
+        return None
+
+
+def _checked(path: Path, key: str, numbers: "array[float]", field: Field) -> "array[float]":
+    """Numbers along an axis, all at once: there may be many."""
+    values = np.asarray(numbers)
+    if field.quantity is not None:
+        table, _, name = key.partition(".")
+        plausible.check(f"{path}: [{table}] {name}", values, field.quantity, field.unit)
+    if key in POINTS and not (sound := (values > 0) & (values < np.inf)).all():
+        wrong = values[~sound][0]
+        raise InvalidInput(f"{path}: over {key} = {wrong}: must be positive and finite")
+    return numbers
 
 
 def _meant(key: str) -> str:
@@ -158,13 +184,13 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, Path) else value
 
 
-def _listed(path: Path, tables: Mapping[str, Any], key: str) -> tuple[Any, ...]:
+def _listed(path: Path, tables: Mapping[str, Any], key: str) -> Sequence[Any]:
     """The list of a scene's key; empty where it has a number, or nothing."""
     table, _, field = key.partition(".")
     given = tables.get(table)
     if not isinstance(given, Mapping) or not isinstance(given.get(field), Mapping | list):
         return ()
-    values = read_table(path, table, {field: given[field]}, KEYS[table])[field].tolist()
+    values = read_table(path, table, {field: given[field]}, KEYS[table])[field]
     return _values(path, key, values, key)
 
 

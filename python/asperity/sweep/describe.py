@@ -17,6 +17,7 @@ from asperity._core import Error, __version__
 from asperity.base.table import imported
 from asperity.io.fields import without_unit
 from asperity.sweep.axes import Axis
+from asperity.sweep.chunks import BLOSC, FAILURE
 from asperity.sweep.plan import MEANINGS, Plan
 
 _FAILURE = {
@@ -81,10 +82,7 @@ class Described:
             attributes["coordinates"] = " ".join(beside)
         group = zarr.create_group(str(path), zarr_format=3, attributes=attributes)
         along = {"shape": self.shape, "chunks": tuple(cut), "dimension_names": self.dimensions}
-        # as quick as none, and half of the size: what is the same at all points takes nothing
-        blosc = imported("zarr.codecs", "sweep").BloscCodec(
-            cname="lz4", clevel=1, shuffle="shuffle"
-        )
+        blosc = imported("zarr.codecs", "sweep").BloscCodec(shuffle="shuffle", **BLOSC)
         for name in self.variables:
             group.create_array(
                 name,
@@ -94,7 +92,14 @@ class Described:
                 attributes=_said(name),
                 **along,
             )
-        group.create_array("failure", dtype="i8", fill_value=0, attributes=_FAILURE, **along)
+        group.create_array(
+            FAILURE,
+            dtype="i8",
+            fill_value=0,
+            compressors=blosc,
+            attributes=_FAILURE,
+            **along,
+        )
         for name, (dimension, values, said) in self.coordinates.items():
             _add(group, name, dimension, values, said)
         group.create_group("_sweep")
@@ -151,8 +156,8 @@ def _coordinates(axis: Axis) -> dict[str, Coordinate]:
     return {axis.name: first, **found}
 
 
-def _coordinate(dimension: str, key: str, entries: tuple[Any, ...]) -> Coordinate:
-    if all(type(entry) in (int, float) for entry in entries):
+def _coordinate(dimension: str, key: str, entries: Sequence[Any]) -> Coordinate:
+    if {*map(type, entries)} <= {int, float}:
         _, unit = without_unit(key)
         return dimension, np.array(entries, float), {"units": unit or "1"}
     return dimension, np.array([label(entry) for entry in entries], dtype=str), {}

@@ -1,5 +1,7 @@
 """The journal of a store: a line for each box that is whole, and the lock of its only writer."""
 
+import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +15,8 @@ class Journal:
     """The lines of a store, open and locked until `close`."""
 
     def __init__(self, store: Path) -> None:
-        try:
-            self._file = (store / JOURNAL).open("r+b")
+        try:  # without a buffer, which would be written again by `close` after a full disk
+            self._file = (store / JOURNAL).open("r+b", buffering=0)
         except OSError as error:
             reason = error.strerror or error
             raise InvalidInput(
@@ -24,17 +26,21 @@ class Journal:
             self._file.close()
             raise InvalidInput(f"{FilePath(store)}: another sweep is writing to it")
 
-    def lines(self) -> list[bytes]:
+    def lines(self) -> Iterator[bytes]:
         """Every whole line. The next one is written after them, over one that was not ended."""
-        content = self._file.read()
-        whole = content.rfind(b"\n") + 1
+        whole = 0
+        with open(self._file.fileno(), "rb", closefd=False) as file:
+            for line in file:
+                if line.endswith(b"\n"):
+                    whole += len(line)
+                    yield line[:-1]
         self._file.seek(whole)
-        return content[:whole].split(b"\n")[:-1]
 
     def add(self, line: bytes) -> None:
-        self._file.truncate()
-        self._file.write(line + b"\n")
-        self._file.flush()
+        os.ftruncate(self._file.fileno(), self._file.tell())
+        rest = line + b"\n"
+        while rest:
+            rest = rest[self._file.write(rest) :]
 
     def close(self) -> None:
         self._file.close()

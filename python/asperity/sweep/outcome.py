@@ -22,13 +22,14 @@ class Outcome:
     start: tuple[int, ...]
     box: tuple[int, ...]
     values: dict[str, Any] = field(default_factory=dict)  # arrays of the box's shape, or a number
-    sums: list[int] | None = None  # checksums, where the worker has written the values
+    sums: list[int] = field(default_factory=list)  # checksums of the files of a store
+    contents: list[bytes] | None = None  # of these files, until they are written
     failure: NDArray[np.int64] | None = None  # codes of messages, 0 where there is none
     refused: int = 0  # scenes that could not be built of such values
     messages: dict[int, str] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
     notes: dict[str, int] = field(default_factory=dict)  # with the first scene that has it
-    seconds: float = 0.0
+    seconds: float = 0.0  # of the processor: what else the machine does cuts no tasks
 
     @property
     def failed(self) -> int:

@@ -4,6 +4,7 @@ import hashlib
 import itertools
 import json
 import math
+from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -125,10 +126,7 @@ def plan_of(
             template["conditions"].pop(f"temperature_{other}", None)
     template = with_values(template, dict.fromkeys(swept - {"correction.kind"}))
     template.setdefault("conditions", {})
-    found = tuple(
-        Axis(a.name, {k: tuple(_found(folder, k, v) for v in vs) for k, vs in a.values.items()})
-        for a in axes
-    )
+    found = tuple(_with_files(folder, axis) for axis in axes)
     chosen = _variables(where, template, swept, variables)
     task = Task(
         path=str(path),
@@ -171,6 +169,15 @@ def _found(folder: Path, key: str, value: Any) -> Any:
     if key in FILES and isinstance(value, list):
         return [str(folder / one) for one in value]
     return value
+
+
+def _with_files(folder: Path, axis: Axis) -> Axis:
+    """An axis whose files are found from anywhere."""
+    found = {
+        key: tuple(_found(folder, key, value) for value in values) if key in FILES else values
+        for key, values in axis.values.items()
+    }
+    return Axis(axis.name, found)
 
 
 def _all_files(tables: Mapping[str, Any], axes: Sequence[Axis]) -> Iterator[str]:
@@ -221,11 +228,11 @@ def _variables(
     return tuple(name for name in every if name in {*wanted, *band})
 
 
-def _short(values: tuple[Any, ...]) -> Any:
+def _short(values: Sequence[Any]) -> Any:
     if len(values) <= _LONG:
         return list(values)
-    text = json.dumps(values).encode()
-    return {"values": len(values), "sha256": hashlib.sha256(text).hexdigest()}
+    content = values if isinstance(values, array) else json.dumps(values).encode()
+    return {"values": len(values), "sha256": hashlib.sha256(content).hexdigest()}
 
 
 @dataclass(frozen=True)

@@ -17,16 +17,16 @@ from asperity.io import plausible
 from asperity.scene.scene import read_scene
 from asperity.sweep.describe import Described, write_netcdf
 from asperity.sweep.executors import Executor, Lost, result_of
-from asperity.sweep.plan import Plan, cut_of, plan_of
-from asperity.sweep.store import (
-    Memory,
-    ZarrStore,
+from asperity.sweep.existing import (
     open_store,
     refuse_another,
     refuse_foreign,
     refuse_taken,
     remove_store,
 )
+from asperity.sweep.plan import Plan, cut_of, plan_of
+from asperity.sweep.store import ZarrStore
+from asperity.sweep.tally import Memory
 from asperity.sweep.timing import timed
 from asperity.sweep.work import work
 
@@ -193,14 +193,14 @@ def _fill(
     progress: Progress | None,
 ) -> None:
     """Compute what the sink does not have yet."""
-    tasks = (plan.box(at, cut) for at in plan.boxes(cut) if at not in sink.done)
+    tasks = (plan.box(at, cut) for at in plan.boxes(cut) if not sink.has(at))
     arrived: SimpleQueue[Any] = SimpleQueue()
     pending: set[Any] = set()
     lost: list[str] = []
 
     def send() -> None:
         for task in islice(tasks, max(0, workers.room - len(pending))):
-            future = workers.submit(work, replace(task, store=sink.token))
+            future = workers.submit(work, replace(task, store=sink.place))
             pending.add(future)
             future.add_done_callback(arrived.put)
 

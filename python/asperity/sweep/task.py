@@ -18,6 +18,7 @@ from asperity.scene.model import Scene
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Builders, build_scene
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
+from asperity.sweep.chunks import Place
 from asperity.sweep.outcome import Numbers, Outcome
 from asperity.sweep.parts import ChangedFile, KeptBuilders
 
@@ -37,7 +38,7 @@ class Task:
     pressures: tuple[float, float]  # the lowest and the highest of the whole sweep
     digests: Mapping[str, str]
     variables: tuple[str, ...]
-    store: tuple[str, str] | None = None  # where results go, and the text that is in its token
+    store: Place | None = None  # where results go, if not back
     version: str = __version__
 
     @property
@@ -77,7 +78,7 @@ def compute(task: Task) -> Outcome:
     """Return friction at every point of a task's box; what fails leaves NaN and a message."""
     if task.version != __version__:
         raise ChangedFile(f"a worker has asperity {__version__}, the sweep {task.version}")
-    began = time.perf_counter()
+    began = time.thread_time()
     box = task.box
     outcome = Outcome(task.start, box)
     moved = task.moved
@@ -92,7 +93,7 @@ def compute(task: Task) -> Outcome:
         _compute_scene(task, outcome, tuple(at), moved, number)
     for name in task.variables:
         outcome.values[name] = _sent(outcome.array(name))
-    outcome.seconds = time.perf_counter() - began
+    outcome.seconds = time.thread_time() - began
     return outcome
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.sweep import run, store
+from asperity.sweep import existing, run, store
 from helpers.cases import case
 from helpers.sweeps import SCENE, toml
 
@@ -192,7 +192,7 @@ def test_a_store_that_cannot_be_removed_is_told(monkeypatch, capsys):
     def full(*_):
         raise OSError(13, "Permission denied")
 
-    monkeypatch.setattr(store.os, "rename", full)
+    monkeypatch.setattr(existing.os, "rename", full)
     said = refused(capsys, "--output", "a.zarr", "--force", status=1)
     assert "a.zarr: cannot be removed: Permission denied" in said
     with xarray.open_dataset("a.zarr") as found:

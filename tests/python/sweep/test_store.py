@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.sweep import describe, run, store, work
+from asperity.sweep import chunks, describe, journal, run, store, work
 from helpers.cases import case
 from helpers.sweeps import SCENE as STIFF
 
@@ -96,10 +96,9 @@ def ended_after(monkeypatch, boxes):
 
     def write(self, outcome):
         if len(written) == boxes:
-            half = next(iter(self._arrays.values()))
+            half = self.group["mu"]
             half[tuple(slice(s, s + c) for s, c in zip(outcome.start, CUT, strict=True))] = 7.0
             self._journal._file.write(b'{"start": [')
-            self._journal._file.flush()
             raise Ended
         written.append(outcome.start)
         plain(self, outcome)
@@ -208,15 +207,16 @@ def test_a_worker_that_does_not_see_the_store_sends_its_numbers(expected, monkey
     sent = []
     plain = store.ZarrStore.write
     monkeypatch.setattr(
-        store.ZarrStore, "write", lambda self, one: (sent.append(one.sums), plain(self, one))
+        store.ZarrStore, "write", lambda self, one: (sent.append(one.contents), plain(self, one))
     )
     with sweep(SCENE, OVER, store="a.zarr") as found:
         same(found, expected)
-    assert None not in sent
+    assert sent == [None] * 12
     monkeypatch.setattr(work, "_sees", lambda *_: False)
     with sweep(SCENE, OVER, store="b.zarr") as found:
         same(found, expected)
-    assert sent[12:] == [None] * 12
+    assert all(sent[12:])
+    assert [*map(bool, sent[12])] == [True, True, False]  # no file where nothing fails
     lines = [Path(name, "_sweep/journal").read_text() for name in ("a.zarr", "b.zarr")]
     assert lines[0] == lines[1]
 
@@ -235,24 +235,40 @@ def test_two_drivers_do_not_write_to_one_store(monkeypatch):
         assert found.attrs["complete"] == 1
 
 
-def test_a_full_disk_ends_in_a_line_and_can_be_resumed(expected, monkeypatch):
-    plain = zarr.Array.__setitem__
+@pytest.mark.parametrize("full", ["hysteresis", "journal"])
+def test_a_full_disk_ends_in_a_line_and_can_be_resumed(full, expected, monkeypatch):
+    """Half of a file is written, which has to be no box."""
+    plain = {"hysteresis": chunks.os.replace, "journal": journal.Journal.add}[full]
     count = []
 
-    def full(self, where, values):
-        if self.basename == "hysteresis":
+    def replace(part, file):
+        if file.parent.is_relative_to(f"{os.getcwd()}/a.zarr/hysteresis"):
             count.append(1)
             if len(count) > 3:
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        plain(self, where, values)
+        plain(part, file)
 
-    monkeypatch.setattr(zarr.Array, "__setitem__", full)
-    with pytest.raises(asperity.Error, match=r"a\.zarr: cannot be written: No space left") as told:
-        sweep(SCENE, OVER, store="a.zarr")
+    def add(self, line):
+        count.append(1)
+        if len(count) > 3:
+            os.write(self._file.fileno(), line[:30])
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        plain(self, line)
+
+    with monkeypatch.context() as patched:
+        if full == "journal":
+            patched.setattr(journal.Journal, "add", add)
+        else:
+            patched.setattr(chunks.os, "replace", replace)
+        with pytest.raises(asperity.Error, match=r"a\.zarr: cannot be written: No space") as told:
+            sweep(SCENE, OVER, store="a.zarr")
     assert "\n" not in str(told.value)
-    monkeypatch.setattr(zarr.Array, "__setitem__", plain)
+    assert not list(Path("a.zarr").rglob("*.partial"))
+    computed = []
+    counting(monkeypatch, computed)
     with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
         same(found, expected)
+    assert len(computed) == 12 - 3
 
 
 def test_netcdf_that_cannot_be_written_leaves_what_can_be_resumed(expected, monkeypatch):

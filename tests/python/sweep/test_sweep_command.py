@@ -195,6 +195,9 @@ def test_python_is_refused_as_the_command_is():
         ({"over": {"surface.file": [gone]}}, "must be the name of a file"),
         ({"over": {"surface.hurst": "0.7"}}, "must be a list"),
         ({"over": [1]}, "over = .*: must be a table"),
+        ({"over": {"conditions.pressure_pa": [1e5, None]}}, "= None: must be a number"),
+        ({"over": {"conditions.pressure_pa": (p for p in (1e5, -1))}}, "= -1.0: must be positive"),
+        ({"over": {"conditions.pressure_pa": np.ones((2, 2))}}, "must be a number"),
         ({"progress": 3}, "progress = 3"),
         ({"variables": "mu"}, "variables = 'mu'"),
     ):
