@@ -1,6 +1,6 @@
 """The fit behind PartialContact, done again: stress spectrum, area and friction by one sum rule.
 
-    python fit_partial_contact.py [judge]
+    python fit_partial_contact.py [judge | powers]
 
 With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2), dG = K I2 c dy:
     A(q) = erf(1 / (2 sqrt(kappa G)))                   and A1 = A(q1)
@@ -14,12 +14,14 @@ With y = ln q, c = q^4 C, M = int c dy from q0, K = 1 / (8 ((1 - nu^2) sigma0)^2
 where ln q_e is the mean of ln q over the last tenth of M. Least squares in ln A and ln mu, with a
 soft loss, over the rows fit of exact_sliding.csv, sliding_contacts.csv and the elastic areas of
 bem_area.csv; each contact is weighed by how far maps scatter at its load and how fine its mesh is.
-Prints the five numbers, what leaving out a rubber, an H or a bandwidth does, and with `judge` the
-errors of the stated constants on the rows that no fit saw.
+Prints the five numbers, and what leaving out a rubber, an H or a bandwidth does; with `judge` the
+errors of the stated constants on the rows that no fit saw; with `powers` the fit in which the
+powers are free, too.
 """
 
 import csv
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import make_exact_sliding
@@ -31,8 +33,20 @@ HERE = Path(__file__).parent
 BEM = HERE.parents[1] / "python/asperity/validation/bem_area.csv"
 NU = 0.5
 NODES = 35  # a unit of ln q
-TAIL = np.log(33) * (np.arange(60) + 0.5) / 60
+TAIL_STEP = np.log(33) / 60
+TAIL = TAIL_STEP * (np.arange(60) + 0.5)
 STATED = {"obstacle": 0.67, "light": 6.3, "edges": 3.55, "spread": 0.105, "stiff": 0.45}
+POWERS = {"end": 0.2, "kappa": 0.25, "gap": 0.125, "local": 2, "passed": 2, "far": 3, "tail": 1.25}
+
+
+@dataclass
+class Stress:
+    """Of all contacts at their kappa: a row each, of nodes or of TAIL."""
+
+    band: np.ndarray  # R
+    beyond: np.ndarray  # T
+    area: np.ndarray  # A1
+    persson: np.ndarray  # F B
 
 
 def read(path):
@@ -93,6 +107,7 @@ class Contacts:
         last = 1 - 0.1 * (np.arange(100) + 0.5) / 100  # of M, and where it is reached
         end = np.log1p(last * np.expm1(rise * band[:, None])) / rise
         end = end.mean(1)[:, None]
+        self.end = self.k0 * np.exp(end[:, 0])  # q_e / (2 pi)
         self.end_window = np.maximum((mass(end + 1) - mass(end - 1))[:, 0] / 2, 0.05 / (2 * np.pi))
         self.k = 1 / (8 * ((1 - NU**2) * pressure) ** 2)
         self.i1, self.i2 = np.empty_like(y), np.empty_like(y)
@@ -109,35 +124,51 @@ class Contacts:
         self.g1 = self.dg.sum(1)
         self.stiffness = self.k * self.end_i2 / (2 * np.pi) / self.g1
 
-    def solve(self, numbers):
-        """Return A1 and mu by the rule."""
+    def root(self, numbers, variance=None):
+        """Return the stress at the kappa of the sum rule, or at that which has a known variance."""
         low, high = np.full(self.g1.size, np.log(1e-2)), np.full(self.g1.size, np.log(1e2))
         for _ in range(34):
             middle = (low + high) / 2
-            missing, area, friction = self.residual(numbers, np.exp(middle))
-            low, high = np.where(missing > 0, middle, low), np.where(missing > 0, high, middle)
-        return area, friction
+            stress = self.stress(numbers, np.exp(middle))
+            known = self.variance(stress) if variance is None else variance
+            above = known > stress.persson
+            low, high = np.where(above, middle, low), np.where(above, high, middle)
+        return stress
 
-    def residual(self, numbers, kappa):
-        """Return the stress's variance beyond F B, A1 and mu."""
-        obstacle, light, edges, spread, stiff = numbers
+    def solve(self, numbers):
+        """Return A1 and mu by the rule."""
+        stress = self.root(numbers)
+        return stress.area, self.hysteresis(stress)
+
+    def stress(self, numbers, kappa):
+        """Return the stress at any kappa; the powers may stand behind the five numbers."""
+        obstacle, light, edges, spread, stiff = numbers[:5]
+        powers = numbers[5:] if len(numbers) > 5 else POWERS.values()
+        end, of_kappa, gap, local, passed, far, tail = powers
         share = erf(0.5 / np.sqrt(kappa[:, None] * self.g))
         g = kappa * self.g1
         s = 0.5 / np.sqrt(g)
         a1, rest = erf(s), erfc(s)
-        q = obstacle * (8 * np.pi * self.end_window) ** 0.2 * kappa**0.25 * rest**0.125
-        q *= 1 + light * (1 - a1**0.1) ** 3
-        r = share / (1 + (q * self.k)[:, None] * self.i2 * self.window * share**2) ** 2
+        q = obstacle * (8 * np.pi * self.end_window) ** end * kappa**of_kappa * rest**gap
+        q *= 1 + light * (1 - a1**0.1) ** far
+        r = share / (1 + (q * self.k)[:, None] * self.i2 * self.window * share**local) ** passed
         t = edges * a1 * (1 - a1**0.25) * self.k * self.end_i2 * self.end_window
         t *= np.maximum(1, 0.1 / self.stiffness)
-        t = t[:, None] * (self.t2 / self.end_i2[:, None]) ** 1.25 * np.exp(-3 * TAIL)
-        step = np.log(33) / TAIL.size
+        t = t[:, None] * (self.t2 / self.end_i2[:, None]) ** tail * np.exp(-3 * TAIL)
         f = g * a1 + np.sqrt(g / np.pi) * np.exp(-(s**2)) - rest / 2
         f = np.where(g < 3e-3, g, f)
         b = 1 + (spread * a1 + stiff * np.maximum(1 - 1 / self.stiffness, 0) ** 4) * (1 - a1**8)
-        friction = (self.i1 / self.i2 * r * self.dg).sum(1) + (self.t1 / self.t2 * t).sum(1) * step
-        variance = (r * self.dg).sum(1) + t.sum(1) * step
-        return variance - f * b, a1, 4 * (1 - NU**2) * self.load * friction
+        return Stress(r, t, a1, f * b)
+
+    def variance(self, stress):
+        """Return int R dG + int T d ln x."""
+        return (stress.band * self.dg).sum(1) + stress.beyond.sum(1) * TAIL_STEP
+
+    def hysteresis(self, stress):
+        """Return mu."""
+        band = (self.i1 / self.i2 * stress.band * self.dg).sum(1)
+        beyond = (self.t1 / self.t2 * stress.beyond).sum(1) * TAIL_STEP
+        return 4 * (1 - NU**2) * self.load * (band + beyond)
 
     def errors(self, numbers):
         """Return relative errors of mu (NaN without friction) and A."""
@@ -163,7 +194,7 @@ class Contacts:
 
 
 def fit(contacts, start):
-    """Return the five numbers."""
+    """Return the numbers, as many as there are in `start`."""
     return least_squares(
         contacts.weighted, start, x_scale=start, diff_step=1e-3, loss="soft_l1", f_scale=0.08
     ).x
@@ -195,6 +226,11 @@ def main():
         print("judge:", told(Contacts(rows["judge"]), stated))
         return
     everything = Contacts(rows["fit"])
+    if sys.argv[1:] == ["powers"]:
+        found = fit(everything, [*stated, *POWERS.values()])
+        print("fitted:", dict(zip([*STATED, *POWERS], found.round(3), strict=True)))
+        print("  ", told(everything, found))
+        return
     found = fit(everything, stated)
     print("fitted:", dict(zip(STATED, found.round(3), strict=True)))
     print("  ", told(everything, found))

@@ -30,7 +30,7 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
 void FlashMap::start(const HeatPoint& point) {
   const bool moved = point.velocity != point_.velocity;
   point_ = point;
-  contact_->start();
+  contact_->start([this] { return cold_modulus(); });
   const double stiffening = 1 / (1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio);
   mu_factor_ = 4 * point.pressure / stiffening;
   per_flux_ = point.velocity * point.pressure / (scene_.heating.density * scene_.heating.heat_capacity);
@@ -79,14 +79,30 @@ double FlashMap::last_rise(const ContactHeat& contact) const {
   return per_flux_ / contact.macro_area * (by_depth + by_surface);
 }
 
-void FlashMap::pass(const ShiftValue& also_felt) {
-  differentiated_ = sloped_ = false;
+void FlashMap::take_modulus(NodeModulus& modulus) {
   angular_.values(reduced_, columns_);
   for (Index j = 0; j < rate_.size(); ++j) {
     const auto at = static_cast<std::size_t>(j);
-    modulus_.i2[j] = columns_.i2[at];
-    modulus_.ratio[j] = columns_.i1[at] / columns_.i2[at];
+    modulus.i2[j] = columns_.i2[at];
+    modulus.ratio[j] = columns_.i1[at] / columns_.i2[at];
   }
+}
+
+NodeModulus FlashMap::cold_modulus() {
+  const std::vector<double> reduced = reduced_;
+  const VectorXd rate = rate_;
+  const ShiftValue shift = held_shift(scene_.shift, point_.temperature);
+  for (std::size_t j = 0; j < reduced_.size(); ++j) take_frequency(j, shift);
+  NodeModulus cold = modulus_;
+  take_modulus(cold);
+  reduced_ = reduced;
+  rate_ = rate;
+  return cold;
+}
+
+void FlashMap::pass(const ShiftValue& also_felt) {
+  differentiated_ = sloped_ = false;
+  take_modulus(modulus_);
   shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, also_felt, scene_.model.poisson_ratio,
                      point_.pressure, point_.velocity);
   heat();

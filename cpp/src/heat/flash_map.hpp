@@ -83,6 +83,8 @@ class FlashMap {
 
  private:
   void take_frequency(std::size_t node, const ShiftValue& shift);
+  void take_modulus(NodeModulus& modulus);
+  [[nodiscard]] NodeModulus cold_modulus();
   void pass(const ShiftValue& also_felt);
   void heat();
   void take_slopes();

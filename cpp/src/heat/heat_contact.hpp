@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,8 +42,9 @@ class HeatContact {
   HeatContact& operator=(HeatContact&&) = delete;
   virtual ~HeatContact() = default;
 
-  /// A new point, whose numbers shall not depend on the one before.
-  virtual void start() {}
+  /// A new point, whose numbers shall not depend on the one before. `cold` has the rubber at T0 at all nodes; it may be
+  /// asked for until the next point.
+  virtual void start(std::function<NodeModulus()> /*cold*/) {}
   /// `scale` is 1 / (sigma0 p_T)^2.
   virtual void evaluate(const NodeModulus& modulus, double scale) = 0;
   /// Of the last evaluation.

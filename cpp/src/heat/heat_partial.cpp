@@ -1,8 +1,12 @@
 // The rule of PartialContact (contact/partial_contact_rule.hpp) where each node has a temperature of its own: kappa is
 // a function of all of them by the sum rule, and so are the stresses of all waves. Slopes come from that rule
 // implicitly. The stress of the edges, which begins at the end q_e of the roughness, heats and is heated too.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_solver.hpp"
@@ -20,7 +24,11 @@ namespace {
 class PartialHeat final : public HeatContact {
  public:
   explicit PartialHeat(const HeatGrid& grid) : HeatContact(grid) {}
-  void start() override { kappa_ = usual_kappa; }
+  void start(std::function<NodeModulus()> cold) override {
+    kappa_ = usual_kappa;
+    cold_ = std::move(cold);
+    cold_excess_.reset();
+  }
   void evaluate(const NodeModulus& modulus, double scale) override;
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
@@ -32,7 +40,25 @@ class PartialHeat final : public HeatContact {
     return {std::exp(log_g) * kappa_ * g_unit_ * scale_, kappa_, {grid_.beyond().end->factor, excess}};
   }
   [[nodiscard]] Index end_node() const { return static_cast<Index>(grid_.beyond().first + grid_.beyond().count); }
+  /// 1 - 1 / rho, which raises T where stiff waves beyond q_e have most of G. With heat long waves are colder and may
+  /// have it, too: then it is not below that at T0, by which the limit of no heat is the contact without heat.
+  [[nodiscard]] double excess() {
+    const RoughnessEnd& end = *grid_.beyond().end;
+    const double hot = end.band(g_unit_, i2_[end_node()]).excess;
+    held_ = false;
+    if (partial_contact::last * (1 - hot) <= 1) return hot;
+    if (!cold_excess_) {
+      const NodeModulus cold = cold_();
+      const double g = grid_.weight().dot(cold.i2.head(grid_.weight().size()));
+      cold_excess_ = end.band(g, cold.i2[end_node()]).excess;
+    }
+    held_ = *cold_excess_ > hot;
+    return std::clamp(*cold_excess_, hot, 0.0);
+  }
 
+  std::function<NodeModulus()> cold_;
+  std::optional<double> cold_excess_;
+  bool held_ = false;  // excess_ is that at T0, or 0
   double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0;
   VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q_e) of the edges'
 };
@@ -58,8 +84,7 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
     area_ = macro_ = 1;
     return;
   }
-  // long waves are colder and may be stiffer than those at the end: T keeps the modulus there
-  excess_ = std::fmax(0, beyond.end->band(g_unit_, i2_at_end).excess);
+  excess_ = excess();
   in_tail_.resize(count);
   for (Index t = 0; t < count; ++t)
     in_tail_[t] =
@@ -110,7 +135,7 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
   add_up(along, slopes);
   const double g1 = kappa_ * g_edge_.back();
   const RowVectorXd log_g1 = slopes.edge.bottomRows(1) / g_edge_.back(), at_end = along.i2.row(end_node());
-  const RowVectorXd excess = (excess_ > 0 ? excess_ - 1 : 0) * (log_g1 - at_end);
+  const RowVectorXd excess = (held_ ? 0 : excess_ - 1) * (log_g1 - along.scale - at_end);
 
   // the rule at a fixed kappa, by differences over ln G1 and the excess
   constexpr double step = 1e-4;
@@ -122,6 +147,8 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
                spread_by_g = by_g(more.spread, less.spread);
   const double spread_by_excess =
       std::log(rule(0, excess_ + step).spread.value / rule(0, excess_ - step).spread.value) / (2 * step);
+  const bool raised = partial_contact::last * (1 - excess_) > 1;
+  const RowVectorXd log_edges = edges_by_g * log_g1 + (raised ? 1 / (excess_ - 1) : 0) * excess;
 
   // d ln R of each node: along the directions at a fixed kappa, and over ln kappa
   MatrixXd log_stress(n, directions);
@@ -145,7 +172,7 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
   const double per_tail = scale_ * edges_ * beyond.end->window;
   for (Index t = 0; t < count; ++t) {
     const double part = per_tail * in_tail_[t];
-    variance += part * (edges_by_g * log_g1 + (1 + tail) * along.i2.row(first + t) - tail * at_end);
+    variance += part * (log_edges + (1 + tail) * along.i2.row(first + t) - tail * at_end);
     variance_by_kappa += part * at.edges.log_slope;
     sum += part;
   }
@@ -159,8 +186,8 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
     result.part.row(j) =
         part_[j] * (along.ratio.row(j) + along.i2.row(j) + log_stress.row(j) + by_kappa[j] * log_kappa);
   for (Index t = first; t < first + count; ++t)
-    result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end +
-                                     edges_by_g * log_g1 + at.edges.log_slope * log_kappa);
+    result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end + log_edges +
+                                     at.edges.log_slope * log_kappa);
   result.area = at.share_slope * (log_g1 + log_kappa);
   if (g_macro_ > 0)
     result.macro = macro_ * share_slope(kappa_ * g_macro_, macro_) * (slopes.macro / g_macro_ + log_kappa);
