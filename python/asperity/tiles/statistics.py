@@ -11,8 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number
-from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import Value, value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
 from asperity.tiles.share import Workers
 from asperity.tiles.source import DEFAULT, Box, Piece, Shape, corner_of, refuse_infinite, source_of
@@ -23,7 +22,7 @@ _TERMS = {"offset": 1, "plane": 3, "quadratic": 6}
 
 
 @value
-class HeightStatistics(Table):
+class HeightStatistics(Value):
     """What the heights of a map are like (see `height_statistics`).
 
     Attributes
@@ -53,16 +52,6 @@ class HeightStatistics(Table):
 
     def __post_init__(self) -> None:
         self._set(**{name: number(found, name) for name, found in self._arguments().items()})
-
-    def _columns(self) -> Columns:
-        units = {"mean": "m", "rms_height": "m", "z_max": "m", "z_min": "m"}
-        return Columns(
-            {},
-            {
-                name: Column((), found, units.get(name, "1"))
-                for name, found in self._arguments().items()
-            },
-        )
 
 
 def height_statistics(
