@@ -17,6 +17,7 @@
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
 #   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
+#   browser      the app and the report in Chromium; wants Debian's chromium and playwright
 #   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
 # JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
 set -u
@@ -112,15 +113,21 @@ wine() {
   "$python" -m pytest -q -p no:cacheprovider tests/python/fmu/test_hosts.py -k windows
 }
 
+browser() {
+  [ -x /usr/bin/chromium ] || { echo 'chromium is missing'; return 1; }
+  "$python" -c 'import playwright.sync_api, nicegui, matplotlib' || return
+  "$python" -m pytest -q -p no:cacheprovider -n0 tests/python/app/test_browser.py tests/python/report/test_report.py
+}
+
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
 
 [ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings partial heat maps tests properties files interrupts fuzz \
-  sanitize threads memcheck wine
+  sanitize threads memcheck wine browser
 for step; do
   case $step in
     catalogue | isotherms | coverage | scenes | rings | partial | heat | maps | tests | properties | files | interrupts | fuzz) ;;
-    sanitize | threads | memcheck | wine | aarch64) ;;
-    *) sed -n '2,20s/^# //p' "$0" >&2; exit 2 ;;
+    sanitize | threads | memcheck | wine | browser | aarch64) ;;
+    *) sed -n '2,21s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -1,10 +1,8 @@
 """The part of the conditions: pressure, temperature, velocities, adhesion, heat."""
 
-import math
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-import numpy as np
 from nicegui import ui
 
 from asperity.app.correction_part import CorrectionFields
@@ -13,6 +11,10 @@ from asperity.app.state import State
 from asperity.app.worker import Found, Worker
 
 _CELSIUS = 273.15
+_UNFIT = (
+    "Adhesion was switched off: its shear stress was fitted to the shipped scan and rubber. "
+    "Fit yours to tests by asperity fit, or give one."
+)
 _ADHESION = {"reference_velocity_m_s": 6e-3, "width": 0.1}  # what a scene may leave out
 
 
@@ -21,6 +23,7 @@ class ConditionsPart:
 
     def __init__(self, state: State, worker: Worker) -> None:
         self._state, self._worker = state, worker
+        self._switches: dict[str, ui.switch] = {}
         self._fields: dict[str, ui.element] = {}  # of a table, shown while it is used
         with part("Conditions", "conditions-title"):
             self._inside = ui.element("div").classes("w-full")
@@ -63,27 +66,24 @@ class ConditionsPart:
         Quantity("Temperature [°C]", celsius, (-60, 120), changed, step=1)
 
     def _velocities(self) -> None:
-        low, high = _ends(self._state.conditions["velocity_m_s"])
-        ends = {"from": low, "to": high}
+        ends = list(self._state.velocities)
 
-        def end(key: str) -> Callable[[float], Awaitable[None]]:
+        def end(i: int) -> Callable[[float], Awaitable[None]]:
             async def changed(value: float) -> None:
-                ends[key] = value
-                decades = abs(math.log10(ends["to"] / ends["from"]))
-                points = {"points": max(round(4 * decades) + 1, 9)}
-                self._state.conditions = {
-                    **self._state.conditions,
-                    "velocity_m_s": {**ends, **points},
-                }
+                ends[i] = value
+                if ends[0] != ends[1]:
+                    self._state.set_velocities(*ends)
                 await self._worker.changed()
 
             return changed
 
-        for name, key in (("Slowest velocity [m/s]", "from"), ("Fastest velocity [m/s]", "to")):
-            Quantity(name, ends[key], (1e-9, 100), end(key), logarithmic=True)
+        for i, name in enumerate(("Slowest velocity [m/s]", "Fastest velocity [m/s]")):
+            Quantity(name, ends[i], (1e-9, 100), end(i), logarithmic=True)
 
     def _adhesion(self) -> None:
         table = {**_ADHESION, **self._state.adhesion}
+        self._unfit = ui.label(_UNFIT).classes("soft")
+        self._unfit.set_visibility(False)
         with self._switched("Adhesion", "adhesion"):
             for name, key, unit, ends in (
                 ("Shear stress [MPa]", "shear_stress_pa", 1e6, (0.01, 100)),
@@ -111,12 +111,16 @@ class ConditionsPart:
         """A switch for a table of the scene, and the place of its fields."""
 
         async def changed(event: Any) -> None:
-            self._state.use(table, event.value)
             self._fields[table].set_visibility(event.value)
+            if event.value == (table in self._state.used):
+                return
+            self._state.use(table, event.value)
+            self._unfit.set_visibility(False)
             await self._worker.changed()
 
         used = table in self._state.used
-        ui.switch(name, value=used, on_change=changed).props('color="blue-9"').classes("mt-1")
+        self._switches[table] = ui.switch(name, value=used, on_change=changed)
+        self._switches[table].props('color="blue-9"').classes("mt-1")
         fields = ui.element("div").classes("w-full")
         fields.set_visibility(used)
         self._fields[table] = fields
@@ -135,13 +139,11 @@ class ConditionsPart:
 
     def show(self, found: Found) -> None:
         self._correction.offer(found.scene)
+        for table, switch in self._switches.items():
+            used = table in self._state.used
+            if switch.value != used:  # it was left out for files that it does not fit
+                switch.value = used
+                self._unfit.set_visibility(table == "adhesion" and not used)
 
     def fail(self, problem: str) -> None:
         """The result says it."""
-
-
-def _ends(velocities: Any) -> tuple[float, float]:
-    """The slowest and the fastest of a scene's velocities, however it has them."""
-    if isinstance(velocities, dict):
-        return velocities["from"], velocities["to"]
-    return float(np.min(velocities)), float(np.max(velocities))

@@ -1,13 +1,9 @@
 """Corrections that the page offers for a scene, and the arguments that they start from."""
 
 import math
-from pathlib import Path
 from typing import Any
 
-from asperity.correction import Correction
 from asperity.scene.model import Scene
-from asperity.scene.parts import build_correction
-from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
 
 PLAIN: dict[str, dict[str, Any]] = {
@@ -33,20 +29,3 @@ def usual(kind: str, scene: Scene | None) -> dict[str, Any]:
     q0 = scene.spectrum.q0
     table = {"kind": kind, "min_distance_m": float(f"{math.pi / q0:.2g}")}
     return table if kind == "local-peaks" else {**table, "q0_per_m": float(f"{q0:.4g}")}
-
-
-class RememberedCorrection:
-    """Builds corrections and keeps the last: to look for the peaks of a map takes its time."""
-
-    def __init__(self) -> None:
-        self._kept: tuple[str, Spectrum, tuple[Correction, dict[str, Any]]] | None = None
-
-    def __call__(
-        self, path: Path, table: object, spectrum: Spectrum, *of_surface: Any
-    ) -> tuple[Correction, dict[str, Any]]:
-        kept, key = self._kept, repr((path, table))
-        if kept is None or kept[0] != key or kept[1] is not spectrum:
-            kept = (key, spectrum, build_correction(path, table, spectrum, *of_surface))
-            self._kept = kept
-        correction, values = kept[2]
-        return correction, dict(values)

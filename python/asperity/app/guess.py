@@ -73,6 +73,16 @@ def guess_columns(path: Path) -> Guess:
     return Guess(names, columns, known, "G" if shear else "E")
 
 
+def numbers_of(path: Path, name: str) -> list[float]:
+    """All numbers of the column of that name."""
+    lines = numbered_lines(path)
+    header = find_header(lines)
+    if header is None or name not in header.names:
+        raise InvalidInput(f"{path}: no column is named {name!r}")
+    rows = [cells_of(line) for number, line in lines if number > header.number]
+    return _numbers(rows, header.names.index(name))
+
+
 def _unit(kind: str, said: Sequence[str]) -> str:
     for text in said:
         for unit, pattern in _SAID[kind].items():

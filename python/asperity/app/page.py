@@ -51,7 +51,7 @@ def show_page(session: str = "") -> None:
                 rubber = RubberPart(state, worker)
                 conditions = ConditionsPart(state, worker)
             with ui.element("div").classes("result"):
-                result = ResultPart(state, worker)
+                result = ResultPart(state, worker, conditions.refresh)
     with opening:
         OpenPart(state, worker, (surface, rubber, conditions))
     worker.shows(result, surface, rubber, conditions)

@@ -10,8 +10,10 @@ from nicegui import background_tasks, ui
 from asperity._core import Error
 from asperity.app import downloads
 from asperity.app.charts import Options, contributions_chart, friction_chart
+from asperity.app.computed import contributions
 from asperity.app.parts import chart, part, redraw, redraw_series
-from asperity.app.state import State, contributions
+from asperity.app.state import State
+from asperity.app.words import allowed_velocities, in_words
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.report.errors import errors_of
 from asperity.scene.model import Curves, Scene
@@ -22,12 +24,15 @@ _NOTHING = "There are no notes: input, correction and theory are within their ra
 class ResultPart:
     """Where everything that was computed is shown."""
 
-    def __init__(self, state: State, worker: Worker) -> None:
-        self._state, self._worker = state, worker
+    def __init__(self, state: State, worker: Worker, refreshed: Callable[[], None]) -> None:
+        """`refreshed` is called where a button here has changed the conditions."""
+        self._state, self._worker, self._refreshed = state, worker, refreshed
         self._at: float | None = None  # velocity of the contributions [m/s]
         with part("Result", "result-title") as self._whole:
             self._status = ui.label("computing ...").classes("soft").props('role="status"')
             self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._remedy = ui.button("", on_click=self._mend).props("no-caps outline color=blue-9")
+            self._remedy.set_visibility(False)
             self._chart = chart({}, "Friction coefficient over velocity", "24rem")
             with ui.element("div").classes("flex items-center gap-2 w-full"):
                 self._name = ui.input("Name of this curve").props("dense outlined").classes("grow")
@@ -72,6 +77,7 @@ class ResultPart:
         )
         self._status.set_text(f"{said}{follows}")
         self._problem.set_text("")
+        self._remedy.set_visibility(False)
         redraw(self._chart, self._drawn(found), f"Friction coefficient mu over velocity: {said}")
         if found.curves is not None:
             self._tell(found)
@@ -83,11 +89,22 @@ class ResultPart:
         found = self._worker.found
         self._problem.set_text(problem)
         self._busy(False)
+        allowed = allowed_velocities(problem)
+        self._remedy.set_visibility(allowed is not None)
+        if allowed is not None:
+            self._remedy.set_text(f"Show {allowed[0]:g} to {allowed[1]:g} m/s, which are known")
+            self._allowed = allowed
         if found is None or found.curves is not None:
             self._status.set_text("not computed: the curve is that of before")
             return
         self._status.set_text("computed without heat alone")
         self._tell(found)
+
+    async def _mend(self) -> None:
+        """Let the velocities be those of the present ones that the rubber is known at."""
+        self._state.keep_velocities(*self._allowed)
+        self._refreshed()
+        await self._worker.changed()
 
     def _drawn(self, found: Found) -> Options:
         cold = None if found.curves is None else found.cold
@@ -103,7 +120,9 @@ class ResultPart:
         """Errors, notes and numbers, each as one piece of HTML: single elements take the page
         longer than the curve."""
         errors = [f"error of {one}: {size}" for one, size, _ in errors_of(found.scene, found.best)]
-        notes = [self._state.folder.as_shown(one) for one in dict.fromkeys(found.best.notes)]
+        notes = [
+            in_words(self._state.folder.as_shown(one)) for one in dict.fromkeys(found.best.notes)
+        ]
         self._notes.set_content(_items([*errors, *(notes or [_NOTHING])]))
         self._table.set_content(_table(found.scene, found.best))
 

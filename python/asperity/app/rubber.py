@@ -23,6 +23,8 @@ _UNIT_OF = {
     "temperature": "Temperature in",
 }
 _CELSIUS = {"C": "°C"}
+_DROP = "Drop DMA sweeps or a master curve here, or choose files"
+_NO_TEMPERATURE = "none: a master curve"
 
 
 class RubberPart:
@@ -40,9 +42,15 @@ class RubberPart:
                 .props("dense outlined")
                 .classes("w-full")
             )
-            upload("Drop DMA sweeps here, or choose files", self._taken, self._say, multiple=True)
+            upload(
+                "Drop DMA sweeps or a master curve here, or choose files",
+                self._taken,
+                self._say,
+                multiple=True,
+            )
             self._menus = ui.element("div").classes("w-full")
             self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._left = ui.label("").classes("soft")
             self._facts = ui.label("").classes("soft")
             self._chart = chart({}, "Modulus of the rubber", renderer="canvas")
             self._shifts = chart({}, "Shift factors", "13rem")
@@ -78,7 +86,10 @@ class RubberPart:
             with ui.element("div").classes("grid grid-cols-2 gap-2 w-full"):
                 for quantity in QUANTITIES:
                     value = guess.columns.get(quantity)
-                    menu = ui.select(list(guess.names), value=value, label=_SAID[quantity])
+                    names = {name: name for name in guess.names}
+                    if quantity == "temperature":
+                        names, value = {"": _NO_TEMPERATURE, **names}, value or ""
+                    menu = ui.select(names, value=value, label=_SAID[quantity])
                     chosen[quantity] = menu.props("dense outlined")
                 for kind, unit in guess.units.items():
                     named = {one: _CELSIUS.get(one, one) for one in UNITS[kind]}
@@ -87,12 +98,12 @@ class RubberPart:
                 kinds = {"E": "E, Young's", "G": "G, shear"}
                 modulus = ui.select(kinds, value=guess.modulus, label="The moduli are")
                 modulus.props("dense outlined")
-            prony = ui.checkbox("Fit a Prony series", value=True)
+            prony = ui.checkbox("Fit a Prony series to sweeps", value=True).classes("mr-3")
 
             async def take() -> None:
                 await self._use(
                     {
-                        "columns": {name: menu.value for name, menu in chosen.items()},
+                        "columns": {name: menu.value or None for name, menu in chosen.items()},
                         "units": {name: menu.value for name, menu in units.items()},
                         "modulus": modulus.value,
                         "prony": prony.value,
@@ -104,14 +115,15 @@ class RubberPart:
     async def _use(self, settings: dict[str, Any]) -> None:
         try:
             for name, column in settings["columns"].items():
-                if column is None:
+                if column is None and name != "temperature":
                     raise InvalidInput(f"which column is the {name}? None is chosen")
             self._say("making the master curve ...")
-            await in_thread(lambda: self._state.take_dma(self._files, settings))
+            said = await in_thread(lambda: self._state.take_dma(self._files, settings))
         except Error as error:
             self._say(self._state.said(error))
             return
         self._say("")
+        self._left.set_text(said)
         self.refresh()
         await self._worker.changed()
 
@@ -130,7 +142,8 @@ class RubberPart:
         if built is self._drawn:
             return
         self._drawn = built
-        facts = f"at {(built.temperature or 0) - 273.15:.4g} °C"
+        at = built.temperature
+        facts = "as it was given" if at is None else f"at {at - 273.15:.4g} °C"
         if built.build is not None:
             n, residual = len(built.isotherms), built.build.residual
             facts += f", of {n} isotherms that overlap to {100 * residual:.2g} %"

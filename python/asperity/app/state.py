@@ -1,25 +1,24 @@
 """What the app knows: the tables of one scene, and what is computed of them. No page is in here."""
 
+import math
 import tomllib
-from collections.abc import Callable, Mapping
-from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput
-from asperity.app.corrections import OF_PEAKS, RememberedCorrection, usual
+from asperity.app.corrections import OF_PEAKS, usual
+from asperity.app.dma import rubber_of
 from asperity.app.files import Folder
 from asperity.app.guess import Guess, guess_columns
 from asperity.app.opened import Dropped, Tables, opened
+from asperity.app.remembered import Remembered, RememberedCorrection
+from asperity.app.words import in_words
 from asperity.demo import hot_scene_text, input_files
-from asperity.friction import friction
-from asperity.io.read_dma import read_isotherms
-from asperity.scene.mapped import rubber_of_map
-from asperity.scene.model import Curves, Progress, Scene
+from asperity.scene.model import Curves, Scene
 from asperity.scene.rubber import build_rubber
 from asperity.scene.scene import Builders, load_scene
 from asperity.scene.surface import build_surface
@@ -63,7 +62,7 @@ class State:
         self.surface, self.rubber = "shipped scan", "shipped surrogate"
         self.conditions: dict[str, Any] = tables["conditions"]
         self.correction: dict[str, Any] = usual("partial-contact", None)
-        self.adhesion: dict[str, Any] = tables["adhesion"]
+        self.adhesion = self._shipped_adhesion = tables["adhesion"]
         self.heating: dict[str, Any] = tables["heating"]
         self.solver: dict[str, Any] = {}
         self.uncertainty: dict[str, Any] = {}
@@ -71,7 +70,7 @@ class State:
         self.scan: str | None = None  # the file that was dropped last
         self.guesses: dict[str, Guess] = {}  # by the names of files
         self.variants: list[Variant] = []
-        remembered = (_Remembered(build_surface), _Remembered(build_rubber))
+        remembered = (Remembered(build_surface), Remembered(build_rubber))
         self._builders = Builders(*remembered, RememberedCorrection())
 
     # --- what is edited ---
@@ -89,11 +88,22 @@ class State:
             "solver": self.solver,
             "uncertainty": self.uncertainty,
         }
-        return {
+        tables = {
             name: dict(table)
             for name, table in all_tables.items()
             if name not in OPTIONAL or name in self.used
         }
+        if "heating" in tables and "adhesion" not in tables:
+            tables["heating"].pop("interface_share", None)  # of what adhesion makes
+        if not self.knows_temperature:
+            for key in ("temperature_k", "temperature_c"):
+                tables["conditions"].pop(key, None)
+        return tables
+
+    @property
+    def knows_temperature(self) -> bool:
+        """Whether the rubber is known at others than its own."""
+        return bool({"isotherms", "shift", "wlf_c1"} & self.rubbers[self.rubber].keys())
 
     @property
     def text(self) -> str:
@@ -115,6 +125,26 @@ class State:
         self.use("correction", kind != "none")
         if kind != "none":
             self.correction = usual(kind, scene)
+
+    def set_velocities(self, low: float, high: float) -> None:
+        """A sweep between two velocities [m/s], four points a decade."""
+        points = max(round(4 * abs(math.log10(high / low))) + 1, 9)
+        sweep = {"from": low, "to": high, "points": points}
+        self.conditions = {**self.conditions, "velocity_m_s": sweep}
+
+    @property
+    def velocities(self) -> tuple[float, float]:
+        """The slowest and the fastest [m/s], however the scene has them."""
+        given = self.conditions["velocity_m_s"]
+        if isinstance(given, dict):
+            return given["from"], given["to"]
+        return float(np.min(given)), float(np.max(given))
+
+    def keep_velocities(self, low: float, high: float) -> None:
+        """Of the velocities those within the two [m/s]; the two, where none is."""
+        ends = self.velocities
+        kept = max(low, min(ends)), min(high, max(ends))
+        self.set_velocities(*(kept if kept[0] < kept[1] else (low, high)))
 
     def open_scene(self, dropped: Dropped) -> str:
         """Let a scene file be what is shown, and return its name; of other files only those that
@@ -163,6 +193,7 @@ class State:
         self._builders.surface(self._path, table)
         self.surfaces["your scan"] = table
         self.surface = "your scan"
+        self._leave_shipped_adhesion()
 
     @property
     def _named(self) -> str:
@@ -184,23 +215,28 @@ class State:
             raise type(error)(said) from None
         return name
 
-    def take_dma(self, names: list[str], settings: Mapping[str, Any]) -> None:
-        """Let sweeps be the rubber: `columns`, `units` and `modulus` as a scene has them.
-        The master curve is that at the middle isotherm."""
-        read = {key: settings[key] for key in ("columns", "units", "modulus")}
-        isotherms = read_isotherms([self.folder.path / name for name in names], **read)
-        middle = isotherms[len(isotherms) // 2].temperature
-        prony = bool(settings.get("prony", False))
-        table = {
-            "isotherms": names,
-            **read,
-            "reference_temperature_k": round(middle, 2),
-            "prony": prony,
-            "extrapolation": "prony" if prony else "power-law",
-        }
-        self._builders.rubber(self._path, table, float(self.conditions["temperature_c"]) + 273.15)
-        self.rubbers["your sweeps"] = table
-        self.rubber = "your sweeps"
+    def take_dma(self, names: list[str], settings: Mapping[str, Any]) -> str:
+        """Let measured moduli be the rubber: `columns`, `units` and `modulus` as a scene has them.
+        Returns what there is to say of the files."""
+        table, said = rubber_of(self.folder, names, settings)
+        conditions = self.conditions
+        if "temperature_k" not in conditions:
+            middle = table.get("reference_temperature_k", 293.15) - 273.15
+            conditions = {**conditions}
+            conditions.setdefault("temperature_c", round(middle, 2))
+        kelvin = conditions.get("temperature_k") or conditions["temperature_c"] + 273.15
+        self._builders.rubber(self._path, table, kelvin if "isotherms" in table else None)
+        name = "your sweeps" if "isotherms" in table else "your master curve"
+        self.conditions, self.rubber = conditions, name
+        self.rubbers[name] = table
+        self._leave_shipped_adhesion()
+        return said
+
+    def _leave_shipped_adhesion(self) -> None:
+        """The shear stress of the demo was fitted to the shipped scan and rubber: with other files
+        it would say anything."""
+        if self.adhesion is self._shipped_adhesion:
+            self.use("adhesion", False)
 
     # --- what is computed ---
 
@@ -215,7 +251,7 @@ class State:
 
     def said(self, error: Exception) -> str:
         """An error in the words of the page."""
-        return self.folder.as_shown(" ".join(str(error).split()))
+        return in_words(self.folder.as_shown(" ".join(str(error).split())))
 
     def keep_variant(self, name: str, scene: Scene, curves: Curves) -> None:
         """Keep the present curve beside those to come."""
@@ -239,53 +275,3 @@ def _check_shown(name: str, tables: Tables) -> None:
         if isinstance(conditions.get(key, 0.0), list | dict):
             problem = "the page shows one pressure and one temperature: must be a number"
             raise InvalidInput(f"{name}: [conditions] {key}: {problem}")
-
-
-def without_heat(scene: Scene) -> Scene:
-    """The scene as it slides cold: what is shown first."""
-    return replace(scene, heating=None)
-
-
-def with_band(scene: Scene, curves: Curves, progress: Progress = nullcontext) -> Curves:
-    """The curves with the band of the measured inputs, where their errors are known."""
-    return curves.within(scene.band(curves.mu, progress)) if scene.has_errors else curves
-
-
-def contributions(scene: Scene, velocity: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Wavenumbers [1/m], and dmu / d ln q there, at the first pressure and one velocity [m/s]."""
-    found = friction(
-        scene.spectrum,
-        rubber_of_map(scene),
-        pressure=scene.pressure[0],
-        velocity=velocity,
-        correction=scene.correction,
-        adhesion=scene.adhesion,
-        contributions=True,
-        **scene.options,
-        **({} if scene.heating is None else _heat(scene)),
-    )
-    assert found.wavenumber is not None
-    assert found.dmu_dlnq is not None
-    return found.wavenumber, found.dmu_dlnq
-
-
-def _heat(scene: Scene) -> dict[str, Any]:
-    shift = scene.built_rubber.shift
-    return {"temperature": scene.temperature, "shift": shift, "heating": scene.heating}
-
-
-class _Remembered:
-    """A builder that keeps its last few parts: files of a session never change."""
-
-    def __init__(self, build: Callable[..., _Built]) -> None:
-        self._build = build
-        self._kept: dict[str, Any] = {}
-
-    def __call__(self, path: Path, *arguments: Any) -> Any:
-        key = repr((path, *arguments))
-        if key not in self._kept:
-            found = self._build(path, *arguments)
-            while len(self._kept) >= 4:
-                self._kept.pop(next(iter(self._kept)))
-            self._kept[key] = found
-        return self._kept[key]

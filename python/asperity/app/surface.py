@@ -65,6 +65,9 @@ class SurfacePart:
             ui.input("q0 [1/m], where the spectrum begins", on_change=self._begin).props(
                 f'{field} hint="empty: as the scan is long"'
             ).classes("w-full")
+            ui.input("Most drop-outs [%]", on_change=self._dropouts).props(
+                f'{field} hint="of the points: 10 where it is empty"'
+            ).classes("w-full")
             ui.checkbox("Take the self-affine fit instead of the rings", on_change=self._fit)
 
     def _law_fields(self) -> None:
@@ -151,6 +154,15 @@ class SurfacePart:
         except ValueError:
             self._say(f"q0 {event.value!r}: must be a number")
             return
+        await self._use()
+
+    async def _dropouts(self, event: Any) -> None:
+        try:
+            share = float(str(event.value).replace(",", ".")) / 100 if event.value else None
+        except ValueError:
+            self._say(f"drop-outs {event.value!r}: must be a number")
+            return
+        self._settings["max_dropouts"] = None if share is None else float(f"{share:.6g}")
         await self._use()
 
     async def _fit(self, event: Any) -> None:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
 
 from asperity._core import Error
-from asperity.app.state import State, with_band, without_heat
+from asperity.app.computed import with_band, without_heat
+from asperity.app.state import State
 from asperity.scene.model import Curves, Progress, Scene
 
 _Made = TypeVar("_Made")

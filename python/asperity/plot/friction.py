@@ -32,6 +32,8 @@ _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
 _TEMPERATURE = "Temperature $T_0$ [K]"
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
+_FAR_APART = 30.0  # times; curves whose largest mu are so far apart share no linear axis
+_SEEN = 0.01  # of the axis' height, less than which a line hides
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,13 +73,13 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     if len(kinds) > 1:
         for kind, dashes in kinds.items():
             axes.plot([], [], dashes, color=grey(0.3), label=kind)
+    _label(axes, abscissa)
+    _set_height(axes, curves)
     drawn = zip(scenes, results, strict=True)
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
-        label = band_text(level)
-        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+        _tell_band(axes, curves, band_text(level))
     if hatched:
         _tell_errors(axes, results)
-    _label(axes, abscissa)
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
     if beside:
         _label(beside[0], abscissa)
@@ -215,6 +217,30 @@ def _label(axes: "Axes", abscissa: str) -> None:
         axes.set_xscale("log")
     axes.set_ylim(bottom=0)
     axes.set_xlabel(abscissa)
+
+
+def _set_height(axes: "Axes", curves: Sequence[_Curve]) -> None:
+    """From zero on; logarithmic where a linear axis would press some curves into one line."""
+    largest = [float(curve.kinds[0].max()) for curve in curves]
+    if 0 < min(largest) < max(largest) / _FAR_APART:
+        smallest = min(float(np.min(c.kinds[0], where=c.kinds[0] > 0, initial=1e9)) for c in curves)
+        axes.set_yscale("log")
+        axes.set_ylim(bottom=smallest / 2)
+
+
+def _tell_band(axes: "Axes", curves: Sequence[_Curve], label: str) -> None:
+    """An entry of the legend for the bands; with no patch where none can be seen."""
+    place = axes.transAxes.inverted().transform
+    seen = False
+    for curve in curves:
+        if curve.band:
+            ends = [np.column_stack([curve.x, bound]) for bound in curve.band]
+            low, high = (place(axes.transData.transform(one))[:, 1] for one in ends)
+            seen = seen or bool(np.nanmax(high - low) > _SEEN)
+    if seen:
+        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+    else:
+        axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
 
 
 def _tell_errors(axes: "Axes", results: Sequence[Curves]) -> None:

@@ -97,7 +97,7 @@ def legend_beside(figure: "Figure", *entries: Any) -> None:
         rest = [one for one in rest if one not in kinds.values()]
         if len(named) < len(kinds):
             named = []
-    if 0 < len(named) <= MOST_NAMED:
+    if 0 < len(named) <= MOST_NAMED and (rest or title is None):
         if alone:
             axes.set_title(alone, fontsize="medium")
         before = _legends(figure)

@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity._core import Error
 from asperity.io.table import json_text
+from asperity.plot.curves import pressure_text
+from asperity.report.common_points import Points, at_points, common
 from asperity.report.texts import percent_text
 from asperity.scene.model import Curves, Scene
 
-_SAME = 1e-9  # relative: pressures and velocities of a sweep that are one point
 _LONGEST = 60  # characters of an input that is shown
 
 VERDICTS = (
@@ -24,9 +26,9 @@ VERDICTS = (
 
 @dataclass(frozen=True)
 class Difference:
-    """One point that two results share."""
+    """One point at which two results are compared."""
 
-    pressure: float
+    pressure: float  # of the first
     velocity: float
     first: float  # mu
     second: float
@@ -41,18 +43,17 @@ class Difference:
 
 @dataclass(frozen=True)
 class Pair:
-    """A result held against the first."""
+    """A result held against the first; `compared` tells where."""
 
     first: str
     second: str
+    compared: str
     differences: Sequence[Difference]
 
     @property
     def summary(self) -> list[str]:
-        """A sentence for each verdict that occurs."""
-        if not self.differences:
-            return ["The two have no pressure and velocity in common: give both the same sweep."]
-        lines = []
+        """Where they are compared, and a sentence for each verdict that occurs."""
+        lines = [self.compared]
         for verdict, meaning in enumerate(VERDICTS):
             of_it = [one for one in self.differences if one.verdict == verdict]
             if of_it:
@@ -68,33 +69,57 @@ def compared(names: Sequence[str], scenes: Sequence[Scene], curves: Sequence[Cur
     """Every result against the first."""
     pairs = zip(names[1:], scenes[1:], curves[1:], strict=True)
     return [
-        Pair(names[0], name, _differences(scenes[0], curves[0], scene, curve))
+        Pair(names[0], name, *_compared(scenes[0], curves[0], scene, curve))
         for name, scene, curve in pairs
     ]
 
 
-def _differences(one: Scene, a: Curves, other: Scene, b: Curves) -> list[Difference]:
-    found = []
-    for i, j in _shared(one.pressure, other.pressure):
-        for k, m in _shared(one.velocity, other.velocity):
-            verdict = _verdict(_intervals(a, i, k), _intervals(b, j, m))
-            found.append(
-                Difference(
-                    float(one.pressure[i]),
-                    float(one.velocity[k]),
-                    float(a.mu[i, k]),
-                    float(b.mu[j, m]),
-                    verdict,
-                )
-            )
-    return found
+def _compared(one: Scene, a: Curves, other: Scene, b: Curves) -> tuple[str, Sequence[Difference]]:
+    """Where two scenes are compared, and how they differ there."""
+    try:
+        where = common(one, other)
+        if isinstance(where, str):
+            return where, []
+        first, second = at_points(one, a, where[0]), at_points(other, b, where[1])
+    except Error as error:
+        return f"They cannot be computed at the velocities of both: {error}.", []
+    anew = first is not a or second is not b
+    return _told(*where, anew=anew), _differences(where[0], first, second)
 
 
-def _shared(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Which entries of two sweeps are the same."""
-    nearest = [int(np.abs(b - value).argmin()) for value in a]
-    pairs = enumerate(nearest)
-    return [(i, j) for i, j in pairs if abs(b[j] - a[i]) <= _SAME * max(abs(a[i]), abs(b[j]))]
+def _told(mine: Points, its: Points, *, anew: bool) -> str:
+    v = mine.velocity
+    span = f"{v.size} velocities from {v.min():.3g} to {v.max():.3g} m/s"
+    text = f"They are compared at {span if v.size > 1 else f'{v[0]:.3g} m/s'}"
+    if np.array_equal(mine.pressure, its.pressure):
+        text += f" and {_pressures(mine.pressure)}"
+    else:
+        text += f", each at its own pressure, {_pressures(mine.pressure)} and "
+        text += _pressures(its.pressure)
+    if not anew:
+        return f"{text}."
+    return f"{text}. Where these are not points of a scene, it was computed there anew."
+
+
+def _pressures(pressure: NDArray[np.float64]) -> str:
+    if pressure.size == 1:
+        return pressure_text(float(pressure[0]))
+    low, high = (pressure_text(float(one)) for one in (pressure.min(), pressure.max()))
+    return f"{pressure.size} pressures from {low} to {high}"
+
+
+def _differences(at: Points, a: Curves, b: Curves) -> list[Difference]:
+    return [
+        Difference(
+            float(pressure),
+            float(velocity),
+            float(a.mu[i, k]),
+            float(b.mu[i, k]),
+            _verdict(_intervals(a, i, k), _intervals(b, i, k)),
+        )
+        for i, pressure in enumerate(at.pressure)
+        for k, velocity in enumerate(at.velocity)
+    ]
 
 
 def _intervals(result: Curves, i: int, k: int) -> list[tuple[float, float]]:

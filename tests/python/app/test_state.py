@@ -14,10 +14,11 @@ import pytest
 
 import asperity
 from asperity.app import files
+from asperity.app.computed import contributions, without_heat
 from asperity.app.corrections import OF_PEAKS, PLAIN, offered
 from asperity.app.downloads import map_of, picture, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
-from asperity.app.state import MOST_VARIANTS, State, contributions, without_heat
+from asperity.app.state import MOST_VARIANTS, State
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.scene.write import scene_text
@@ -52,6 +53,7 @@ def drop_scan(state: State, name: str, content: bytes) -> None:
 CASES = {
     "as it opens": lambda state: None,
     "hot": lambda state: state.use("heating", True),
+    "hot and dry": lambda state: (state.use("heating", True), state.use("adhesion", False)),
     "a law, cold and dry": lambda state: (
         setattr(state, "surface", "law"),
         state.use("adhesion", False),

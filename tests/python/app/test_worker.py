@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from asperity.app import worker as app_worker
-from asperity.app.state import State, with_band
+from asperity.app.computed import with_band
+from asperity.app.state import State
 from asperity.app.worker import Found, Worker
 
 

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,12 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.report import make
+from asperity.report.common_points import MOST
 from asperity.report.comparison import VERDICTS, compared
 from asperity.report.texts import percent_text
-from asperity.scene.model import Curves
+from asperity.scene.model import Curves, Scene
 from asperity.scene.scene import load_scene
-from helpers.scenes import CONDITIONS, RUBBER, SURFACE
+from helpers.scenes import RUBBER, SURFACE
 
 pytest.importorskip("matplotlib", reason="reports need asperity[plot]")
 
@@ -125,30 +127,77 @@ def test_verdicts_by_hand(
     (pair,) = compared(["a", "b"], [scene, scene], results)
     (difference,) = pair.differences
     assert difference.verdict == verdict
-    assert pair.summary == [f"1 of 1 points differ {VERDICTS[verdict]}, from 0.001 to 0.001 m/s."]
-
-
-def test_only_points_that_are_shared_are_compared(folder: Path) -> None:
-    Path("one.toml").write_text(
-        SURFACE + RUBBER + "[conditions]\npressure_pa = [2e5]\nvelocity_m_s = [1e-3, 1e-1, 3]\n"
-    )
-    one, other = load_scene("one.toml"), load_scene("scene.toml")
-    assert CONDITIONS in Path("scene.toml").read_text()
-    names = ["one", "other"]
-    (pair,) = compared(names, [one, other], [one.friction(), other.friction()])
-    assert [(d.pressure, d.velocity) for d in pair.differences] == [
-        (2e5, pytest.approx(1e-3)),
-        (2e5, pytest.approx(0.1)),
-    ]
-    Path("two.toml").write_text(
-        SURFACE + RUBBER + "[conditions]\npressure_pa = 3e5\nvelocity_m_s = 1e-3\n"
-    )
-    two = load_scene("two.toml")
-    (pair,) = compared(names, [one, two], [one.friction(), two.friction()])
-    assert pair.differences == []
     assert pair.summary == [
-        "The two have no pressure and velocity in common: give both the same sweep."
+        "They are compared at 0.001 m/s and 81 kPa.",
+        f"1 of 1 points differ {VERDICTS[verdict]}, from 0.001 to 0.001 m/s.",
     ]
+
+
+def scene_of(name: str, pressure: str, velocity: str, more: str = "") -> Scene:
+    conditions = f"[conditions]\npressure_pa = {pressure}\nvelocity_m_s = {velocity}\n"
+    Path(name).write_text(SURFACE + RUBBER + conditions + more)
+    return load_scene(name)
+
+
+def test_scenes_of_other_points_are_computed_where_both_are_known(folder: Path) -> None:
+    one = scene_of("one.toml", "[2e5]", "[1e-3, 1e-1, 3]")
+    other = scene_of(
+        "other.toml", "2e5", "[1e-4, 1e-2, 0.1, 1]", '[correction]\nkind = "nayak-s-factor"\n'
+    )
+    (pair,) = compared(["one", "other"], [one, other], [one.friction(), other.friction()])
+    found = [(d.velocity, d.first, d.second) for d in pair.differences]
+    velocity = np.array([1e-3, 1e-2, 0.1, 1])  # of both, where their ranges overlap
+    mu = [replace(scene, velocity=velocity).friction().mu[0] for scene in (one, other)]
+    assert found == list(zip(velocity, *mu, strict=True))
+    assert pair.summary[0] == (
+        "They are compared at 4 velocities from 0.001 to 1 m/s and 200 kPa. Where these are not "
+        "points of a scene, it was computed there anew."
+    )
+
+
+def test_single_pressures_are_compared_as_they_are(folder: Path) -> None:
+    one = scene_of("one.toml", "2e5", "[1e-3, 1e-1]")
+    two = scene_of("two.toml", "3e5", "[1e-3, 1e-1]")
+    results = [one.friction(), two.friction()]
+    (pair,) = compared(["one", "two"], [one, two], results)
+    assert [d.second for d in pair.differences] == results[1].mu[0].tolist()
+    assert pair.summary[0] == (
+        "They are compared at 2 velocities from 0.001 to 0.1 m/s, each at its own pressure, "
+        "200 kPa and 300 kPa."
+    )
+
+
+@pytest.mark.parametrize(
+    ("pressure", "velocity", "problem"),
+    [
+        (
+            "2e5",
+            "[10, 20]",
+            "The two have no velocity in common: 0.001 to 1 m/s, and 10 to 20 m/s.",
+        ),
+        ("[3e5, 4e5]", "0.1", "The two have no pressure in common: 1e+05 to 2e+05 Pa, and 3e+05"),
+    ],
+)
+def test_what_cannot_be_compared_is_told(
+    folder: Path, pressure: str, velocity: str, problem: str
+) -> None:
+    one = scene_of("one.toml", "[1e5, 2e5]", "[1e-3, 1]")
+    two = scene_of("two.toml", pressure, velocity)
+    (pair,) = compared(["one", "two"], [one, two], [one.friction(), two.friction()])
+    assert pair.differences == []
+    (line,) = pair.summary
+    assert line.startswith(problem)
+
+
+def test_many_points_are_thinned(folder: Path) -> None:
+    one = scene_of("one.toml", "2e5", "{from = 1e-4, to = 1, points = 200}")
+    two = scene_of("two.toml", "2e5", "{from = 1e-3, to = 10, points = 201}")
+    (pair,) = compared(["one", "two"], [one, two], [one.friction(), two.friction()])
+    velocity = [d.velocity for d in pair.differences]
+    assert len(velocity) == MOST
+    assert velocity[0] == pytest.approx(1e-3, rel=0.1)
+    assert velocity[-1] == pytest.approx(1, rel=0.1)
+    assert np.all(np.diff(velocity) > 0)
 
 
 def test_an_output_that_is_an_input_is_refused_before_anything_is_computed(

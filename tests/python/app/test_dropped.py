@@ -1,0 +1,158 @@
+"""Files as laboratories have them: what is guessed, left out, converted, and said of them."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.app.state import State
+from asperity.app.words import allowed_velocities, in_words
+from helpers.dropped import dma_bytes, scan_bytes
+from helpers.measured import present
+
+STRAIN = b"T;f;G';G\"\nC;Hz;MPa;MPa\n20;10;1;0.1\n20;10;0.9;0.2\n"
+
+
+@pytest.fixture
+def state() -> Iterator[State]:
+    made = State()
+    yield made
+    made.close()
+
+
+def take(state: State, *names: str, **changes: object) -> str:
+    guess = state.guesses[names[0]]
+    chosen = {"columns": guess.columns, "units": guess.units, "modulus": guess.modulus}
+    return state.take_dma(list(names), {**chosen, "prony": True, **changes})
+
+
+def test_files_of_one_frequency_are_left_out_and_it_is_said(state: State) -> None:
+    sweeps = state.keep_dma("dma.csv", dma_bytes().replace(b"Temperature;Freq", b"T;f"))
+    strain = state.keep_dma("strain.csv", STRAIN)
+    said = take(state, sweeps, strain)
+    assert said == "Left out, as they hold one frequency each: strain.csv."
+    assert state.rubbers["your sweeps"]["isotherms"] == [sweeps]
+    with pytest.raises(asperity.InvalidInput) as caught:
+        take(state, strain)
+    assert state.said(caught.value).startswith("strain.csv: holds one frequency: must be sweeps")
+
+
+def test_decimal_commas_are_read(state: State) -> None:
+    plain = state.keep_dma("dma.csv", dma_bytes())
+    take(state, plain)
+    mu = state.load().friction().mu
+    commas = state.keep_dma("komma.csv", dma_bytes().replace(b".", b","))
+    take(state, commas)
+    assert np.array_equal(state.load().friction().mu, mu)
+
+
+@pytest.mark.parametrize("modulus", ["E", "G"])
+def test_a_master_curve_in_any_units_is_that_curve(modulus: str, state: State) -> None:
+    hertz = np.geomspace(1e-6, 1e12, 60)
+    rubber = asperity.PronySeries(
+        equilibrium_modulus=3e6,
+        moduli=10 ** np.linspace(6, 9, 16),
+        relaxation_times=10 ** np.linspace(2, -8, 16),
+    )
+    e = rubber.modulus(2 * np.pi * hertz)
+    share = 1e6 * (3 if modulus == "G" else 1)
+    rows = zip(hertz, e.real / share, e.imag / share, strict=True)
+    lines = [f"Freq [Hz],{modulus}' [MPa],{modulus}'' [MPa]"]
+    lines += [",".join(repr(float(x)) for x in row) for row in rows]
+    name = state.keep_dma("curve.csv", "\n".join(lines).encode())
+    assert "temperature" not in state.guesses[name].columns
+    take(state, name)
+    found = state.load().rubber
+    assert isinstance(found, asperity.MasterCurve)
+    assert found.angular_frequency == pytest.approx(2 * np.pi * hertz, rel=1e-12)
+    assert found.storage_modulus == pytest.approx(e.real, rel=1e-12)
+    assert found.loss_modulus == pytest.approx(e.imag, rel=1e-12)
+    assert "was dropped as curve.csv, in rad/s and Pa" in state.text
+    assert "temperature" not in state.text
+    assert state.load().friction().mu.max() > 0
+    state.rubber = "shipped surrogate"
+    assert "temperature_c" in state.text
+
+
+def test_two_files_without_temperatures_are_no_master_curve(state: State) -> None:
+    names = [state.keep_dma(f"{i}.csv", b"f,E1,E2\n1,2,3\n2,3,4\n") for i in range(2)]
+    with pytest.raises(asperity.InvalidInput, match="2 files without temperatures: must be one"):
+        take(state, *names)
+
+
+def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> None:
+    state.keep_scan("scan.npy", scan_bytes())
+    state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})
+    assert "adhesion" not in state.tables
+    state.use("adhesion", True)
+    state.adhesion = {**state.adhesion, "shear_stress_pa": 1e6}  # one's own
+    take(state, state.keep_dma("dma.csv", dma_bytes()))
+    assert state.tables["adhesion"]["shear_stress_pa"] == 1e6
+
+
+def test_wrong_units_are_asked_about(state: State) -> None:
+    state.keep_scan("scan.npy", scan_bytes())
+    with pytest.raises(asperity.InvalidInput, match="are the heights in another unit"):
+        state.use_scan({"pixel_size_m": 5e-6, "unit": "mm"})
+    state.use_scan({"pixel_size_m": 5e-6, "unit": "nm"})
+    assert any("rms slope" in one for one in state.load().notes)
+
+
+def test_words_have_few_digits_and_no_names_of_python() -> None:
+    assert in_words("asks from 58219.6243971 to 1.59688112632e+07, 1.234, 3.90376689978e-09") == (
+        "asks from 5.822e+04 to 1.597e+07, 1.234, 3.904e-09"
+    )
+    assert (
+        in_words("is too high, see its flag") == "is too high: grey in the picture of the spectrum"
+    )
+    assert in_words("at some points: see extrapolated_share") == "at some points"
+
+
+def test_a_message_on_velocities_offers_those_that_are_known(state: State) -> None:
+    low, high = allowed_velocities("velocities from 3.904e-09 to 0.8187 m/s are allowed") or (0, 0)
+    assert 3.904e-09 < low < 4e-9
+    assert 0.8 < high < 0.8187
+    assert allowed_velocities("nothing is allowed") is None
+    state.keep_velocities(low, high)
+    assert state.velocities == (1e-6, high)
+    state.keep_velocities(1, 2)
+    assert state.velocities == (1, 2)
+
+
+def test_measured_scans_and_sweeps_give_a_curve(state: State) -> None:
+    for file in ("opd-1.opd", "al3d-1.al3d"):
+        state.keep_scan(file, present("topography", file).read_bytes())
+        state.use_scan({})
+        names = [
+            state.keep_dma(path.name, path.read_bytes())
+            for path in (
+                present("dma", "epdm_70", f"{name}.csv")
+                for name in ("sd_100hz", "sd_10hz", "tf_015p")
+            )
+        ]
+        assert take(state, *names).endswith(": sd_100hz.csv, sd_10hz.csv.")
+        curves = state.load().friction()
+        assert curves.mu.max() > 0
+        notes = [in_words(state.folder.as_shown(one)) for one in curves.notes]
+        assert [one for one in notes if re.search(r"[a-z]_[a-z]|NaN", one.replace("b_T", ""))] == []
+        take(state, *names, prony=False)  # the master curve alone ends sooner
+        with pytest.raises(asperity.OutOfRange) as caught:
+            state.load().friction()
+        allowed = allowed_velocities(state.said(caught.value))
+        assert allowed is not None
+        state.keep_velocities(*allowed)
+        assert state.load().friction().mu.max() > 0
+        state.set_velocities(1e-6, 10)
+
+
+def test_a_profile_becomes_a_surface(state: State, tmp_path: Path) -> None:
+    x = np.arange(4096) * 1e-6
+    z = np.random.default_rng(1).standard_normal(x.size).cumsum() * 1e-8
+    np.savetxt(tmp_path / "line.csv", np.column_stack([x, z]), delimiter=",", header="x_m,z_m")
+    state.keep_scan("line.csv", (tmp_path / "line.csv").read_bytes())
+    with pytest.raises(asperity.Error) as caught:
+        state.use_scan({})
+    assert state.said(caught.value).startswith("line.csv: ")
