@@ -331,6 +331,11 @@ TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors
 def temperature_shift_core(found: Any) -> Any:
     """Return a law or shift factors as the core takes them."""
     if isinstance(found, _Law | HasShiftFactors):
+        vertical = getattr(found, "b_T", None)
+        if vertical is not None and np.any(vertical != 1):
+            problem = "the modulus is shifted by a_T alone; give its shift_factors to leave b_T out"
+            span = f"{vertical.min():.3g} to {vertical.max():.3g}"
+            raise InvalidInput(f"shift: its build has b_T from {span}, and {problem}")
         return found._core
     kinds = "a WLF, a WlfFit, an ArrheniusFit, a ShiftFactors or what build_master_curve returned"
     raise InvalidInput(f"shift = {brief(found)}: must be {kinds}")

@@ -33,15 +33,15 @@ COUNT = 1 << 14
 RUNS = 41
 
 
-def module() -> Any:
-    """friction_map.cpp, compiled as hosts compile: -O2, C++17, nothing linked."""
+def module(name: str) -> Any:
+    """A C++ file beside this one, compiled as hosts compile: -O2, C++17, nothing linked."""
     import pybind11
 
     with tempfile.TemporaryDirectory() as folder:
-        built = Path(folder) / f"friction_map_timing{sysconfig.get_config_var('EXT_SUFFIX')}"
+        built = Path(folder) / f"{name}_timing{sysconfig.get_config_var('EXT_SUFFIX')}"
         headers = (ROOT / "cpp/include", pybind11.get_include(), sysconfig.get_path("include"))
         includes = [f"-I{path}" for path in headers]
-        source = Path(__file__).with_suffix(".cpp")
+        source = Path(__file__).with_name(f"{name}.cpp")
         command = [
             "c++",
             "-std=c++17",
@@ -53,7 +53,7 @@ def module() -> Any:
             source,
         ]
         subprocess.run([*command, "-o", built], check=True)
-        spec = importlib.util.spec_from_file_location("friction_map_timing", built)
+        spec = importlib.util.spec_from_file_location(f"{name}_timing", built)
         if spec is None or spec.loader is None:
             raise SystemExit(f"{built}: cannot be loaded")
         loaded = importlib.util.module_from_spec(spec)
@@ -144,7 +144,7 @@ def points(count: int) -> tuple[Any, Any]:
 
 
 def look_ups() -> timing.Report:
-    compiled = module()
+    compiled = module("friction_map")
     rows: list[tuple[str, float, float, float, float]] = []
     p, v = points(COUNT)
 

@@ -98,7 +98,7 @@ struct FlashFriction {
 /// the fixed point of Persson's model of 2006. `rubber` is the one at the reference of `shift`, `temperature` [K] that
 /// of the background. Corrections by Greenwood-Williamson's model follow the modulus at the temperature that q0 feels,
 /// and PartialContact's rule has the temperature of each wave, beyond the end of the spectrum too. InvalidInput for
-/// GSL's methods.
+/// GSL's methods with PartialContact, one temperature or contributions.
 ASPERITY_EXPORT FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
                                        const Heating& heating, const ContactModel& model,
                                        const std::optional<Adhesion>& adhesion, std::span<const double> pressure,

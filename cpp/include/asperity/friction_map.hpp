@@ -251,17 +251,33 @@ class FrictionMap {
   /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
   [[nodiscard]] double mu(double pressure, double velocity, Outside outside = Outside::nan,
                           const MapTemperature& temperature = {}) const noexcept {
+    const bool has_memory = info_.heat && temperature.distance < map_detail::long_slid;
+    const double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
+    const double shifted = speed * temperature.a_T;
+    if (steps_ == 0 && !has_memory && is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
+      const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
+      const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
+      double slope = 0;
+      const double z = ln_p - log_modulus_offset(x, slope);
+      const double* const cell = cell_at(x, z);
+      return mu_of(bicubic(cell + 2, x - cell[0], z - cell[1]), log_adhesion(ln_p, ln_v));
+    }
     const Where at = where(pressure, velocity, outside, temperature);
     if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    return temperature.distance >= map_detail::long_slid || !info_.heat ? mu(at) : mu_after(at, temperature.distance);
+    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
   }
 
   /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
-  /// a processor waits where one point's have to follow each other. `result` may be one of the columns.
+  /// a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
+  /// range of T0 take 36 kB of the stack.
   void mu_at_points(std::size_t n, const double* pressure, const double* velocity, double* result,
                     Outside outside = Outside::nan, const MapTemperature& temperature = {}) const noexcept {
-    for (std::size_t i = 0; i < n; i += together)
-      mu_of_block(n - i < together ? n - i : together, pressure + i, velocity + i, result + i, outside, temperature);
+    if (steps_ == 0) {
+      mu_of_blocks(n, pressure, velocity, result, outside, temperature, nullptr);
+    } else {
+      CellsAtT0 cells;
+      mu_of_blocks(n, pressure, velocity, result, outside, temperature, &cells);
+    }
   }
 
   /// Everything at a point. The status says whether it lies outside of the box, whatever `outside` is.
@@ -295,8 +311,7 @@ class FrictionMap {
                                       Outside outside = Outside::nan) const noexcept {
     const Where at = where(info_.pressure[0], velocity, outside, {1, false, background, map_detail::long_slid});
     if (at.cell == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
-    double slope = 0;
-    return map_detail::exp(log_sliding_length(at, slope));
+    return map_detail::exp(log_sliding_length(sliding_rows(at), at.x));
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
@@ -328,7 +343,6 @@ class FrictionMap {
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
 
-  static constexpr double long_forgotten = 40;  // s / s0, whose share is below rounding
   struct Memory {
     double share, slope;  // of what was without heat, and d ln of it / d ln v
   };
@@ -337,8 +351,6 @@ class FrictionMap {
     return steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
   }
 
-  [[nodiscard]] double mu(const Where& at) const noexcept { return mu_of(logarithms(at), log_adhesion(at)); }
-
   /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
   [[nodiscard]] double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
     if (!(info_.shear_stress > 0)) return info_.hysteresis ? map_detail::exp(f[0]) : 0;
@@ -346,64 +358,140 @@ class FrictionMap {
     return info_.hysteresis ? mu[0] + mu[1] : mu[1];
   }
 
-  /// Hot and cold before the memory, whose exponentials wait for each other, so that all go on at once.
+  /// Hot and cold beside the memory, none of which waits for another.
   [[nodiscard]] double mu_after(const Where& at, double distance) const noexcept {
-    const double adhesion = log_adhesion(at), x = cold_x(at), z = at.ln_p;
+    double slope = 0;
+    const double adhesion = log_adhesion(at), x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
     const double* const cell = cold_->cell_at(x, z);
     const map_detail::Pair of_hot = logarithms(at), of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]);
     const double hot = mu_of(of_hot, adhesion), cold = mu_of(of_cold, adhesion);
-    double slope = 0;
-    const double slid = distance * map_detail::exp(-log_sliding_length(at, slope));  // s / s0
-    return slid < long_forgotten ? hot + map_detail::exp(-slid) * (cold - hot) : hot;
+    const double share = share_left(distance, log_sliding_length(sliding_rows(at), at.x));
+    return hot + share * (cold - hot);
   }
 
   static constexpr std::size_t together = 64;  // points
 
-  void mu_of_block(std::size_t n, const double* pressure, const double* velocity, double* result, Outside outside,
-                   const MapTemperature& temperature) const noexcept {
-    using map_detail::within;
-    // of points in the box that need a cell and nothing else, one after another; `point` says which they are
-    double ln_p[together], ln_v[together], x[together], z[together], hysteresis[together], adhesion[together];
-    const double* cell[together];
-    std::size_t point[together], inside = 0, others = 0;  // the others from the end
-    const double a_T = temperature.a_T;
-    const bool unshifted = a_T == 1 || temperature.shifts_adhesion;
-    const bool own = temperature.background == 0 || temperature.background == info_.temperature[0];
-    const bool plain = !cells_.empty() && steps_ == 0 && own && temperature.distance == map_detail::long_slid &&
-                       (!info_.heat || (a_T == 1 && !temperature.shifts_adhesion));
+  /// Polynomials of cells at the one T0 of a call, which points that follow share.
+  struct CellsAtT0 {
+    static constexpr std::size_t size = 128;
+    const double* cell[size] = {};
+    double coefficients[size][32];
+  };
+
+  /// Points in the box that need nothing but polynomials, one after another.
+  struct Block {
+    double ln_p[together], ln_v[together], x[together], z[together], law[together], cold[together];
+    std::size_t point[together];  // which they are, from the end which are others
+  };
+
+  void mu_of_blocks(std::size_t n, const double* pressure, const double* velocity, double* result, Outside outside,
+                    const MapTemperature& temperature, CellsAtT0* cells) const noexcept {
+    Where at;
+    const bool plain = !cells_.empty() && is_usual(temperature);
+    if (plain && steps_ > 0) set_step(temperature.background, at);
+    const double shift = plain && steps_ > 0 ? log_a_T(at) : 0;
+    Block block;
+    for (std::size_t i = 0; i < n; i += together) {
+      const double *const p = pressure + i, *const v = velocity + i;
+      const std::size_t many = n - i < together ? n - i : together;
+      const std::size_t inside = plain ? sort_out(many, p, v, temperature.a_T, block) : 0;
+      for (std::size_t k = inside; k < many; ++k) {
+        const std::size_t other = plain ? block.point[k] : k;
+        result[i + other] = mu(p[other], v[other], outside, temperature);
+      }
+      if (inside > 0) mu_inside(inside, temperature, at, shift, cells, block, result + i);
+    }
+  }
+
+  /// How many of the points are in the box.
+  std::size_t sort_out(std::size_t n, const double* pressure, const double* velocity, double a_T,
+                       Block& block) const noexcept {
+    std::size_t inside = 0, others = 0, other[together];
     for (std::size_t i = 0; i < n; ++i) {
       const double p = pressure[i], speed = map_detail::from_bits(map_detail::bits(velocity[i]) & 0x7fffffffffffffff);
-      if (plain && within(p, info_.pressure) && within(speed * a_T, info_.velocity)) {
-        point[inside] = i;
-        ln_p[inside] = p;
-        ln_v[inside++] = speed;
+      if (map_detail::within(p, info_.pressure) && map_detail::within(speed * a_T, info_.velocity)) {
+        block.point[inside] = i;
+        block.ln_p[inside] = p;
+        block.ln_v[inside++] = speed;
       } else {
-        point[together - ++others] = i;
+        other[others++] = i;
       }
     }
-    for (std::size_t k = together - others; k < together; ++k)
-      result[point[k]] = mu(pressure[point[k]], velocity[point[k]], outside, temperature);
-    for (std::size_t k = 0; k < inside; ++k) x[k] = map_detail::ln(ln_v[k] * a_T);
-    for (std::size_t k = 0; k < inside; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
-    for (std::size_t k = 0; k < inside && !unshifted; ++k) ln_v[k] = map_detail::ln(ln_v[k]);
+    for (std::size_t k = 0; k < others; ++k) block.point[inside + k] = other[k];
+    return inside;
+  }
+
+  /// Each loop is a step of `mu`.
+  void mu_inside(std::size_t n, const MapTemperature& temperature, const Where& at, double log_a_T, CellsAtT0* cells,
+                 Block& block, double* result) const noexcept {
+    auto& [ln_p, ln_v, x, z, law, cold, point] = block;
+    const bool unshifted = takes_shifted(temperature);
+    for (std::size_t k = 0; k < n; ++k) x[k] = map_detail::ln(ln_v[k] * temperature.a_T);
+    for (std::size_t k = 0; k < n; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
+    if (info_.shear_stress > 0) {
+      for (std::size_t k = 0; k < n && !unshifted; ++k) ln_v[k] = map_detail::ln(ln_v[k]);
+      const double* const v = unshifted ? x : ln_v;
+      for (std::size_t k = 0; k < n; ++k) law[k] = log_adhesion(ln_p[k], v[k]);
+    }
     double slope = 0;
-    for (std::size_t k = 0; k < inside; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
-    for (std::size_t k = 0; k < inside; ++k) cell[k] = cell_at(x[k], z[k]);
-    for (std::size_t k = 0; k < inside; ++k) {
-      const map_detail::Pair f = bicubic(cell[k] + 2, x[k] - cell[k][0], z[k] - cell[k][1]);
-      hysteresis[k] = f[0];
-      adhesion[k] = f[1];
+    for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
+    double hot[together];
+    mu_of_polynomials(n, x, z, law, at, cells, hot);
+    if (info_.heat && temperature.distance < map_detail::long_slid) {
+      double* const share = ln_v;
+      const SlidingRows rows = sliding_rows(at);
+      for (std::size_t k = 0; k < n; ++k) share[k] = -log_sliding_length(rows, x[k]);
+      exps(n, share);
+      for (std::size_t k = 0; k < n; ++k) share[k] *= -temperature.distance;
+      exps(n, share);
+      for (std::size_t k = 0; k < n; ++k) x[k] = steps_ == 0 ? x[k] : held_cold_x(x[k] + log_a_T);
+      for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - cold_->log_modulus_offset(x[k], slope);
+      cold_->mu_of_polynomials(n, x, z, law, at, nullptr, cold);
+      for (std::size_t k = 0; k < n; ++k) hot[k] += share[k] * (cold[k] - hot[k]);
+    }
+    for (std::size_t k = 0; k < n; ++k) result[point[k]] = hot[k];
+  }
+
+  static void exps(std::size_t n, double* x) noexcept {
+    std::size_t k = 0;
+    for (; k + 2 <= n; k += 2) {
+      const map_detail::Pair e = map_detail::exp(map_detail::pair(&x[k]));
+      x[k] = e[0];
+      x[k + 1] = e[1];
+    }
+    for (; k < n; ++k) x[k] = map_detail::exp(x[k]);
+  }
+
+  /// mu at x and z and `law`, ln of mu_A over A/A0.
+  void mu_of_polynomials(std::size_t n, const double* x, const double* z, const double* law, const Where& at,
+                         CellsAtT0* cells, double* mu) const noexcept {
+    std::size_t entry[together];
+    double area[together];
+    for (std::size_t k = 0; k < n; ++k) entry[k] = entry_at(x[k], z[k]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double* const cell = &cells_[entry[k] * cell_size_];
+      const double* c = cell + 2;
+      if (cells != nullptr) {
+        const std::size_t slot = entry[k] % CellsAtT0::size;
+        double* const room = cells->coefficients[slot];
+        if (cells->cell[slot] != cell) {
+          to_temperature(c + 128 * std::size_t{at.step}, at.dT, room);
+          cells->cell[slot] = cell;
+        }
+        c = room;
+      }
+      const map_detail::Pair f = bicubic(c, x[k] - cell[0], z[k] - cell[1]);
+      mu[k] = f[0];
+      area[k] = f[1];
     }
     if (info_.hysteresis)
-      for (std::size_t k = 0; k < inside; ++k) hysteresis[k] = map_detail::exp(hysteresis[k]);
+      exps(n, mu);
     else
-      for (std::size_t k = 0; k < inside; ++k) hysteresis[k] = 0;
-    if (info_.shear_stress > 0) {
-      const double* const v = unshifted ? x : ln_v;
-      for (std::size_t k = 0; k < inside; ++k) adhesion[k] += log_adhesion(ln_p[k], v[k]);
-      for (std::size_t k = 0; k < inside; ++k) hysteresis[k] += map_detail::exp(adhesion[k]);
-    }
-    for (std::size_t k = 0; k < inside; ++k) result[point[k]] = hysteresis[k];
+      for (std::size_t k = 0; k < n; ++k) mu[k] = 0;
+    if (!(info_.shear_stress > 0)) return;
+    for (std::size_t k = 0; k < n; ++k) area[k] += law[k];
+    exps(n, area);
+    for (std::size_t k = 0; k < n; ++k) mu[k] += area[k];
   }
 
   [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
@@ -447,45 +535,67 @@ class FrictionMap {
   /// The polynomials of a cell at T0, in `room` where they depend on it.
   const double* coefficients(const Where& at, double* room) const noexcept {
     if (steps_ == 0) return at.cell + 2;
-    const double* const c = at.cell + 2 + 128 * std::size_t{at.step};
-    for (int i = 0; i < 32; i += 2) {
-      const map_detail::Pair sum = at_temperature(c + i, at.dT, at.dT * at.dT);
-      room[i] = sum[0];
-      room[i + 1] = sum[1];
-    }
+    to_temperature(at.cell + 2 + 128 * std::size_t{at.step}, at.dT, room);
     return room;
   }
 
-  /// ln s0 and its slope over ln v.
-  double log_sliding_length(const Where& at, double& slope) const noexcept {
-    const double* const table = sliding_.data();
-    const std::size_t columns = sliding_.size() / (2 * std::size_t{rows_});
-    if (rows_ == 1) return cubic(table, columns, sliding_per_x_, sliding_step_, at.x - offset_x_, slope);
-    const double row = (at.background - info_.temperature[0]) * rows_per_T_;
-    const double column = (at.x - offset_x_) * sliding_per_x_;
-    const std::uint32_t j = index(row, rows_ - 1), i = index(column, static_cast<std::uint32_t>(columns - 1));
-    const double* const lower = table + 2 * (columns * j + i);
-    const double* const upper = lower + 2 * columns;
-    double between[4];
-    for (int k = 0; k < 4; ++k) between[k] = lower[k] + (row - j) * (upper[k] - lower[k]);
-    return cubic(between, column - i, sliding_per_x_, sliding_step_, slope);
+  static void to_temperature(const double* c, double dT, double* room) noexcept {
+    for (int i = 0; i < 32; i += 2) {
+      const map_detail::Pair sum = at_temperature(c + i, dT, dT * dT);
+      room[i] = sum[0];
+      room[i + 1] = sum[1];
+    }
+  }
+
+  /// Cubics of ln s0 over a share of a step of x, in the rows about a T0, and the share of the upper row.
+  struct SlidingRows {
+    const double *lower, *upper;
+    double share;
+  };
+  [[nodiscard]] SlidingRows sliding_rows(const Where& at) const noexcept {
+    const double row = rows_ == 1 ? 0 : (at.background - info_.temperature[0]) * rows_per_T_;
+    const std::uint32_t j = rows_ == 1 ? 0 : index(row, rows_ - 1);
+    const double* const lower = &sliding_[4 * std::size_t{columns_} * j];
+    return {lower, rows_ == 1 ? lower : lower + 4 * std::size_t{columns_}, row - j};
+  }
+
+  /// ln s0 at an x, and its slope.
+  [[nodiscard]] double log_sliding_length(const SlidingRows& rows, double x, double* slope = nullptr) const noexcept {
+    const double column = (x - offset_x_) * sliding_per_x_;
+    const std::uint32_t i = index(column, columns_);
+    const double *const lower = rows.lower + 4 * std::size_t{i}, *const upper = rows.upper + 4 * std::size_t{i};
+    const double t = column - i;
+    double c[4];
+    for (int k = 0; k < 4; ++k) c[k] = lower[k] + rows.share * (upper[k] - lower[k]);
+    if (slope != nullptr) *slope = (c[1] + t * (2 * c[2] + t * 3 * c[3])) * sliding_per_x_;
+    return (c[0] + c[1] * t) + (c[2] + c[3] * t) * (t * t);
+  }
+
+  /// exp(-s / s0)
+  static double share_left(double distance, double log_sliding_length) noexcept {
+    return map_detail::exp(-(distance * map_detail::exp(-log_sliding_length)));
   }
 
   [[nodiscard]] Memory remember(const Where& at, double distance) const noexcept {
     if (distance >= map_detail::long_slid) return {0, 0};
     double slope = 0;
-    const double slid = distance * map_detail::exp(-log_sliding_length(at, slope));  // s / s0
-    return slid < long_forgotten ? Memory{map_detail::exp(-slid), slid * slope} : Memory{0, 0};
+    const double log_length = log_sliding_length(sliding_rows(at), at.x, &slope);
+    return {share_left(distance, log_length), distance * map_detail::exp(-log_length) * slope};
   }
 
   /// ln of a_T v on the map without heat.
   [[nodiscard]] double cold_x(const Where& at) const noexcept {
-    if (steps_ == 0) return at.x;
-    double slope = 0;
-    const double x = at.x + cubic(shift_.data(), shift_.size() / 2, steps_per_T_, step_of_T_,
-                                  at.background - info_.temperature[0], slope);
+    return steps_ == 0 ? at.x : held_cold_x(at.x + log_a_T(at));
+  }
+
+  [[nodiscard]] double held_cold_x(double x) const noexcept {
     const double first = cold_->offset_x_, last = cold_->last_x_;
     return x < first ? first : x > last ? last : x;  // by rounding
+  }
+
+  /// From the lowest T0 to that of a point, on a map with an axis of it.
+  [[nodiscard]] double log_a_T(const Where& at) const noexcept {
+    return cubic_value(&shift_[2 * std::size_t{at.step}], at.dT * steps_per_T_, step_of_T_);
   }
 
   [[nodiscard]] Where cold_place(const Where& at) const noexcept {
@@ -527,26 +637,39 @@ class FrictionMap {
     Where at;
     double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     double shifted = speed * temperature.a_T;
-    const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
-    const bool only = steps_ == 0 && temperature.background == 0;
-    const bool usual = info_.heat ? (only || map_detail::within(temperature.background, info_.temperature)) &&
-                                        temperature.a_T == 1 && !temperature.shifts_adhesion
-                                  : temperature.background == 0;
-    const bool slid =
-        map_detail::bits(temperature.distance) <= map_detail::bits(map_detail::long_slid);  // and 0 or more
-    if (inside && usual && slid && !cells_.empty()) {
+    if (is_inside(pressure, shifted) && is_usual(temperature)) {
       if (steps_ > 0) set_step(temperature.background, at);
     } else if (!settle(pressure, speed, shifted, outside, temperature, at)) {
       return at;
     }
     at.x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
-    at.ln_v = temperature.a_T == 1 || temperature.shifts_adhesion ? at.x : map_detail::ln(speed);
+    at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
     const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
     at.cell = cell_at(at.x, z);
     at.dx = at.x - at.cell[0];
     at.dz = z - at.cell[1];
     return at;
+  }
+
+  /// A box of an empty map holds nothing.
+  [[nodiscard]] bool is_inside(double pressure, double shifted) const noexcept {
+    return map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity) &&
+           !cells_.empty();
+  }
+
+  /// Whether the adhesion takes the velocity that the others take.
+  static bool takes_shifted(const MapTemperature& temperature) noexcept {
+    return temperature.a_T == 1 || temperature.shifts_adhesion;
+  }
+
+  /// Whether the map takes it as it is.
+  [[nodiscard]] bool is_usual(const MapTemperature& temperature) const noexcept {
+    if (map_detail::bits(temperature.distance) > map_detail::bits(map_detail::long_slid)) return false;  // or below 0
+    if (!info_.heat) return temperature.background == 0;
+    const bool only = steps_ == 0 && temperature.background == 0;
+    return (only || map_detail::within(temperature.background, info_.temperature)) && temperature.a_T == 1 &&
+           !temperature.shifts_adhesion;
   }
 
   /// What `where` does for a point that is not plainly in the box; false where there is no value.
@@ -557,8 +680,7 @@ class FrictionMap {
     at.status = number ? Status::not_on_this_map : Status::not_a_number;
     if (!number || !has(temperature)) return false;
     at.status = Status::ok;
-    const bool inside = map_detail::within(pressure, info_.pressure) && map_detail::within(shifted, info_.velocity);
-    if ((!inside || cells_.empty()) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return false;
+    if (!is_inside(pressure, shifted) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return false;
     return !info_.heat || warm(temperature.background, outside, at);
   }
 
@@ -612,7 +734,14 @@ class FrictionMap {
     return cubic(&table[2 * std::size_t{i}], scaled - i, per_step, step, slope);
   }
 
-  /// The same between two nodes, a share t of the step from the first.
+  /// Between two nodes, a share t of the step from the first.
+  static double cubic_value(const double* s, double t, double step) noexcept {
+    const double rise = s[2] - s[0];
+    const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
+    return s[0] + t * (step * s[1] + t * (square + t * cube));
+  }
+
+  /// The same with its slope.
   static double cubic(const double* s, double t, double per_step, double step, double& slope) noexcept {
     const double rise = s[2] - s[0];
     const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
@@ -628,11 +757,16 @@ class FrictionMap {
   }
 
   [[nodiscard]] const double* cell_at(double x, double z) const noexcept {
+    return &cells_[entry_at(x, z) * cell_size_];
+  }
+
+  /// Which cell.
+  [[nodiscard]] std::size_t entry_at(double x, double z) const noexcept {
     std::size_t g = 0;
     while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
     for (;;) {
       const std::int32_t entry = entries_[entry_of(grids_[g], x, z)];
-      if (entry >= 0) return &cells_[static_cast<std::size_t>(entry) * cell_size_];
+      if (entry >= 0) return static_cast<std::size_t>(entry);
       g = static_cast<std::size_t>(-1 - entry);
     }
   }
@@ -650,9 +784,10 @@ class FrictionMap {
   double offset_x_ = 0, last_x_ = 0;  // ln of the box's velocities
   double offset_per_x_ = 0, offset_step_ = 0;
   std::size_t cell_size_ = map_detail::cell_size;
-  std::uint32_t steps_ = 0, rows_ = 1;  // of T0 in cells, 0 for one T0; of T0 in the table of ln s0
-  double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0, sliding_step_ = 0;
-  std::vector<double> shift_, sliding_;  // ln a_T over T0, ln s0 over x and T0
+  std::uint32_t steps_ = 0;               // of T0 in cells, 0 for one T0
+  std::uint32_t rows_ = 1, columns_ = 1;  // of the table of ln s0: nodes of T0, steps of x
+  double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
+  std::vector<double> shift_, sliding_;  // ln a_T over T0, coefficients of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
@@ -735,6 +870,19 @@ struct HeatHead {
     return nodes == 0 ? 0 : heat_head_size + 16ull * nodes + 16ull * columns * rows + cold;
   }
 };
+
+/// The coefficients of cubics over shares of steps, from rows of values and slopes at nodes a step apart.
+inline std::vector<double> cubics(const std::vector<double>& values, std::size_t nodes, double step) {
+  std::vector<double> result;
+  for (std::size_t row = 0; row < values.size(); row += 2 * nodes)
+    for (std::size_t i = 0; i + 1 < nodes; ++i) {
+      const double* const s = &values[row + 2 * i];
+      const double rise = s[2] - s[0];
+      for (const double c : {s[0], step * s[1], 3 * rise - step * (2 * s[1] + s[3]), step * (s[1] + s[3]) - 2 * rise})
+        result.push_back(c);
+    }
+  return result;
+}
 
 /// Every grid comes after those that it is in, and they are no more than look-ups shall go through.
 inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<std::int32_t>& entries) {
@@ -869,13 +1017,14 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
     const double kelvin = info.temperature[1] - info.temperature[0];
     map.steps_ = warm.nodes - 1;
     map.rows_ = warm.rows;
+    map.columns_ = warm.columns - 1;
     if (map.steps_ > 0) {
       map.steps_per_T_ = map.steps_ / kelvin;
       map.step_of_T_ = 1 / map.steps_per_T_;
     }
     if (map.rows_ > 1) map.rows_per_T_ = (map.rows_ - 1) / kelvin;
     map.sliding_per_x_ = (warm.columns - 1) / (map.last_x_ - map.offset_x_);
-    map.sliding_step_ = 1 / map.sliding_per_x_;
+    map.sliding_ = map_detail::cubics(map.sliding_, warm.columns, 1 / map.sliding_per_x_);
   }
   if (nodes != 0) {
     map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);

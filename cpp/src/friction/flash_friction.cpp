@@ -14,6 +14,7 @@
 #include "contact/conditions.hpp"
 #include "friction/before_heating.hpp"
 #include "heat/flash_solver.hpp"
+#include "heat/gsl_heat.hpp"
 #include "heat/history.hpp"
 #include "heat/one_temperature.hpp"
 #include "numerics/arguments.hpp"
@@ -24,12 +25,22 @@ namespace asperity {
 
 namespace {
 
-void check_heating(const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion) {
+void check_heating(const Heating& heating, const std::optional<Adhesion>& adhesion) {
   validate(heating);
   if (heating.interface_share != 1 && !adhesion)
     refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
-  if (model.method != Method::gauss)
-    throw InvalidInput("method: must be gauss where heating is given; the others do not know a temperature");
+}
+
+/// What GSL's rules check.
+void check_method(const Heating& heating, const ContactModel& model, bool contributions) {
+  if (model.method == Method::gauss) return;
+  const auto refused = [](const char* what) {
+    throw InvalidInput("method: must be gauss where heating is given " + std::string(what) +
+                       ", for which GSL's methods have no temperatures");
+  };
+  if (std::holds_alternative<PartialContact>(model.correction)) refused("with PartialContact");
+  if (heating.model != HeatModel::profile) refused("with one temperature");
+  if (contributions) refused("with contributions");
 }
 
 /// What there is to say of the points, a bit each.
@@ -179,7 +190,8 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                        const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,
                        std::span<const double> pressure, std::span<const double> velocity,
                        std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
-  check_heating(heating, model, adhesion);
+  check_heating(heating, adhesion);
+  check_method(heating, model, contributions);
   const double q_m = macro_wavenumber(heating, spectrum);
   const std::size_t n = velocity.size();
   FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
@@ -211,7 +223,10 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       }
       const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
       HotPoint at;
-      at_point(p, v, [&] { at = solve({p, v, t, per_area}); });
+      at_point(p, v, [&] {
+        at = solve({p, v, t, per_area});
+        if (model.method != Method::gauss) at = GslHeat(scene)({p, v, t, per_area}, at, solve);
+      });
       f.hot.mu[i] = at.hysteresis + at.adhesion;
       f.hot.hysteresis[i] = at.hysteresis;
       f.hot.adhesion[i] = at.adhesion;
@@ -239,7 +254,7 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   check_contact(model, pressure, velocity);
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   if (adhesion) validate(*adhesion);
-  check_heating(heating, model, adhesion);
+  check_heating(heating, adhesion);
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
   std::vector<double> result;

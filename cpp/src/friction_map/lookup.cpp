@@ -205,11 +205,14 @@ class FrictionMapBatch {
   /// Adds to the hot number at x_ the share of the cold one that is left after a distance.
   void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* hot) {
     FrictionMap::Where at;
-    double slope = 0;
     for (std::size_t i = 0; i < n; ++i) {
       at.x = x_[i];
       at.background = place.background[i];
-      share_[i] = -map_.log_sliding_length(at, slope);
+      if (map_.steps_ > 0) {
+        at.step = static_cast<std::uint32_t>(step_[i]);
+        at.dT = dT_[i];
+      }
+      share_[i] = -map_.log_sliding_length(map_.sliding_rows(at), at.x);
       speed_[i] = map_.cold_x(at);
     }
     loops_.exponentials(share_, share_, n);

@@ -1,9 +1,12 @@
 // ln s0 on a grid; between columns Steffen's cubics, which do not overshoot where s0 jumps: mu over the distance need
-// not fall steadily, and where the friction with and without heat cross, s0 says little and matters as little.
+// not fall steadily, and where the friction with and without heat cross, s0 says little and matters as little. About
+// these places s0 is steep, so that the grid is halved until they matter no more, and s0 computed there alone.
 #include "friction_map/sliding_table.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "numerics/interpolation.hpp"
 #include "numerics/parallel_for.hpp"
@@ -13,8 +16,10 @@ namespace asperity {
 
 namespace {
 
-constexpr double step_x = 0.25, step_T = 2.5;  // longest, of ln v and in K
+constexpr double step_x = 0.25, step_T = 2.5;  // longest of the grid that is computed throughout, of ln v and in K
 constexpr double most_columns = 65, most_rows = 25;
+constexpr int most_halvings = 2;
+constexpr double allowed = 0.01;     // of mu while the rubber heats up
 constexpr std::size_t tested = 200;  // random points
 constexpr double longest = 3;        // distance slid there, over s0
 
@@ -39,6 +44,10 @@ struct Scene {
   unsigned threads;
 };
 
+double temperature_at(const std::array<double, 2>& range, double share) {
+  return std::fmin(range[1], range[0] + share * (range[1] - range[0]));
+}
+
 std::vector<double> lengths(const Scene& scene, const Points& at) {
   std::vector<double> result(at.velocity.size());
   in_parts(scene.threads, result.size(), [&](unsigned, std::size_t begin, std::size_t end) {
@@ -48,6 +57,11 @@ std::vector<double> lengths(const Scene& scene, const Points& at) {
                       result.begin() + static_cast<std::ptrdiff_t>(begin));
   });
   return result;
+}
+
+FlashFriction heated(const Scene& scene, const Points& at) {
+  return friction(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model,
+                  scene.heat.adhesion, at.pressure, at.velocity, at.temperature, Branch::coldest, false, scene.threads);
 }
 
 /// ln s0 as a look-up finds it.
@@ -72,7 +86,6 @@ double found_at(const SlidingTable& table, double share_x, double share_T, doubl
 double error_of(const SlidingTable& table, const Scene& scene) {
   const MapRequest& request = scene.request;
   Random random(20261124);
-  const auto [lowest, highest] = scene.heat.range;
   const double range_x = std::log(request.velocity[1] / request.velocity[0]);
   Points at;
   std::vector<double> ln_length, slid;
@@ -80,14 +93,12 @@ double error_of(const SlidingTable& table, const Scene& scene) {
     const double share_x = random(), share_T = random();
     at.pressure.push_back(between(request.pressure, random()));
     at.velocity.push_back(between(request.velocity, share_x));
-    at.temperature.push_back(lowest + share_T * (highest - lowest));
+    at.temperature.push_back(temperature_at(scene.heat.range, share_T));
     ln_length.push_back(found_at(table, share_x, share_T, range_x));
     slid.push_back(longest * random());
   }
   const std::vector<double> length = lengths(scene, at);
-  const FlashFriction f =
-      friction(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model, scene.heat.adhesion,
-               at.pressure, at.velocity, at.temperature, Branch::coldest, false, scene.threads);
+  const FlashFriction f = heated(scene, at);
   double largest = 0;
   for (std::size_t i = 0; i < tested; ++i) {
     const double distance = slid[i] * length[i], hot = f.hot.mu[i], apart = f.cold.mu[i] - hot;
@@ -98,40 +109,139 @@ double error_of(const SlidingTable& table, const Scene& scene) {
   return largest;
 }
 
+/// ln s0 over equal steps of ln v and of the temperature, at the middle of the pressures.
+class Grid {
+ public:
+  explicit Grid(const Scene& scene) : scene_(scene) {
+    const auto [lowest, highest] = scene.heat.range;
+    columns_ = points(std::log(scene.request.velocity[1] / scene.request.velocity[0]), step_x, most_columns);
+    rows_ = lowest == highest ? 1 : points(highest - lowest, step_T, most_rows);
+    nodes_.resize(columns_ * rows_);
+    std::vector<std::size_t> all(nodes_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    compute(all);
+    // what the coarser grid of every other node would have missed tells where this one misses something
+    for (std::size_t j = 0; j < rows_; ++j)
+      for (std::size_t i = 0; i < columns_; ++i) take_miss(i, j);
+  }
+
+  [[nodiscard]] bool is_too_coarse() const {
+    return halvings_ < most_halvings &&
+           std::ranges::any_of(nodes_, [](const Node& node) { return node.miss > allowed; });
+  }
+
+  void halve() {
+    ++halvings_;
+    const std::size_t columns = columns_, rows = rows_;
+    const std::vector<Node> before = std::move(nodes_);
+    columns_ = 2 * columns - 1;
+    rows_ = rows == 1 ? 1 : 2 * rows - 1;
+    const std::size_t row_step = rows == 1 ? 1 : 2;
+    nodes_.assign(columns_ * rows_, Node{});
+    std::vector<std::size_t> wanted;
+    for (std::size_t j = 0; j < rows_; ++j)
+      for (std::size_t i = 0; i < columns_; ++i) {
+        Node& node = nodes_[j * columns_ + i];
+        const std::size_t lower = j / row_step, upper = (j + row_step - 1) / row_step;
+        double sum = 0;
+        for (const std::size_t row : {lower, upper})
+          for (const std::size_t column : {i / 2, (i + 1) / 2}) {
+            const Node& near = before[row * columns + column];
+            sum += near.log_length / 4;
+            node.miss = std::fmax(node.miss, near.miss);
+          }
+        const bool is_old = i % 2 == 0 && j % row_step == 0;
+        if (is_old) node = before[lower * columns + i / 2];
+        if (!is_old && node.miss > allowed) wanted.push_back(j * columns_ + i);
+        if (is_old || node.miss <= allowed) node.miss = 0;
+        if (!is_old) node.log_length = sum;
+      }
+    std::vector<double> guessed;
+    for (const std::size_t k : wanted) guessed.push_back(nodes_[k].log_length);
+    compute(wanted);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      Node& node = nodes_[wanted[k]];
+      node.miss = missed(node, guessed[k]);
+    }
+  }
+
+  [[nodiscard]] SlidingTable table() const {
+    SlidingTable table;
+    table.columns = columns_;
+    table.rows = rows_;
+    const double range = std::log(scene_.request.velocity[1] / scene_.request.velocity[0]);
+    std::vector<double> x(columns_), y(columns_);
+    for (std::size_t i = 0; i < columns_; ++i) x[i] = range * share(i, columns_);
+    for (std::size_t j = 0; j < rows_; ++j) {
+      for (std::size_t i = 0; i < columns_; ++i) y[i] = nodes_[j * columns_ + i].log_length;
+      const Steffen through(x, y);
+      for (std::size_t i = 0; i < columns_; ++i) {
+        const bool last = i + 1 == columns_;
+        const std::array<double, 4> c = through.cubic(last ? i - 1 : i);
+        const double h = last ? x[i] - x[i - 1] : 0;
+        table.values.insert(table.values.end(), {y[i], c[1] + h * (2 * c[2] + h * 3 * c[3])});
+      }
+    }
+    return table;
+  }
+
+ private:
+  struct Node {
+    double log_length = 0;
+    double change = 0;  // of mu by the heat, over the smaller of both
+    double miss = 0;    // of mu, by what nodes about it tell
+  };
+
+  static double share(std::size_t i, std::size_t nodes) {
+    return nodes == 1 ? 0 : static_cast<double>(i) / static_cast<double>(nodes - 1);
+  }
+
+  /// Where s0 is d in its logarithm off, exp(-s / s0) is by d / e at most, and by 1.
+  static double missed(const Node& node, double guess) {
+    return node.change * std::fmin(1, std::fabs(node.log_length - guess) / std::numbers::e);
+  }
+
+  void take_miss(std::size_t i, std::size_t j) {
+    Node& node = nodes_[j * columns_ + i];
+    const auto compare = [&](std::size_t at, std::size_t n, std::size_t stride) {
+      if (at == 0 || at + 1 >= n) return;
+      const Node *const before = &node - stride, *const after = &node + stride;
+      node.miss = std::fmax(node.miss, missed(node, (before->log_length + after->log_length) / 2));
+    };
+    compare(i, columns_, 1);
+    compare(j, rows_, columns_);
+  }
+
+  void compute(const std::vector<std::size_t>& wanted) {
+    const MapRequest& request = scene_.request;
+    Points at;
+    for (const std::size_t k : wanted) {
+      at.pressure.push_back(between(request.pressure, 0.5));
+      at.velocity.push_back(between(request.velocity, share(k % columns_, columns_)));
+      at.temperature.push_back(temperature_at(scene_.heat.range, share(k / columns_, rows_)));
+    }
+    const std::vector<double> length = lengths(scene_, at);
+    const FlashFriction f = heated(scene_, at);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const double hot = f.hot.mu[k], cold = f.cold.mu[k];
+      nodes_[wanted[k]] = {std::log(length[k]), std::fabs(cold - hot) / std::fmin(cold, hot), 0};
+    }
+  }
+
+  const Scene& scene_;
+  std::size_t columns_ = 0, rows_ = 0;
+  int halvings_ = 0;
+  std::vector<Node> nodes_;  // row by row
+};
+
 }  // namespace
 
 SlidingTable sliding_table(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                            const MapHeat& heat, const MapRequest& request, unsigned threads) {
   const Scene scene{spectrum, rubber, model, heat, request, threads};
-  const auto [lowest, highest] = heat.range;
-  const double x_lo = std::log(request.velocity[0]), x_hi = std::log(request.velocity[1]);
-  SlidingTable table;
-  table.columns = points(x_hi - x_lo, step_x, most_columns);
-  table.rows = lowest == highest ? 1 : points(highest - lowest, step_T, most_rows);
-  Points at;
-  std::vector<double> x;
-  for (std::size_t j = 0; j < table.rows; ++j)
-    for (std::size_t i = 0; i < table.columns; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(table.columns - 1);
-      at.pressure.push_back(between(request.pressure, 0.5));
-      at.velocity.push_back(between(request.velocity, share));
-      at.temperature.push_back(j == 0 ? lowest
-                                      : std::fmin(highest, lowest + static_cast<double>(j) * (highest - lowest) /
-                                                                        static_cast<double>(table.rows - 1)));
-      if (j == 0) x.push_back(x_lo + share * (x_hi - x_lo));
-    }
-  const std::vector<double> length = lengths(scene, at);
-  for (std::size_t j = 0; j < table.rows; ++j) {
-    std::vector<double> y;
-    for (std::size_t i = 0; i < table.columns; ++i) y.push_back(std::log(length[j * table.columns + i]));
-    const Steffen through(x, y);
-    for (std::size_t i = 0; i < table.columns; ++i) {
-      const bool last = i + 1 == table.columns;
-      const std::array<double, 4> c = through.cubic(last ? i - 1 : i);
-      const double h = last ? x[i] - x[i - 1] : 0;
-      table.values.insert(table.values.end(), {y[i], c[1] + h * (2 * c[2] + h * 3 * c[3])});
-    }
-  }
+  Grid grid(scene);
+  while (grid.is_too_coarse()) grid.halve();
+  SlidingTable table = grid.table();
   table.error = error_of(table, scene);
   return table;
 }

@@ -36,6 +36,9 @@ class FlashSolver {
   FlashMap& map_of(std::size_t level);
   [[nodiscard]] bool has_level(std::size_t level) const { return level < levels_.size(); }
 
+  /// The grid on which the last point was solved, with the rise at its temperature points [K].
+  [[nodiscard]] FlashMap& finest_map() { return map_of(finest_); }
+  [[nodiscard]] const Eigen::VectorXd& rise() const { return theta_; }
   /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
   [[nodiscard]] double temperature_at(double wavenumber) const;
   [[nodiscard]] double hysteresis_density(double wavenumber) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "contact/partial_contact_rule.hpp"
 #include "spectrum/ring_gauss.hpp"
@@ -16,8 +17,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr double same = 1e-12;  // relative distance of two wavenumbers that are one
-
-constexpr int first_digits = 4;
+constexpr int first_digits = HeatGrid::first_digits;
 
 /// How many nodes a panel of this length in ln q takes: by its distance from the nearest singularities at the lowest
 /// level, and four more from level to level, which are two digits and more. At the front F has an essential
@@ -64,7 +64,6 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& opti
 
 void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOptions& options) {
   const double longest = options.tabulated ? 0.5 : 3;
-  const auto nodes = [&](double length) { return nodes_for(length, options.level, false, options.tabulated); };
   std::vector<double> stops = options.stops;
   stops.push_back(options.macro_wavenumber);
   if (options.beyond_end) {  // the window has kinks where it meets the ends of segments
@@ -90,7 +89,7 @@ void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOption
         if (from == 0)
           add_front(segment, std::sqrt(to), end, options);
         else
-          add_panel(segment, std::sqrt(from), std::sqrt(to), end, nodes(to - from));
+          add_after(segment, from, to, end, options);
       }
     }
   }
@@ -112,6 +111,25 @@ void HeatGrid::add_front(const Segment& segment, double upper, double end, const
     lower = to;
   }
   add_panel(segment, lower, upper, end, n);
+}
+
+/// A panel further on, in y = ln q. Where the roughness of its beginning is far above all that came before, that is
+/// where the contact breaks up: it is cut like a front, down to what came before.
+void HeatGrid::add_after(const Segment& segment, double from, double to, double end, const HeatGridOptions& options) {
+  constexpr double cut = 1.0 / 16, far = 100;
+  const double before = std::accumulate(weights_.begin(), weights_.end(), 0.0), first = start_ - std::log(segment.a);
+  const auto roughness_to = [&](double y) {  // about, from the panel's beginning
+    const double middle = (from + y) / 2, q = std::exp(start_ + middle);
+    return g_factor_ * (q * q) * (q * q) * segment.density_at(std::fmax(first + middle, 0)) * (y - from);
+  };
+  std::vector<double> ends{to};
+  while (ends.size() < options.level && roughness_to(from + cut * (ends.back() - from)) > far * before)
+    ends.push_back(from + cut * (ends.back() - from));
+  const std::size_t n = nodes_for(to - from, options.level, ends.size() > 1, options.tabulated);
+  double lower = from;
+  for (std::size_t k = ends.size(); k-- > 0; lower = ends[k])
+    add_panel(segment, std::sqrt(lower), std::sqrt(ends[k]), k == 0 ? end : std::exp(start_ + ends[k]),
+              std::min(n, LegendreRule::most));
 }
 
 void HeatGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
@@ -230,42 +248,6 @@ void HeatGrid::add_macro_nodes(std::span<const Segment> surface, double wavenumb
       macro_weights_.push_back(g_factor_ * nodes.measure[j]);
     }
   }
-}
-
-void HeatGrid::add_temperature_points(const HeatGridOptions& options) {
-  const double length = highest_ - lowest_, off = 2 * pi / length;
-  const double falling = std::log(off + std::sqrt(1 + off * off));
-  const auto digits = static_cast<double>(first_digits + 2 * options.level);
-  const auto n = static_cast<std::size_t>(std::ceil(digits * std::numbers::ln10 / falling)) + 4;
-  constexpr double rounding = 1e-12;
-  const std::optional<double>& also = options.also_felt;
-  if (also && (std::log(*also) < lowest_ - rounding || std::log(*also) > highest_ + rounding)) {
-    points_.push_back(*also);
-    first_point_ = 1;
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    const double angle = pi * static_cast<double>(k) / static_cast<double>(n - 1);
-    points_.push_back(std::exp(lowest_ + length * std::pow(std::sin(angle / 2), 2)));
-  }
-  for (const double q : points_) log_points_.push_back(std::log(q));
-  to_nodes_.resize(static_cast<Eigen::Index>(size()), static_cast<Eigen::Index>(points_.size()));
-  for (std::size_t j = 0; j < size(); ++j) to_nodes_.row(static_cast<Eigen::Index>(j)) = row_at(wavenumber_[j]);
-  if (!also) return;
-  also_felt_ =
-      first_point_ == 1 ? Eigen::RowVectorXd::Unit(static_cast<Eigen::Index>(points_.size()), 0).eval() : row_at(*also);
-}
-
-// The barycentric form at Chebyshev's points: weights 1 with alternating signs, 1/2 at the ends.
-Eigen::RowVectorXd HeatGrid::row_at(double wavenumber) const {
-  const auto n = static_cast<Eigen::Index>(points_.size()), first = static_cast<Eigen::Index>(first_point_);
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
-  const double at = std::clamp(std::log(wavenumber), lowest_, highest_);  // but for rounding it is so
-  for (Eigen::Index k = first; k < n; ++k) {
-    const double apart = at - log_points_[static_cast<std::size_t>(k)];
-    if (std::fabs(apart) < 1e-15 * std::fmax(1, std::fabs(at))) return Eigen::RowVectorXd::Unit(n, k);
-    row[k] = ((k - first) % 2 == 0 ? 1.0 : -1.0) * (k == first || k == n - 1 ? 0.5 : 1.0) / apart;
-  }
-  return row / row.sum();
 }
 
 double HeatGrid::wavenumber_at(double t) const { return std::exp(start_ + t * t); }

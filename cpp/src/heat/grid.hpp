@@ -33,6 +33,7 @@ struct HeatGridOptions {
 /// real axis.
 class HeatGrid {
  public:
+  static constexpr int first_digits = 4;  // of level 0
   struct Cell {
     std::size_t first, count;  // of its nodes
     const LegendreRule* rule;  // none on a piece
@@ -84,6 +85,7 @@ class HeatGrid {
  private:
   void add_panels(std::span<const Segment> surface, const HeatGridOptions& options);
   void add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options);
+  void add_after(const Segment& segment, double from, double to, double end, const HeatGridOptions& options);
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
   void add_beyond(std::span<const Segment> surface, const HeatGridOptions& options);

@@ -58,12 +58,13 @@ TEST_CASE("many points at a time have the digits of one after another") {
   std::size_t numbers = 0, without = 0;
   for (const small_map::Kind& kind : kinds) {
     const FrictionMap map = made(kind);
-    const double lowest = small_map::coldest;
+    const double lowest = small_map::coldest, between = lowest + 0.3 * small_map::range(kind);
     for (const MapTemperature& temperature :
          {MapTemperature{}, MapTemperature{3}, MapTemperature{0.5, true}, MapTemperature{-1}, MapTemperature{0},
           MapTemperature{std::nan("")}, MapTemperature{1, false, lowest}, MapTemperature{1, false, lowest, 1e-3},
           MapTemperature{1, false, 0, 1e-3}, MapTemperature{1, true}, MapTemperature{1, false, 0, -1},
-          MapTemperature{1, false, 0, std::nan("")}})
+          MapTemperature{1, false, 0, std::nan("")}, MapTemperature{1, false, between},
+          MapTemperature{1, false, between, 2e-4}})
       for (const FrictionMap::Outside outside : {FrictionMap::Outside::nan, FrictionMap::Outside::clamp})
         for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 200u}) {
           const Points points(n, random);

@@ -1,5 +1,7 @@
 """Notes on heat: the size of what is left out, laws beyond their fit, rubbers that carry a_T."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,15 @@ def test_rubbers_of_a_build_carry_its_shift_into_friction():
             assert carried.mu != asperity.friction(road, rubber, **at | {"temperature": 293.0}).mu
     with pytest.raises(asperity.InvalidInput, match="needs shift="):
         asperity.friction(road, fit.shifted(2.0), **at)
+
+
+def test_a_build_with_vertical_shifts_is_no_shift_of_frequencies_alone():
+    stiffer = replace(BUILD, b_T=BUILD.temperature / 293.0)
+    at = {"pressure": 1e5, "velocity": 2e-3, "temperature": 288.0}
+    with pytest.raises(asperity.InvalidInput, match=r"shift: its build has b_T from .* leave b_T"):
+        asperity.friction(ROAD, RUBBER, shift=stiffer, **at)
+    left_out = asperity.friction(ROAD, RUBBER, shift=stiffer.shift_factors, **at)
+    assert left_out.mu == asperity.friction(ROAD, RUBBER, shift=BUILD, **at).mu
 
 
 def test_friction_over_temperature_is_drawn_over_temperature():

@@ -96,6 +96,15 @@ def test_the_chart_of_models_kept_its_tolerances():
         assert (DOCS / name).stat().st_size > 10_000
 
 
+def test_the_table_of_look_ups_is_what_was_measured():
+    lines = (DOCS / "benchmarks/friction_map_hot.csv").read_text(encoding="utf-8").splitlines()
+    rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
+    assert len(rows) == 10
+    for row in rows:
+        expected = [f"{float(row[name]):.3g}" for name in ("time_ns", "cold_ns")]
+        assert cells(row["look_up"] + " |") == [*expected, f"{float(row['ratio']):.2f}"]
+
+
 def test_the_limit_of_one_dimension_is_that_of_the_exact_disc():
     """Mean over a uniform disc, insulated, J R / lambda = 1, against c_h sqrt(2 / (pi Pe))."""
     scipy = pytest.importorskip("scipy.special")

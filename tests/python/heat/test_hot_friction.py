@@ -157,7 +157,7 @@ def test_the_energy_arrives_at_long_waves():
         long_waves,
         velocity=1.0,
         contributions=True,
-        rtol=1e-6,
+        rtol=1e-9,
         heating=asperity.Heating(**TREAD | {"macro_wavenumber": 6283.0}),
     )
     residence = 8 * 5e-4 / (3 * np.pi)
@@ -165,6 +165,24 @@ def test_the_energy_arrives_at_long_waves():
     rise = found.temperature_profile[0] - 293.15
     # 2 q sqrt(D t) is 2e-7 and the rise a millionth of that of the surface
     assert rise / (2 * 1e-2) == pytest.approx(residence * flux, rel=5e-6)
+
+
+@each("faint", [0.0, 1e-60, 1e-12, 1e-6])
+def test_a_contact_may_break_up_far_beyond_the_first_wave(faint):
+    """Roughness that begins at 2000 1/m, after decades of next to none."""
+    table = asperity.TabulatedSpectrum(
+        wavenumber=[1e-2, 1999.9, 2000.0, 23339.0],
+        density=[faint * 1e-20, faint * 1e-20, *CUT.at([2000.0, 23339.0])],
+    )
+    at = {
+        "velocity": 1.0,
+        "heating": asperity.Heating(**TREAD | {"macro_wavenumber": 6283.0}),
+    }
+    truth = hot(table, **at, rtol=1e-10)
+    for rtol in (1e-4, 1e-7, 1e-8, 1e-9):
+        found = hot(table, **at, rtol=rtol)
+        with case(rtol=rtol):
+            assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
 
 
 def test_without_conduction_each_wave_keeps_its_heat():
@@ -186,6 +204,27 @@ def test_without_conduction_each_wave_keeps_its_heat():
         errors.append(np.abs((found.temperature_profile - 293.15) / expected - 1).max())
     assert errors[0] < 1e-2
     assert errors[1] < 2e-4  # 2 q sqrt(D t) is 1e-5, and a rise of 1e-3 K has ten digits
+
+
+def test_without_conduction_heat_spreads_as_deep_as_waves_overlap():
+    """theta = (2 v t_r sigma0 / (rho c_v P_m)) int q q' / (q + q') dmu, v t_r = 8 R / 3 pi."""
+    rises = []
+    for capacity in (2e3, 1e4):
+        insulating = {"density": 1e4, "heat_capacity": capacity, "conductivity": 0.01}
+        small = {"contact_diameter": 1e-6, "macro_wavenumber": 6283.0}
+        found = hot(
+            velocity=30.0, heating=asperity.Heating(**insulating, **small), contributions=True
+        )
+        q, density = found.wavenumber, found.dmu_dlnq
+        overlap = q[:, None] * q / (q[:, None] + q)
+        density = density * found.hysteresis / np.trapezoid(density, np.log(q))
+        whole = np.trapezoid(overlap * density, np.log(q), axis=-1)
+        unit = 2 * 8 * 5e-7 / (3 * np.pi) * 2e5 / (1e4 * capacity * found.macro_area)
+        rises.append(found.temperature_profile - 293.15)
+        # 2 q1 sqrt(D t) is 2e-4, and the sum is by the trapezoid
+        np.testing.assert_allclose(rises[-1], unit * whole, rtol=3e-3)
+        assert found.mu == pytest.approx(found.cold.mu, rel=1e-3)
+    np.testing.assert_allclose(rises[0] / rises[1], 5, rtol=2e-3)  # as 1 / (rho c_v)
 
 
 def test_slow_sliding_warms_all_waves_alike():
@@ -259,7 +298,18 @@ def test_points_do_not_depend_on_the_threads_that_share_them(correction):
     "given",
     [
         ({"shift": None, "temperature": None}, "heating: needs temperature="),
-        ({"method": "qag"}, "method: must be gauss where heating is given"),
+        (
+            {"method": "qag", "correction": asperity.PartialContact()},
+            "method: must be gauss where heating is given with PartialContact",
+        ),
+        (
+            {"method": "qag", "heating": asperity.Heating(**TREAD, model="one-temperature")},
+            "method: must be gauss where heating is given with one temperature",
+        ),
+        (
+            {"method": "qag", "contributions": True},
+            "method: must be gauss where heating is given with contributions",
+        ),
         (
             {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})},
             "interface_share = 0.2: must be 1, its default, where there is no adhesion",

@@ -9,6 +9,7 @@
 
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/roots.hpp"
 
 namespace asperity {
 
@@ -30,8 +31,7 @@ GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, con
     for (int i = 1; i < end; ++i) add(i);
     for (const double q : stops)
       if (q > segment.a && q < segment.b) add(segment.offset(q));
-    if (const auto* curve = std::get_if<MasterCurve>(&rubber))
-      for (const double w : curve->knots()) add(std::log(w / (point.velocity * segment.a)));
+    if (const auto* curve = std::get_if<MasterCurve>(&rubber)) add_knots(segment, curve->knots(), edges);
     if (resolve_front && g_end_ < 1) {  // later on it is behind us
       const double width = front(segment);
       if (!(width > 0))
@@ -39,6 +39,29 @@ GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, con
       for (double s = width; s < std::fmin(1, end); s *= 4) add(s);
     }
     add_segment(segment, std::move(edges));
+  }
+}
+
+/// Where the frequency passes through a knot of a modulus that is measured.
+void GslSolver::add_knots(const Segment& segment, std::span<const double> knots, std::vector<double>& edges) const {
+  const double end = segment.length();
+  if (!point_.frequency) {
+    for (const double w : knots)
+      if (const double s = std::log(w / (point_.velocity * segment.a)); s > 0 && s < end) edges.push_back(s);
+    return;
+  }
+  constexpr double step = 0.1;  // over which temperatures change by little
+  const auto steps = static_cast<std::size_t>(std::ceil(end / step));
+  const auto log_frequency = [&](double s) { return std::log(point_(segment.a * std::exp(s))); };
+  double lower = 0, at_lower = log_frequency(0);
+  for (std::size_t i = 1; i <= steps; ++i) {
+    const double upper = end * static_cast<double>(i) / static_cast<double>(steps), at_upper = log_frequency(upper);
+    for (const double w : knots)
+      if ((at_lower < std::log(w)) != (at_upper < std::log(w)))
+        edges.push_back(
+            bracketed_root([&](double s) { return log_frequency(s) - std::log(w); }, lower, upper, 1e-9 * upper));
+    lower = upper;
+    at_lower = at_upper;
   }
 }
 
@@ -60,7 +83,7 @@ void GslSolver::add_segment(const Segment& segment, std::vector<double> edges) {
 double GslSolver::front(const Segment& segment) const {
   if (!segment.straight || segment.at_a > 0) return 1 / g_rate(segment, 0);
   const double q = segment.a, ramp = segment.at_b * (q / (segment.b - q));  // dC / ds at the start
-  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_.velocity * q).i2;
+  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_(q)).i2;
   return std::sqrt(2 / curvature);
 }
 
@@ -72,7 +95,7 @@ double GslSolver::g_rate(const Segment& segment, double s) const {
   const double c = segment.density_at(s);
   if (c == 0) return 0;
   const double q = segment.a * std::exp(s);
-  return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_.velocity * q).i2;
+  return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_(q)).i2;
 }
 
 const GslSolver::Panel& GslSolver::panel_at(double wavenumber) const {
@@ -103,7 +126,7 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
   const double c = panel.segment->density_at(s);
   if (c == 0) return 0;
   const double q = panel.segment->a * std::exp(s);
-  const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q);
+  const AngularIntegrals angular = angular_integrals(rubber_, point_(q));
   if (angular.i1 == 0) return 0;
   const double share = contact_share(g_inside(panel, s), form);
   const double weight = mu_factor_ * q * q * q * q * c * share * (factor ? (*factor)(share) : 1);
@@ -115,7 +138,7 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
 bool GslSolver::reaches_outside(const Panel& panel) const {
   constexpr double least_share = 1e-7;
   return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
-    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * panel.segment->a * std::exp(s));
+    const AngularIntegrals angular = angular_integrals(rubber_, point_(panel.segment->a * std::exp(s)));
     return angular.i1_outside > least_share * angular.i1;
   });
 }
@@ -139,6 +162,20 @@ GslSolver::Hysteresis GslSolver::hysteresis(Form form, const std::optional<SFunc
     constexpr double share_tolerance = 1e-4;  // a share is read to two or three digits
     result.outside +=
         integrate(outside, panel.lower, panel.upper, share_tolerance, share_tolerance * part.value, rule_).value;
+  }
+  return result;
+}
+
+Integral GslSolver::weighted_hysteresis(Form form, const std::optional<SFunction>& factor,
+                                        const std::function<double(double)>& weight) const {
+  Integral result{0, 0, 0};
+  for (const Panel& panel : panels_) {
+    const auto rate = [&](double s) {
+      return weight(panel.segment->a * std::exp(s)) * hysteresis_rate(panel, s, form, factor, nullptr);
+    };
+    const Integral part = integrate(rate, panel.lower, panel.upper, rtol_ / 4, rtol_ / 100 * result.value, rule_);
+    result.value += part.value;
+    result.error += part.error;
   }
   return result;
 }

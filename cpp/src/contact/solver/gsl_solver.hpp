@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,11 @@ class GslSolver {
  public:
   struct Point {
     double poisson_ratio, pressure, velocity, shift;
+    /// Angular frequency at a wavenumber of which each has its own temperature; v q without.
+    std::function<double(double)> frequency = nullptr;
+    [[nodiscard]] double operator()(double wavenumber) const {
+      return frequency ? frequency(wavenumber) : velocity * wavenumber;
+    }
   };
   /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
   /// `rule` computes all of them.
@@ -38,6 +44,9 @@ class GslSolver {
   };
   /// mu_H; `factor` puts S of the uncorrected P into the integrand.
   [[nodiscard]] Hysteresis hysteresis(Form form, const std::optional<SFunction>& factor) const;
+  /// int weight(q) dmu_H.
+  [[nodiscard]] Integral weighted_hysteresis(Form form, const std::optional<SFunction>& factor,
+                                             const std::function<double(double)>& weight) const;
   /// dmu_H / dln q.
   [[nodiscard]] double hysteresis_density(double wavenumber, Form form, const std::optional<SFunction>& factor) const;
   /// How far in s the contact takes to break up from the start of a segment on.
@@ -52,6 +61,7 @@ class GslSolver {
     double g_lower;
   };
   [[nodiscard]] double g_rate(const Segment& segment, double s) const;
+  void add_knots(const Segment& segment, std::span<const double> knots, std::vector<double>& edges) const;
   void add_segment(const Segment& segment, std::vector<double> edges);
   [[nodiscard]] double g_inside(const Panel& panel, double s) const;
   [[nodiscard]] double hysteresis_rate(const Panel& panel, double s, Form form, const std::optional<SFunction>& factor,

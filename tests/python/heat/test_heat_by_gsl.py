@@ -1,0 +1,66 @@
+"""Heat by GSL's adaptive rules, which know none of the grids."""
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.cases import case, each
+from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
+
+RTOL = 1e-7
+SCENES = {
+    "plain": {},
+    "full spectrum": {"spectrum": ASPHALT},
+    "adhesion": {"adhesion": STICKY},
+    "s-factor": {"correction": asperity.SFactor(gamma=0.5)},
+    "nayak": {"correction": asperity.NayakSFactor()},
+    "interpolated": {"form": "interpolated"},
+    "gw": {"correction": asperity.GreenwoodWilliamson(z_max=1.2e-3, z_min=-1.5e-3)},
+    "gw q0 below": {
+        "correction": asperity.GreenwoodWilliamson(z_max=1.2e-3, z_min=-1.5e-3, q0=500.0)
+    },
+}
+
+
+def both(velocity, method="qag", **given):
+    spectrum = given.pop("spectrum", CUT)
+    by_grid = hot(spectrum, velocity=velocity, rtol=RTOL, **given)
+    return by_grid, hot(spectrum, velocity=velocity, rtol=RTOL, method=method, **given)
+
+
+@each("name", list(SCENES))
+def test_gsl_finds_what_the_grids_find(name):
+    velocity = [0.01, 3.0] if name == "plain" else 1.0
+    by_grid, found = both(velocity, **SCENES[name])
+    told = by_grid.error_estimate + found.error_estimate
+    assert np.all(found.error_estimate <= RTOL * found.mu)
+    assert np.all(np.abs(found.mu - by_grid.mu) <= told)
+    assert np.all(np.abs(found.mu / found.cold.mu - 1) > 0.02)
+    for quantity in ("contact_area", "macro_area", "hysteresis"):
+        ours, gsl = (np.asarray(getattr(f, quantity)) for f in (by_grid, found))
+        with case(quantity=quantity):
+            np.testing.assert_allclose(gsl, ours, rtol=3 * RTOL)
+    np.testing.assert_allclose(found.temperature, by_grid.temperature, rtol=0, atol=1e-5)
+    np.testing.assert_array_equal(found.branches, by_grid.branches)
+
+
+def test_a_master_curve_too():
+    w = np.geomspace(1e-2, 1e12, 60)
+    e = rubber().modulus(w)
+    curve = asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+    by_grid, found = both(1.0, rubber=curve)
+    assert abs(found.mu - by_grid.mu) <= by_grid.error_estimate + found.error_estimate
+
+
+def test_rings_too():
+    q = np.geomspace(CUT.q0, CUT.q1, 40)
+    rings = asperity.TabulatedSpectrum(wavenumber=q, density=CUT.at(q))
+    by_grid, found = both(0.3, spectrum=rings, shift=LAW)
+    assert abs(found.mu - by_grid.mu) <= by_grid.error_estimate + found.error_estimate
+
+
+def test_a_wrong_start_is_left():
+    """GSL's temperatures keep themselves up, whatever those of a loose tolerance were."""
+    exact = hot(velocity=1.0, rtol=1e-10)
+    loose = hot(velocity=1.0, rtol=1e-3, method="qags")
+    assert loose.mu == pytest.approx(exact.mu, rel=1e-3)
