@@ -15,6 +15,7 @@ import numpy as np
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.notes import fatal_first
 from asperity.base.table import imported
 from asperity.sweep.describe import Described, consolidate
 from asperity.sweep.journal import JOURNAL, Journal
@@ -49,7 +50,7 @@ class Tally:
         return sum(self.kinds.values())
 
     def attributes(self) -> dict[str, Any]:
-        notes = sorted(self.notes, key=lambda note: (self.notes[note], note))
+        notes = fatal_first(sorted(self.notes, key=lambda note: (self.notes[note], note)))
         return {"notes": "\n".join(notes), "failed": self.failed}
 
 
