@@ -125,9 +125,36 @@ import tomllib
 with open("pyproject.toml", "rb") as file:
     print(*tomllib.load(file)["build-system"]["requires"], sep="\n")' >"$scratch/requires.txt"
   .venv/bin/python -m pip install -q -r "$scratch/requires.txt"
-  say "compiling $(find cpp/src python/bindings -name '*.cpp' | wc -l) files: a minute and a half on two cores the first time"
+  files=$(find cpp/src python/bindings -name '*.cpp' | wc -l)
+  say "compiling $files files: a minute and a half on two cores the first time"
+  tell_progress "$files" &
+  teller=$!
   SKBUILD_BUILD_DIR='build/{wheel_tag}' CMAKE_BUILD_PARALLEL_LEVEL=$jobs \
     .venv/bin/python -m pip install -q --no-build-isolation ".[$1]"
+  stop_telling
+}
+
+# How many of so many files have been compiled since this began: pip keeps the compiler's own words to itself. A terminal
+# has one line that changes, a file a line every ten files.
+tell_progress() { # FILES
+  trap - EXIT
+  told=0
+  while sleep 1; do
+    compiled=$(find build -name '*.cpp.o' -newer "$scratch/requires.txt" 2>/dev/null | wc -l)
+    if [ -t 1 ]; then
+      [ "$compiled" = "$told" ] || printf '\r   %s of %s' "$compiled" "$1"
+      told=$compiled
+    elif [ "$compiled" -ge $((told + 10)) ]; then
+      printf '   %s of %s\n' "$compiled" "$1"
+      told=$compiled
+    fi
+  done
+}
+
+stop_telling() {
+  [ -z "$teller" ] || kill "$teller" 2>/dev/null || true
+  [ ! -t 1 ] || [ -z "$teller" ] || printf '\n'
+  teller=
 }
 
 demo() {
@@ -183,7 +210,8 @@ case $verb in demo | test) ;; *) usage ;; esac
 
 cd "$(dirname "$0")"
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+teller=
+trap 'stop_telling; rm -rf "$scratch"' EXIT
 trap 'exit 1' HUP INT TERM
 jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 shared=

@@ -6,6 +6,7 @@
 
 #include "asperity/contact.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/shown_range.hpp"
 
 namespace asperity {
 
@@ -59,12 +60,6 @@ inline const char* way_beyond(const Rubber& rubber) {
   return "; extrapolation=\"prony\" of fit_prony goes on beyond them";
 }
 
-/// To six digits, no more than x.
-inline double rounded_down(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 5);
-  return std::floor(x / unit) * unit;
-}
-
 /// OutOfRange with the velocity in it where v q0 or v q1 leaves the measured frequencies.
 inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
   const std::optional<FrequencyRange> known = known_range(rubber);
@@ -72,15 +67,20 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, do
   constexpr double rounding = 1e-12;
   const auto [q0, q1] = band(spectrum);
   const auto [lowest, highest] = *known;
-  if (velocity * q0 < lowest * (1 - rounding) || velocity * q1 > highest * (1 + rounding))
-    throw OutOfRange(
-        "velocity = " + show(velocity) + ": q0 = " + show(q0) + " and q1 = " + show(q1) +
-        " 1/m ask for the modulus from " + show(velocity * q0) + " to " + show(velocity * q1) + " rad/s, known in [" +
-        show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber) +
-        (velocity * q0 < highest && highest < velocity * q1
-             ? "; .truncated(q1=" + show(rounded_down(highest / velocity), 6) + ") ends the spectrum where it is known"
-             : "") +
-        "; velocities from " + show(lowest / q0) + " to " + show(highest / q1) + " m/s are allowed");
+  if (velocity * q0 >= lowest * (1 - rounding) && velocity * q1 <= highest * (1 + rounding)) return;
+  const ShownRange range(lowest, highest);
+  std::string text = "velocity = " + show(velocity, 6) + ": q0 = " + show(q0, 6) + " and q1 = " + show(q1, 6) +
+                     " 1/m ask for the modulus from " + range.value(velocity * q0) + " to " +
+                     range.value(velocity * q1) + " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber);
+  if (velocity * q0 < highest && highest < velocity * q1)
+    text += "; .truncated(q1=" + ShownRange(q0, highest / velocity).highest() + ") ends the spectrum where it is known";
+  if (lowest / q0 <= highest / q1) {
+    const ShownRange allowed(lowest / q0, highest / q1);
+    text += "; velocities from " + allowed.lowest() + " to " + allowed.highest() + " m/s are allowed";
+  } else {
+    text += "; no velocity asks for less than is known, with this q0 and this q1";
+  }
+  throw OutOfRange(text);
 }
 
 }  // namespace asperity

@@ -14,6 +14,7 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/shown_range.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -27,8 +28,9 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   if (wavenumber.empty()) return {q1};
   for (const double q : wavenumber) {
     require_positive("wavenumber", q);
-    if (q < q0 || q > q1)
-      throw OutOfRange("wavenumber = " + show(q) + ": the spectrum's band is [" + show(q0) + ", " + show(q1) + "] 1/m");
+    if (q >= q0 && q <= q1) continue;
+    const ShownRange known(q0, q1);
+    throw OutOfRange("wavenumber = " + known.value(q) + ": the spectrum's band is " + known.text() + " 1/m");
   }
   return {wavenumber.begin(), wavenumber.end()};
 }

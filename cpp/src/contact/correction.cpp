@@ -10,6 +10,7 @@
 #include "contact/conditions.hpp"
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/shown_range.hpp"
 #include "numerics/visit.hpp"
 
 namespace asperity {
@@ -61,11 +62,11 @@ double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, co
                   double poisson_ratio) {
   const double q0 = macro_wavenumber(s, spectrum), w = q0 * velocity;
   if (const std::optional<FrequencyRange> known = known_range(rubber); known && s.q0) {
-    const auto [lowest, highest] = *known;
-    if (w < lowest || w > highest)
-      throw OutOfRange("velocity = " + show(velocity) + ": q0 = " + show(q0) +
-                       " 1/m of the correction asks for the modulus at " + show(w) + " rad/s, known in [" +
-                       show(lowest) + ", " + show(highest) + "] rad/s" + way_beyond(rubber));
+    const ShownRange range(known->lowest, known->highest);
+    if (w < known->lowest || w > known->highest)
+      throw OutOfRange("velocity = " + show(velocity, 6) + ": q0 = " + show(q0, 6) +
+                       " 1/m of the correction asks for the modulus at " + range.value(w) + " rad/s, known in " +
+                       range.text() + " rad/s" + way_beyond(rubber));
   }
   return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }

@@ -117,13 +117,13 @@ std::vector<std::string> Notes::texts(bool heated) const {
   // a spectrum cut by the rule itself ends at the limit to rounding
   if (rms_slope_ > slope_limit * (1 + 1e-9))
     result.push_back("the rms slope is " + show(rms_slope_, 4) + ", above " + show(slope_limit) +
-                     ", where the cut-off rule ends the spectrum: see cutoff_for_slope");
+                     ", where the cut-off rule ends a spectrum: mu rests on the choice of q1");
   if (flagged_ends_[0] > 0)
     result.push_back("the measured spectrum is uncertain up to " + show(flagged_ends_[0], 4) +
-                     " 1/m, where the scan holds too few periods: see its flag");
+                     " 1/m, where the scan holds too few periods");
   if (std::isfinite(flagged_ends_[1]))
     result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
-                     " 1/m on, if the surface is rough below the pixel too: half of pi / pixel, see its flag");
+                     " 1/m on, half of pi / pixel, if the surface is rough below the pixel too");
   if (fast_ && !heated)
     result.push_back(
         "above " + show(flash_velocity) +
@@ -131,15 +131,15 @@ std::vector<std::string> Notes::texts(bool heated) const {
         "Matter 18, 7789)");
   if (extrapolated_)
     result.push_back("more than " + show(100 * share_limit) +
-                     " % of the hysteresis comes from frequencies outside of the measured ones at some points: see "
-                     "extrapolated_share");
+                     " % of the hysteresis comes from frequencies outside of the measured ones at some points");
   if (beyond_fit_)
     result.emplace_back(
         "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "
         "there");
   if (lowest_bin_)
     result.emplace_back(
-        "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of the "
+        "fatal: Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of "
+        "the "
         "macro-asperities: give q0");
   if (unmeasured_nayak_)
     result.push_back("the error of this correction is not known here: Nayak's parameter of the spectrum is " +
@@ -154,26 +154,30 @@ std::vector<std::string> Notes::texts(bool heated) const {
         {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 11 % rms (2 to 15 where q1/q0 is below 5)"}})
     if (flag)
       result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
-                       ": mu +-" + error + ", the more the lighter the load: see model_error");
+                       ": mu +-" + error + ", the more the lighter the load");
   if (unmeasured_)
     result.emplace_back(
-        "the model error of PartialContact is not known where model_error is NaN: exact sliding contacts were solved "
+        "the model error of PartialContact is not known at some points: exact sliding contacts were solved "
         "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5");
   if (worse_)
     result.emplace_back(
-        "the affine shift takes the contact area further from that of boundary elements than no correction would at "
+        "fatal: the affine shift takes the contact area further from that of boundary elements than no correction "
+        "would at "
         "some points: NayakSFactor is nearer");
   if (full_)
     result.emplace_back(
-        "Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest point "
+        "fatal: Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest "
+        "point "
         "z_min");
   if (far_)
-    result.push_back("Greenwood-Williamson has left its range at some points, where the separation is above " +
+    result.push_back("fatal: Greenwood-Williamson has left its range at some points, where the separation is above " +
                      show(separation_limit) + " rms heights: the area there does not fall with the load as it must");
   if (no_contact_)
     result.emplace_back(
-        "Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above the highest point "
+        "fatal: Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above the highest "
+        "point "
         "z_max; area and mu are 0 there");
+  std::ranges::stable_partition(result, [](const std::string& note) { return note.starts_with("fatal: "); });
   return result;
 }
 

@@ -237,7 +237,7 @@ PronyFit fit_prony(std::span<const double> w, std::span<const double> storage, s
   if (!contradicts(best)) return result;
   result.causal = false;
   result.notes.push_back(
-      "no Prony series follows E' and E'' together: the best leaves " + percent(best.rms()) + " (E' " +
+      "fatal: no Prony series follows E' and E'' together: the best leaves " + percent(best.rms()) + " (E' " +
       percent(rms(best.residual.head(n))) + ", E'' " + percent(rms(best.residual.tail(n))) + "), their scatter is " +
       percent(scatter(best)) +
       ". They contradict each other (Kramers-Kronig relations): E' and E'' on different frequency axes or in different "

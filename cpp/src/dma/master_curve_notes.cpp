@@ -46,7 +46,7 @@ void note_overlaps(const std::vector<Isotherm>& isotherms, const std::vector<dou
 void note_undetermined(const std::vector<Isotherm>& isotherms, const std::vector<double>& deviation, Notes& notes) {
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (deviation[i] > undetermined_shift)
-      notes.push_back("the shift at " + kelvin(isotherms[i]) +
+      notes.push_back("fatal: the shift at " + kelvin(isotherms[i]) +
                       " is undetermined, moduli between there and the reference are too flat to tell: standard "
                       "deviation " +
                       show(deviation[i], 3) + " decades");
@@ -60,7 +60,7 @@ void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreemen
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (apart.deviations[i] > beyond_chance && distance(i) > std::max(undetermined_shift, distance(worst))) worst = i;
   if (worst == fixed) return;
-  notes.push_back("E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) +
+  notes.push_back("fatal: E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) +
                   ": log10 a_T against " + kelvin(isotherms[fixed]) + " would be " + show(apart.storage[worst], 3) +
                   " and " + show(apart.loss[worst], 3) + ", " + show(distance(worst), 2) +
                   " decades apart; standard deviations do not hold this");

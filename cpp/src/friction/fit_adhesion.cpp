@@ -97,13 +97,12 @@ AdhesionPoints logarithms(const Contact& contact, std::span<const double> pressu
 
 [[noreturn]] void refuse_hysteresis(const AdhesionPoints& points, const ContactModel& model) {
   const Index below = (points.log_mu <= points.log_hysteresis).count();
-  throw InvalidInput(
-      "mu: leaves nothing for the adhesion, the hysteresis alone exceeds it at " + std::to_string(below) + " of " +
-      std::to_string(points.size()) + " points (mean ratio " +
-      show(std::exp((points.log_hysteresis - points.log_mu).mean()), 3) + "): must be above it; " +
-      (std::holds_alternative<NoCorrection>(model.correction)
-           ? "plain Persson overestimates the hysteresis of partial contact, see correction"
-           : "the spectrum may reach too far (cutoff_for_slope), the modulus or the correction may be wrong"));
+  throw InvalidInput("mu: leaves nothing for the adhesion, the hysteresis alone exceeds it at " +
+                     std::to_string(below) + " of " + std::to_string(points.size()) + " points (mean ratio " +
+                     show(std::exp((points.log_hysteresis - points.log_mu).mean()), 3) + "): must be above it; " +
+                     (std::holds_alternative<NoCorrection>(model.correction)
+                          ? "plain Persson overestimates the hysteresis of partial contact, see correction"
+                          : "the spectrum may reach too far, the modulus or the correction may be wrong"));
 }
 
 /// The parameters that the points leave open, in words; empty where they settle all. `curve` is none where it ran away.

@@ -19,6 +19,7 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "friction/before_heating.hpp"
+#include "friction/large_friction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/roughness_window.hpp"
@@ -269,6 +270,7 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   }
   for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
   f.notes = notes.front().texts(heated);
+  if (!heated) note_large_friction(f);
   return f;
 }
 

@@ -6,6 +6,7 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/shown_range.hpp"
 #include "rubber/angular_interpolant.hpp"
 
 namespace asperity {
@@ -77,11 +78,11 @@ struct MasterCurve::Table {
 
   void check(double w) const {
     require_positive("angular_frequency", w);
-    if (w < knots.front() * (1 - rounding) || w > knots.back() * (1 + rounding))
-      throw OutOfRange(
-          "angular_frequency = " + show(w) + " rad/s: the master curve is known in [" + show(knots.front()) + ", " +
-          show(knots.back()) + "] rad/s" +
-          (extrapolation ? " with its extrapolation of one decade" : "; extrapolation= adds a decade at each end"));
+    if (w >= knots.front() * (1 - rounding) && w <= knots.back() * (1 + rounding)) return;
+    const ShownRange known(knots.front(), knots.back());
+    throw OutOfRange(
+        "angular_frequency = " + known.value(w) + " rad/s: the master curve is known in " + known.text() + " rad/s" +
+        (extrapolation ? " with its extrapolation of one decade" : "; extrapolation= adds a decade at each end"));
   }
 };
 

@@ -8,6 +8,7 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/kernels.hpp"
+#include "numerics/shown_range.hpp"
 
 namespace asperity {
 
@@ -122,9 +123,10 @@ void PronySeries::check_frequency(double w) const {
 void PronySeries::check_fitted(double w) const {
   if (!fit_ || fit_->extrapolated) return;
   const auto [lowest, highest] = fit_->range;
-  if (w < lowest * (1 - rounding) || w > highest * (1 + rounding))
-    throw OutOfRange("angular_frequency = " + show(w) + " rad/s: the Prony series was fitted on [" + show(lowest) +
-                     ", " + show(highest) + "] rad/s; extrapolation=\"prony\" of fit_prony goes on beyond them");
+  if (w >= lowest * (1 - rounding) && w <= highest * (1 + rounding)) return;
+  const ShownRange known(lowest, highest);
+  throw OutOfRange("angular_frequency = " + known.value(w) + " rad/s: the Prony series was fitted on " + known.text() +
+                   " rad/s; extrapolation=\"prony\" of fit_prony goes on beyond them");
 }
 
 bool PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,

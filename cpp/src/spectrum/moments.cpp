@@ -10,6 +10,7 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
+#include "numerics/shown_range.hpp"
 #include "numerics/visit.hpp"
 #include "spectrum/segments.hpp"
 #include "spectrum/self_affine.hpp"
@@ -127,9 +128,10 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
     heed_at(result.size());
     require_positive("wavenumber", q);
     if (q < q0 || q > q1) {
-      if (measured)
-        throw OutOfRange("wavenumber = " + show(q) + ": the spectrum is known in [" + show(q0) + ", " + show(q1) +
-                         "] 1/m");
+      if (measured) {
+        const ShownRange known(q0, q1);
+        throw OutOfRange("wavenumber = " + known.value(q) + ": the spectrum is known in " + known.text() + " 1/m");
+      }
       result.push_back(0);
       continue;
     }

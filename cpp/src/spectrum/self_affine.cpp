@@ -8,6 +8,7 @@
 #include <string>
 
 #include "numerics/arguments.hpp"
+#include "numerics/shown_range.hpp"
 #include "spectrum/tabulated.hpp"
 
 namespace asperity {
@@ -64,13 +65,15 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
   validate(spectrum);
   const auto [old_q0, old_q1] = band(spectrum);
   const double q0 = new_q0.value_or(old_q0), q1 = new_q1.value_or(old_q1);
-  const std::string inside = "in [" + show(old_q0) + ", " + show(old_q1) + "], the spectrum's band [1/m]";
+  const ShownRange known(old_q0, old_q1);
   require_finite("q0", q0);
   require_finite("q1", q1);
   const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
   const auto outside = [&](std::string_view name, double q) {
-    if (measured) throw OutOfRange(std::string(name) + " = " + show(q) + ": must be " + inside);
-    refuse(name, q, inside);
+    const std::string problem =
+        std::string(name) + " = " + known.value(q) + ": must be in " + known.text() + ", the spectrum's band [1/m]";
+    if (measured) throw OutOfRange(problem);
+    throw InvalidInput(problem);
   };
   if (!(q0 >= old_q0 && q0 < old_q1)) outside("q0", q0);
   if (!(q1 > old_q0 && q1 <= old_q1)) outside("q1", q1);

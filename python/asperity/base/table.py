@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from asperity.base.extras import to_install
 from asperity.base.value import Value
 
 
@@ -84,7 +85,7 @@ def imported(module: str, extra: str) -> Any:
         return import_module(module)
     except ModuleNotFoundError as error:
         missing = (error.name or module).partition(".")[0]
-        raise ImportError(f"{missing} is missing: pip install asperity[{extra}]") from None
+        raise ImportError(f"{missing} is missing: {to_install(extra)}") from None
 
 
 def _in_full(column: Column, sizes: Mapping[str, int]) -> NDArray[Any]:

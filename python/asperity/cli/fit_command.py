@@ -9,6 +9,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.notes import note_about
 from asperity.cli.friction_commands import (
     band_progress,
     check_outputs,
@@ -116,7 +117,7 @@ def _table(
                 "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
             }
             said = fit.adhesion.notes
-        prefix = "without the correction: " if suffix else ""
         said = tuple(note.replace("see outliers", "see outlier_rows") for note in said)
-        notes += [prefix + note for note in said if note not in known]
+        new = [note for note in said if note not in known]
+        notes += [note_about("without the correction", note) for note in new] if suffix else new
     return Table("fit", [inputs], notes, {name: list(column) for name, column in columns.items()})

@@ -16,6 +16,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import FilePath
+from asperity.base.extras import to_install
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
 from asperity.io import plausible
@@ -57,7 +58,7 @@ def demo(args: Namespace) -> None:
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
     tell_notes(table.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
-    drawn = "none, pip install asperity[plot]" if missing else f"{picture}"
+    drawn = f"none, {to_install('plot')}" if missing else f"{picture}"
     print_stdout(
         f"surface: {band}, within what the scan resolves: nothing is extrapolated\n"
         f"scene:   {scene.path}\n"

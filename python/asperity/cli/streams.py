@@ -10,6 +10,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
+from asperity.base.notes import fatal_first
+
 
 @contextmanager
 def standard_streams() -> Iterator[None]:
@@ -51,8 +53,8 @@ def print_stderr(text: str) -> None:
 
 
 def tell_notes(notes: Sequence[str]) -> None:
-    """Write notes to standard error, a line each and each once."""
-    for note in dict.fromkeys(notes):
+    """Write notes to standard error, a line each and each once, fatal ones first."""
+    for note in fatal_first(notes):
         print_stderr(f"note: {printable(note)}\n")
 
 

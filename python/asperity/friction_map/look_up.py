@@ -22,6 +22,7 @@ from asperity.base.arguments import (
     path_of,
     real_array,
 )
+from asperity.base.notes import fatal_first
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.io.files import check_file, write_whole
@@ -206,9 +207,10 @@ class FrictionMap(Table):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Where the theory or its input leaves its range, as `friction` notes it on 81 points."""
+        """Where the theory or its input leaves its range, as `friction` notes it on 81 points;
+        fatal notes first."""
         lines = (line for line in self.text.split("\n") if line.startswith("note: "))
-        return tuple(line.removeprefix("note: ") for line in lines)
+        return tuple(fatal_first(line.removeprefix("note: ") for line in lines))
 
     @property
     def adhesion_law(self) -> Adhesion | None:

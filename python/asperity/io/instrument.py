@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
+from asperity.base.extras import to_install
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
 
@@ -74,7 +75,8 @@ def read_instrument(
         except ModuleNotFoundError as error:
             if (error.name or "").partition(".")[0] != "SurfaceTopography":
                 raise
-            raise UnrecognisedError("needs SurfaceTopography: pip install asperity[io]") from error
+            problem = f"needs SurfaceTopography: {to_install('io')}"
+            raise UnrecognisedError(problem) from error
         try:
             with open_topography(str(path)) as reader:
                 by_size = reader.format() == "hgt"  # which any file of 2 n^2 bytes seems to be

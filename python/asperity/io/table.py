@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import __version__
+from asperity.base.notes import fatal_first
 
 # Endings of columns that are no pure numbers; the first that fits holds.
 UNITS = {
@@ -43,7 +44,7 @@ class Table:
         for inputs in self.inputs:
             for line in input_lines(inputs):
                 out.write(f"# {line}\n")
-        for note in dict.fromkeys(self.notes):
+        for note in fatal_first(self.notes):
             out.write(f"# note: {note}\n")
         units = ", ".join(f"{name} [{unit(name)}]" for name in self.columns)
         out.write(f"# columns: {units}\n")
@@ -60,7 +61,7 @@ class Table:
             "asperity": __version__,
             "command": self.command,
             "inputs": [dict(inputs) for inputs in self.inputs],
-            "notes": list(dict.fromkeys(self.notes)),
+            "notes": fatal_first(self.notes),
             "units": {name: unit(name) for name in self.columns},
             "columns": {
                 name: [_plain(cell) for cell in column] for name, column in self.columns.items()

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.extras import to_install
 from asperity.plot.labels import MOST_NAMED, legend_inside, name_curves
 from asperity.plot.style import colours, grey, narrow, palette, shades
 from asperity.scene.model import Scene
@@ -35,7 +36,7 @@ def check_plot(path: Path) -> None:
         import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:
         raise InvalidInput(
-            f"{path}: pictures are drawn by matplotlib: pip install asperity[plot]"
+            f"{path}: pictures are drawn by matplotlib: {to_install('plot')}"
         ) from error
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.notes import fatal_first
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import ROUGHLY, Friction, friction
@@ -118,7 +119,7 @@ class Scene:
         parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         found = dict.fromkeys(note for part in parts for note in part.notes)
-        notes = dict.fromkeys([*self.notes, *self._with_size_of_heat([*found])])
+        notes = fatal_first([*self.notes, *self._with_size_of_heat([*found])])
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in (*COLUMNS, "model_error")
@@ -127,7 +128,7 @@ class Scene:
             columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])
             columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
             columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
-        return Curves(notes=list(notes), band=None, **columns)
+        return Curves(notes=notes, band=None, **columns)
 
     @property
     def _friction(self) -> Callable[..., Friction]:
@@ -242,8 +243,7 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        notes = dict.fromkeys(self.notes)
-        return list(notes | dict.fromkeys(note for part in parts for note in part))
+        return fatal_first([*self.notes, *(note for part in parts for note in part)])
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

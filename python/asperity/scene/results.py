@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from typing import Any
 
+from asperity.base.notes import fatal_first, note_about
 from asperity.io.table import Table
 from asperity.scene.model import COLUMNS, Curves, Progress, Scene
 
@@ -54,14 +55,16 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
 
 
 def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
-    """Every note once; of several scenes with the names of those that it is about."""
+    """Every note once, fatal ones first; of several scenes with the names of those it is about."""
     about: dict[str, list[str]] = {}
     for scene, result in zip(scenes, curves, strict=True):
         for note in dict.fromkeys(result.notes):
             about.setdefault(note, []).append(f"{scene.path}")
     if len({scene.path for scene in scenes}) == 1:
-        return list(about)
-    return [f"{', '.join(dict.fromkeys(names))}: {note}" for note, names in about.items()]
+        return fatal_first(about)
+    return fatal_first(
+        note_about(", ".join(dict.fromkeys(names)), note) for note, names in about.items()
+    )
 
 
 def _curves(scene: Scene, *, band: bool, bar: Bar) -> Curves:

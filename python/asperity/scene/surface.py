@@ -185,7 +185,7 @@ def _slope_notes(spectrum: Spectrum, values: Values) -> list[str]:
     if spectrum.rms_slope >= wanted * (1 - 1e-9):
         return []
     found = f"the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
-    return [f"slope_cutoff = {wanted} is not reached: {found}"]
+    return [f"fatal: slope_cutoff = {wanted} is not reached: {found}"]
 
 
 def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from asperity.base.notes import fatal_first
 from asperity.sweep.describe import Described
 from asperity.sweep.outcome import Outcome, keep_message
 
@@ -37,7 +38,7 @@ class Tally:
         return sum(self.kinds.values())
 
     def attributes(self) -> dict[str, Any]:
-        notes = sorted(self.notes, key=lambda note: (self.notes[note], note))
+        notes = fatal_first(sorted(self.notes, key=lambda note: (self.notes[note], note)))
         return {"notes": "\n".join(notes), "failed": self.failed}
 
 

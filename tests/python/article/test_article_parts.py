@@ -10,6 +10,7 @@ import pytest
 import asperity
 from asperity.article import inputs, readings, statement, surfaces
 from asperity.article.statement import Finding
+from asperity.base.extras import to_install
 from asperity.cli import article_command as command
 from asperity.cli.main import main
 
@@ -139,6 +140,6 @@ def test_without_matplotlib_it_says_what_to_install(
 ) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert main(["article", "--output", str(tmp_path / "out")]) == 2
-    line = "pictures are drawn by matplotlib: pip install asperity[plot]"
+    line = f"pictures are drawn by matplotlib: {to_install('plot')}"
     assert capsys.readouterr().err == f"asperity: {tmp_path / 'out' / 'fig01.png'}: {line}\n"
     assert list(tmp_path.iterdir()) == []

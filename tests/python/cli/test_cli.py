@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -269,7 +270,8 @@ def test_a_note_stands_once_and_names_the_scenes_that_it_is_about(
     notes = [line for line in err.splitlines() if line.startswith("note: ")]
     assert notes
     assert len(set(notes)) == len(notes)
-    assert all(note.startswith("note: scene.toml, other.toml: ") for note in notes)
+    about = re.compile("note: (fatal: )?scene.toml, other.toml: ")
+    assert all(about.match(note) for note in notes)
     assert [line[2:] for line in out.splitlines() if line.startswith("# note: ")] == notes
 
 

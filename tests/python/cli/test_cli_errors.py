@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.base.extras import to_install
 from asperity.cli.main import main
 from asperity.io.files import write_files
 from helpers.cases import each
@@ -326,4 +327,5 @@ def test_without_matplotlib_says_what_to_install(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert main(["friction", "scene.toml", "--plot", "mu.png"]) == 2
     err = capsys.readouterr().err
-    assert err == "asperity: mu.png: pictures are drawn by matplotlib: pip install asperity[plot]\n"
+    line = f"pictures are drawn by matplotlib: {to_install('plot')}"
+    assert err == f"asperity: mu.png: {line}\n"

@@ -146,7 +146,7 @@ def test_a_plateau_without_slope_leaves_the_shift_undetermined(seed):
     moved = np.arange(5) != 2
     assert build.standard_deviation[moved].min() > 0.3
     for t in TEMPERATURES[10:15][moved]:
-        (note,) = notes_with(build, f"the shift at {t:g} K is undetermined")
+        (note,) = notes_with(build, f"fatal: the shift at {t:g} K is undetermined")
         assert "too flat" in note
         assert "standard deviation" in note
 

@@ -103,7 +103,7 @@ def test_a_scene_goes_beyond_the_fitted_frequencies_when_asked_by_name(files: li
     with pytest.raises(asperity.OutOfRange, match=r'extrapolation.*"prony"'):
         compute("prony = true")
     found = compute("prony = true", 'extrapolation = "prony"')
-    assert any("see extrapolated_share" in note for note in found.notes)
+    assert any("outside of the measured ones" in note for note in found.notes)
     assert any("beyond the frequencies that it was fitted on" in note for note in found.notes)
     for extrapolation in ("power-law", "clamp"):
         with pytest.raises(

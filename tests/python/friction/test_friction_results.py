@@ -245,12 +245,12 @@ def test_notes_add_up():
         STEEP, RUBBER, pressure=[1e-3, 1e5], velocity=0.02, correction=gw(1.2e-3)
     ).notes
     assert [note[:20] for note in notes] == [
+        "fatal: the affine sh",
+        "fatal: Greenwood-Wil",
         "the rms slope is 2.7",
         "above 0.01 m/s flash",
         "the error of this co",
         "the error of this co",
-        "the affine shift tak",
-        "Greenwood-Williamson",
     ]
 
 

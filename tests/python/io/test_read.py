@@ -275,7 +275,7 @@ def test_without_surface_topography_says_what_to_install(
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     path = tmp_path / "scan.opd"
     path.write_bytes(b"any")
-    with pytest.raises(InvalidInput, match=r"scan\.opd: .*pip install asperity\[io\]"):
+    with pytest.raises(InvalidInput, match=r"scan\.opd: .*-m pip install 'asperity\[io\]'"):
         read_surface(path)
 
 

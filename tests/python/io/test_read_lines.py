@@ -269,5 +269,5 @@ def test_header_without_surface_topography(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     path = tmp_path / "scan.csv"
     path.write_text(DEKTAK + "0.0,1.0,,\n")
-    with pytest.raises(InvalidInput, match=r"line 1: 'Scan' .*pip install asperity\[io\]"):
+    with pytest.raises(InvalidInput, match=r"line 1: 'Scan' .*-m pip install 'asperity\[io\]'"):
         read_surface(path)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.base.extras import to_install
 from asperity.cli.main import main
 from asperity.report import make
 from asperity.report.common_points import MOST
@@ -53,7 +54,7 @@ def test_what_is_missing_is_named(
 ) -> None:
     monkeypatch.setitem(sys.modules, module, None)
     line = refused(["scene.toml", "--output", "r.html"], capsys)
-    assert line == f"asperity: report: {module} is missing: pip install asperity[plot]"
+    assert line == f"asperity: report: {module} is missing: {to_install('plot')}"
 
 
 def test_bad_calls(folder: Path) -> None:

@@ -180,7 +180,7 @@ TALL = {"z_max": 3e-4, "z_min": -3e-4}
 OUTSIDE = [
     (
         [lambda: TABLE.at(1e9)],
-        r"^wavenumber = 1000000000: the spectrum is known in \[1000, 100000\] 1/m$",
+        r"^wavenumber = 1e\+09: the spectrum is known in \[1000, 100000\] 1/m$",
     ),
     (
         [lambda: TABLE.at([1e4, 10])],
@@ -188,7 +188,7 @@ OUTSIDE = [
     ),
     (
         waves(wavenumber=1e9),
-        r"^wavenumber = 1000000000: the spectrum's band is \[1000, 100000\] 1/m$",
+        r"^wavenumber = 1e\+09: the spectrum's band is \[1000, 100000\] 1/m$",
     ),
     (
         waves(wavenumber=[1e4, 10]),
@@ -199,7 +199,7 @@ OUTSIDE = [
             lambda f=f: f(1e-3)
             for f in (MEASURED.modulus, MEASURED.angular_integrals, MEASURED.extrapolated_shares)
         ],
-        r"^angular_frequency = 0\.001 rad/s: .* in \[1, 1000000\] rad/s; extrapolation=",
+        r"^angular_frequency = 0\.001 rad/s: .* in \[1, 1e\+06\] rad/s; extrapolation=",
     ),
     (
         scenes(rubber=MEASURED, velocity=1e-6),
@@ -208,9 +208,9 @@ OUTSIDE = [
     (scenes(rubber=MEASURED, velocity=[1, 11]), "^velocity = 11: .* to 10 m/s are allowed$"),
     (
         [lambda: TABLE.truncated(q0=1), lambda: TABLE.truncated(q0=1e9)],
-        r"^q0 = (1|1000000000): must be in \[1000, 100000\], the spectrum's band \[1/m\]$",
+        r"^q0 = (1|1e\+09): must be in \[1000, 100000\], the spectrum's band \[1/m\]$",
     ),
-    ([lambda: TABLE.truncated(q1=1e9)], r"^q1 = 1000000000: must be in \[1000, 100000\]"),
+    ([lambda: TABLE.truncated(q1=1e9)], r"^q1 = 1e\+09: must be in \[1000, 100000\]"),
     # the user gave q0 and a velocity, no angular frequency
     (
         scenes(
