@@ -4,6 +4,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,8 +19,9 @@ from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.words import in_words
 from asperity.demo import hot_scene_text, input_files
+from asperity.io import plausible
 from asperity.scene.model import Curves, Scene
-from asperity.scene.rubber import build_rubber
+from asperity.scene.rubber import build_measured, build_rubber
 from asperity.scene.scene import Builders, load_scene
 from asperity.scene.surface import build_surface
 from asperity.scene.write import scene_text
@@ -70,7 +72,7 @@ class State:
         self.scan: str | None = None  # the file that was dropped last
         self.guesses: dict[str, Guess] = {}  # by the names of files
         self.variants: list[Variant] = []
-        remembered = (Remembered(build_surface), Remembered(build_rubber))
+        remembered = (Remembered(build_surface), _rubber_builder())
         self._builders = Builders(*remembered, RememberedCorrection())
 
     # --- what is edited ---
@@ -218,7 +220,8 @@ class State:
     def take_dma(self, names: list[str], settings: Mapping[str, Any]) -> str:
         """Let measured moduli be the rubber: `columns`, `units` and `modulus` as a scene has them.
         Returns what there is to say of the files."""
-        table, said = rubber_of(self.folder, names, settings)
+        with plausible.collected():  # notes are those of the scene
+            table, said = rubber_of(self.folder, names, settings)
         conditions = self.conditions
         if "temperature_k" not in conditions:
             middle = table.get("reference_temperature_k", 293.15) - 273.15
@@ -266,6 +269,11 @@ class State:
 
     def close(self) -> None:
         self.folder.close()
+
+
+def _rubber_builder() -> Remembered:
+    """The rubber, whose isotherms are shifted once for all temperatures."""
+    return Remembered(partial(build_rubber, measured=Remembered(build_measured)))
 
 
 def _check_shown(name: str, tables: Tables) -> None:

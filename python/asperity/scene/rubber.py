@@ -1,7 +1,7 @@
 """Rubber of a scene: Prony series, master curve, or isotherms with their shift."""
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -49,6 +49,8 @@ from asperity.uncertainty.draws import (
     draw_build,
     drawn_shifted,
 )
+
+Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
 
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
@@ -102,8 +104,12 @@ class BuiltRubber:
     build: MasterCurveBuild | None = None
 
 
-def build_rubber(path: Path, table: object, temperature: float | None = None) -> BuiltRubber:
-    """The rubber of a scene's table; `temperature` [K] is that of its conditions."""
+def build_rubber(
+    path: Path, table: object, temperature: float | None = None, measured: Measured | None = None
+) -> BuiltRubber:
+    """The rubber of a scene's table; `temperature` [K] is that of its conditions. `measured` takes
+    the place of `build_measured` for who keeps what it built."""
+    measure = measured or build_measured
     values = read_table(path, "rubber", table, RUBBER)
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
@@ -113,19 +119,22 @@ def build_rubber(path: Path, table: object, temperature: float | None = None) ->
     if temperature is None:
         with _blaming_celsius(values):
             kelvin = _in_kelvin(path, values)
-            return replace(_build(path, source, kelvin), temperature=kelvin.get("temperature_k"))
+            return replace(
+                _build(path, source, kelvin, measure), temperature=kelvin.get("temperature_k")
+            )
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
     with _blaming_celsius(values), _blaming_conditions():
-        built = _build(path, source, {**_in_kelvin(path, values), "temperature_k": temperature})
+        kelvin = {**_in_kelvin(path, values), "temperature_k": temperature}
+        built = _build(path, source, kelvin, measure)
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
     return replace(built, values=used, temperature=temperature)
 
 
-def _build(path: Path, source: str, values: Values) -> BuiltRubber:
+def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltRubber:
     if source == "isotherms":
-        return _from_isotherms(path, values)
+        return _from_isotherms(path, values, measure)
     rubber: Rubber
     if source == "master_curve":
         with rename_in_errors(path, {"extrapolation": "[rubber] extrapolation"}):
@@ -204,14 +213,9 @@ def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
     return BuiltRubber(rubber, values, (), Drawn[Rubber](rubber))
 
 
-def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
-    require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
-    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
-    values = {"reference_temperature_k": values["temperature_k"], **values}
-    extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
-    if extrapolation is not None and fitted != (extrapolation == "prony"):
-        allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
-        refuse(path, f"[rubber] extrapolation = {extrapolation}", allowed)
+def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCurveBuild]:
+    """Isotherms and the master curve of them, whatever temperature the rubber is wanted at."""
+    fitted = values.get("prony", False)
     files = [path.parent / name for name in values["isotherms"]]
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
@@ -223,8 +227,21 @@ def _from_isotherms(path: Path, values: Values) -> BuiltRubber:
             **arguments(values, BUILD),
             shift_factors=shift_table(path, values),
             smooth=True,
-            extrapolation=None if fitted else extrapolation,
+            extrapolation=None if fitted else values.get("extrapolation"),
         )
+    return isotherms, build
+
+
+def _from_isotherms(path: Path, values: Values, measure: Measured) -> BuiltRubber:
+    require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
+    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
+    values = {"reference_temperature_k": values["temperature_k"], **values}
+    extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
+    if extrapolation is not None and fitted != (extrapolation == "prony"):
+        allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
+        refuse(path, f"[rubber] extrapolation = {extrapolation}", allowed)
+    at_any = {key: one for key, one in values.items() if key != "temperature_k"}
+    isotherms, build = measure(path, at_any)
     rubber, notes = _at_temperature(path, values, build, extrapolation)
 
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured

@@ -95,7 +95,7 @@ def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> 
 
 def test_wrong_units_are_asked_about(state: State) -> None:
     state.keep_scan("scan.npy", scan_bytes())
-    with pytest.raises(asperity.InvalidInput, match="are the heights in another unit"):
+    with pytest.raises(asperity.InvalidInput, match=r"heights in um\? 17.01 um would do"):
         state.use_scan({"pixel_size_m": 5e-6, "unit": "mm"})
     state.use_scan({"pixel_size_m": 5e-6, "unit": "nm"})
     assert any("rms slope" in one for one in state.load().notes)

@@ -21,6 +21,8 @@ from asperity.app.guess import guess_columns
 from asperity.app.state import MOST_VARIANTS, State
 from asperity.cli.main import main
 from asperity.demo import input_files
+from asperity.scene.model import Scene
+from asperity.scene.scene import load_scene
 from asperity.scene.write import scene_text
 from helpers.dropped import dma_bytes, scan_bytes
 
@@ -140,6 +142,37 @@ def test_the_surface_is_read_once(state: State) -> None:
     assert second.built_rubber is not first.built_rubber
     state.surfaces["shipped scan"]["detrend"] = "plane"
     assert state.load().surface is not first.surface
+
+
+def test_isotherms_are_shifted_once_for_all_temperatures(state: State) -> None:
+    drop_both(state)
+    first = state.load()
+    state.conditions = {**state.conditions, "temperature_c": 33.0}
+    second = state.load()
+    assert second.built_rubber.build is first.built_rubber.build
+    shell = load_scene(state.folder.path / "scene.toml", for_friction=True)
+    assert np.array_equal(second.friction().mu, shell.friction().mu)
+    assert not np.array_equal(second.friction().mu, first.friction().mu)
+
+
+def test_what_is_kept_is_noted_again_and_absurd_numbers_are_refused(state: State) -> None:
+    rubber = {"equilibrium_modulus_pa": 3.0, "moduli_pa": [2e10], "relaxation_times_s": [1e-3]}
+    state.rubbers, state.rubber = {"odd": rubber}, "odd"
+    shell = load_scene_of(state)
+    for _ in range(2):
+        scene = state.load()
+        assert scene.notes == shell.notes
+        assert scene.unusual
+    state.keep_scan("scan.npy", scan_bytes())
+    with pytest.raises(asperity.InvalidInput, match="must be at"):
+        state.use_scan({"pixel_size_m": 5e-6, "unit": "m"})
+
+
+def load_scene_of(state: State) -> Scene:
+    """The present scene as the shell reads it."""
+    path = state.folder.path / "scene.toml"
+    path.write_text(state.text)
+    return load_scene(path, for_friction=True)
 
 
 HOSTILE = (
