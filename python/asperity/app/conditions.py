@@ -26,7 +26,7 @@ class ConditionsPart:
         self._switches: dict[str, ui.switch] = {}
         self._fields: dict[str, ui.element] = {}  # of a table, shown while it is used
         with part("Conditions", "conditions-title"):
-            self._inside = ui.element("div").classes("w-full")
+            self._inside = ui.element("div").classes("w-full flex flex-col gap-2")
         self.refresh()
 
     def refresh(self) -> None:
@@ -82,9 +82,10 @@ class ConditionsPart:
 
     def _adhesion(self) -> None:
         table = {**_ADHESION, **self._state.adhesion}
+        fields = self._switched("Adhesion", "adhesion")
         self._unfit = ui.label(_UNFIT).classes("soft")
         self._unfit.set_visibility(False)
-        with self._switched("Adhesion", "adhesion"):
+        with fields:
             for name, key, unit, ends in (
                 ("Shear stress [MPa]", "shear_stress_pa", 1e6, (0.01, 100)),
                 ("Reference velocity [mm/s]", "reference_velocity_m_s", 1e-3, (1e-3, 1e3)),
@@ -121,7 +122,7 @@ class ConditionsPart:
         used = table in self._state.used
         self._switches[table] = ui.switch(name, value=used, on_change=changed)
         self._switches[table].props('color="blue-9"').classes("mt-1")
-        fields = ui.element("div").classes("w-full")
+        fields = ui.element("div").classes("w-full flex flex-col gap-2")
         fields.set_visibility(used)
         self._fields[table] = fields
         return fields

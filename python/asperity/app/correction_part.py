@@ -50,7 +50,7 @@ class CorrectionFields:
             self._named(tuple(PLAIN)), value=kind, label="Correction", on_change=self._chosen
         )
         self._menu.props("dense outlined").classes("w-full mt-2")
-        self._fields = ui.element("div").classes("w-full")
+        self._fields = ui.element("div").classes("w-full flex flex-col gap-2")
         self._ask()
 
     @property

@@ -83,7 +83,7 @@ class RubberPart:
         with self._menus:
             shown = ", ".join(self._state.folder.shown[name] for name in self._files)
             ui.label(f"Of {shown}: is this right?").classes("soft")
-            with ui.element("div").classes("grid grid-cols-2 gap-2 w-full"):
+            with ui.element("div").classes("grid grid-cols-1 sm:grid-cols-2 gap-2 w-full"):
                 for quantity in QUANTITIES:
                     value = guess.columns.get(quantity)
                     names = {name: name for name in guess.names}

@@ -225,7 +225,7 @@ def _set_height(axes: "Axes", curves: Sequence[_Curve]) -> None:
     if 0 < min(largest) < max(largest) / _FAR_APART:
         smallest = min(float(np.min(c.kinds[0], where=c.kinds[0] > 0, initial=1e9)) for c in curves)
         axes.set_yscale("log")
-        axes.set_ylim(bottom=smallest / 2)
+        axes.set_ylim(smallest / 2, 2 * max(largest))
 
 
 def _tell_band(axes: "Axes", curves: Sequence[_Curve], label: str) -> None:
