@@ -24,7 +24,11 @@ from asperity.base.arguments import (
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
-from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, around
+from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize, around
+from asperity.tiles.grid import TileSides, grid_of, tile_shape
+from asperity.tiles.share import Workers
+from asperity.tiles.source import DEFAULT, Source, source_of
+from asperity.tiles.spectrum import tiled_spectrum
 
 Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
 Part = Literal["all", "top", "bottom"]
@@ -47,12 +51,17 @@ def _map(surface: Any) -> Any:
 
 
 def power_spectrum(
-    surface: HeightMap,
+    surface: HeightMap | Any,
     *,
     window: Window = "split-cosine-bell",
     detrend: Detrend | None = "plane",
     threads: int = 1,
     part: Part = "all",
+    pixel_size: PixelSize | None = None,
+    tiles: TileSides | None = None,
+    overlap: float | None = None,
+    max_dropouts: float | None = None,
+    executor: Any = None,
 ) -> TabulatedSpectrum:
     """Return the radially averaged roughness spectrum of a map (the article's Eqs 25-27).
 
@@ -61,10 +70,17 @@ def power_spectrum(
     divided out. float32 maps are transformed in single precision, whose noise lies some 14 decades
     below the highest density.
 
+    A map that does not fit in memory is given as an array that is read as it is sliced: a
+    `numpy.memmap`, a Zarr or Dask array. Tiles of it are detrended, windowed and transformed, and
+    their rings are averaged (P. D. Welch, IEEE Trans. Audio Electroacoust. 15, 70 (1967)). Rows of
+    fewer than 32 periods on a tile (Hann 20, Blackman 24) come from the map coarsened to pixels of
+    1/256 of a tile. Any map may be given so: see `docs/howto/large_scans.md`.
+
     Parameters
     ----------
-    surface : HeightMap
-        A map without drop-outs.
+    surface : HeightMap, or array of shape (ny, nx)
+        A map without drop-outs; by tiles it may have some. An array holds heights [m], NaN where
+        there is none, and is always taken by tiles.
     window : {"split-cosine-bell", "hann", "none", "blackman"}
         "none" is right for periodic maps only, and then with detrend=None: a plane subtracted from
         a periodic map leaves a saw-tooth.
@@ -91,12 +107,61 @@ def power_spectrum(
     Raises
     ------
     InvalidInput
-        The surface is a LineScan, has drop-outs or fewer than 2 x 2 points.
+        The surface is a LineScan, has drop-outs or fewer than 2 x 2 points. By tiles: they are
+        larger than the map or too small, all have too many drop-outs, or the file of a memory map
+        is changed or cut short while it is read.
     """
     how = _prepared(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
     side = choice(part, "part", PARTS)
+    if tiles is not None or not isinstance(surface, HeightMap | LineScan):
+        if part != "all":
+            raise InvalidInput(f'part = "{part}": must be "all" by tiles')
+        return power_spectrum_of(
+            source_of(surface, pixel_size),
+            window=window,
+            detrend=detrend,
+            tiles=tiles,
+            overlap=overlap,
+            max_dropouts=max_dropouts,
+            threads=threads,
+            executor=executor,
+        )
+    for name, unused in (
+        ("pixel_size", pixel_size),
+        ("overlap", overlap),
+        ("max_dropouts", max_dropouts),
+        ("executor", executor),
+    ):
+        if unused is not None:
+            raise InvalidInput(f"{name}: goes with tiles, or with an array instead of a HeightMap")
     return around(TabulatedSpectrum, _core.power_spectrum(_map(surface), *how, several, side))
+
+
+def power_spectrum_of(
+    source: Source,
+    *,
+    window: Window,
+    detrend: Detrend | None,
+    tiles: TileSides | None = None,
+    overlap: float | None = None,
+    max_dropouts: float | None = None,
+    threads: int = 1,
+    executor: Any = None,
+) -> TabulatedSpectrum:
+    """The same by tiles, of an opened map."""
+    how = _prepared(window, detrend)
+    ny, nx = source.shape
+    given = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
+    sides = tile_shape(given, source.shape, source.pixel_size)
+    return tiled_spectrum(
+        source,
+        grid_of(source.shape, sides, overlap),
+        window=how[0],
+        detrend=how[1],
+        max_dropouts=max_dropouts,
+        workers=Workers(threads, executor),
+    )
 
 
 @value

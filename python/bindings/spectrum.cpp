@@ -2,6 +2,7 @@
 #include "asperity/spectrum.hpp"
 
 #include "arrays.hpp"
+#include "asperity/tiles.hpp"
 #include "topics.hpp"
 #include "variants.hpp"
 
@@ -80,6 +81,10 @@ void bind_measured(py::module_& m) {
         return power_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads, static_cast<Part>(part));
       },
       Guarded());
+  m.def("tile_covariances", [](int window, HeightMap::Shape tile, HeightMap::PixelSize pixel_size,
+                               HeightMap::Shape shift) {
+    return array_of(released([&] { return tile_covariances(static_cast<Window>(window), tile, pixel_size, shift); }));
+  });
   m.def("spectral_density", [](const HeightMap& map, int window, int detrend) {
     SpectralDensity found =
         released([&] { return spectral_density(map, static_cast<Window>(window), detrend_of(detrend)); });

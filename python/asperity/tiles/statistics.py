@@ -14,7 +14,16 @@ from asperity.base.arguments import Array, choice, number
 from asperity.base.value import Value, value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
 from asperity.tiles.share import Workers
-from asperity.tiles.source import DEFAULT, Box, Piece, Shape, corner_of, refuse_infinite, source_of
+from asperity.tiles.source import (
+    DEFAULT,
+    Box,
+    Piece,
+    Shape,
+    Source,
+    corner_of,
+    refuse_infinite,
+    source_of,
+)
 
 _ROWS = 64  # that are in the processor's cache at a time
 _POWERS = ((0, 0), (0, 1), (1, 0), (0, 2), (1, 1), (2, 0))  # of v and u, in the order of terms
@@ -93,6 +102,13 @@ def height_statistics(
         neighbours are measured.
     """
     source = source_of(surface, pixel_size)
+    return statistics_of(source, detrend, threads=threads, executor=executor)
+
+
+def statistics_of(
+    source: Source, detrend: Detrend, *, threads: int = 1, executor: Any = None
+) -> HeightStatistics:
+    """The same of a source."""
     order = DETRENDS[choice(detrend, "detrend", DETRENDS)]
     workers = Workers(threads, executor)
     if min(source.shape) < 3:

@@ -1,0 +1,172 @@
+"""The radial spectrum of a map by tiles: the mean over windowed tiles that overlap (P. D. Welch,
+IEEE Trans. Audio Electroacoust. 15, 70 (1967)), with the map coarsened below what they resolve."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import Array, number
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import around
+from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, without_blocks
+from asperity.tiles.grid import Grid
+from asperity.tiles.share import Workers
+from asperity.tiles.source import Piece, Source
+
+_NONE = 2  # the window's number in the core
+_PERIODS = (32.0, 20.0, 0.0, 24.0)  # of a wave on a tile where its rows take over: split cosine
+# bell, Hann, -, Blackman. Twice those from which a row is reliable
+_NEAR_NYQUIST, _FEW_MODES = 2, 4
+_ANY_SHARE = 0.999  # the whole has been judged by its points
+
+Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8]]
+
+
+def tiled_spectrum(
+    source: Source,
+    grid: Grid,
+    *,
+    window: int,
+    detrend: int,
+    max_dropouts: Any,
+    workers: Workers,
+) -> TabulatedSpectrum:
+    """Return the spectrum of a map by tiles."""
+    if window == _NONE:
+        allowed = "must be one that ends at 0, as no tile is periodic"
+        raise InvalidInput(f'window = "none": {allowed}')
+    most = 0.10 if max_dropouts is None else number(max_dropouts, "max_dropouts")
+    if not 0 <= most < 1:
+        raise InvalidInput(f"max_dropouts = {most:.6g}: must be in [0, 1)")
+    how = window, detrend, most
+    if len(grid.boxes) == 1:
+        return _single(source, grid, how)
+    coarse = coarsen(source, block_of(grid.tile, source.pixel_size), grid.tile, workers)
+    _check_dropouts(coarse.dropout_fraction, most)
+    fine = _mean_rows(source, grid, how, workers)
+    low = _low_rows(coarse, source, grid, fine, how)
+    return _merged(low, fine, _edge(grid, source.pixel_size, window)[0])
+
+
+def tile_rows(piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...]) -> Any:
+    """Return the core's spectrum of a tile, and None of one with too many drop-outs."""
+    window, detrend, most = how
+    heights = piece.read()
+    missing = int(np.count_nonzero(np.isnan(heights)))
+    if missing == heights.size or missing > most * heights.size:
+        return None
+    tile = _core.HeightMap(heights, pixel_size)
+    if missing:
+        tile = tile.fill_dropouts(most)
+    return _core.power_spectrum(tile, window, detrend, 1, 0)
+
+
+def tile_columns(piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...]) -> Any:
+    """Return its columns, which can be sent."""
+    found = tile_rows(piece, pixel_size, how)
+    if found is None:
+        return None
+    return found.wavenumber, found.density, found.count, found.standard_error, found.flag
+
+
+def _single(source: Source, grid: Grid, how: tuple[Any, ...]) -> TabulatedSpectrum:
+    """The spectrum of a map that is one tile."""
+    piece = source.piece(grid.boxes[0])
+    found = tile_rows(piece, source.pixel_size, how)
+    if found is None:
+        _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
+        raise InvalidInput("heights: every point is a drop-out (NaN)")
+    return around(TabulatedSpectrum, found)
+
+
+def _check_dropouts(share: float, most: float) -> None:
+    if share == 1:
+        raise InvalidInput("heights: every point is a drop-out (NaN)")
+    if share > most:
+        allowed = f"must be at most {100 * most:.4g} %, max_dropouts = {most:.4g}"
+        raise InvalidInput(f"heights has {100 * share:.4g} % drop-outs: {allowed}")
+
+
+def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Rows:
+    """The mean over the tiles that are whole enough. Their errors are those of independent tiles
+    times what the overlap makes of them."""
+    window, _, most = how
+    works = ((source.piece(box), source.pixel_size, how) for box in grid.boxes)
+    used: list[bool] = []
+    density, square = np.zeros(1), np.zeros(1)
+    same: Columns | None = None  # wavenumber, count and flag do not depend on the heights
+    for columns in workers.outcomes(tile_columns, works):
+        used.append(columns is not None)
+        if columns is not None:
+            same = same or columns
+            density, square = density + columns[1], square + columns[3] ** 2
+    if same is None:
+        problem = f"have more than {100 * most:.4g} % drop-outs each, max_dropouts = {most:.4g}"
+        raise InvalidInput(f"heights: all {len(used)} tiles {problem}")
+    tiles = sum(used)
+    alone = _core.tile_covariances(window, grid.tile, source.pixel_size, (0, 0))
+    together = grid.covariances(window, source.pixel_size, np.array(used))
+    mean, error = density / tiles, np.sqrt(square / tiles * (together[0] / alone[0]))
+    return Rows(
+        wavenumber=same[0],
+        density=mean,
+        count=same[2] * (math.prod(source.shape) / math.prod(grid.tile)),
+        error=error,
+        flag=_flags(same[4], mean, error),
+        correlation=np.tile(together[1:] / together[0], (mean.size, 1)),
+    )
+
+
+def _flags(known: NDArray[np.uint8], density: Array, error: Array) -> NDArray[np.uint8]:
+    near, few = known & np.uint8(_NEAR_NYQUIST), np.where(error > density / 4, _FEW_MODES, 0)
+    return near | few.astype(np.uint8)
+
+
+def _low_rows(coarse: Coarse, source: Source, grid: Grid, fine: Rows, how: tuple[Any, ...]) -> Rows:
+    """The rows of the coarse map."""
+    window, detrend, _ = how
+    heights = _core.HeightMap(coarse.heights, coarse.pixel_size)
+    if heights.dropout_fraction:
+        heights = heights.fill_dropouts(_ANY_SHARE)
+    found = _core.power_spectrum(heights, window, detrend, 1, 0)
+    below = found.wavenumber < _edge(grid, source.pixel_size, window)[1]
+    rows = Rows(
+        found.wavenumber[below],
+        found.density[below],
+        found.count[below],
+        found.standard_error[below],
+        found.flag[below] & ~np.uint8(_NEAR_NYQUIST),
+        found.correlation[below],
+    )
+    return without_blocks(rows, coarse, source.pixel_size, fine)
+
+
+def _edge(grid: Grid, pixel_size: tuple[float, float], window: int) -> tuple[int, float]:
+    """How many rings of a tile are too low, and the wavenumber where the first that is kept
+    begins."""
+    sides = [n * d for n, d in zip(grid.tile, pixel_size, strict=True)]
+    first = math.ceil(_PERIODS[window] * max(sides) / min(sides) - 1e-9)
+    return first - 1, (first - 0.5) * 2 * math.pi / max(sides)
+
+
+def _merged(low: Rows, fine: Rows, skipped: int) -> TabulatedSpectrum:
+    """The rows of the coarse map, then those of the tiles."""
+    lags = max(low.correlation.shape[1], fine.correlation.shape[1])
+    above = slice(skipped, None)
+    correlation = np.zeros((low.density.size + fine.density[above].size, lags))
+    for lag in range(low.correlation.shape[1]):  # none of a low row with those of the tiles
+        last = max(0, low.density.size - lag - 1)
+        correlation[:last, lag] = low.correlation[:last, lag]
+    correlation[low.density.size :, : fine.correlation.shape[1]] = fine.correlation[above]
+    return TabulatedSpectrum(
+        wavenumber=np.concatenate([low.wavenumber, fine.wavenumber[above]]),
+        density=np.concatenate([low.density, fine.density[above]]),
+        count=np.concatenate([low.count, fine.count[above]]),
+        standard_error=np.concatenate([low.error, fine.error[above]]),
+        flag=np.concatenate([low.flag, fine.flag[above]]),
+        correlation=correlation,
+    )
