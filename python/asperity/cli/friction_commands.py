@@ -7,34 +7,26 @@ from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput, NotConverged
+from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.extras import to_install
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
-from asperity.io import plausible
-from asperity.io.fields import MOST_ROWS, rename_in_errors
+from asperity.io.fields import MOST_ROWS
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import friction as plot_friction
-from asperity.plot import surface as plot_surface
 from asperity.plot.style import drawn_in
-from asperity.scene import scan
 from asperity.scene.model import Progress, Scene
 from asperity.scene.results import friction_table, scene_inputs
-from asperity.scene.scan import read_filled, surface_spectrum
 from asperity.scene.scene import load_scene
-from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
-from asperity.spectrum import TabulatedSpectrum
-from asperity.surface import HeightMap
 
 
 def demo(args: Namespace) -> None:
@@ -112,117 +104,6 @@ def area(args: Namespace) -> None:
         "area", [{**scene_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
     write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
-
-
-def spectrum(args: Namespace) -> None:
-    """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
-    path = FilePath(args.file)
-    refuse_overwrite(check_outputs(args), [path])
-    flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with (
-        plausible.collected() as unusual,
-        rename_in_errors(None, {**flags, "max_fraction": "--max-dropouts"}),
-    ):
-        for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
-            if q is not None:
-                plausible.check(flag, q, plausible.WAVENUMBER)
-        raw, filled = read_filled(
-            path,
-            max_fraction=args.max_dropouts,
-            channel=args.channel,
-            pixel_size=args.pixel_size,
-            unit=args.unit,
-        )
-    how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
-    with rename_in_errors(path, {}):
-        measured = surface_spectrum(filled, **how)
-    flat = scan.flat(filled, how["detrend"])
-    ratio = scan.lay(filled, **how)
-    fit, fit_notes = _fit(measured, args)
-    notes = [*unusual, *fit_notes]
-    whole = measured.truncated(q1=min(scan.nyquist(filled), measured.q1))
-    cutoff = whole.cutoff_for_slope(1.3)
-    inputs: dict[str, Any] = {
-        "file": str(path),
-        "channel": args.channel,
-        "shape": list(raw.heights.shape),
-        "pixel_size_m": list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing,
-        "dropout_fraction": raw.dropout_fraction,
-        "window": args.window,
-        "detrend": args.detrend,
-    }
-    for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
-        if given is not None:
-            inputs[key] = given
-    found = {
-        "rms_height_m": whole.rms_height,
-        "rms_slope": whole.rms_slope,
-        "rms_slope_by_differences": flat.rms_slope,
-        "skewness": flat.skewness,
-        "kurtosis": flat.kurtosis,
-        "z_max_m": flat.z_max,
-        "z_min_m": flat.z_min,
-        "slope_cutoff_1.3_per_m": cutoff,
-    }
-    if ratio is not None:
-        found["slope_anisotropy"] = ratio
-    if (band := scan.trusted(measured)) is not None:
-        found |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
-    if fit is not None:
-        found |= _fitted(fit)
-    notes += scan.scan_notes(filled, ratio)
-    if cutoff >= whole.q1:
-        notes.append("the rms slope stays below 1.3 up to pi / pixel")
-    columns = _rows(measured)
-    table = Table("spectrum", [{**inputs, "found": found}], notes, columns)
-    drawn = cutoff if cutoff < whole.q1 else None
-    draw = partial(plot_surface.spectrum_figure, raw, flat, measured, fit, drawn)
-    write_outputs(args, table, draw, found)
-
-
-def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
-    columns: dict[str, list[Any]] = {
-        "wavenumber_per_m": measured.wavenumber.tolist(),
-        "density_m4": measured.density.tolist(),
-    }
-    if measured.count is not None and measured.standard_error is not None:
-        columns["standard_error_m4"] = measured.standard_error.tolist()
-        columns["count"] = [round(modes) for modes in measured.count.tolist()]
-    if measured.flag is not None:
-        columns["flag"] = measured.flag.tolist()
-    return columns
-
-
-def _fitted(fit: SelfAffineFit) -> dict[str, float]:
-    found = {
-        "fit_q0_per_m": fit.q0,
-        "fit_q1_per_m": fit.q1,
-        "fit_hurst": fit.hurst,
-        "fit_hurst_standard_error": fit.standard_errors["hurst"],
-        "fit_rms_height_m": fit.rms_height,
-        "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
-        "fit_residual": fit.residual,
-    }
-    if fit.rolloff is not None:
-        found["fit_rolloff_per_m"] = fit.rolloff
-        found["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
-    return found
-
-
-def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[str]]:
-    """The self-affine fit, or a note that says why there is none."""
-    q_min, q_max = args.q_min, args.q_max
-    if q_min is not None and q_max is not None and q_min >= q_max:
-        raise InvalidInput(f"--q-max {q_max}: must be above --q-min {q_min}")
-    try:
-        with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
-            return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
-    except (InvalidInput, NotConverged) as error:
-        typed = [f"--q-min {q_min}"] * (q_min is not None) + [f"--q-max {q_max}"] * (
-            q_max is not None
-        )
-        problem = str(error).replace("--q-min, --q-max: ", f"{' '.join(typed)}: ")
-        return None, [f"no self-affine fit: {problem}"]
 
 
 def check_outputs(args: Namespace) -> list[Path]:

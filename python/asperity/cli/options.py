@@ -108,3 +108,23 @@ def points(text: str) -> int:
     if not 2 <= (points := whole(text)) <= MOST_POINTS:
         raise ArgumentTypeError(f"{text}: must be in 2..{MOST_POINTS}")
     return points
+
+
+def share(text: str) -> float:
+    """A number from 0 on; more is refused by whoever takes it."""
+    try:
+        return float(text) if float(text) == 0 else number(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r}: must be a number, 0 or more") from None
+
+
+def tile(text: str) -> int | tuple[int, int]:
+    """N, or NY,NX."""
+    try:
+        sizes = [whole(size) for size in text.split(",")]
+        if len(sizes) == 1:
+            return sizes[0]
+        ny, nx = sizes
+    except (ArgumentTypeError, ValueError):
+        raise ArgumentTypeError(f"{text!r}: must be a whole number, or two: NY,NX") from None
+    return ny, nx

@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Callable
 
-from asperity.cli import fit_command, map_command, rubber_command
+from asperity.cli import fit_command, map_command, rubber_command, spectrum_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.app_command import app
@@ -17,7 +17,9 @@ from asperity.cli.options import (
     pairs,
     pixel_size,
     points,
+    share,
     sides,
+    tile,
     whole,
 )
 from asperity.cli.report_command import report
@@ -105,7 +107,7 @@ def parser() -> argparse.ArgumentParser:
 
     spectrum = verb(
         "spectrum",
-        commands.spectrum,
+        spectrum_command.spectrum,
         "roughness spectrum of a scan, with rms height, rms slope and a self-affine fit",
         "scan.npy --pixel-size 2e-6,1e-6 --unit um --detrend quadratic --plot spectrum.png",
     )
@@ -155,6 +157,19 @@ def parser() -> argparse.ArgumentParser:
         default="least-squares",
         help="of the fit: weighted, with a roll-off where there is one, or Eq. 28 alone "
         "(default: %(default)s)",
+    )
+    spectrum.add_argument(
+        "--tiles",
+        type=tile,
+        metavar="NY,NX",
+        help="points of a tile, one number or two: a .npy file or a Zarr array that need not fit "
+        "in memory",
+    )
+    spectrum.add_argument(
+        "--overlap", type=share, metavar="SHARE", help="of neighbouring tiles (default: 0.5)"
+    )
+    spectrum.add_argument(
+        "--threads", type=whole, metavar="N", help="that share the tiles (default: 1)"
     )
     outputs(spectrum)
 

@@ -40,8 +40,8 @@ def read_surface(
 
     Matrices in .npy, .npz, .csv and .txt are read directly. Such files state neither pixel size
     nor unit, so both are required. An array of one dimension and a text of one column or one line
-    are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to HeightMap,
-    which shares it; nobody may then write to the file.
+    are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to
+    `power_spectrum` and `height_statistics`, which read it by tiles.
 
     Text has one line per y, cells parted by semicolons, tabs, commas or blanks; where they are not
     parted by commas, a comma is a decimal one. NaN and empty cells are drop-outs (a separator that
@@ -83,7 +83,7 @@ def read_surface(
     path = path_of(path, "path")
     try:
         if unit is not None:
-            unit = _checked_unit(unit)
+            unit = checked_unit(unit)
         check_file(path)
         surface = _read(path, channel, pixel_size, unit)
     except OSError as error:
@@ -108,11 +108,11 @@ def _read(
         return _read_text(path, channel, pixel_size, unit)
     if suffix not in _LOADERS:
         return read_instrument(path, channel, pixel_size, unit)
-    given = _required(path, pixel_size, unit)
+    given = required(path, pixel_size, unit)
     return surface_of(_LOADERS[suffix](path, channel), *given)
 
 
-def _checked_unit(unit: str) -> str:
+def checked_unit(unit: str) -> str:
     """The unit, micro signs (there are two) written as u."""
     plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
     if plain not in METRES:
@@ -120,9 +120,7 @@ def _checked_unit(unit: str) -> str:
     return plain
 
 
-def _required(
-    path: Path, pixel_size: PixelSize | None, unit: str | None
-) -> tuple[float, PixelSize]:
+def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tuple[float, PixelSize]:
     """Metres per unit and pixel size, which files of numbers alone do not state."""
     if pixel_size is None:
         problem = f"a {path.suffix} file does not state the distance of its points [m]"
@@ -187,7 +185,7 @@ def _read_text(
                 message = f"{no_matrix} (and as the file of an instrument: {error})"
                 raise InvalidInput(message) from error
     check_channel(channel, 1)
-    return surface_of(heights, *_required(path, pixel_size, unit))
+    return surface_of(heights, *required(path, pixel_size, unit))
 
 
 def _load_text(path: Path) -> NDArray[Any]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.style import grey, narrow, palette
-from asperity.scene.scan import Scan, nyquist
+from asperity.scene.scan import Scan
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
@@ -28,7 +28,8 @@ def spectrum_figure(
     cutoff: float | None,
     path: Path,
 ) -> bytes:
-    """The scan as measured, without its trend (the article's Fig. 6), and its spectrum (Fig. 7)."""
+    """The scan as measured, without its trend (the article's Fig. 6), and its spectrum up to pi /
+    pixel (Fig. 7)."""
     figure, (left, middle, right) = new_figure(3)
     for axes, scan, title in (
         (left, raw, "(a) as measured"),
@@ -39,7 +40,7 @@ def spectrum_figure(
         else:
             draw_line(axes, scan)
         axes.set_title(title, fontsize="medium")
-    draw_spectrum(right, spectrum.truncated(q1=min(nyquist(flat), spectrum.q1)), fit, cutoff)
+    draw_spectrum(right, spectrum, fit, cutoff)
     right.set_title("(c) spectrum", fontsize="medium")
     return picture(figure, path)
 

@@ -1,0 +1,209 @@
+"""The verb `spectrum`: of a scan in memory, or of a map by tiles."""
+
+from argparse import Namespace
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from asperity._core import InvalidInput, NotConverged
+from asperity.base.arguments import FilePath
+from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.io import plausible
+from asperity.io.fields import rename_in_errors
+from asperity.io.open_map import open_map
+from asperity.io.table import Table
+from asperity.measured_spectrum import power_spectrum_of
+from asperity.plot import surface as plot_surface
+from asperity.scene import scan
+from asperity.scene.scan import Scan, read_filled, surface_spectrum
+from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
+from asperity.spectrum import TabulatedSpectrum
+from asperity.surface import HeightMap, LineScan
+from asperity.tiles.statistics import HeightStatistics, statistics_of
+from asperity.tiles.thinned import middle_tile, thinned
+
+_FLAGS = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
+_TILED = {"tiles": "--tiles", "overlap": "--overlap", "threads": "--threads"}
+_TILED |= {"max_dropouts": "--max-dropouts", "window": "--window"}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What a file gave: its spectrum, statistics of its heights without their trend, pictures."""
+
+    spectrum: TabulatedSpectrum
+    nyquist: float
+    statistics: Scan | HeightStatistics
+    inputs: dict[str, Any]
+    lay: float | None
+    notes: list[str]
+    raw: Scan  # of a map by tiles, both thinned out
+    flat: Scan
+
+
+def spectrum(args: Namespace) -> None:
+    """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
+    path = FilePath(args.file)
+    refuse_overwrite(check_outputs(args), [path])
+    with plausible.collected() as unusual:
+        for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
+            if q is not None:
+                plausible.check(flag, q, plausible.WAVENUMBER)
+        found = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
+    measured = found.spectrum
+    fit, fit_notes = _fit(measured, args)
+    whole = measured.truncated(q1=min(found.nyquist, measured.q1))
+    cutoff = whole.cutoff_for_slope(1.3)
+    inputs = {"file": str(path), "channel": args.channel, **found.inputs}
+    for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
+        if given is not None:
+            inputs[key] = given
+    numbers = {
+        "rms_height_m": whole.rms_height,
+        "rms_slope": whole.rms_slope,
+        "rms_slope_by_differences": found.statistics.rms_slope,
+        "skewness": found.statistics.skewness,
+        "kurtosis": found.statistics.kurtosis,
+        "z_max_m": found.statistics.z_max,
+        "z_min_m": found.statistics.z_min,
+        "slope_cutoff_1.3_per_m": cutoff,
+    }
+    if found.lay is not None:
+        numbers["slope_anisotropy"] = found.lay
+    if (band := scan.trusted(measured)) is not None:
+        numbers |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
+    if fit is not None:
+        numbers |= _fitted(fit)
+    notes = [*unusual, *fit_notes, *found.notes]
+    if cutoff >= whole.q1:
+        notes.append("the rms slope stays below 1.3 up to pi / pixel")
+    table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
+    drawn = cutoff if cutoff < whole.q1 else None
+    draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn)
+    write_outputs(args, table, draw, numbers)
+
+
+def _in_memory(path: Path, args: Namespace) -> Measured:
+    for flag in ("overlap", "threads"):
+        if getattr(args, flag) is not None:
+            raise InvalidInput(f"--{flag} {getattr(args, flag)}: goes with --tiles")
+    if path.is_dir():
+        raise InvalidInput(f"{path}: is a folder; a Zarr array is read with --tiles 4096")
+    with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):
+        raw, filled = read_filled(
+            path,
+            max_fraction=args.max_dropouts,
+            channel=args.channel,
+            pixel_size=args.pixel_size,
+            unit=args.unit,
+        )
+    how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
+    with rename_in_errors(path, {}):
+        measured = surface_spectrum(filled, **how)
+    ratio = scan.lay(filled, **how)
+    flat = scan.flat(filled, how["detrend"])
+    return Measured(
+        spectrum=measured,
+        nyquist=scan.nyquist(filled),
+        statistics=flat,
+        inputs={
+            "shape": list(raw.heights.shape),
+            "pixel_size_m": raw.spacing if isinstance(raw, LineScan) else list(raw.pixel_size),
+            "dropout_fraction": raw.dropout_fraction,
+            "window": args.window,
+            "detrend": args.detrend,
+        },
+        lay=ratio,
+        notes=scan.scan_notes(filled, ratio),
+        raw=raw,
+        flat=flat,
+    )
+
+
+def _by_tiles(path: Path, args: Namespace) -> Measured:
+    """The same of a map that need not fit in memory."""
+    detrend = None if args.detrend == "none" else args.detrend
+    threads = 1 if args.threads is None else args.threads
+    with rename_in_errors(None, _FLAGS):
+        source = open_map(path, channel=args.channel, pixel_size=args.pixel_size, unit=args.unit)
+    with rename_in_errors(path, _TILED):
+        measured = power_spectrum_of(
+            source,
+            window=args.window,
+            detrend=detrend,
+            tiles=args.tiles,
+            overlap=args.overlap,
+            max_dropouts=float(args.max_dropouts),
+            threads=threads,
+        )
+        found = statistics_of(source, detrend or "offset", threads=threads)
+        raw = thinned(source, threads=threads)
+        filled = raw.fill_dropouts(max_fraction=0.999)
+        tile = middle_tile(source, args.tiles, float(args.max_dropouts))
+    ratio = None if tile is None else scan.lay(tile, window=args.window, detrend=detrend)
+    notes = [] if tile is None else scan.scan_notes(tile, ratio)
+    return Measured(
+        spectrum=measured,
+        nyquist=scan.nyquist(HeightMap([[0.0]], pixel_size=source.pixel_size)),
+        statistics=found,
+        inputs={
+            "shape": list(source.shape),
+            "pixel_size_m": list(source.pixel_size),
+            "dropout_fraction": found.dropout_fraction,
+            "window": args.window,
+            "detrend": args.detrend,
+            "tiles": args.tiles if isinstance(args.tiles, int) else list(args.tiles),
+            "overlap": 0.5 if args.overlap is None else args.overlap,
+            "max_dropouts": float(args.max_dropouts),
+        },
+        lay=ratio,
+        notes=[f"{note} (a tile in the middle)" for note in notes],
+        raw=raw,
+        flat=scan.flat(filled, detrend),
+    )
+
+
+def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
+    columns: dict[str, list[Any]] = {
+        "wavenumber_per_m": measured.wavenumber.tolist(),
+        "density_m4": measured.density.tolist(),
+    }
+    if measured.count is not None and measured.standard_error is not None:
+        columns["standard_error_m4"] = measured.standard_error.tolist()
+        columns["count"] = [round(modes) for modes in measured.count.tolist()]
+    if measured.flag is not None:
+        columns["flag"] = measured.flag.tolist()
+    return columns
+
+
+def _fitted(fit: SelfAffineFit) -> dict[str, float]:
+    found = {
+        "fit_q0_per_m": fit.q0,
+        "fit_q1_per_m": fit.q1,
+        "fit_hurst": fit.hurst,
+        "fit_hurst_standard_error": fit.standard_errors["hurst"],
+        "fit_rms_height_m": fit.rms_height,
+        "fit_rms_height_standard_error_m": fit.standard_errors["rms_height"],
+        "fit_residual": fit.residual,
+    }
+    if fit.rolloff is not None:
+        found["fit_rolloff_per_m"] = fit.rolloff
+        found["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
+    return found
+
+
+def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[str]]:
+    """The self-affine fit, or a note that says why there is none."""
+    q_min, q_max = args.q_min, args.q_max
+    if q_min is not None and q_max is not None and q_min >= q_max:
+        raise InvalidInput(f"--q-max {q_max}: must be above --q-min {q_min}")
+    try:
+        with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
+            return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
+    except (InvalidInput, NotConverged) as error:
+        typed = [f"--q-min {q_min}"] * (q_min is not None) + [f"--q-max {q_max}"] * (
+            q_max is not None
+        )
+        problem = str(error).replace("--q-min, --q-max: ", f"{' '.join(typed)}: ")
+        return None, [f"no self-affine fit: {problem}"]

@@ -1,0 +1,85 @@
+"""Maps that need not fit in memory: .npy files and Zarr arrays, opened but not read."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import path_of
+from asperity.base.table import imported
+from asperity.io import plausible
+from asperity.io.files import check_file
+from asperity.io.instrument import PixelSize, brief, check_channel
+from asperity.io.read_surface import checked_unit, required
+from asperity.tiles.source import Source, source_of
+
+_SAMPLED = 64  # rows that tell the order of the heights
+
+
+def open_map(
+    path: str | os.PathLike[str],
+    *,
+    channel: int = 0,
+    pixel_size: PixelSize | None = None,
+    unit: str | None = None,
+) -> Source:
+    """Return the map of a file: a .npy file, mapped read-only, or a Zarr array or group.
+
+    Of a group `channel` counts the arrays of two axes by their names.
+    """
+    path = path_of(path, "path")
+    try:
+        known = None if unit is None else checked_unit(unit)
+        array = _zarr(path, channel) if path.is_dir() else _npy(path, channel)
+        metres, pixel = required(path, pixel_size, known)
+        source = source_of(array, pixel, metres)
+        plausible.check_scan(f"{path}", _sample(source), min(source.pixel_size), known or "m")
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+    except InvalidInput as error:
+        text = str(error)
+        raise InvalidInput(text if text.startswith(f"{path}") else f"{path}: {text}") from error
+    return source
+
+
+def _npy(path: Path, channel: int) -> Any:
+    check_file(path)
+    if path.suffix.lower() != ".npy":
+        allowed = "must be a .npy file or a Zarr array; others are read whole"
+        raise InvalidInput(f"cannot be read by tiles: {allowed}")
+    check_channel(channel, 1)
+    try:
+        return np.load(path, mmap_mode="r", allow_pickle=False)
+    except OSError:
+        raise
+    except Exception as error:
+        raise InvalidInput(f"not a sound .npy file: {brief(error)}") from error
+
+
+def _zarr(path: Path, channel: int) -> Any:
+    zarr = imported("zarr", "sweep")
+    try:
+        opened = zarr.open(path, mode="r")
+    except Exception as error:
+        raise InvalidInput(f"not a Zarr array or group: {brief(error)}") from error
+    if not isinstance(opened, zarr.Group):
+        check_channel(channel, 1)
+        return opened
+    arrays = dict(sorted(opened.arrays()))
+    maps = [array for array in arrays.values() if array.ndim == 2]
+    if not maps:
+        held = ", ".join(f"{name} {array.shape}" for name, array in arrays.items()) or "none"
+        raise InvalidInput(f"a Zarr group without an array of two axes; it has {held}")
+    check_channel(channel, len(maps))
+    return maps[channel]
+
+
+def _sample(source: Source) -> Any:
+    """Some rows of the map, from the first to the last."""
+    ny, nx = source.shape
+    rows = np.unique(np.linspace(0, ny - 1, min(ny, _SAMPLED)).astype(int))
+    return np.concatenate(
+        [source.piece((slice(int(y), int(y) + 1), slice(0, nx))).read() for y in rows]
+    )

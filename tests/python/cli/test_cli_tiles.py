@@ -1,0 +1,84 @@
+"""`asperity spectrum --tiles`: .npy files and Zarr arrays that need not fit in memory."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.cli.main import main
+from helpers.known_surfaces import law, surface
+
+PIXEL = 1e-6
+READ = ["--pixel-size", str(PIXEL), "--unit", "um"]
+HEIGHTS = surface(law(0.8, rolloff=1e5), (600, 700), PIXEL, 1, dtype=np.float32) * 1e6
+
+
+def found(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, float]:
+    assert main(["spectrum", *arguments]) == 0
+    pairs = [line.split(" = ") for line in capsys.readouterr().err.splitlines() if " = " in line]
+    return {name: float(value) for name, value in pairs if name.isidentifier()}
+
+
+def test_a_file_and_an_array_give_what_python_does(
+    folder: Path, capsys: pytest.CaptureFixture[str], undrawn: None
+) -> None:
+    zarr = pytest.importorskip("zarr")
+    np.save("map.npy", HEIGHTS)
+    group = zarr.create_group("scan.zarr")
+    group.create_array("x", data=np.arange(5.0))
+    group.create_array("height", data=HEIGHTS, chunks=(256, 256))
+    first = found(capsys, "map.npy", *READ, "--tiles", "512", "--output", "map.csv")
+    arguments = ["--tiles", "512,512", "--threads", "2", "--plot", "a.png"]
+    second = found(capsys, "scan.zarr", *READ, *arguments)
+    assert first == second
+    metres = HEIGHTS * np.float32(1e-6)
+    spectrum = asperity.power_spectrum(metres, pixel_size=PIXEL, tiles=512)
+    statistics = asperity.height_statistics(metres, pixel_size=PIXEL, detrend="plane")
+    fit = asperity.fit_self_affine(spectrum)
+    assert first["fit_hurst"] == pytest.approx(fit.hurst, rel=1e-5)
+    assert first["kurtosis"] == pytest.approx(statistics.kurtosis, rel=1e-5)
+    assert first["z_max_m"] == pytest.approx(statistics.z_max, rel=1e-5)
+    assert first["slope_anisotropy"] == pytest.approx(1, abs=0.1)
+    text = (folder / "map.csv").read_text().splitlines()
+    assert {"# tiles = 512", "# overlap = 0.5", "# shape = [600, 700]"} <= {*text}
+    rows = [line for line in text if not line.startswith("#")]
+    assert len(rows) == 1 + spectrum.wavenumber.size
+    assert float(rows[1].split(",")[1]) == pytest.approx(spectrum.density[0], rel=1e-6)
+    assert Path("a.png").stat().st_size > 0
+
+
+BAD = [
+    (["none.npy", "--tiles", "512"], "none.npy: cannot be read: No such file"),
+    (["map.npy", "--tiles", "4096"], "--tiles = (4096, 4096): must be at most (600, 700), the map"),
+    (["map.npy", "--tiles", "x"], "'x': must be a whole number, or two: NY,NX"),
+    (["map.npy", "--tiles", "512", "--overlap", "0.9"], "--overlap = 0.9: must be from 0 to 0.75"),
+    (["map.npy", "--overlap", "0.25"], "--overlap 0.25: goes with --tiles"),
+    (["map.npy", "--threads", "2"], "--threads 2: goes with --tiles"),
+    (["map.npy", "--tiles", "512", "--channel", "1"], "--channel = 1: must be 0, the only one"),
+    (["map.npz", "--tiles", "512"], "must be a .npy file or a Zarr array; others are read whole"),
+    (["short.npy", "--tiles", "512"], "short.npy: not a sound .npy file"),
+    (["line.npy", "--tiles", "512"], "surface has shape (700,): must have two axes"),
+    (["empty", "--tiles", "512"], "empty: not a Zarr array or group"),
+    (["empty"], "empty: is a folder; a Zarr array is read with --tiles 4096"),
+    (["group.zarr", "--tiles", "512"], "a Zarr group without an array of two axes; it has c (2,"),
+]
+
+
+def test_bad_input_is_one_line(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    zarr = pytest.importorskip("zarr")
+    np.save("map.npy", HEIGHTS)
+    np.savez("map.npz", HEIGHTS)
+    np.save("line.npy", HEIGHTS[0])
+    Path("short.npy").write_bytes(Path("map.npy").read_bytes()[:900_000])
+    Path("empty").mkdir()
+    zarr.create_group("group.zarr").create_array("c", data=np.ones((2, 3, 4)))
+    for arguments, message in BAD:
+        try:
+            code = main(["spectrum", *arguments, *READ])
+        except SystemExit as error:  # of the parser
+            code = error.code
+        said = capsys.readouterr().err
+        assert code == 2, (arguments, said)
+        assert message in said
+        assert said.count("\n") == 1
