@@ -27,6 +27,7 @@ from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.existing import open_store
 from asperity.sweep.look import choose, ranks
+from asperity.sweep.outcome import code_of
 from asperity.sweep.plan import cut_of
 from asperity.sweep.timing import estimated, timed
 
@@ -34,7 +35,7 @@ _KEYS = dict.fromkeys(("scene", "over", "variables"))
 _RANK_NOTES = [
     "points at which every value has a result are compared; lead is that of the mean over the next",
     "certain_share: the lead at a point exceeds the sum of the errors of the two: numerical "
-    "error, model error, and half the band where there is one",
+    "error, model error, and half the band where there is one; nan where a model error is unknown",
 ]
 _TOLD = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer
@@ -98,18 +99,27 @@ def _compute(args: Namespace, executor: Any) -> None:
     )
     with found:
         _look(args, found)
-        notes = str(found.attrs["notes"]).splitlines()
-        tell_notes(notes[:_TOLD])
-        if len(notes) > _TOLD:
-            print_stderr(
-                f"note: {len(notes) - _TOLD} more are in the attribute notes of {output}\n"
-            )
+        _tell_notes(str(found.attrs["notes"]).splitlines(), output)
         points, failed = plan.points, int(found.attrs["failed"])
         messages = found["failure_message"].values.tolist()
     if failed:
-        more = f" and {len(messages) - 1} other messages" if len(messages) > 1 else ""
+        rest = len(messages) - 1
+        more = f"; failure_message has {rest} more" if rest else ""
         raise Error(f"{output}: {failed} of {points} points failed: {messages[0]}{more}")
     print_stderr(f"{output}: {points} points, none failed\n")
+
+
+def _tell_notes(notes: list[str], output: Path) -> None:
+    """Tell notes, one of those that differ in their numbers alone."""
+    alike: dict[int, list[str]] = {}
+    for note in notes:
+        alike.setdefault(code_of(note), []).append(note)
+    told = list(alike.values())[:_TOLD]
+    tell_notes(
+        [f"{one} (and {len(rest)} with other numbers)" if rest else one for one, *rest in told]
+    )
+    if len(notes) > len(told):
+        print_stderr(f"note: all {len(notes)} notes are in the attribute notes of {output}\n")
 
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _MOST_PANELS = 8  # along either axis
 _MOST_BANDS = 3  # curves of a panel whose bands can be told apart
 _TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}
+_OF_TABLE = ("kind", "file")  # what there is one of in a table
 _WIDE, _LONG = 3.0, 2.5  # inches of a panel
 _COLUMN = 3.4  # inches, of a journal of two columns
 
@@ -158,22 +159,24 @@ def _title(dataset: Any, axis: str) -> str:
 
 def _unit(attributes: Any) -> str:
     unit = attributes.get("units", "")
-    return "-" if unit == "1" else str(unit)
+    return {"1": "-", "degC": "\N{DEGREE SIGN}C"}.get(unit, str(unit))
 
 
 def _short(axis: object) -> str:
-    """The name of an axis as a picture has room for it: the key without table and unit."""
-    return without_unit(str(axis).rpartition(".")[2])[0].replace("_", " ")
+    """The name of an axis as a picture has room for it: the key without table and unit, or the
+    table where the key tells nothing."""
+    table, _, key = str(axis).rpartition(".")
+    return table if key in _OF_TABLE else without_unit(key)[0].replace("_", " ")
 
 
 def _value(coordinate: Any) -> str:
     """One value of an axis, with its name and unit."""
-    unit = coordinate.attrs.get("units", "1") if coordinate.dtype.kind in "fiu" else "1"
-    return f"{_short(coordinate.name)} {_text(coordinate.values)}" + f" {unit}" * (unit != "1")
+    unit = _unit(coordinate.attrs) if coordinate.dtype.kind in "fiu" else "-"
+    return f"{_short(coordinate.name)} {_text(coordinate.values)}" + f" {unit}" * (unit != "-")
 
 
 def _text(value: Any) -> str:
-    """A coordinate as a picture has room for it; of a file its name."""
+    """A coordinate as a picture has room for it; of files their names."""
     if np.asarray(value).dtype.kind in "fiu":
         return f"{float(value):.4g}"
-    return str(value).rpartition("/")[2]
+    return "+".join(one.rpartition("/")[2] for one in str(value).split("+"))

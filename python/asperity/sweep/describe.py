@@ -164,9 +164,11 @@ def _coordinate(dimension: str, key: str, entries: Sequence[Any]) -> Coordinate:
 
 
 def label(entry: Any) -> str:
-    """A value of an axis that is no number, as text."""
+    """A value of an axis that is no number, as text; files with a plus between them."""
     if isinstance(entry, str):
         return entry
+    if isinstance(entry, list) and entry and all(isinstance(one, str) for one in entry):
+        return "+".join(entry)
     return "none" if entry is None else json.dumps(entry)
 
 

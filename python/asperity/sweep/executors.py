@@ -2,6 +2,7 @@
 
 import logging
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import contextmanager
@@ -56,17 +57,17 @@ def local_cluster(workers: int) -> Iterator[Any]:
     """A Dask client of processes of this machine, a thread each, which restart when they end."""
     distributed, dask = imported("distributed", "sweep"), imported("dask", "sweep")
     quiet = {"distributed.worker.profile.enabled": False}  # a hundred looks a second at a loop in C
-    with (
-        dask.config.set(quiet),
-        distributed.LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            dashboard_address=None,
-            silence_logs=logging.CRITICAL,
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        yield client
+    with dask.config.set(quiet):
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Port .* is already in use")  # nobody asked for it
+            made = distributed.LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs=logging.CRITICAL,
+            )
+        with made as cluster, distributed.Client(cluster) as client:
+            yield client
 
 
 def _count(executor: Any) -> int:

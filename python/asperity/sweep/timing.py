@@ -13,7 +13,7 @@ from asperity.sweep.outcome import Outcome
 from asperity.sweep.plan import Cost, Plan
 from asperity.sweep.task import compute
 
-_TIMED = 0.2  # seconds that a timed task takes at least
+_TIMED = 0.05  # seconds that a timed task takes at least
 _MOST_TIMED = 20_000  # points of it at most
 _MOST_TRIED = 1000  # scenes that are tried until one can be built
 _UNKNOWN = 1e-3  # seconds of a scene where none could be timed

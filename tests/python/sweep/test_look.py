@@ -177,7 +177,7 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
         "2e+05",
         "4e+05",
     ]
-    assert "kind partial-contact" in figure.get_suptitle()
+    assert "correction partial-contact" in figure.get_suptitle()
     area = drawn(part, tmp_path / "p.png", monkeypatch, name="contact_area")
     assert area.get_supylabel() == "Real over nominal contact area [-]"
     one = drawn(

@@ -1,13 +1,16 @@
 """The verb `sweep`: what it writes, what it says last, and how bad input is refused."""
 
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import asperity
+from asperity.cli import sweep_command
 from asperity.cli.main import main
 from asperity.sweep import run
+from asperity.sweep.describe import label
 from helpers.cases import case
 from helpers.sweeps import SCENE, toml
 
@@ -67,6 +70,24 @@ def test_it_writes_what_python_computes(capsys):
     assert main(["sweep", "sweep.toml", "--output", "r.zarr", "--force", "--variables", "mu"]) == 0
     with xarray.open_dataset("r.zarr") as found:
         assert "contact_area" not in found
+
+
+def test_notes_that_differ_in_their_numbers_are_told_once(capsys):
+    many = [f"note {kind} of a scan" for kind in "abcdefghijklmnopqrstuv"]
+    sweep_command._tell_notes(["rms 1", "other", "rms 2.5", "rms 1e-3", *many], Path("r.zarr"))
+    told = capsys.readouterr().err.splitlines()
+    assert told[:2] == ["note: rms 1 (and 2 with other numbers)", "note: other"]
+    assert told[-1] == "note: all 26 notes are in the attribute notes of r.zarr"
+    assert len(told) == 21
+    sweep_command._tell_notes(["rms 1", "other"], Path("r.zarr"))
+    assert capsys.readouterr().err.splitlines() == ["note: rms 1", "note: other"]
+
+
+def test_files_of_a_rubber_have_a_label_that_can_be_typed():
+    assert label(["a.csv", "b.csv"]) == "a.csv+b.csv"
+    assert label(["a.csv"]) == label("a.csv") == "a.csv"
+    assert label([1e5, 2e5]) == "[100000.0, 200000.0]"
+    assert label(None) == "none"
 
 
 def test_a_dry_run_tells_what_it_would_take(capsys):
