@@ -185,8 +185,8 @@ def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
         with netcdf.Dataset(part, "w") as file:
             _fill(file, dataset, group)
         os.replace(part, path)
-    except (OSError, RuntimeError) as error:  # NetCDF says RuntimeError of a full disk
-        reason = getattr(error, "strerror", None) or error
+    except (OSError, RuntimeError) as error:  # the latter is NetCDF's, which knows no reasons
+        reason = getattr(error, "strerror", None) or f"{error}: is the disk full?"
         raise Error(f"{path}: cannot be written: {reason}; --resume goes on") from error
     finally:
         if part is not None:
