@@ -87,6 +87,33 @@ def test_estimates_hold_against_gsl(count):
             assert max(random_partial_contact.compute(4, scene, by_gsl=True).values()) <= 1
 
 
+def test_levels_of_rings_do_not_agree_by_chance_on_knots():
+    # by one change alone 42 of these points were off, by up to 42 times the estimate
+    rng = np.random.default_rng(2)
+    w = np.sort(np.concatenate([[1e-3, 1e7], 10 ** rng.uniform(-3, 7, 138)]))
+    noise = np.exp(0.03 * rng.standard_normal((2, 140)))
+    e = RUBBER.modulus(w)
+    curve = MasterCurve(
+        angular_frequency=w, storage_modulus=e.real * noise[0], loss_modulus=e.imag * noise[1]
+    )
+    q = 7e4 * np.arange(25.0, 75.0)
+    density = 1e-12 * (q / q[0]) ** -3.6 * np.exp(0.1 * rng.standard_normal(50))
+    rings = asperity.TabulatedSpectrum(wavenumber=q, density=density)
+    conditions = {
+        "pressure": 1e12,  # complete contact
+        "velocity": np.geomspace(1.1e-3 / q[0], 9e6 / q[-1], 2000),
+        "correction": RULE,
+    }
+    best = asperity.friction(rings, curve, **conditions, rtol=1e-9)
+    exceeded = 0
+    for rtol in (1e-4, 1e-5, 1e-6, 1e-7):
+        found = asperity.friction(rings, curve, **conditions, rtol=rtol)
+        off = np.abs(found.mu - best.mu) / (found.error_estimate + best.error_estimate)
+        assert off.max() < 3
+        exceeded += np.count_nonzero(off > 1)
+    assert exceeded <= 3  # of 8000
+
+
 def random_scene(rng):
     """A scene of the random ones: surfaces of all kinds, rubbers from elastic to steep."""
     q0, octaves, hurst = 10 ** rng.uniform(1, 5), rng.uniform(0.05, 9), rng.uniform(0.05, 1)

@@ -15,6 +15,9 @@ constexpr double for_tail = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_change_with_knots = 1.5, of_others = 0.3, of_rest = 2;
+/// Rows of a measured modulus lie anywhere in pieces, and two levels that miss one alike differ by nothing. What they
+/// miss falls by four from level to level, so that a quarter of the change before counts as well.
+constexpr double of_change_before = 0.25;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;
@@ -136,6 +139,8 @@ void PartialRingSolver::solve(double pressure, double velocity) {
   check_g(g1_, pressure);
   PartialRoot before = root(*coarse, scale, usual_kappa);
   const double outside = outside_share(*coarse, before);
+  const bool knots = std::holds_alternative<MasterCurve>(rubber_);
+  double change_before = knots ? 1 : 0;  // not known yet
   for (std::size_t number = 1; number < RoughnessPieces::levels; ++number) {
     Level& level = at_velocity(number, velocity);
     root_ = root(level, scale, before.kappa);
@@ -144,8 +149,10 @@ void PartialRingSolver::solve(double pressure, double velocity) {
                   difference(level.end.g, coarse->end.g),
                   of_others * std::max({difference(root_.kappa, before.kappa), std::fabs(root_.slope - before.slope),
                                         std::fabs(root_.friction_slope - before.friction_slope)})});
-    const double error = (std::holds_alternative<MasterCurve>(rubber_) ? of_change_with_knots : of_change) * change +
-                         of_rest * RoughnessPieces::roughest(number) + for_tail * model_.rtol;
+    const double error =
+        (knots ? of_change_with_knots * std::fmax(change, of_change_before * change_before) : of_change * change) +
+        of_rest * RoughnessPieces::roughest(number) + for_tail * model_.rtol;
+    change_before = change;
     before = root_;
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;
