@@ -137,8 +137,9 @@ std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vec
     for (int k = 0; k <= parts; ++k) {
       const double t = static_cast<double>(k) / parts;
       const double found = hermite(shift[i], shift[i + 1], shift[i + 2], shift[i + 3], step, t).value;
-      lowest = std::fmin(lowest, found);
-      highest = std::fmax(highest, found);
+      // not std::fmin, of whose vectors GCC 12 for aarch64 makes an internal error
+      lowest = std::min(lowest, found);
+      highest = std::max(highest, found);
     }
   return {velocity[0] * std::exp(lowest), velocity[1] * std::exp(highest)};
 }
