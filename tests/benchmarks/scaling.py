@@ -116,7 +116,7 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
     last.axhline(closed, color="0.5", linestyle="--", linewidth=1, label="closed form, 20 terms")
     last.set_ylim(bottom=0)
     last.set_xlabel("Rings of the scan [-]")
-    last.set_ylabel("Time a velocity [us]")
+    last.set_ylabel("Time a velocity [µs]")
     last.set_xscale("log")
     last.legend(loc="upper left", fontsize="small", frameon=False)
     return picture(figure, path)

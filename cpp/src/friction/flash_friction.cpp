@@ -15,7 +15,7 @@
 #include "friction/before_heating.hpp"
 #include "friction/large_friction.hpp"
 #include "heat/flash_solver.hpp"
-#include "heat/gsl_heat.hpp"
+#include "heat/heat_check.hpp"
 #include "heat/history.hpp"
 #include "heat/one_temperature.hpp"
 #include "numerics/arguments.hpp"

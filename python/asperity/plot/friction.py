@@ -32,8 +32,8 @@ _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
 _TEMPERATURE = "Temperature $T_0$ [K]"
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
-_FAR_APART = 30.0  # times; curves whose largest mu are so far apart share no linear axis
-_SEEN = 0.01  # of the axis' height, less than which a line hides
+_WIDTH = 1.8  # points, of the line of mu
+_FAR_APART = 30  # times; curves whose largest mu are so far apart share no linear axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,15 +74,17 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         for kind, dashes in kinds.items():
             axes.plot([], [], dashes, color=grey(0.3), label=kind)
     _label(axes, abscissa)
-    _set_height(axes, curves)
+    _scale_friction(axes, curves)
     drawn = zip(scenes, results, strict=True)
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
-        _tell_band(axes, curves, band_text(level))
+        seen = any(_shows(axes, *curve.band) for curve in curves if curve.band)
+        _tell_band(axes, band_text(level), seen=seen, color=grey(0.3), alpha=0.2, linewidth=0)
     if hatched:
-        _tell_errors(axes, results)
+        _tell_errors(axes, curves, results)
     axes.set_ylabel("Friction coefficient $\\mu$ [-]")
     if beside:
         _label(beside[0], abscissa)
+        beside[0].set_ylim(bottom=0)
         beside[0].set_ylabel("Temperature rise at $q_1$ [K]")
     if profiled is not None:
         _draw_profiles(beside[1], profiled)
@@ -169,7 +171,7 @@ def _draw(
             y,
             dashes,
             color=colour,
-            linewidth=1.8 if kind == "total" else 1.2,
+            linewidth=_WIDTH if kind == "total" else 1.2,
             marker="o" if curve.x.size == 1 else None,
             label=curve.label if kind == "total" and labelled else None,
         )
@@ -215,38 +217,44 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
 def _label(axes: "Axes", abscissa: str) -> None:
     if abscissa != _TEMPERATURE:
         axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
     axes.set_xlabel(abscissa)
 
 
-def _set_height(axes: "Axes", curves: Sequence[_Curve]) -> None:
-    """From zero on; logarithmic where a linear axis would press some curves into one line."""
+def _scale_friction(axes: "Axes", curves: Sequence[_Curve]) -> None:
+    """From zero, or over decades where a linear axis would lay a whole curve on its foot."""
+    mu = np.concatenate([y for curve in curves for y in (curve.kinds[0], *curve.heat[:1])])
     largest = [float(curve.kinds[0].max()) for curve in curves]
     if 0 < min(largest) < max(largest) / _FAR_APART:
-        smallest = min(float(np.min(c.kinds[0], where=c.kinds[0] > 0, initial=1e9)) for c in curves)
-        axes.set_yscale("log")
-        axes.set_ylim(smallest / 2, 2 * max(largest))
-
-
-def _tell_band(axes: "Axes", curves: Sequence[_Curve], label: str) -> None:
-    """An entry of the legend for the bands; with no patch where none can be seen."""
-    place = axes.transAxes.inverted().transform
-    seen = False
-    for curve in curves:
-        if curve.band:
-            ends = [np.column_stack([curve.x, bound]) for bound in curve.band]
-            low, high = (place(axes.transData.transform(one))[:, 1] for one in ends)
-            seen = seen or bool(np.nanmax(high - low) > _SEEN)
-    if seen:
-        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+        axes.set_yscale("log", nonpositive="clip")
+        axes.set_ylim(
+            float(np.min(mu, where=mu > 0, initial=np.inf)) / 1.5, float(np.max(mu)) * 1.5
+        )
     else:
-        axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
+        axes.set_ylim(bottom=0)
 
 
-def _tell_errors(axes: "Axes", results: Sequence[Curves]) -> None:
+def _shows(axes: "Axes", low: NDArray[np.float64], high: NDArray[np.float64]) -> bool:
+    """Whether a band is anywhere seen beside the line that runs through it."""
+    x = np.zeros_like(low)
+    ends = [axes.transData.transform(np.column_stack([x + 1, y]))[:, 1] for y in (low, high)]
+    with np.errstate(invalid="ignore"):
+        width = (ends[1] - ends[0]) * 72 / axes.figure.dpi
+    return bool(np.nanmax(width, initial=0) > 2 * _WIDTH)
+
+
+def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
+    """An entry of the legend with a swatch, or words alone where the band cannot be seen."""
+    if seen:
+        axes.fill_between([], [], **look, label=label)
+    else:
+        axes.plot([], [], linestyle="", label=f"{label}: too narrow to see")
+
+
+def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[Curves]) -> None:
     """Entries of the legend for the error of the model and that of the numbers."""
-    label = "model error, from exact\nsliding contacts"
-    axes.fill_between([], [], **_hatch(grey(0.3)), label=label)
+    around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
+    seen = any(_shows(axes, *ends) for ends in around)
+    _tell_band(axes, "model error, from exact\nsliding contacts", seen=seen, **_hatch(grey(0.3)))
     numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
     power = f"$10^{{{math.ceil(math.log10(max(numerical, 1e-16)))}}}$"
     label = f"numerical error below {power},\ntoo small to see"

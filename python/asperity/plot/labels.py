@@ -31,12 +31,14 @@ def _any_letters() -> Iterator[None]:
 
 @_any_letters()
 def name_curves(axes: "Axes", named: Sequence[tuple["Line2D", str]]) -> bool:
-    """Write its name beside each curve, at the place that is farthest from everything else. False,
-    and nothing is written, where a name would touch another curve."""
+    """Write its name beside each curve, at the place that is farthest from everything else, of
+    those where no other curve lies upon it. False, and nothing is written, where a name would touch
+    another curve."""
     from matplotlib.patheffects import withStroke
 
     figure = _settled(axes)
-    drawn = [_points(axes, line) for line in axes.lines if len(line.get_xdata())]  # type: ignore[arg-type]
+    curves = [line for line in axes.lines if len(line.get_xdata())]  # type: ignore[arg-type]
+    drawn = [_points(axes, line) for line in curves]
     halo = [withStroke(linewidth=2.5, foreground=paper())]
     gap = _GAP * figure.dpi / 72
     legend = axes.get_legend()
@@ -50,10 +52,7 @@ def name_curves(axes: "Axes", named: Sequence[tuple["Line2D", str]]) -> bool:
         half = np.array([size.width, size.height]) / 2
         best, middle = -np.inf, np.zeros(2)
         path = _points(axes, line)
-        for share in _PLACES:
-            x = axes.bbox.x0 + share * axes.bbox.width
-            if not path[0, 0] <= x <= path[-1, 0]:
-                continue
+        for x in _apart(path, [_points(axes, one) for one in curves if one is not line], axes):
             beside = np.abs(path[:, 0] - x) <= half[0]
             for side in (1, -1):
                 edge = path[beside, 1].max() if side > 0 else path[beside, 1].min()
@@ -70,6 +69,21 @@ def name_curves(axes: "Axes", named: Sequence[tuple["Line2D", str]]) -> bool:
         place = axes.transAxes.inverted().transform(middle)
         text.set(transform=axes.transAxes, position=place, ha="center", va="center")
     return True
+
+
+def _apart(
+    path: NDArray[np.float64], others: Sequence[NDArray[np.float64]], axes: "Axes"
+) -> NDArray[np.float64]:
+    """Places along a curve where it can be told from the others; all of them where it never can."""
+    x = axes.bbox.x0 + _PLACES * axes.bbox.width
+    x = x[(x >= path[0, 0]) & (x <= path[-1, 0])]
+    at = np.column_stack([x, np.interp(x, *path.T)])
+    away = np.full(len(x), np.inf)
+    for points in others:
+        away = np.fmin(away, np.hypot(*(at[:, None] - points).transpose(2, 0, 1)).min(axis=1))
+    told = x[away > 2 * _GAP * axes.figure.dpi / 72]
+    chosen: NDArray[np.float64] = told if len(told) else x
+    return chosen
 
 
 def legend_beside(figure: "Figure", *entries: Any) -> None:
@@ -101,8 +115,9 @@ def legend_beside(figure: "Figure", *entries: Any) -> None:
         if alone:
             axes.set_title(alone, fontsize="medium")
         before = _legends(figure)
-        if rest:
-            legend_where_room_is(figure, axes, *zip(*rest, strict=True), title=title)
+        if rest or title:
+            shown = [one for one, _ in rest], [name for _, name in rest]
+            legend_where_room_is(figure, axes, *shown, title=title)
         if name_curves(axes, named):
             return
         for legend in _legends(figure):

@@ -2,7 +2,7 @@
 //   theta(q) = (2 v sigma0 / (rho c_v P_m)) int q' g(q, q') dmu_H(q') + chi (mu_A sigma0 v / (rho c_v P_m)) 2 q t N
 // by adaptive rules over all of the roughness, G integrated anew inside of each. B. N. J. Persson, J. Phys.: Condens.
 // Matter 18, 7789 (2006).
-#include "heat/gsl_heat.hpp"
+#include "heat/heat_check.hpp"
 
 #include <algorithm>
 #include <cmath>
