@@ -97,7 +97,7 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
         of each wavenumber feels it: the fixed point of the model of B. N. J. Persson, J. Phys.:
         Condens. Matter 18, 7789 (2006). The error estimate covers quadrature, T(q) and fixed point.
         Greenwood-Williamson's model takes the modulus at T(q0). GSL's methods integrate the heat
-        anew at every temperature point, in tenths of a second; not with PartialContact.
+        anew at every temperature point, in hundredths of a second; not with PartialContact.
     branch : {"cold", "hot"}
         Where the heat has several steady states, the one that sliding from rest reaches, or the
         hottest.

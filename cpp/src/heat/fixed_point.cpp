@@ -115,6 +115,13 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
     found.solutions = static_cast<int>(crossings.size());
     return found;
   }
+  if (const std::optional<VectorXd> theta = march.root(low, high)) {
+    map(*theta);
+    tangent.take(map);
+    FixedPoint found = finished(map, *theta, tangent);
+    found.solutions = static_cast<int>(crossings.size());
+    return found;
+  }
   throw NotConverged("the flash temperature: Newton's steps do not end");
 }
 

@@ -16,6 +16,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+constexpr double flat = 0.1;       // of ln eps over a stride, where solutions may be near each other
+constexpr double exactly = 1e-12;  // of tau
+
+}  // namespace
+
 MatrixXd identity_less(const MatrixXd& jacobian, double factor) {
   MatrixXd matrix = -factor * jacobian;
   matrix.diagonal().array() += 1;
@@ -75,10 +82,28 @@ std::optional<Place> March::beyond_turn(Place low, Place middle, Place high) {
   return {};
 }
 
+/// More places where eps hardly differs from 1 over a stride: there it may pass through 1 to and fro.
+void March::divide_flat(std::vector<Place>& places) {
+  constexpr int parts = 8;
+  std::vector<Place> result{places.front()};
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Place &low = places[i - 1], &high = places[i];
+    if (std::fabs(std::log(low.eps)) + std::fabs(std::log(high.eps)) < flat)
+      for (int k = 1; k < parts; ++k) {
+        at_ = result.back();
+        if (const auto found = solve(low.tau * std::pow(high.tau / low.tau, static_cast<double>(k) / parts)))
+          result.push_back(*found);
+      }
+    result.push_back(high);
+  }
+  places = std::move(result);
+}
+
 std::vector<std::pair<Place, Place>> March::crossings() {
   if (at_.eps >= 1) throw NotConverged("the flash temperature: no start of the search");
   std::vector<Place> places{at_};
   while (const std::optional<Place> here = next()) places.push_back(*here);
+  divide_flat(places);
   for (std::size_t i = 1; i + 1 < places.size(); ++i) {
     const bool below = places[i].eps < 1;
     if ((places[i - 1].eps < 1) != below || (places[i + 1].eps < 1) != below) continue;
@@ -115,18 +140,49 @@ VectorXd March::between(Place low, Place high, double near) {
   return std::fabs(from) < std::fabs(to) ? low.theta : high.theta;
 }
 
+/// By Ridders' steps, as eps may be nearly flat.
+std::optional<VectorXd> March::root(Place low, Place high) {
+  constexpr int most = 60;
+  for (int i = 0; i < most; ++i) {
+    const double x_low = std::log(low.tau), x_high = std::log(high.tau);
+    const double y_low = std::log(low.eps), y_high = std::log(high.eps);
+    at_ = std::fabs(y_low) < std::fabs(y_high) ? low : high;
+    if (std::fabs(std::log(at_.eps)) < 10 * exactly || x_high - x_low < exactly) return at_.theta;
+    const std::optional<Place> middle = solve(std::exp((x_low + x_high) / 2));
+    if (!middle) return {};
+    const double y = std::log(middle->eps), size = std::sqrt(y * y - y_low * y_high);
+    std::optional<Place> found = middle;
+    if (size > 0) {
+      const double x = (x_low + x_high) / 2 + (x_high - x_low) / 2 * (y_low < y_high ? -1 : 1) * y / size;
+      at_ = *middle;
+      if (auto next = solve(std::exp(x))) found = std::move(next);
+    }
+    std::vector<Place> places{low, *middle, *found, high};
+    std::ranges::sort(places, {}, &Place::tau);
+    for (std::size_t k = 1; k < places.size(); ++k)
+      if ((places[k].eps < 1) != (places[k - 1].eps < 1)) {
+        low = places[k - 1];
+        high = places[k];
+        break;
+      }
+  }
+  return {};
+}
+
 std::optional<Place> March::solve(double tau) {
   const double grown = tau / at_.tau;
   VectorXd theta = at_.theta * grown;
   const Index n = theta.size();
   double eps = at_.eps;
   double before = HUGE_VAL;
-  for (int pass = 0; pass < 8; ++pass) {
+  for (int pass = 0; pass < 12; ++pass) {
     map_(theta);
     if (pass == 0) eps = theta[n - 1] / map_.rise()[n - 1];
     const VectorXd residual = eps * map_.rise() - theta;
     const double size = residual.lpNorm<Eigen::Infinity>() / tau;
-    if (size < 1e-3) return Place{tau, eps, theta};
+    // near 1 it matters on which side eps is
+    const bool near_1 = std::fabs(eps - 1) < flat;
+    if (size < (near_1 ? exactly : 1e-3) || (size < 1e-9 && !(size < 0.5 * before))) return Place{tau, eps, theta};
     if (!(size < 2 * before)) return {};
     before = size;
     MatrixXd bordered(n + 1, n + 1);

@@ -27,8 +27,12 @@ class March {
   /// The profile between two of them where ln eps is within `near` of 0.
   Eigen::VectorXd between(Place low, Place high, double near);
 
+  /// The profile at eps = 1 between them, also where eps is flat, so that Newton's steps in the profile do not end.
+  std::optional<Eigen::VectorXd> root(Place low, Place high);
+
  private:
   std::optional<Place> next();
+  void divide_flat(std::vector<Place>& places);
   std::optional<Place> beyond_turn(Place low, Place middle, Place high);
   std::optional<Place> solve(double tau);
 

@@ -281,6 +281,26 @@ def test_states_that_are_near_each_other_or_at_a_thin_front(point):
         assert found.branches == 3
 
 
+@each("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
+def test_states_about_a_gain_of_one(temperature):
+    """Two of three states meet at 275.71 K, from where on the rise is 47 instead of 38 K."""
+    compound = asperity.PronySeries(
+        equilibrium_modulus=3e6,
+        moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
+        relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
+    )
+    at = {
+        "velocity": 0.049652395705,
+        "pressure": 12863.8338001,
+        "temperature": temperature,
+        "rubber": compound,
+    }
+    found, truth = (hot(ASPHALT, **at, rtol=rtol) for rtol in (1e-4, 1e-8))
+    assert truth.gain < 1
+    assert found.branches == truth.branches == (3 if temperature < 275.71 else 1)
+    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+
+
 @each("correction", [None, asperity.PartialContact(), "rings"])
 def test_points_do_not_depend_on_the_threads_that_share_them(correction):
     v = np.geomspace(1e-4, 1, 150)
