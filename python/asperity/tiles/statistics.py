@@ -11,7 +11,8 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number
-from asperity.base.value import Value, value
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
 from asperity.tiles.share import Workers
 from asperity.tiles.source import (
@@ -31,7 +32,7 @@ _TERMS = {"offset": 1, "plane": 3, "quadratic": 6}
 
 
 @value
-class HeightStatistics(Value):
+class HeightStatistics(Table):
     """What the heights of a map are like (see `height_statistics`).
 
     Attributes
@@ -61,6 +62,16 @@ class HeightStatistics(Value):
 
     def __post_init__(self) -> None:
         self._set(**{name: number(found, name) for name, found in self._arguments().items()})
+
+    def _columns(self) -> Columns:
+        units = {"mean": "m", "rms_height": "m", "z_max": "m", "z_min": "m"}
+        return Columns(
+            {},
+            {
+                name: Column((), found, units.get(name, "1"))
+                for name, found in self._arguments().items()
+            },
+        )
 
 
 def height_statistics(

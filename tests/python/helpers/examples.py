@@ -319,7 +319,6 @@ CALLS = {
         "velocity": 1.0,
         "heating": asperity.Heating(**TREAD),
     },
-    "height_statistics": {"surface": ROUGH, "detrend": "plane"},
     "hertz_penetration": {"force": 1.0, "effective_modulus": 1e6, "radius": 1e-3},
     "line_spectrum": {"surface": ROUGH},
     "mean_pressure": SLIDES,

@@ -69,12 +69,16 @@ def test_a_flat_map_has_no_skewness():
     assert flat.mean == 2
 
 
-def test_they_are_a_value():
+def test_they_are_a_value_and_a_table():
     found = height_statistics(scan(), pixel_size=PIXEL)
     assert HeightStatistics(**{name: getattr(found, name) for name in found.__match_args__}) == (
         found
     )
     assert repr(found).startswith("HeightStatistics(mean=")
+    table = pytest.importorskip("xarray") and found.to_xarray()
+    assert table.rms_height.item() == found.rms_height
+    assert table.rms_height.units == "m"
+    assert table.kurtosis.units == "1"
 
 
 REFUSED = [
