@@ -84,7 +84,7 @@ class ConditionsPart:
         table = {**_ADHESION, **self._state.adhesion}
         fields = self._switched("Adhesion", "adhesion")
         self._unfit = ui.label(_UNFIT).classes("soft")
-        self._unfit.set_visibility(False)
+        self._unfit.set_visibility(self._state.adhesion_left)
         with fields:
             for name, key, unit, ends in (
                 ("Shear stress [MPa]", "shear_stress_pa", 1e6, (0.01, 100)),
@@ -140,11 +140,15 @@ class ConditionsPart:
 
     def show(self, found: Found) -> None:
         self._correction.offer(found.scene)
-        for table, switch in self._switches.items():
-            used = table in self._state.used
-            if switch.value != used:  # it was left out for files that it does not fit
-                switch.value = used
-                self._unfit.set_visibility(table == "adhesion" and not used)
+        self._show_switches()
 
     def fail(self, problem: str) -> None:
-        """The result says it."""
+        self._show_switches()
+
+    def _show_switches(self) -> None:
+        """Adhesion is left out where it does not fit files that were dropped."""
+        for table, switch in self._switches.items():
+            used = table in self._state.used
+            if switch.value != used:
+                switch.value = used
+        self._unfit.set_visibility(self._state.adhesion_left)

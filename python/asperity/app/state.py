@@ -65,6 +65,7 @@ class State:
         self.conditions: dict[str, Any] = tables["conditions"]
         self.correction: dict[str, Any] = usual("partial-contact", None)
         self.adhesion = self._shipped_adhesion = tables["adhesion"]
+        self.adhesion_left = False  # since it does not fit files that were dropped
         self.heating: dict[str, Any] = tables["heating"]
         self.solver: dict[str, Any] = {}
         self.uncertainty: dict[str, Any] = {}
@@ -121,6 +122,7 @@ class State:
     def use(self, table: str, wanted: bool) -> None:
         """Let the scene have a table, or be without it."""
         (self.used.add if wanted else self.used.discard)(table)
+        self.adhesion_left = self.adhesion_left and table != "adhesion"
 
     def choose_correction(self, kind: str, scene: Scene | None = None) -> None:
         """One of those that are offered for the scene, with its usual arguments, or none."""
@@ -177,6 +179,7 @@ class State:
         self.rubbers = {**self.rubbers, self.rubber: rubber}
         self.conditions = conditions
         self.used = {table for table in OPTIONAL if table in tables}
+        self.adhesion_left = False
         for table in self.used:
             setattr(self, table, tables[table])
 
@@ -238,8 +241,9 @@ class State:
     def _leave_shipped_adhesion(self) -> None:
         """The shear stress of the demo was fitted to the shipped scan and rubber: with other files
         it would say anything."""
-        if self.adhesion is self._shipped_adhesion:
+        if self.adhesion is self._shipped_adhesion and "adhesion" in self.used:
             self.use("adhesion", False)
+            self.adhesion_left = True
 
     # --- what is computed ---
 

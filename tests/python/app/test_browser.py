@@ -201,6 +201,21 @@ def test_corrections_of_peaks_have_sliders(tab: Tab) -> None:
     playwright.expect(tab.problem("Result")).to_contain_text("takes the peaks of a scan")
 
 
+def test_velocities_that_are_not_known_have_a_remedy(tab: Tab) -> None:
+    page = tab.page
+    tab.drop("Rubber", file_of("dma.csv", dma_bytes()))
+    page.get_by_role("checkbox", name="Fit a Prony series to sweeps").click()
+    page.get_by_role("button", name="Make the master curve").click()
+    playwright.expect(tab.problem("Result")).to_contain_text("are allowed")
+    playwright.expect(page.get_by_role("switch", name="Adhesion")).not_to_be_checked()
+    page.get_by_role("button", name="which are known").click()
+    playwright.expect(tab.problem("Result")).to_have_text("")
+    tab.settled()
+    fastest = page.get_by_label("Fastest velocity [m/s]", exact=True).input_value()
+    assert 1e-6 < float(fastest) < 10
+    playwright.expect(page.get_by_text("Adhesion was switched off")).to_be_visible()
+
+
 def test_wrong_and_large_files_say_so_and_change_nothing(tab: Tab) -> None:
     before = tab.chart
     tab.drop("Surface", file_of("paper.pdf", b"%PDF-1.7 no scan"))

@@ -87,10 +87,13 @@ def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> 
     state.keep_scan("scan.npy", scan_bytes())
     state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})
     assert "adhesion" not in state.tables
+    assert state.adhesion_left
     state.use("adhesion", True)
+    assert not state.adhesion_left
     state.adhesion = {**state.adhesion, "shear_stress_pa": 1e6}  # one's own
     take(state, state.keep_dma("dma.csv", dma_bytes()))
     assert state.tables["adhesion"]["shear_stress_pa"] == 1e6
+    assert not state.adhesion_left
 
 
 def test_wrong_units_are_asked_about(state: State) -> None:
