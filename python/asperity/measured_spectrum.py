@@ -92,14 +92,29 @@ def power_spectrum(
         "top" gives the spectrum of max(h, 0), h being the height above the mean plane, divided by
         the share of points above it (B. N. J. Persson et al., J. Phys.: Condens. Matter 17, R1
         (2005)); "bottom" that of min(h, 0) likewise. They agree with the whole at large q where
-        heights are Gaussian; on worn tracks the rubber meets the top.
+        heights are Gaussian; on worn tracks the rubber meets the top. Not by tiles.
+    pixel_size : float or (float, float), optional
+        Spacing of the points of an array [m], or (dy, dx).
+    tiles : int or (int, int), optional
+        Points of a tile along y and x, 512 or more; an array's are 4096 a side unless given, or the
+        whole of a shorter side. The tiles are spread evenly, so that they reach all edges.
+    overlap : float, optional
+        Smallest share of a tile, along either side, that the next one covers again, from 0 to 0.75;
+        0.5 by default. The errors know how alike it makes the tiles.
+    max_dropouts : float, optional
+        Largest share of drop-outs [-], 0.10 by default: a tile with more is left out, a map with
+        more is refused. Those that tiles have are filled as by `HeightMap.fill_dropouts`.
+    executor : optional
+        Anything with the `submit` of `concurrent.futures` (a pool, a Dask client) to share the
+        tiles. By tiles the numbers are the same for any executor and any number of threads.
 
     Returns
     -------
     TabulatedSpectrum
         `wavenumber` is the mean |q| of a ring's modes [1/m], `density` C [m^4], `count` the number
         of modes of the full plane in the ring: sum(density * count) (2 pi)^2 / area is the mean
-        square height (Parseval). `standard_error` holds for Gaussian heights, whose |h(q)|^2
+        square height (Parseval); by tiles, of the modes of the whole map that the row stands for.
+        `standard_error` holds for Gaussian heights, whose |h(q)|^2
         scatter as much as their mean. `flag` says which rows not to trust. Rings beyond the
         Nyquist wavenumber pi / pixel are incomplete: cut there with `truncated` before taking
         moments or contact from the spectrum.
