@@ -73,6 +73,16 @@ class HeightStatistics(Table):
             },
         )
 
+    def _draw(self, axes: Any) -> None:
+        axes.axhspan(-self.rms_height, self.rms_height, alpha=0.3, label="± rms height")
+        for name, height in (("highest", self.z_max), ("lowest", self.z_min)):
+            axes.axhline(height, color="0.4", linestyle="--")
+            axes.annotate(name, (0.02, height), xycoords=("axes fraction", "data"))
+        axes.set_xticks([])
+        axes.set_xlabel(f"Skewness {self.skewness:.3g}, kurtosis {self.kurtosis:.3g}")
+        axes.set_ylabel("Height above the mean [m]")
+        axes.legend(fontsize="small")
+
 
 def height_statistics(
     surface: HeightMap | Any,

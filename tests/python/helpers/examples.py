@@ -323,6 +323,7 @@ CALLS = {
     "line_spectrum": {"surface": ROUGH},
     "mean_pressure": SLIDES,
     "merge_spectra": {"spectra": [SCANNED, SCANNED]},
+    "height_statistics": {"surface": ROUGH},
     "power_spectrum": {"surface": ROUGH},
     "pressure_distribution": {**SLIDES, "stress": 1e5},
     "separation": {**SEPARATION, "z_max": 1e-3, "z_min": -1e-3},
