@@ -105,6 +105,10 @@ def test_a_line_that_was_not_ended_is_dropped():
         with sweep(resume=True) as found:
             assert found.mu.values.tolist() == mu.tolist()
         assert journal.read_bytes().startswith(content)
+    journal.write_bytes(content.splitlines(keepends=True)[0] + b"\0" * 4096)
+    with sweep(resume=True) as found:
+        assert found.mu.values.tolist() == mu.tolist()
+    assert journal.read_bytes() == content  # nothing is left of a line that was longer
 
 
 @pytest.mark.parametrize("boxes", [0, 1, 3])

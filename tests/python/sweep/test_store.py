@@ -173,6 +173,7 @@ def test_the_store_of_another_sweep_is_refused_by_its_key(name):
             None,
         ),
         ("variables is", SCENE, OVER, ["mu"]),
+        ('over is ["surface.hurst", "road"', SCENE, dict(reversed(OVER.items())), None),
     ):
         with case(key=key):
             with pytest.raises(asperity.InvalidInput, match="is the store of another") as no:
