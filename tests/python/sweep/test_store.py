@@ -120,6 +120,8 @@ def test_resume_computes_what_is_missing(name, expected, monkeypatch):
         sweep(SCENE, OVER, store=name)
     part = name if name == "a.zarr" else "a.nc.part"
     assert os.listdir() == [part]
+    with xarray.open_dataset(part, engine="zarr") as found:
+        assert found.attrs["complete"] == 0
     monkeypatch.setattr(store.ZarrStore, "write", plain)
     computed = []
     counting(monkeypatch, computed)
