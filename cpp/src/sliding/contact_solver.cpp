@@ -5,7 +5,8 @@
 //
 // K is monotone but not symmetric, and where loss dominates the plain step flips points for ever. A proximal term
 // beta |Im K| (p - p_last) holds it back (R. T. Rockafellar, SIAM J. Control Optim. 14, 877 (1976)): the solution does
-// not depend on beta, which falls while the residual does, and rises when a step made it worse.
+// not depend on beta, which falls while the residual does, and rises when a step made it worse or GMRES did not come
+// to its end. A large beta makes its systems easy, and on steep moduli ten cheap steps go further than one of those.
 #include "sliding/contact_solver.hpp"
 
 #include <algorithm>
@@ -86,14 +87,15 @@ class ContactSolver {
     ContactSolution result{{}, {}, best, 0, false};
     for (int step = 1;; ++step) {
       set_beta(beta);
-      newton_step();
+      const bool solved = newton_step();
       evaluate(next_, next_gap_);
       const double level = weighted_gap(next_, next_gap_);
       const auto [error, residual] = measure(next_, next_gap_, level);
       const bool accepted = residual < worse * merit;
       result.steps = step;
       if (accepted) {
-        beta = residual < merit ? std::max(least_beta, 0.85 * beta) : std::min(most_beta, 1.6 * beta);
+        const bool easy = solved && residual < merit;
+        beta = easy ? std::max(least_beta, 0.85 * beta) : std::min(most_beta, 1.6 * beta);
         merit = residual;
         std::swap(state_, next_);
         std::swap(gap_, next_gap_);
@@ -187,15 +189,16 @@ class ContactSolver {
     subtract_mean(to, set_.size());
   }
 
-  /// From state and gap to the pressure `next_`, and which points of the set fell below 0 and leave it.
-  void newton_step() {
+  /// From state and gap to the pressure `next_`, and which points of the set fell below 0 and leave it. Whether GMRES
+  /// left no more of the residual than `enough`.
+  bool newton_step() {
     const std::size_t n = set_.size(), nx = problem_.shape[1];
     std::vector<float> right(n), change(n);
     double sum = 0;
     for_each_point([&](std::size_t, std::size_t at) { sum += gap_[at]; }, nx);
     const double mean = sum / static_cast<double>(n);
     for_each_point([&](std::size_t i, std::size_t at) { right[i] = static_cast<float>(mean - gap_[at]); }, nx);
-    gmres_(
+    const Gmres::Result found = gmres_(
         n, right.data(), change.data(), enough, most_vectors,
         [&](const float* from, float* to) { apply(compliance_on_set_, from, to); },
         [&](const float* from, float* to) { apply(stiffness_on_set_, from, to); });
@@ -209,6 +212,7 @@ class ContactSolver {
         },
         nx);
     normalise(next_);
+    return found.residual <= enough;
   }
 
   template <class Visit>
