@@ -18,10 +18,10 @@ namespace {
 
 constexpr double step_x = 0.25, step_T = 2.5;  // longest of the grid that is computed throughout, of ln v and in K
 constexpr double most_columns = 65, most_rows = 25;
-constexpr int most_halvings = 2;
-constexpr double allowed = 0.01;     // of mu while the rubber heats up
-constexpr std::size_t tested = 200;  // random points
-constexpr double longest = 3;        // distance slid there, over s0
+constexpr std::size_t most_nodes = 20'000, most_in_row = 1'025;  // which halving may make
+constexpr double allowed = 0.01;                                 // of mu while the rubber heats up
+constexpr std::size_t tested = 200;                              // random points
+constexpr double longest = 3;                                    // distance slid there, over s0
 
 std::size_t points(double range, double step, double most) {
   return static_cast<std::size_t>(std::clamp(std::ceil(range / step) + 1, 2.0, most));
@@ -126,12 +126,12 @@ class Grid {
   }
 
   [[nodiscard]] bool is_too_coarse() const {
-    return halvings_ < most_halvings &&
+    const std::size_t columns = 2 * columns_ - 1, rows = rows_ == 1 ? 1 : 2 * rows_ - 1;
+    return columns <= most_in_row && columns * rows <= most_nodes &&
            std::ranges::any_of(nodes_, [](const Node& node) { return node.miss > allowed; });
   }
 
   void halve() {
-    ++halvings_;
     const std::size_t columns = columns_, rows = rows_;
     const std::vector<Node> before = std::move(nodes_);
     columns_ = 2 * columns - 1;
@@ -230,7 +230,6 @@ class Grid {
 
   const Scene& scene_;
   std::size_t columns_ = 0, rows_ = 0;
-  int halvings_ = 0;
   std::vector<Node> nodes_;  // row by row
 };
 

@@ -147,6 +147,12 @@ def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
     np.testing.assert_allclose(between, long_ago + (begun - long_ago) / np.e, rtol=1e-12)
 
 
+def test_the_grid_of_the_sliding_length_is_halved_where_it_is_steep():
+    """Steps of 0.25 in ln v alone leave 2 % of mu."""
+    found = made(adhesion=None, rtol=1e-2)
+    assert 0 < found.memory_error < 0.01
+
+
 def test_slopes_are_those_of_mu(several):
     p, v, t = random_points(100, {"pressure": (9e4, 3e5), "velocity": (0.02, 10)})
     for distance in (None, 0.0, 1e-4):
