@@ -247,7 +247,7 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
     if seen:
         axes.fill_between([], [], **look, label=label)
     else:
-        axes.plot([], [], linestyle="", label=f"{label}: too narrow to see")
+        axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
 
 
 def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[Curves]) -> None:
