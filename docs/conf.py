@@ -63,6 +63,7 @@ sphinx_gallery_conf = {
     "abort_on_example_error": True,
     "capture_repr": (),
     "min_reported_time": 5,
+    "write_computation_times": False,  # a page that fetches scripts from elsewhere
     "image_scrapers": ("matplotlib",),
     "image_srcset": ["2x"],
 }

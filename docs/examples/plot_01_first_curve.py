@@ -31,11 +31,11 @@ figure, axes = plt.subplots(layout="constrained")
 for name, line in (("mu", "-"), ("hysteresis", "--"), ("adhesion", ":")):
     values = getattr(result, name)
     (curve,) = axes.plot(result.velocity, values, line)
-    place = {"mu": 55, "hysteresis": 50, "adhesion": 30}[name]  # where there is room
+    place, above = {"mu": (35, 6), "hysteresis": (35, -16), "adhesion": (30, 6)}[name]
     axes.annotate(
         name,
         (result.velocity[place], values[place]),
-        xytext=(4, 6),
+        xytext=(4, above),  # where there is room
         textcoords="offset points",
         color=curve.get_color(),
     )

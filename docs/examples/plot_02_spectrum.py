@@ -30,4 +30,4 @@ right.loglog(spectrum.wavenumber[good], spectrum.density[good], ".", label="reli
 q = np.geomspace(fit.q0, fit.q1, 50)
 right.loglog(q, fit.spectrum.at(q), label=f"fit, H = {fit.hurst:.3f}")
 right.set(xlabel="wavenumber [1/m]", ylabel="C(q) [m$^4$]")
-right.legend(loc="lower left")
+right.legend(loc="upper right")

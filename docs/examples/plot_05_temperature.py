@@ -53,6 +53,6 @@ for celsius, colour in ((10, "#0072B2"), (50, "#D55E00")):
     mu = asperity.friction(road, build.master_curve, **setting).mu
     axes.fill_between(velocity, band.lower, band.upper, color=colour, alpha=0.3, linewidth=0)
     axes.plot(velocity, mu, color=colour)
-    axes.text(velocity[5], mu[5] + 0.09, f"{celsius} °C", color=colour, ha="right")
+    axes.text(velocity[5], mu[5] + 0.07, f"{celsius} °C", color=colour, ha="right")
 axes.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="friction coefficient [-]")
 axes.set_ylim(bottom=0)

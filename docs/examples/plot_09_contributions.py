@@ -38,4 +38,4 @@ for velocity, density, share in zip(
     right.text(edges[most], 100 * share[most] + 1, name, color=curve.get_color())
 left.set(xscale="log", yscale="log", xlabel="wavenumber [1/m]", ylabel="d mu / d ln q [-]")
 right.set(xlabel="log10 of angular frequency [rad/s]", ylabel="share of the hysteresis [%]")
-right.set_ylim(0, 52)
+right.set_ylim(0, 56)
