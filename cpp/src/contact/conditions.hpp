@@ -69,18 +69,18 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, do
   const auto [lowest, highest] = *known;
   if (velocity * q0 >= lowest * (1 - rounding) && velocity * q1 <= highest * (1 + rounding)) return;
   const ShownRange range(lowest, highest);
-  std::string text = "velocity = " + show(velocity, 6) + ": q0 = " + show(q0, 6) + " and q1 = " + show(q1, 6) +
+  std::string shown = show(velocity, 6), where = "; no velocity asks for less than is known, with this q0 and this q1";
+  if (lowest / q0 <= highest / q1) {
+    const ShownRange allowed(lowest / q0, highest / q1);
+    shown = allowed.value(velocity);
+    where = "; velocities from " + allowed.lowest() + " to " + allowed.highest() + " m/s are allowed";
+  }
+  std::string text = "velocity = " + shown + ": q0 = " + show(q0, 6) + " and q1 = " + show(q1, 6) +
                      " 1/m ask for the modulus from " + range.value(velocity * q0) + " to " +
                      range.value(velocity * q1) + " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber);
   if (velocity * q0 < highest && highest < velocity * q1)
     text += "; .truncated(q1=" + ShownRange(q0, highest / velocity).highest() + ") ends the spectrum where it is known";
-  if (lowest / q0 <= highest / q1) {
-    const ShownRange allowed(lowest / q0, highest / q1);
-    text += "; velocities from " + allowed.lowest() + " to " + allowed.highest() + " m/s are allowed";
-  } else {
-    text += "; no velocity asks for less than is known, with this q0 and this q1";
-  }
-  throw OutOfRange(text);
+  throw OutOfRange(text + where);
 }
 
 }  // namespace asperity

@@ -64,9 +64,9 @@ double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, co
   if (const std::optional<FrequencyRange> known = known_range(rubber); known && s.q0) {
     const ShownRange range(known->lowest, known->highest);
     if (w < known->lowest || w > known->highest)
-      throw OutOfRange("velocity = " + show(velocity, 6) + ": q0 = " + show(q0, 6) +
-                       " 1/m of the correction asks for the modulus at " + range.value(w) + " rad/s, known in " +
-                       range.text() + " rad/s" + way_beyond(rubber));
+      throw OutOfRange("velocity = " + ShownRange(known->lowest / q0, known->highest / q0).value(velocity) +
+                       ": q0 = " + show(q0, 6) + " 1/m of the correction asks for the modulus at " + range.value(w) +
+                       " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber));
   }
   return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }

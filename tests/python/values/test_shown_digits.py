@@ -67,3 +67,17 @@ def test_velocities_that_are_said_to_be_allowed_are() -> None:
     long = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=1, q1=1e9)
     with pytest.raises(asperity.OutOfRange, match="no velocity asks for less than is known"):
         asperity.friction(long, curve, pressure=1e5, velocity=1)
+
+
+@pytest.mark.parametrize("off", [1e-7, 3e-12])
+def test_a_velocity_just_beyond_what_is_known_looks_beyond_it(off: float) -> None:
+    omega = np.geomspace(1e-2, 1e5, 60)
+    rubber = asperity.MasterCurve(
+        angular_frequency=omega, storage_modulus=1e6 * omega**0.1, loss_modulus=2e5 * omega**0.1
+    )
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
+    with pytest.raises(asperity.OutOfRange) as error:
+        asperity.friction(road, rubber, pressure=1e5, velocity=1 + off)
+    said = re.match(r"velocity = (\S+): .* velocities from (\S+) to (\S+) m/s", str(error.value))
+    assert said is not None, error.value
+    assert float(said[2]) <= float(said[3]) <= 1 < float(said[1])
