@@ -108,6 +108,7 @@ ASPERITY_EXPORT FlashFriction friction(const Spectrum& spectrum, const Rubber& r
 
 /// How far the rubber slides from rest, at its velocity throughout, until mu has come to within 1 / e of that with its
 /// heat [m]: of each point, by the same model with the history of the heat. A point takes some ten milliseconds.
+/// InvalidInput for GSL's methods.
 ASPERITY_EXPORT std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubber,
                                                    const TemperatureShift& shift, const Heating& heating,
                                                    const ContactModel& model, const std::optional<Adhesion>& adhesion,

@@ -1,8 +1,10 @@
 // Checks of arguments that contact and friction share.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "asperity/contact.hpp"
 #include "numerics/arguments.hpp"
@@ -21,6 +23,13 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   if (velocity.empty()) throw InvalidInput("pressure, velocity: have 0 entries, must have 1 or more");
   for (const double p : pressure) require_positive("pressure", p);
   for (const double v : velocity) require_positive("velocity", v);
+}
+
+/// Refuses GSL's methods where only ours do; `where` goes on after "must be gauss".
+inline void check_gauss(Method method, const std::string& where) {
+  constexpr std::array<const char*, 4> names{"gauss", "qag", "qags", "cquad"};
+  if (method != Method::gauss)
+    throw InvalidInput(std::string("method = ") + names[static_cast<std::size_t>(method)] + ": must be gauss " + where);
 }
 
 /// Whether products of a number keep all their digits.

@@ -34,10 +34,8 @@ void check_heating(const Heating& heating, const std::optional<Adhesion>& adhesi
 
 /// What GSL's rules check.
 void check_method(const Heating& heating, const ContactModel& model, bool contributions) {
-  if (model.method == Method::gauss) return;
-  const auto refused = [](const char* what) {
-    throw InvalidInput("method: must be gauss where heating is given " + std::string(what) +
-                       ", for which GSL's methods have no temperatures");
+  const auto refused = [&](const std::string& what) {
+    check_gauss(model.method, "where heating is given " + what + ", for which GSL's methods have no temperatures");
   };
   if (std::holds_alternative<PartialContact>(model.correction)) refused("with PartialContact");
   if (heating.model != HeatModel::profile) refused("with one temperature");
@@ -258,6 +256,7 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   if (adhesion) validate(*adhesion);
   check_heating(heating, adhesion);
+  check_gauss(model.method, "for sliding_length, as GSL's methods know nothing of the history of the heat");
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
   std::vector<double> result;

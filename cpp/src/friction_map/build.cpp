@@ -7,6 +7,7 @@
 #include "asperity/build_friction_map.hpp"
 #include "asperity/friction_map.hpp"
 #include "asperity/version.hpp"
+#include "contact/conditions.hpp"
 #include "contact/correction.hpp"
 #include "friction_map/check.hpp"
 #include "friction_map/refine.hpp"
@@ -163,6 +164,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
                                               std::array<double, 2> temperature, const MapRequest& request) {
   check_request(request, adhesion);
   check_temperature(temperature);
+  check_gauss(model.method, "in a map with heat, whose sliding lengths GSL's methods do not know");
   if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
     throw InvalidInput(
         "correction: must be none of Greenwood-Williamson's in a map with heat, in which the kinks of its p_T would "

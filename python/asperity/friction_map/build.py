@@ -75,7 +75,8 @@ def friction_map(
         temperature, and a look-up's a_T leads to others.
     shift, heating
         As for `friction`. With heating a point of the solver takes some 0.2 ms, the check of a
-        million some minutes. Corrections by Greenwood-Williamson's model are refused.
+        million some minutes. Corrections by Greenwood-Williamson's model are refused, and
+        so are GSL's methods.
 
     Returns
     -------

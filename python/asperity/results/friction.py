@@ -92,7 +92,8 @@ class Friction(Table):
     sliding_length : float or ndarray, or None
         s0 [m], how far the rubber slides from rest until mu has come to within 1 / e of the heated
         one, by the history of the heat at a velocity that is held; to about 1 % of the contact's
-        diameter. Computed when it is first asked for, some ten milliseconds a point.
+        diameter. Computed when it is first asked for, some ten milliseconds a point. None without
+        heating, and with GSL's methods, which know nothing of the history.
     """
 
     # in the order of the core's `friction_columns`
@@ -131,13 +132,18 @@ class Friction(Table):
         mu + (mu_cold - mu) exp(-s / s0), s0 the `sliding_length`: the law of B. N. J. Persson
         (Rubber friction and tire dynamics, arXiv:1007.2713), both mu at
         the velocity of the point. It leaves out an undershoot of some per cent of the difference.
-        Distances broadcast with the points. Without heating mu does not depend on it.
+        Distances broadcast with the points. Without heating mu does not depend on it. InvalidInput
+        for a result with heating by GSL's methods, which has no `sliding_length`.
         """
         s = real_array(distance, "distance")
         if not (s >= 0).all():
             raise InvalidInput(f"distance = {brief(distance)}: must be 0 or more")
         if self.cold is None:
             mu = self.mu + 0 * s
+        elif self.sliding_length is None:
+            raise InvalidInput(
+                "distance: needs the sliding_length, which friction gives with method = gauss alone"
+            )
         else:
             mu = self.mu + (self.cold.mu - self.mu) * np.exp(-s / self.sliding_length)
         return mu if np.ndim(mu) else float(mu)

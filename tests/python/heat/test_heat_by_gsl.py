@@ -1,11 +1,15 @@
 """Heat by GSL's adaptive rules, which know none of the grids."""
 
+import pickle
+
 import numpy as np
 import pytest
 
 import asperity
+from asperity import _core
+from asperity.contact import contact_model
 from helpers.cases import case, each
-from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
+from helpers.heat import ASPHALT, CUT, HEATING, LAW, STICKY, hot, rubber
 
 RTOL = 1e-7
 SCENES = {
@@ -64,3 +68,19 @@ def test_a_wrong_start_is_left():
     exact = hot(velocity=1.0, rtol=1e-10)
     loose = hot(velocity=1.0, rtol=1e-3, method="qags")
     assert loose.mu == pytest.approx(exact.mu, rel=1e-3)
+
+
+@each("method", ["qag", "qags", "cquad"])
+def test_the_history_of_the_heat_is_ours_alone(method):
+    """Nothing that GSL did not compute is given where its methods are asked for."""
+    found = hot(velocity=1.0, rtol=1e-3, method=method)
+    assert found.sliding_length is None
+    assert pickle.loads(pickle.dumps(found)) == found
+    with pytest.raises(asperity.InvalidInput, match="distance: needs the sliding_length"):
+        found.mu_at(0.1)
+    parts = CUT._core, rubber()._core, contact_model(0.5, None, "exact", 1e-3, method), None
+    with pytest.raises(asperity.InvalidInput, match=f"method = {method}: must be gauss for slid"):
+        _core.sliding_length(*parts, [2e5], [1.0], LAW._core, [293.15], HEATING._core)
+    box = {"pressure": (1e5, 2e5), "velocity": (0.1, 1.0), "temperature": 293.15, "shift": LAW}
+    with pytest.raises(asperity.InvalidInput, match=f"method = {method}: must be gauss in a map"):
+        asperity.friction_map(CUT, rubber(), **box, heating=HEATING, method=method)

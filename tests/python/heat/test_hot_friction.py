@@ -320,15 +320,15 @@ def test_points_do_not_depend_on_the_threads_that_share_them(correction):
         ({"shift": None, "temperature": None}, "heating: needs temperature="),
         (
             {"method": "qag", "correction": asperity.PartialContact()},
-            "method: must be gauss where heating is given with PartialContact",
+            "method = qag: must be gauss where heating is given with PartialContact",
         ),
         (
             {"method": "qag", "heating": asperity.Heating(**TREAD, model="one-temperature")},
-            "method: must be gauss where heating is given with one temperature",
+            "method = qag: must be gauss where heating is given with one temperature",
         ),
         (
             {"method": "qag", "contributions": True},
-            "method: must be gauss where heating is given with contributions",
+            "method = qag: must be gauss where heating is given with contributions",
         ),
         (
             {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})},
