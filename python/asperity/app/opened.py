@@ -60,8 +60,11 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
                 most = f"{MOST_FILES} files and {MOST_BYTES // 2**20} MB"
                 raise InvalidInput(f"{shown}: must unpack to at most {most}")
             return [(one.filename, archive.read(one)) for one in inside]
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError) as error:
-        raise InvalidInput(f"{shown}: cannot be unpacked: {error}") from error
+    except InvalidInput:
+        raise
+    except Exception as error:  # each way to compress has errors of its own for bytes it cannot be
+        said = str(error) or "it ends too early"
+        raise InvalidInput(f"{shown}: cannot be unpacked: {said}") from error
 
 
 def _tables(name: str, content: bytes) -> Tables:

@@ -13,6 +13,7 @@ from threading import Timer
 
 from asperity._core import InvalidInput
 from asperity.app.guard import Guard
+from asperity.base.extras import to_install
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
 _TURN = 5e-4  # s after which a thread that computes lets the server answer
@@ -24,7 +25,7 @@ def serve(host: str, port: int, *, browser: bool, tell: Callable[[str], None]) -
     `port` of 0 is any that is free."""
     for module, name in _NEEDED.items():
         if importlib.util.find_spec(module) is None:
-            raise InvalidInput(f"the app needs {name}: pip install asperity[app]")
+            raise InvalidInput(f"the app needs {name}: {to_install('app')}")
     with listening(host, port) as bound:
         token = secrets.token_urlsafe(24)
         number = bound.getsockname()[1]

@@ -1,6 +1,7 @@
 """Scenes that are dropped: the shell's digits, and no file but those that came with them."""
 
 import io
+import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -173,6 +174,25 @@ def test_archives_are_bounded(state: State, monkeypatch: pytest.MonkeyPatch) -> 
     many = zipped(*((f"{i}.npy", b"1") for i in range(files.MOST_FILES + 1)))
     with pytest.raises(asperity.InvalidInput, match="must unpack to at most 40 files and 3 MB"):
         state.open_scene([("a.zip", many)])
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])
+def test_a_damaged_archive_is_refused_in_one_line(method: int, state: State) -> None:
+    """One byte after another is flipped, in the contents as in what describes them."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", method) as archive:
+        archive.writestr("a.toml", BY_NUMBERS)
+    whole, problems = out.getvalue(), []
+    for place in range(len(whole)):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0xFF
+        try:
+            opened.opened([("a.zip", bytes(damaged))], state.folder)
+        except asperity.InvalidInput as error:
+            problems.append(str(error))
+    said = r"a\.zip: (cannot be unpacked:|must unpack to) .+|.+: must be one \.toml, .+"
+    assert [one for one in problems if not re.fullmatch(said, one)] == []
+    assert len(problems) > 0.7 * len(whole)  # dates, attributes and the like are not looked at
 
 
 def test_only_what_the_scene_names_is_kept(state: State) -> None:

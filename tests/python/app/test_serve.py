@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from asperity.app import serve
+from asperity.base.extras import to_install
 from asperity.cli.main import main
 from helpers.served import served
 
@@ -83,4 +84,5 @@ def test_what_is_missing_is_named(
 ) -> None:
     monkeypatch.setattr(serve.importlib.util, "find_spec", lambda name: None)
     assert main(["app", "--no-browser"]) == 2
-    assert "the app needs NiceGUI: pip install asperity[app]" in capsys.readouterr().err
+    said = f"asperity: the app needs NiceGUI: {to_install('app')}\n"
+    assert capsys.readouterr().err == said
