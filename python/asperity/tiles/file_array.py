@@ -97,10 +97,51 @@ def file_behind(array: NDArray[Any]) -> FileArray | None:
     place = start + array.ctypes.data - mapped.ctypes.data
     path = os.fspath(owner.filename)
     try:
-        stamp = stamp_of(os.stat(path))
+        with open(path, "rb", buffering=0) as file:
+            stamp = stamp_of(os.fstat(file.fileno()))
+            same = _is_mapped(file, mapping._mmap)
     except OSError as error:
         problem = f"cannot be read: {error.strerror or error}"
         raise InvalidInput(f"{FilePath(path)}: {problem}") from error
+    if not same:
+        raise InvalidInput(f"{FilePath(path)}: was replaced after it was mapped: load it again")
     ny, nx = array.shape
     down, along = array.strides
     return FileArray(path, place, (ny, nx), (down, along), array.dtype, stamp)
+
+
+def _is_mapped(file: Any, mapping: Any) -> bool:
+    """Whether a mapping is of this file: by its inode where Linux tells, elsewhere by its length.
+
+    The file is mapped again and the two mappings are compared, as the device of a mapping need not
+    be that of `stat` (overlays, subvolumes).
+    """
+    length = os.fstat(file.fileno()).st_size
+    if not length:  # nothing to map, and nothing to read either
+        return True
+    with mmap.mmap(file.fileno(), 1, access=mmap.ACCESS_READ) as again:
+        now, then = _inode(_address(again)), _inode(_address(mapping))
+    if now is not None and then is not None:
+        return now == then
+    try:
+        return bool(mapping.size() == length)
+    except (OSError, ValueError):  # a mapping that keeps no file open
+        return True
+
+
+def _address(mapping: Any) -> int:
+    return np.frombuffer(mapping, np.uint8, 1).ctypes.data
+
+
+def _inode(address: int) -> tuple[str, str] | None:
+    """Return the device and the inode of the mapping at an address, where Linux tells."""
+    try:
+        with open("/proc/self/maps") as maps:
+            for line in maps:
+                span, _, _, device, inode = line.split(maxsplit=5)[:5]
+                first, end = (int(place, 16) for place in span.split("-"))
+                if first <= address < end:
+                    return (device, inode) if inode != "0" else None
+    except (OSError, ValueError):
+        return None
+    return None

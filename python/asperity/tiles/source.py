@@ -12,6 +12,7 @@ from asperity._core import Error, InvalidInput
 from asperity.base.arguments import brief, is_masked
 from asperity.surface import HeightMap, LineScan, pixel_sizes
 from asperity.tiles.file_array import FileArray, file_behind
+from asperity.tiles.fill_values import fill_values, without
 
 Box = tuple[slice, slice]
 Shape = tuple[int, int]
@@ -25,6 +26,7 @@ class Piece:
     array: Any
     box: Box
     scale: float
+    fill: tuple[Any, ...] = ()
 
     def read(self) -> NDArray[Any]:
         """Return float32 or float64 heights in memory of their own, or views of what is there."""
@@ -45,6 +47,8 @@ class Piece:
             raise InvalidInput(f"heights: gave {found.shape} points where {wanted} were asked for")
         single = found.dtype.kind == "f" and found.dtype.itemsize == 4
         real = np.dtype(np.float32 if single else np.float64)
+        if self.fill:
+            found = without(found, self.fill, real)
         if self.scale != 1:
             found = np.multiply(found, self.scale, dtype=real, casting="same_kind")
         with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
@@ -60,14 +64,15 @@ class Source:
     shape: Shape
     pixel_size: tuple[float, float]
     scale: float = 1.0  # metres in a unit of the numbers
+    fill: tuple[Any, ...] = ()  # numbers that stand for a drop-out
 
     def piece(self, box: Box) -> Piece:
         """Return a rectangle, which holds no more than a worker needs."""
         if isinstance(self.array, np.ndarray):
             part = self.array[box]
             whole = slice(0, part.shape[0]), slice(0, part.shape[1])
-            return Piece(part, whole, self.scale)
-        return Piece(self.array, box, self.scale)
+            return Piece(part, whole, self.scale, self.fill)
+        return Piece(self.array, box, self.scale, self.fill)
 
 
 def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
@@ -79,13 +84,15 @@ def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
             raise InvalidInput("pixel_size: a HeightMap has its own; give it with an array only")
         return Source(_held(surface.heights), _shape(surface.heights.shape), surface.pixel_size)
     array = _array(surface)
+    fill = fill_values(array)
     if pixel_size is None:
         raise InvalidInput("pixel_size is missing: an array does not state the distance [m]")
     sizes = pixel_sizes(pixel_size)
     for size in sizes:
         if not (math.isfinite(size) and size > 0):
             raise InvalidInput(f"pixel_size = {size}: must be positive and finite")
-    return Source(array, _shape(array.shape), sizes, scale)
+    held = _held(array) if isinstance(array, np.ndarray) else array
+    return Source(held, _shape(array.shape), sizes, scale, fill)
 
 
 def _array(found: Any) -> Any:
@@ -106,11 +113,7 @@ def _array(found: Any) -> Any:
         raise InvalidInput(f"surface has shape {tuple(shape)}: {allowed}")
     if getattr(dtype, "kind", "?") not in "biuf":
         raise InvalidInput(f"surface holds {dtype} values: must be real numbers")
-    packing = sorted({"scale_factor", "add_offset"} & set(getattr(found, "attrs", ())))
-    if packing and not _is_decoded(found):
-        problem = f"is packed ({', '.join(packing)})"
-        raise InvalidInput(f"surface {problem}: unpack it first, as xarray.open_zarr does")
-    return _held(found) if isinstance(found, np.ndarray) else found
+    return found
 
 
 def _held(array: NDArray[Any]) -> Any:
@@ -125,11 +128,6 @@ def _is_group(found: Any) -> bool:
     """Whether this is a Zarr or HDF5 group, or anything else that holds arrays by names."""
     named = isinstance(found, Mapping) or callable(getattr(found, "arrays", None))
     return named and getattr(found, "dtype", None) is None
-
-
-def _is_decoded(found: Any) -> bool:
-    """Whether this is xarray's, which unpacks numbers as it reads them."""
-    return type(found).__module__.startswith("xarray.")
 
 
 def _shape(found: Any) -> Shape:

@@ -126,6 +126,34 @@ def test_a_file_that_is_written_meanwhile_is_an_error(tmp_path):
         source_of(array, 1)
 
 
+@each("length", [30, 40])
+def test_a_file_that_was_replaced_after_it_was_mapped_is_refused(tmp_path, length):
+    array = mapped(tmp_path / "map.npy", HEIGHTS)
+    np.save(tmp_path / "new.npy", 7 * HEIGHTS[:length])
+    os.replace(tmp_path / "new.npy", tmp_path / "map.npy")
+    with pytest.raises(InvalidInput, match=r"map\.npy: was replaced after it was mapped: load it"):
+        height_statistics(array, pixel_size=1)
+    again = np.load(tmp_path / "map.npy", mmap_mode="r")
+    assert height_statistics(again, pixel_size=1).rms_height == pytest.approx(np.std(again))
+
+
+def test_a_file_may_have_been_moved_where_the_path_leads_to_it_again(tmp_path):
+    array = mapped(tmp_path / "map.npy", HEIGHTS)
+    os.rename(tmp_path / "map.npy", tmp_path / "moved.npy")
+    (tmp_path / "map.npy").symlink_to(tmp_path / "moved.npy")
+    np.testing.assert_array_equal(source_of(array, 1).piece(BOX).read(), HEIGHTS[BOX])
+
+
+def test_where_inodes_are_unknown_the_length_tells(tmp_path, monkeypatch):
+    monkeypatch.setattr("asperity.tiles.file_array._inode", lambda address: None)
+    array = mapped(tmp_path / "map.npy", HEIGHTS)
+    assert isinstance(source_of(array, 1).array, FileArray)
+    np.save(tmp_path / "new.npy", HEIGHTS[:30])
+    os.replace(tmp_path / "new.npy", tmp_path / "map.npy")
+    with pytest.raises(InvalidInput, match=r"map\.npy: was replaced after it was mapped"):
+        source_of(array, 1)
+
+
 def test_a_damaged_chunk_is_an_error(tmp_path):
     zarr = pytest.importorskip("zarr")
     stored = zarr.create_array(tmp_path / "map.zarr", data=HEIGHTS, chunks=(40, 60))
@@ -155,3 +183,65 @@ def test_arrays_that_are_no_maps_are_refused(tmp_path):
     group["heights"].attrs["scale_factor"] = 0.1
     with pytest.raises(InvalidInput, match=r"is packed \(scale_factor\): unpack it first"):
         source_of(group["heights"], 1)
+
+
+@each("version", [2, 3])
+@each("dtype", ["int16", "float32"])
+def test_fill_values_are_drop_outs(tmp_path, version, dtype):
+    xarray, zarr = pytest.importorskip("xarray"), pytest.importorskip("zarr")
+    heights = np.round(HEIGHTS * 1e9)
+    heights[4:9, 11:30] = np.nan
+    path = tmp_path / f"{dtype}.{version}.zarr"
+    fill = {"dtype": dtype, "_FillValue": -32768}
+    xarray.Dataset({"h": (("y", "x"), heights)}).to_zarr(
+        path, encoding={"h": fill}, zarr_format=version, consolidated=False
+    )
+    stored = zarr.open(path, mode="r")["h"]
+    assert stored[4, 11] == -32768
+    opened = {"engine": "zarr", "consolidated": False}
+    raw = xarray.open_dataset(path, decode_cf=False, **opened).h
+    decoded = xarray.open_dataset(path, **opened).h
+    expected = height_statistics(heights.astype(decoded.dtype), pixel_size=1)
+    assert expected.dropout_fraction == 95 / 2400
+    for array in (stored, raw, decoded):
+        found = height_statistics(array, pixel_size=1)
+        assert found.dropout_fraction == expected.dropout_fraction
+        assert found.rms_height == pytest.approx(expected.rms_height, rel=1e-6)
+        assert found.skewness == pytest.approx(expected.skewness, rel=1e-5)
+
+
+def test_missing_values_may_be_several_and_go_before_the_unit(tmp_path):
+    zarr = pytest.importorskip("zarr")
+    heights = np.arange(2400, dtype=np.int32).reshape(40, 60)
+    stored = zarr.create_array(tmp_path / "map.zarr", data=heights)
+    stored.attrs["missing_value"] = [7, 9]
+    box = slice(0, 1), slice(5, 11)
+    found = source_of(stored, 1, 1e-9).piece(box).read()
+    np.testing.assert_array_equal(found, np.array([[5, 6, np.nan, 8, np.nan, 10]]) * 1e-9)
+
+
+def test_a_zarr_array_without_attributes_has_heights_that_are_0(tmp_path):
+    zarr = pytest.importorskip("zarr")
+    stored = zarr.create_array(
+        tmp_path / "map.zarr", data=np.zeros((40, 60), np.int16), fill_value=0, zarr_format=2
+    )
+    assert height_statistics(stored, pixel_size=1).dropout_fraction == 0
+
+
+@each(
+    ("attributes", "message"),
+    [
+        ({"scale_factor": 1e-9}, r"is packed \(scale_factor\): unpack it first"),
+        ({"add_offset": 0.0, "_FillValue": -1}, r"is packed \(add_offset\): unpack it first"),
+        ({"_Unsigned": "true"}, r"is packed \(_Unsigned\): unpack it first"),
+        ({"_FillValue": 65535}, "_FillValue = 65535 is no number of type int16: correct"),
+        ({"_FillValue": 0.5}, r"_FillValue = 0\.5 is no number of type int16: correct"),
+        ({"missing_value": "none"}, "missing_value = 'none' is no number of type int16: correct"),
+    ],
+)
+def test_numbers_that_are_packed_are_refused_whoever_holds_them(attributes, message):
+    xarray = pytest.importorskip("xarray")
+    raw = xarray.DataArray(np.ones((40, 60), np.int16), dims=("y", "x"), attrs=attributes)
+    with pytest.raises(InvalidInput, match=message) as caught:
+        source_of(raw, 1)
+    assert "\n" not in str(caught.value)
