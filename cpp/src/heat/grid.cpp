@@ -55,7 +55,7 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& opti
     add_panels(surface.subspan(first), options);
   band_size_ = wavenumber_.size();
   if (options.beyond_end) add_beyond(surface, options);
-  if (options.pieces) add_macro_nodes(surface.subspan(first), options.macro_wavenumber);
+  if (options.pieces) add_macro_nodes(surface.subspan(first), options);
   macro_weights_.resize(wavenumber_.size());
   weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
   macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
@@ -209,11 +209,12 @@ void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOption
   macro_weights_.resize(wavenumber_.size());
 }
 
-/// Gauss rules of the roughness, with which I2 is integrated up to q_m.
-void HeatGrid::add_macro_nodes(std::span<const Segment> surface, double wavenumber) {
-  constexpr double longest = 1;
+/// Gauss rules of the roughness, with which I2 is integrated up to q_m. Rows of a measured modulus lie anywhere in
+/// them, and levels tell what they miss of these only where they differ: stretches are halved from level to level.
+void HeatGrid::add_macro_nodes(std::span<const Segment> surface, const HeatGridOptions& options) {
+  const double longest = options.tabulated ? std::exp2(-static_cast<double>(options.level)) : 1;
   constexpr std::size_t most_nodes = 10;
-  const double length = std::log(wavenumber) - start_;
+  const double length = std::log(options.macro_wavenumber) - start_;
   if (!(length > 0)) return;
   const double stretches = std::ceil(length / longest);
   macro_weights_.resize(wavenumber_.size());

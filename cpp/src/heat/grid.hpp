@@ -89,7 +89,7 @@ class HeatGrid {
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
   void add_beyond(std::span<const Segment> surface, const HeatGridOptions& options);
-  void add_macro_nodes(std::span<const Segment> surface, double wavenumber);
+  void add_macro_nodes(std::span<const Segment> surface, const HeatGridOptions& options);
   void add_temperature_points(const HeatGridOptions& options);
 
   double g_factor_, start_;  // ln q where the roughness begins
