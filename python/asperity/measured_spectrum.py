@@ -106,7 +106,8 @@ def power_spectrum(
         more is refused. Those that tiles have are filled as by `HeightMap.fill_dropouts`.
     executor : optional
         Anything with the `submit` of `concurrent.futures` (a pool, a Dask client) to share the
-        tiles. By tiles the numbers are the same for any executor and any number of threads.
+        tiles. By tiles the numbers are the same for any executor and any number of threads. A map
+        that is one tile is the work of one thread or one worker, and no overlap changes it.
 
     Returns
     -------
@@ -115,7 +116,9 @@ def power_spectrum(
         of modes of the full plane in the ring: sum(density * count) (2 pi)^2 / area is the mean
         square height (Parseval); by tiles, of the modes of the whole map that the row stands for.
         `standard_error` holds for Gaussian heights, whose |h(q)|^2
-        scatter as much as their mean. `flag` says which rows not to trust. Rings beyond the
+        scatter as much as their mean. `flag` says which rows not to trust; by tiles 4 also stands
+        for rows of the coarsened map of which roughness that is folded back leaves no more than 4
+        times the error, down to a density of 0. Rings beyond the
         Nyquist wavenumber pi / pixel are incomplete: cut there with `truncated` before taking
         moments or contact from the spectrum.
 

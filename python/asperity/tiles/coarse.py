@@ -20,6 +20,7 @@ from asperity.tiles.source import Box, Piece, Shape, Source, corner_of, refuse_i
 _BLOCKS = 256  # of the coarse map in the shorter side of a tile
 _DIRECTIONS = 16  # in a quarter of a ring
 _RADII = 48
+_FEW_MODES = 4
 
 
 def block_of(tile: Shape, pixel_size: tuple[float, float]) -> Shape:
@@ -97,15 +98,26 @@ class Rows:
     correlation: Array  # (rows, lags)
 
 
+def few_modes(density: Array, error: Array) -> NDArray[np.uint8]:
+    """Return the flag of rows whose error is more than a quarter of their density."""
+    return np.where(error > density / 4, _FEW_MODES, 0).astype(np.uint8)
+
+
 def without_blocks(
     found: Rows, coarse: Coarse, pixel_size: tuple[float, float], fine: Rows
 ) -> Rows:
     """Return rows of the coarse map as those of the map: what is folded back is taken off, and
-    what means over blocks take from a wave is given back."""
+    what means over blocks take from a wave is given back.
+
+    The error of a row is that of the coarse map's and that of what is taken off it, for which rows
+    of the tiles err together: at most so much. Rows that are not known to a quarter are flagged,
+    as those of few modes. No density is below 0: where less than nothing would be left, it is 0,
+    and flagged, as its error is positive.
+    """
     q = found.wavenumber
     radii = np.linspace(q[0], q[-1], _RADII)
     angle = (np.arange(_DIRECTIONS) + 0.5) * (math.pi / 2 / _DIRECTIONS)
-    kept, folded = np.empty(_RADII), np.empty(_RADII)
+    kept, folded, unsure = np.empty(_RADII), np.empty(_RADII), np.empty(_RADII)
     for i, radius in enumerate(radii):
         down = _let_through(radius * np.sin(angle), coarse.block[0], pixel_size[0])
         along = _let_through(radius * np.cos(angle), coarse.block[1], pixel_size[1])
@@ -113,12 +125,14 @@ def without_blocks(
         length = np.hypot(down[0][:, None], along[0][None, :])
         share = down[1][:, None] * along[1][None, :]
         share[0, 0] = 0  # k = 0 in either direction
-        folded[i] = np.mean(
-            np.sum(share * np.interp(length, fine.wavenumber, fine.density), axis=(0, 1))
-        )
+        for sums, of_tiles in ((folded, fine.density), (unsure, fine.error)):
+            known = np.interp(length, fine.wavenumber, of_tiles)
+            sums[i] = np.mean(np.sum(share * known, axis=(0, 1)))
     through = np.interp(q, radii, kept)
     density = np.maximum(found.density - np.interp(q, radii, folded), 0) / through
-    return Rows(q, density, found.count, found.error / through, found.flag, found.correlation)
+    error = np.hypot(found.error, np.interp(q, radii, unsure)) / through
+    flag = found.flag | few_modes(density, error)
+    return Rows(q, density, found.count, error, flag, found.correlation)
 
 
 def _let_through(q: Array, block: int, pixel: float) -> tuple[Array, Array]:

@@ -11,8 +11,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, number
 from asperity.spectrum import TabulatedSpectrum
-from asperity.surface import around
-from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, without_blocks
+from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid
 from asperity.tiles.share import Workers
 from asperity.tiles.source import Piece, Source
@@ -20,10 +19,10 @@ from asperity.tiles.source import Piece, Source
 _NONE = 2  # the window's number in the core
 _PERIODS = (32.0, 20.0, 0.0, 24.0)  # of a wave on a tile where its rows take over: split cosine
 # bell, Hann, -, Blackman. Twice those from which a row is reliable
-_NEAR_NYQUIST, _FEW_MODES = 2, 4
+_NEAR_NYQUIST = 2
 _ANY_SHARE = 0.999  # the whole has been judged by its points
 
-Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8]]
+Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8], Array]
 
 
 def tiled_spectrum(
@@ -44,7 +43,7 @@ def tiled_spectrum(
         raise InvalidInput(f"max_dropouts = {most:.6g}: must be in [0, 1)")
     how = window, detrend, most
     if len(grid.boxes) == 1:
-        return _single(source, grid, how)
+        return _single(source, grid, how, workers)
     coarse = coarsen(source, block_of(grid.tile, source.pixel_size), grid.tile, workers)
     _check_dropouts(coarse.dropout_fraction, most)
     fine = _mean_rows(source, grid, how, workers)
@@ -52,8 +51,10 @@ def tiled_spectrum(
     return _merged(low, fine, _edge(grid, source.pixel_size, window)[0])
 
 
-def tile_rows(piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...]) -> Any:
-    """Return the core's spectrum of a tile, and None of one with too many drop-outs."""
+def tile_columns(
+    piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...]
+) -> Columns | None:
+    """Return the spectrum of a tile, as columns can be sent; None if it has too many drop-outs."""
     window, detrend, most = how
     heights = piece.read()
     missing = int(np.count_nonzero(np.isnan(heights)))
@@ -62,25 +63,29 @@ def tile_rows(piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...
     tile = _core.HeightMap(heights, pixel_size)
     if missing:
         tile = tile.fill_dropouts(most)
-    return _core.power_spectrum(tile, window, detrend, 1, 0)
+    found = _core.power_spectrum(tile, window, detrend, 1, 0)
+    columns = found.wavenumber, found.density, found.count, found.standard_error, found.flag
+    return *columns, found.correlation
 
 
-def tile_columns(piece: Piece, pixel_size: tuple[float, float], how: tuple[Any, ...]) -> Any:
-    """Return its columns, which can be sent."""
-    found = tile_rows(piece, pixel_size, how)
-    if found is None:
-        return None
-    return found.wavenumber, found.density, found.count, found.standard_error, found.flag
-
-
-def _single(source: Source, grid: Grid, how: tuple[Any, ...]) -> TabulatedSpectrum:
-    """The spectrum of a map that is one tile."""
+def _single(
+    source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers
+) -> TabulatedSpectrum:
+    """The spectrum of a map that is one tile: the work of one worker."""
     piece = source.piece(grid.boxes[0])
-    found = tile_rows(piece, source.pixel_size, how)
-    if found is None:
+    (columns,) = workers.outcomes(tile_columns, [(piece, source.pixel_size, how)])
+    if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput("heights: every point is a drop-out (NaN)")
-    return around(TabulatedSpectrum, found)
+    wavenumber, density, count, error, flag, correlation = columns
+    return TabulatedSpectrum(
+        wavenumber=wavenumber,
+        density=density,
+        count=count,
+        standard_error=error,
+        flag=flag,
+        correlation=correlation,
+    )
 
 
 def _check_dropouts(share: float, most: float) -> None:
@@ -116,14 +121,9 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
         density=mean,
         count=same[2] * (math.prod(source.shape) / math.prod(grid.tile)),
         error=error,
-        flag=_flags(same[4], mean, error),
+        flag=same[4] & np.uint8(_NEAR_NYQUIST) | few_modes(mean, error),
         correlation=np.tile(together[1:] / together[0], (mean.size, 1)),
     )
-
-
-def _flags(known: NDArray[np.uint8], density: Array, error: Array) -> NDArray[np.uint8]:
-    near, few = known & np.uint8(_NEAR_NYQUIST), np.where(error > density / 4, _FEW_MODES, 0)
-    return near | few.astype(np.uint8)
 
 
 def _low_rows(coarse: Coarse, source: Source, grid: Grid, fine: Rows, how: tuple[Any, ...]) -> Rows:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, _core, fit_self_affine, power_spectrum
+from asperity.tiles.coarse import Coarse, Rows, without_blocks
 from helpers.cases import each, long
 from helpers.known_surfaces import law, ring_mean, surface, tilted, with_holes
 from helpers.plain_spectrum import profile
@@ -108,6 +109,73 @@ def test_rows_of_the_coarse_map_are_those_of_the_whole(name):
     assert mean == pytest.approx(1, abs=off)
     ratio = tiled.standard_error[low] / error
     assert np.median(ratio) == pytest.approx(1, abs=0.02)
+
+
+class Counted(ThreadPoolExecutor):
+    works = 0
+
+    def submit(self, *call):
+        self.works += 1
+        return super().submit(*call)
+
+
+def test_one_tile_is_computed_where_many_would_be():
+    z = surface(LAWS["road"], (300, 260), PIXEL, 1)
+    whole = power_spectrum(z, pixel_size=PIXEL)
+    holed = with_holes(z, 0.3, 1)
+    with Counted(1) as executor:
+        assert power_spectrum(z, pixel_size=PIXEL, executor=executor) == whole
+        assert executor.works == 1
+        with pytest.raises(InvalidInput, match=r"heights has 29\.99 % drop-outs"):
+            power_spectrum(holed, pixel_size=PIXEL, executor=executor)
+    assert power_spectrum(z, pixel_size=PIXEL, threads=2) == whole
+    with pytest.raises(InvalidInput, match=r"must have the submit of concurrent\.futures"):
+        power_spectrum(z, pixel_size=PIXEL, executor=map)
+
+
+def test_rows_of_which_the_folded_roughness_leaves_little_are_flagged():
+    # heights of a filter that takes long waves off: short ones, folded back, drown what is left
+    edge = 40 * 2 * np.pi / (512 * PIXEL)
+    z = surface(lambda q: np.where(q < edge, 1e-36, 1e-30), (1024, 1024), PIXEL, 3)
+    found = power_spectrum(z, pixel_size=PIXEL, tiles=512)
+    low = found.wavenumber < 31.5 * 2 * np.pi / (512 * PIXEL)
+    nothing = found.density == 0
+    assert nothing.any()
+    assert low[nothing].all()
+    assert not found.reliable[low].any()
+    assert (np.asarray(found.flag)[low] & 4).all()
+    assert (found.standard_error[nothing] > 0).all()
+    assert found.reliable[~low].any()
+
+
+def test_the_error_of_what_is_taken_off_is_in_that_of_the_row():
+    q = np.linspace(1, 60, 40) * 2 * np.pi / (512 * PIXEL)
+    other = np.linspace(21, 300, 200) * 2 * np.pi / (512 * PIXEL)
+    ones, none = np.ones_like(q), np.zeros((q.size, 0))
+    coarse = Coarse(np.zeros((256, 256)), (2, 2), (2 * PIXEL, 2 * PIXEL), 0.0)
+    rows = Rows(q, 5 * ones, ones, 0.5 * ones, np.zeros(q.size, np.uint8), none)
+
+    def taken(density, error):
+        fine = Rows(
+            other,
+            np.full_like(other, density),
+            other,
+            np.full_like(other, error),
+            np.zeros(other.size, np.uint8),
+            np.zeros((other.size, 0)),
+        )
+        return without_blocks(rows, coarse, (PIXEL, PIXEL), fine)
+
+    sure, unsure, plain = taken(1.0, 0.0), taken(1.0, 0.1), taken(0.0, 0.0)
+    folded = plain.density - sure.density  # of a density of 1
+    assert folded[-1] > 0.05
+    assert sure.error == pytest.approx(plain.error, rel=1e-12)
+    assert unsure.error == pytest.approx(np.hypot(sure.error, 0.1 * folded), rel=1e-12)
+    much = taken(100.0, 0.0)
+    flagged = much.error > much.density / 4
+    assert 0 < np.count_nonzero(flagged) < q.size
+    assert (much.flag == 4 * flagged).all()
+    assert (sure.flag == 0).all()
 
 
 @each("window", ["split-cosine-bell", "hann", "blackman"])
