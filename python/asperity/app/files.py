@@ -1,5 +1,6 @@
 """Files that a session was given: kept in a folder of its own, under names of our own."""
 
+import itertools
 import re
 import shutil
 import tempfile
@@ -19,7 +20,7 @@ class Folder:
     def __init__(self) -> None:
         self.path = Path(tempfile.mkdtemp(prefix="asperity-app-"))  # for its owner alone
         self.shown: dict[str, str] = {}  # by our names, the client's, which are only ever shown
-        self._numbered = 0
+        self._numbers = itertools.count(1)  # no two threads have the same
 
     def keep(self, shown: str, content: bytes) -> str:
         """Write a file and return its name here; of the client's name only the ending is used."""
@@ -33,8 +34,7 @@ class Folder:
             most = f"{MOST_FILES} files and {MOST_TOGETHER // 2**20} MB"
             raise InvalidInput(f"{plain(shown)}: a session holds at most {most}: begin a new one")
         ending = _ENDING.fullmatch(Path(shown.replace("\\", "/")).suffix)
-        self._numbered += 1
-        name = f"file-{self._numbered}{ending[0].lower() if ending else ''}"
+        name = f"file-{next(self._numbers)}{ending[0].lower() if ending else ''}"
         (self.path / name).write_bytes(content)
         self.shown[name] = plain(shown)
         return name
@@ -48,7 +48,7 @@ class Folder:
         """A message with the client's names in the place of ours, and without our folder."""
         text = text.replace(f"{self.path}/", "")
         text = re.sub(r"^scene\.toml: ", "", text)
-        for name, shown in self.shown.items():
+        for name, shown in list(self.shown.items()):  # threads keep files
             text = re.sub(rf"\b{re.escape(name)}\b", lambda _, shown=shown: shown, text)  # type: ignore[misc]
         return text
 

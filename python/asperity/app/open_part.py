@@ -34,10 +34,11 @@ class OpenPart:
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         self._say("")
         try:
-            await in_thread(lambda: self._state.open_scene(files))
+            take = await in_thread(lambda: self._state.open_scene(files))
         except Error as error:
             self._say(self._state.said(error))
             return
+        take()
         for part in self._parts:
             part.refresh()
         await self._worker.changed()

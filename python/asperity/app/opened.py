@@ -17,9 +17,9 @@ _MOST_TEXT = 2**20  # bytes of a scene
 _FILES = {"surface": ("file",), "rubber": ("master_curve", "shift", "isotherms")}
 
 
-def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables]:
+def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:
     """The name and the tables of the one scene among the files; those that it names are kept in
-    the folder, and named in the tables as there.
+    the folder, and named in the tables and the list as there.
 
     Nothing is kept where the scene cannot be taken.
     """
@@ -41,11 +41,12 @@ def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables]:
         return kept[-1]
 
     try:
-        return name, {one: _with_files(one, table, here) for one, table in tables.items()}
+        tables = {one: _with_files(one, table, here) for one, table in tables.items()}
     except InvalidInput:
         for one in kept:
             folder.forget(one)
         raise
+    return name, tables, kept
 
 
 def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:

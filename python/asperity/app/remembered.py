@@ -22,13 +22,14 @@ class Remembered:
 
     def __call__(self, *arguments: Any) -> Any:
         key = repr(arguments)
-        if key not in self._kept:
+        kept = self._kept.get(key)
+        if kept is None:
             with plausible.collected() as notes:
-                found = self._build(*arguments)
-            while len(self._kept) >= _MOST:
-                self._kept.pop(next(iter(self._kept)), None)
-            self._kept[key] = found, notes
-        found, notes = self._kept[key]
+                kept = self._build(*arguments), notes
+            for old in list(self._kept)[: 1 - _MOST]:  # all but the newest
+                self._kept.pop(old, None)  # unless another thread did
+            self._kept[key] = kept
+        found, notes = kept
         plausible.tell_again(notes)
         return found
 
@@ -42,11 +43,12 @@ class RememberedCorrection:
     def __call__(
         self, path: Path, table: object, spectrum: Spectrum, *of_surface: Any
     ) -> tuple[Correction, dict[str, Any]]:
-        if self._last is None or self._last[0] is not spectrum:
+        last = self._last  # another thread may put its own there meanwhile
+        if last is None or last[0] is not spectrum:
 
             def build(path: Path, table: object) -> tuple[Correction, dict[str, Any]]:
                 return build_correction(path, table, spectrum, *of_surface)
 
-            self._last = spectrum, Remembered(build)
-        correction, values = self._last[1](path, table)
+            self._last = last = spectrum, Remembered(build)
+        correction, values = last[1](path, table)
         return correction, dict(values)

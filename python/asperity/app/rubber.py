@@ -118,12 +118,12 @@ class RubberPart:
                 if column is None and name != "temperature":
                     raise InvalidInput(f"which column is the {name}? None is chosen")
             self._say("making the master curve ...")
-            said = await in_thread(lambda: self._state.take_dma(self._files, settings))
+            take = await in_thread(lambda: self._state.use_dma(self._files, settings))
         except Error as error:
             self._say(self._state.said(error))
             return
         self._say("")
-        self._left.set_text(said)
+        self._left.set_text(take())
         self.refresh()
         await self._worker.changed()
 

@@ -2,19 +2,20 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from asperity._core import Error, InvalidInput
-from asperity.app.corrections import OF_PEAKS, usual
+from asperity.app.corrections import usual
 from asperity.app.dma import rubber_of
 from asperity.app.files import Folder
 from asperity.app.guess import Guess, guess_columns
+from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, usable
 from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.words import in_words
@@ -22,13 +23,14 @@ from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible
 from asperity.scene.model import Curves, Scene
 from asperity.scene.rubber import build_measured, build_rubber
-from asperity.scene.scene import Builders, load_scene
+from asperity.scene.scene import Builders
 from asperity.scene.surface import build_surface
 from asperity.scene.write import scene_text
 
-OPTIONAL = ("correction", "adhesion", "heating", "solver", "uncertainty")
 MOST_VARIANTS = 7  # curves beside the present one: so many colours are told apart
-_Built = TypeVar("_Built")
+# Files are read in a thread; what is edited meanwhile must not be lost, so what was read becomes a
+# part of the state only where this is called, in the thread that edits. It returns what is to say.
+Take = Callable[[], str]
 
 LAW = {
     "rms_height_m": 265.7e-6,
@@ -91,22 +93,13 @@ class State:
             "solver": self.solver,
             "uncertainty": self.uncertainty,
         }
-        tables = {
-            name: dict(table)
-            for name, table in all_tables.items()
-            if name not in OPTIONAL or name in self.used
-        }
-        if "heating" in tables and "adhesion" not in tables:
-            tables["heating"].pop("interface_share", None)  # of what adhesion makes
-        if not self.knows_temperature:
-            for key in ("temperature_k", "temperature_c"):
-                tables["conditions"].pop(key, None)
-        return tables
+        used = {*all_tables} - {*OPTIONAL} | self.used
+        return usable({name: table for name, table in all_tables.items() if name in used})
 
     @property
     def knows_temperature(self) -> bool:
         """Whether the rubber is known at others than its own."""
-        return bool({"isotherms", "shift", "wlf_c1"} & self.rubbers[self.rubber].keys())
+        return knows_temperature(self.rubbers[self.rubber])
 
     @property
     def text(self) -> str:
@@ -115,8 +108,8 @@ class State:
 
     def text_of(self, tables: Tables) -> str:
         """A scene file, which says as what its files were dropped."""
-        text = scene_text(tables)
-        said = [f"# {n} was dropped as {s}\n" for n, s in self.folder.shown.items() if n in text]
+        text, shown = scene_text(tables), list(self.folder.shown.items())
+        said = [f"# {n} was dropped as {s}\n" for n, s in shown if n in text]
         return "".join(said) + text
 
     def use(self, table: str, wanted: bool) -> None:
@@ -150,34 +143,30 @@ class State:
         kept = max(low, min(ends)), min(high, max(ends))
         self.set_velocities(*(kept if kept[0] < kept[1] else (low, high)))
 
-    def open_scene(self, dropped: Dropped) -> str:
-        """Let a scene file be what is shown, and return its name; of other files only those that
-        were dropped with it are read. One that is refused changes nothing."""
-        before = dict(vars(self))
-        shown = dict(self.folder.shown)
-        name, tables = opened(dropped, self.folder)
+    def open_scene(self, dropped: Dropped) -> Take:
+        """Read a scene file, and of other files only those that were dropped with it. What cannot
+        be shown is refused; to take it returns the name of the scene."""
+        name, tables, kept = opened(dropped, self.folder)
         try:
-            _check_shown(name, tables)
-            self._take(name, tables)
-            self.load()
+            tables = editable(name, tables)
+            loaded(self._path, usable(tables), self._builders)
         except Error as error:
             said = self.said(error)
-            vars(self).update(before)
-            for one in self.folder.shown.keys() - shown.keys():
+            for one in kept:
                 self.folder.forget(one)
             raise type(error)(said) from None
-        return name
 
-    def _take(self, name: str, tables: Tables) -> None:
+        def take() -> str:
+            self._show(name, tables)
+            return name
+
+        return take
+
+    def _show(self, name: str, tables: Tables) -> None:
         self.surface, self.rubber = f"surface of {name}", f"rubber of {name}"
-        rubber, conditions = tables["rubber"], tables["conditions"]
-        for key in ("temperature_k", "temperature_c"):  # the slider's place
-            if key in rubber:
-                rubber, conditions = dict(rubber), {**conditions, key: rubber[key]}
-                del rubber[key]
         self.surfaces = {**self.surfaces, self.surface: tables["surface"]}
-        self.rubbers = {**self.rubbers, self.rubber: rubber}
-        self.conditions = conditions
+        self.rubbers = {**self.rubbers, self.rubber: tables["rubber"]}
+        self.conditions = tables["conditions"]
         self.used = {table for table in OPTIONAL if table in tables}
         self.adhesion_left = False
         for table in self.used:
@@ -189,16 +178,20 @@ class State:
             self.folder.forget(self.scan)
         self.scan = self.folder.keep(shown, content)
 
-    def use_scan(self, settings: Mapping[str, Any]) -> None:
-        """Let the scan that was kept be the surface. What cannot be read is refused, and the
-        surface stays as it was."""
+    def use_scan(self, settings: Mapping[str, Any]) -> Take:
+        """Read the scan that was kept, to be the surface. What cannot be read is refused."""
         if self.scan is None:
             raise InvalidInput("no scan was dropped yet")
         table = {"file": self.scan, "detrend": "quadratic", "slope_cutoff": 1.3, **settings}
         self._builders.surface(self._path, table)
-        self.surfaces["your scan"] = table
-        self.surface = "your scan"
-        self._leave_shipped_adhesion()
+
+        def take() -> str:
+            self.surfaces["your scan"] = table
+            self.surface = "your scan"
+            self._leave_shipped_adhesion()
+            return ""
+
+        return take
 
     @property
     def _named(self) -> str:
@@ -220,23 +213,29 @@ class State:
             raise type(error)(said) from None
         return name
 
-    def take_dma(self, names: list[str], settings: Mapping[str, Any]) -> str:
-        """Let measured moduli be the rubber: `columns`, `units` and `modulus` as a scene has them.
-        Returns what there is to say of the files."""
+    def use_dma(self, names: list[str], settings: Mapping[str, Any]) -> Take:
+        """Read measured moduli, to be the rubber: `columns`, `units` and `modulus` as a scene has
+        them. To take them returns what there is to say of the files."""
         with plausible.collected():  # notes are those of the scene
             table, said = rubber_of(self.folder, names, settings)
-        conditions = self.conditions
-        if "temperature_k" not in conditions:
-            middle = table.get("reference_temperature_k", 293.15) - 273.15
-            conditions = {**conditions}
-            conditions.setdefault("temperature_c", round(middle, 2))
+        middle = round(table.get("reference_temperature_k", 293.15) - 273.15, 2)
+
+        def warmed(conditions: dict[str, Any]) -> dict[str, Any]:
+            stated = {"temperature_k", "temperature_c"} & conditions.keys()
+            return conditions if stated else {**conditions, "temperature_c": middle}
+
+        conditions = warmed(self.conditions)
         kelvin = conditions.get("temperature_k") or conditions["temperature_c"] + 273.15
         self._builders.rubber(self._path, table, kelvin if "isotherms" in table else None)
         name = "your sweeps" if "isotherms" in table else "your master curve"
-        self.conditions, self.rubber = conditions, name
-        self.rubbers[name] = table
-        self._leave_shipped_adhesion()
-        return said
+
+        def take() -> str:
+            self.rubbers[name], self.rubber = table, name
+            self.conditions = warmed(self.conditions)
+            self._leave_shipped_adhesion()
+            return said
+
+        return take
 
     def _leave_shipped_adhesion(self) -> None:
         """The shear stress of the demo was fitted to the shipped scan and rubber: with other files
@@ -247,14 +246,9 @@ class State:
 
     # --- what is computed ---
 
-    def load(self) -> Scene:
-        """The scene, read from its file as the shell reads it."""
-        of_peaks = self.correction["kind"] in OF_PEAKS if "correction" in self.used else False
-        if of_peaks and "file" not in self.surfaces[self.surface]:
-            problem = "this correction takes the peaks of a scan: choose a scan, or another one"
-            raise InvalidInput(problem)
-        self._path.write_text(self.text, encoding="utf-8")
-        return load_scene(self._path, for_friction=True, builders=self._builders)
+    def load(self, tables: Tables | None = None) -> Scene:
+        """The scene of the tables, which a thread is given; without any, that of now."""
+        return loaded(self._path, self.tables if tables is None else tables, self._builders)
 
     def said(self, error: Exception) -> str:
         """An error in the words of the page."""
@@ -278,12 +272,3 @@ class State:
 def _rubber_builder() -> Remembered:
     """The rubber, whose isotherms are shifted once for all temperatures."""
     return Remembered(partial(build_rubber, measured=Remembered(build_measured)))
-
-
-def _check_shown(name: str, tables: Tables) -> None:
-    """Refuse what the shell computes but the page has no place for."""
-    conditions = tables["conditions"]
-    for key in ("pressure_pa", "temperature_k", "temperature_c"):
-        if isinstance(conditions.get(key, 0.0), list | dict):
-            problem = "the page shows one pressure and one temperature: must be a number"
-            raise InvalidInput(f"{name}: [conditions] {key}: {problem}")

@@ -120,10 +120,11 @@ class SurfacePart:
         given = {key: value for key, value in self._settings.items() if value not in ("", None)}
         self._say("reading the scan ...")
         try:
-            await in_thread(lambda: self._state.use_scan(given))
+            take = await in_thread(lambda: self._state.use_scan(given))
         except Error as error:
             self._say(self._state.said(error))
             return
+        take()
         self._say("")
         self.refresh()
         await self._worker.changed()

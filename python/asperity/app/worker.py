@@ -8,6 +8,7 @@ from typing import Any, Protocol, TypeVar
 
 from asperity._core import Error
 from asperity.app.computed import with_band, without_heat
+from asperity.app.opened import Tables
 from asperity.app.state import State
 from asperity.scene.model import Curves, Progress, Scene
 
@@ -29,6 +30,7 @@ class Shows(Protocol):
 class Found:
     """What is known of the present scene by now."""
 
+    tables: Tables  # that the scene was made of
     scene: Scene
     cold: Curves  # without heat
     curves: Curves | None = None  # as the scene is: the digits of the shell
@@ -78,12 +80,12 @@ class Worker:
             self._running = False
 
     async def _curve(self, mine: int) -> None:
-        checked = self._unless_overtaken(mine)
+        checked, tables = self._unless_overtaken(mine), self.state.tables
 
         def compute() -> Found:
-            scene = self.state.load()
+            scene = self.state.load(tables)
             cold = without_heat(scene).friction(checked)
-            return Found(scene, cold, cold if scene.heating is None else None)
+            return Found(tables, scene, cold, cold if scene.heating is None else None)
 
         try:
             self.found = await in_thread(compute)

@@ -67,10 +67,16 @@ def load_scene(
     InvalidInput, OutOfRange
         In one line: file, table and key, the value found and what is allowed.
     """
+    where = path_of(path, "path")
+    return scene_of(where, read_scene(where), for_friction=for_friction, builders=builders)
+
+
+def scene_of(
+    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
+) -> Scene:
+    """Build a scene as `build_scene` does, with a note of each number that is unusual."""
     with plausible.collected() as notes:
-        where = path_of(path, "path")
-        tables = read_scene(where)
-        scene = build_scene(where, tables, for_friction=for_friction, builders=builders)
+        scene = build_scene(path, tables, for_friction=for_friction, builders=builders)
     return replace(scene, unusual=tuple(notes))
 
 

@@ -26,7 +26,7 @@ def state() -> Iterator[State]:
 def take(state: State, *names: str, **changes: object) -> str:
     guess = state.guesses[names[0]]
     chosen = {"columns": guess.columns, "units": guess.units, "modulus": guess.modulus}
-    return state.take_dma(list(names), {**chosen, "prony": True, **changes})
+    return state.use_dma(list(names), {**chosen, "prony": True, **changes})()
 
 
 def test_files_of_one_frequency_are_left_out_and_it_is_said(state: State) -> None:
@@ -85,7 +85,7 @@ def test_two_files_without_temperatures_are_no_master_curve(state: State) -> Non
 
 def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> None:
     state.keep_scan("scan.npy", scan_bytes())
-    state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})
+    state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})()
     assert "adhesion" not in state.tables
     assert state.adhesion_left
     state.use("adhesion", True)
@@ -99,8 +99,8 @@ def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> 
 def test_wrong_units_are_asked_about(state: State) -> None:
     state.keep_scan("scan.npy", scan_bytes())
     with pytest.raises(asperity.InvalidInput, match=r"heights in um\? 17.01 um would do"):
-        state.use_scan({"pixel_size_m": 5e-6, "unit": "mm"})
-    state.use_scan({"pixel_size_m": 5e-6, "unit": "nm"})
+        state.use_scan({"pixel_size_m": 5e-6, "unit": "mm"})()
+    state.use_scan({"pixel_size_m": 5e-6, "unit": "nm"})()
     assert any("rms slope" in one for one in state.load().notes)
 
 
@@ -128,7 +128,7 @@ def test_a_message_on_velocities_offers_those_that_are_known(state: State) -> No
 def test_measured_scans_and_sweeps_give_a_curve(state: State) -> None:
     for file in ("opd-1.opd", "al3d-1.al3d"):
         state.keep_scan(file, present("topography", file).read_bytes())
-        state.use_scan({})
+        state.use_scan({})()
         names = [
             state.keep_dma(path.name, path.read_bytes())
             for path in (
@@ -157,5 +157,5 @@ def test_a_profile_becomes_a_surface(state: State, tmp_path: Path) -> None:
     np.savetxt(tmp_path / "line.csv", np.column_stack([x, z]), delimiter=",", header="x_m,z_m")
     state.keep_scan("line.csv", (tmp_path / "line.csv").read_bytes())
     with pytest.raises(asperity.Error) as caught:
-        state.use_scan({})
+        state.use_scan({})()
     assert state.said(caught.value).startswith("line.csv: ")

@@ -66,7 +66,7 @@ def state() -> Iterator[State]:
 
 def test_a_scene_with_its_files_gives_the_digits_of_the_shell(state: State, tmp_path: Path) -> None:
     dropped = [("my scan.npy", scan_bytes()), ("dma.csv", dma_bytes())]
-    name = state.open_scene([*dropped, ("mine.toml", WITH_FILES.encode())])
+    name = state.open_scene([*dropped, ("mine.toml", WITH_FILES.encode())])()
     assert name == "mine.toml"
     (tmp_path / "scans").mkdir()
     (tmp_path / "of").mkdir()
@@ -90,14 +90,14 @@ def test_what_the_app_gives_away_it_takes_back(state: State) -> None:
     other = State()
     try:
         other.surface = "law"
-        assert other.open_scene([("scene.zip", archive)]) == "scene.toml"
+        assert other.open_scene([("scene.zip", archive)])() == "scene.toml"
         assert np.array_equal(other.load().friction().mu, mu)
     finally:
         other.close()
 
 
 def test_a_scene_without_files_or_temperature(state: State) -> None:
-    state.open_scene([("law.toml", BY_NUMBERS.encode())])
+    state.open_scene([("law.toml", BY_NUMBERS.encode())])()
     scene = state.load()
     assert scene.temperature is None
     assert scene.velocity.tolist() == [1e-3, 1e-2, 0.1]
@@ -158,7 +158,7 @@ def test_what_cannot_be_opened_is_refused_and_changes_nothing(case: str, state: 
     dropped, problem = REFUSED[case]
     before = state.text, sorted(one.name for one in state.folder.path.glob("file-*"))
     with pytest.raises(asperity.Error) as caught:
-        state.open_scene(dropped)
+        state.open_scene(dropped)()
     assert problem in str(caught.value)
     assert str(state.folder.path) not in str(caught.value)
     assert (state.text, sorted(one.name for one in state.folder.path.glob("file-*"))) == before
@@ -170,10 +170,10 @@ def test_archives_are_bounded(state: State, monkeypatch: pytest.MonkeyPatch) -> 
     assert len(bomb) < 2**16
     monkeypatch.setattr(opened, "MOST_BYTES", 3 * 2**20)
     with pytest.raises(asperity.InvalidInput, match=r"a\.zip: must unpack to at most 40 files"):
-        state.open_scene([("a.zip", bomb)])
+        state.open_scene([("a.zip", bomb)])()
     many = zipped(*((f"{i}.npy", b"1") for i in range(files.MOST_FILES + 1)))
     with pytest.raises(asperity.InvalidInput, match="must unpack to at most 40 files and 3 MB"):
-        state.open_scene([("a.zip", many)])
+        state.open_scene([("a.zip", many)])()
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])
@@ -197,5 +197,5 @@ def test_a_damaged_archive_is_refused_in_one_line(method: int, state: State) -> 
 
 def test_only_what_the_scene_names_is_kept(state: State) -> None:
     count = len(list(state.folder.path.glob("file-*")))
-    state.open_scene([("a.toml", BY_NUMBERS.encode()), ("other.npy", scan_bytes())])
+    state.open_scene([("a.toml", BY_NUMBERS.encode()), ("other.npy", scan_bytes())])()
     assert len(list(state.folder.path.glob("file-*"))) == count

@@ -40,16 +40,16 @@ def state() -> Iterator[State]:
 def drop_both(state: State) -> None:
     """A scan and sweeps, as the page takes them."""
     state.keep_scan("C:\\data\\my scan.NPY", scan_bytes())
-    state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})
+    state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})()
     name = state.keep_dma("dma.csv", dma_bytes())
     guess = state.guesses[name]
     chosen = {"columns": guess.columns, "units": guess.units, "modulus": guess.modulus}
-    state.take_dma([name], {**chosen, "prony": True})
+    state.use_dma([name], {**chosen, "prony": True})()
 
 
 def drop_scan(state: State, name: str, content: bytes) -> None:
     state.keep_scan(name, content)
-    state.use_scan({})
+    state.use_scan({})()
 
 
 CASES = {
@@ -150,7 +150,7 @@ def test_isotherms_are_shifted_once_for_all_temperatures(state: State) -> None:
     state.conditions = {**state.conditions, "temperature_c": 33.0}
     second = state.load()
     assert second.built_rubber.build is first.built_rubber.build
-    shell = load_scene(state.folder.path / "scene.toml", for_friction=True)
+    shell = load_scene_of(state)
     assert np.array_equal(second.friction().mu, shell.friction().mu)
     assert not np.array_equal(second.friction().mu, first.friction().mu)
 
@@ -165,7 +165,7 @@ def test_what_is_kept_is_noted_again_and_absurd_numbers_are_refused(state: State
         assert scene.unusual
     state.keep_scan("scan.npy", scan_bytes())
     with pytest.raises(asperity.InvalidInput, match="must be at"):
-        state.use_scan({"pixel_size_m": 5e-6, "unit": "m"})
+        state.use_scan({"pixel_size_m": 5e-6, "unit": "m"})()
 
 
 def load_scene_of(state: State) -> Scene:
@@ -243,7 +243,7 @@ def test_nothing_that_is_dropped_is_executed(state: State, tmp_path: Path) -> No
     ):
         state.keep_scan(name, content)
         with pytest.raises(asperity.Error):
-            state.use_scan({"pixel_size_m": 1e-6, "unit": "um"})
+            state.use_scan({"pixel_size_m": 1e-6, "unit": "um"})()
     assert not left.exists()
 
 

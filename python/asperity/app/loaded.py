@@ -1,0 +1,56 @@
+"""Scenes of the tables that the page edits: nothing is edited here, so any thread may call this."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from asperity._core import InvalidInput
+from asperity.app.corrections import OF_PEAKS
+from asperity.app.opened import Tables
+from asperity.scene.model import Scene
+from asperity.scene.scene import Builders, scene_of
+from asperity.scene.write import scene_text
+
+OPTIONAL = ("correction", "adhesion", "heating", "solver", "uncertainty")
+
+
+def loaded(path: Path, tables: Tables, builders: Builders) -> Scene:
+    """The scene of a file with these tables, as the shell reads it; none is written, which another
+    thread could find half written. `path` is whose errors they are."""
+    of_peaks = tables.get("correction", {}).get("kind") in OF_PEAKS
+    if of_peaks and "file" not in tables["surface"]:
+        problem = "this correction takes the peaks of a scan: choose a scan, or another one"
+        raise InvalidInput(problem)
+    as_read = tomllib.loads(scene_text(tables))
+    return scene_of(path, as_read, for_friction=True, builders=builders)
+
+
+def usable(tables: Tables) -> Tables:
+    """Copies of the tables, without what has no meaning beside the others."""
+    tables = {name: dict(table) for name, table in tables.items()}
+    if "heating" in tables and "adhesion" not in tables:
+        tables["heating"].pop("interface_share", None)  # of what adhesion makes
+    if not knows_temperature(tables["rubber"]):
+        for key in ("temperature_k", "temperature_c"):
+            tables["conditions"].pop(key, None)
+    return tables
+
+
+def knows_temperature(rubber: Mapping[str, Any]) -> bool:
+    """Whether the rubber is known at others than its own."""
+    return bool({"isotherms", "shift", "wlf_c1"} & rubber.keys())
+
+
+def editable(name: str, tables: Tables) -> Tables:
+    """The tables of a scene with each value where the page edits it; what the shell computes but
+    the page has no place for is refused."""
+    rubber, conditions = dict(tables["rubber"]), dict(tables["conditions"])
+    for key in ("temperature_k", "temperature_c"):  # the slider's place
+        if key in rubber:
+            conditions[key] = rubber.pop(key)
+    for key in ("pressure_pa", "temperature_k", "temperature_c"):
+        if isinstance(conditions.get(key, 0.0), list | dict):
+            problem = "the page shows one pressure and one temperature: must be a number"
+            raise InvalidInput(f"{name}: [conditions] {key}: {problem}")
+    return {**tables, "rubber": rubber, "conditions": conditions}

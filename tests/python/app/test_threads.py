@@ -1,0 +1,169 @@
+"""What a thread reads is not the state before it is whole, and takes no edit of meanwhile away."""
+
+import re
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import asperity
+from asperity.app import dma, remembered
+from asperity.app.downloads import scene_archive
+from asperity.app.opened import _unpacked
+from asperity.app.remembered import Remembered, RememberedCorrection
+from asperity.app.state import State
+from asperity.scene import surface
+from helpers.dropped import dma_bytes, scan_bytes
+
+OURS, THEIRS, EDITED = 81e3, 2e5, 9e4  # Pa
+
+
+@pytest.fixture
+def state() -> Iterator[State]:
+    made = State()
+    yield made
+    made.close()
+
+
+class Held:
+    """A function that waits, once it was called, until it is let go."""
+
+    def __init__(self, call: Callable[..., Any]) -> None:
+        self.call, self.begun, self.go_on = call, threading.Event(), threading.Event()
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        self.begun.set()
+        assert self.go_on.wait(60)
+        return self.call(*arguments, **named)
+
+    @contextmanager
+    def during(self, call: Callable[[], Any]) -> Iterator["Future[Any]"]:
+        """Meanwhile another thread calls this, and is held."""
+        with ThreadPoolExecutor(1) as threads:
+            waited = threads.submit(call)
+            try:
+                assert self.begun.wait(60)
+                yield waited
+            finally:
+                self.go_on.set()
+
+
+def dropped(state: State, *changes: tuple[str, str]) -> list[tuple[str, bytes]]:
+    """The present scene at another pressure, and with another scan."""
+    pairs = dict(_unpacked("scene.zip", scene_archive(state)()))
+    text = pairs.pop("scene.toml").decode()
+    text = re.sub("file-1.npy", "theirs.npy", text)
+    for old, new in ((f"pressure_pa = {OURS}", f"pressure_pa = {THEIRS}"), *changes):
+        assert old in text
+        text = text.replace(old, new)
+    return [("theirs.toml", text.encode()), ("theirs.npy", *pairs.values())]
+
+
+@pytest.mark.parametrize("right", [True, False])
+def test_a_scene_that_is_opened_is_shown_when_it_is_whole(
+    right: bool, state: State, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state.load()
+    wrong = [] if right else [("shear_stress_pa", "shear_stress_pb")]
+    files, before = dropped(state, *wrong), state.text
+    held = Held(surface.read_filled)
+    monkeypatch.setattr(surface, "read_filled", held)
+    with held.during(lambda: state.open_scene(files)) as opening:
+        assert state.text == before
+        assert state.load().pressure == OURS
+        state.conditions = {**state.conditions, "pressure_pa": EDITED}
+        later = state.keep_dma("dma.csv", dma_bytes())
+    if right:
+        assert state.load().pressure == EDITED
+        assert opening.result()() == "theirs.toml"
+        assert state.load().pressure == THEIRS
+    else:
+        with pytest.raises(asperity.InvalidInput, match="shear_stress_pb: unknown key"):
+            opening.result()
+        assert state.load().pressure == EDITED
+        assert set(state.folder.shown.values()) == {"scan.npy", "dma.csv"}
+    assert (state.folder.path / later).exists()
+
+
+def test_what_is_edited_while_files_are_read_is_kept(
+    state: State, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name = state.keep_dma("dma.csv", dma_bytes())
+    guess = state.guesses[name]
+    chosen = {"columns": guess.columns, "units": guess.units, "modulus": guess.modulus}
+    held, before = Held(dma.read_isotherms), state.rubber
+    monkeypatch.setattr(dma, "read_isotherms", held)
+    with held.during(lambda: state.use_dma([name], chosen)) as reading:
+        state.conditions = {**state.conditions, "pressure_pa": EDITED, "temperature_c": 33.0}
+    assert state.rubber == before
+    reading.result()()
+    assert state.rubber == "your sweeps"
+    assert state.load().pressure == EDITED
+    assert state.load().temperature == 33 + 273.15
+
+
+def test_a_scan_is_the_surface_when_it_is_taken(state: State) -> None:
+    state.keep_scan("scan.npy", scan_bytes())
+    take = state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})
+    assert state.surface == "shipped scan"
+    take()
+    assert state.surface == "your scan"
+
+
+def test_to_load_writes_no_file_that_others_may_read_half(state: State) -> None:
+    before = set(state.folder.path.iterdir())
+    with pytest.raises(asperity.Error):
+        state.load({**state.tables, "solver": {"rtool": 1.0}})
+    assert state.load({**state.tables, "solver": {"rtol": 1e-5}}).options["rtol"] == 1e-5
+    assert set(state.folder.path.iterdir()) == before
+
+
+class Emptied(dict[str, Any]):
+    """Another thread puts its own in the place of each, as soon as it is kept."""
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        super().__setitem__("theirs", value)
+
+
+def test_what_is_kept_may_go_while_it_is_used() -> None:
+    built = Remembered(lambda one: one)
+    built._kept = Emptied()
+    assert [built(i) for i in range(3)] == [0, 1, 2]
+
+
+def test_of_parts_the_newest_are_kept() -> None:
+    asked: list[int] = []
+    built = Remembered(lambda one: asked.append(one) or one)
+    assert [built(i) for i in (0, 1, 2, 3, 0, 4, 1, 0, 4, 3)] == [0, 1, 2, 3, 0, 4, 1, 0, 4, 3]
+    assert asked == [0, 1, 2, 3, 4, 0]
+
+
+def test_a_correction_is_that_of_its_own_spectrum(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another thread asks for that of another spectrum, as soon as the first is kept."""
+    first, second = SimpleNamespace(name="first"), SimpleNamespace(name="second")
+
+    class Overtaken(RememberedCorrection):
+        last: Any = None
+        overtaken = False
+
+        @property
+        def _last(self) -> Any:
+            return self.last
+
+        @_last.setter
+        def _last(self, value: Any) -> None:
+            self.last = value
+            if value is not None and not self.overtaken:
+                self.overtaken = True
+                assert self(Path(), {}, second)[0] == "second"
+
+    def build(path: Path, table: object, spectrum: Any) -> tuple[Any, dict[str, Any]]:
+        return spectrum.name, {}
+
+    monkeypatch.setattr(remembered, "build_correction", build)
+    assert Overtaken()(Path(), {}, first)[0] == "first"
