@@ -81,7 +81,7 @@ class ResultPart:
         redraw(self._chart, self._drawn(found), f"Friction coefficient mu over velocity: {said}")
         if found.curves is not None:
             self._tell(found)
-            self._text.set_content(f"<code>{escape(self._state.text)}</code>")
+            self._text.set_content(f"<code>{escape(self._state.text_of(found.tables))}</code>")
             self._offer_velocities(found)
         self._busy(not found.whole)
 
@@ -165,7 +165,8 @@ class ResultPart:
             self._problem.set_text("there is no curve to keep yet")
             return
         try:
-            self._state.keep_variant(self._name.value or "", found.scene, found.curves)
+            name = self._name.value or ""
+            self._state.keep_variant(name, found.tables, found.scene, found.curves)
         except Error as error:
             self._problem.set_text(self._state.said(error))
             return

@@ -254,8 +254,8 @@ class State:
         """An error in the words of the page."""
         return in_words(self.folder.as_shown(" ".join(str(error).split())))
 
-    def keep_variant(self, name: str, scene: Scene, curves: Curves) -> None:
-        """Keep the present curve beside those to come."""
+    def keep_variant(self, name: str, tables: Tables, scene: Scene, curves: Curves) -> None:
+        """Keep a curve beside those to come; `tables` are those that it was computed of."""
         if len(self.variants) >= MOST_VARIANTS:
             raise InvalidInput(f"{MOST_VARIANTS} curves are kept: must remove one first")
         taken = {one.name for one in self.variants}
@@ -263,7 +263,7 @@ class State:
         plain = plain or f"variant {len(self.variants) + 1}"
         while plain in taken:
             plain += "'"
-        self.variants.append(Variant(plain, self.tables, scene, curves))
+        self.variants.append(Variant(plain, tables, scene, curves))
 
     def close(self) -> None:
         self.folder.close()

@@ -274,15 +274,15 @@ def test_variants_are_kept_with_names_of_their_own(state: State) -> None:
     scene = state.load()
     curves = scene.friction()
     for _ in range(2):
-        state.keep_variant("dry\n", scene, curves)
-    state.keep_variant("", scene, curves)
+        state.keep_variant("dry\n", state.tables, scene, curves)
+    state.keep_variant("", state.tables, scene, curves)
     assert [one.name for one in state.variants] == ["dry", "dry'", "variant 3"]
     state.conditions["pressure_pa"] = 2e5
     assert state.variants[0].tables["conditions"]["pressure_pa"] == 81e3
     while len(state.variants) < MOST_VARIANTS:
-        state.keep_variant("more", scene, curves)
+        state.keep_variant("more", state.tables, scene, curves)
     with pytest.raises(asperity.InvalidInput, match="must remove one first"):
-        state.keep_variant("one more", scene, curves)
+        state.keep_variant("one more", state.tables, scene, curves)
 
 
 def test_the_report_tells_no_folder(state: State, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -290,7 +290,7 @@ def test_the_report_tells_no_folder(state: State, monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr(Drawings, "_figure", lambda *_: Figure("", "", ""))
     scene = state.load()
-    state.keep_variant("<b>", scene, scene.friction())
+    state.keep_variant("<b>", state.tables, scene, scene.friction())
     state.conditions["pressure_pa"] = 2e5
     page = report_of(state)().decode()
     assert str(state.folder.path) not in page

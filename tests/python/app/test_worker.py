@@ -137,3 +137,23 @@ def test_an_error_is_told_and_the_next_change_is_computed(state: State) -> None:
 
     asyncio.run(run())
     assert len(page.problems) == 1
+
+
+def test_a_variant_is_the_scene_of_its_curve_whatever_was_edited_since(state: State) -> None:
+    async def run() -> Found:
+        worker, page = Worker(state), Page()
+        worker.shows(page)
+        await worker.changed()
+        state.conditions = {**state.conditions, "pressure_pa": 243e3}
+        state.use("heating", True)
+        found = page.curves[-1]
+        state.keep_variant("before", found.tables, found.scene, found.best)
+        await until(lambda: page.shown and page.shown[-1].whole)
+        return found
+
+    found = asyncio.run(run())
+    kept = state.variants[0]
+    assert kept.tables["conditions"]["pressure_pa"] == 81e3 == found.scene.pressure
+    assert "heating" not in kept.tables
+    assert np.array_equal(state.load(kept.tables).friction().mu, kept.curves.mu)
+    assert state.load().pressure == 243e3
