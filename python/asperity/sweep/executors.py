@@ -8,8 +8,8 @@ from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import contextmanager
 from typing import Any
 
-from asperity._core import Error, InvalidInput
-from asperity.base.arguments import brief
+from asperity._core import Error
+from asperity.base.executors import accepted, in_one_line, worker_count
 from asperity.base.table import imported
 
 _AGAIN = 2.0  # seconds between two questions how many workers there are
@@ -28,12 +28,7 @@ class Executor:
         self._asked, self._workers = -_AGAIN, 1
         if given is None:
             return
-        if not callable(getattr(given, "submit", None)):
-            allowed = "must have the submit of concurrent.futures"
-            raise InvalidInput(f"executor = {brief(given)}: {allowed}")
-        if callable(getattr(given, "get_executor", None)):  # Dask: equal tasks are not one task
-            given = given.get_executor(pure=False)
-        self._submit = given.submit
+        self._submit = accepted(given).submit
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Return the future of a call."""
@@ -48,8 +43,8 @@ class Executor:
         if self._given is None:
             return 1
         if time.monotonic() - self._asked > _AGAIN:
-            self._workers, self._asked = _count(self._given), time.monotonic()
-        return 2 * max(1, self._workers) + 1
+            self._workers, self._asked = worker_count(self._given), time.monotonic()
+        return 2 * self._workers + 1
 
 
 @contextmanager
@@ -68,17 +63,6 @@ def local_cluster(workers: int) -> Iterator[Any]:
             )
         with made as cluster, distributed.Client(cluster) as client:
             yield client
-
-
-def _count(executor: Any) -> int:
-    """How many tasks an executor computes at once; a few where it does not tell."""
-    cores = getattr(executor, "ncores", None)
-    if callable(cores):  # Dask
-        return int(sum(cores().values()))
-    for name in ("num_workers", "_max_workers"):  # mpi4py.futures, concurrent.futures
-        if isinstance(found := getattr(executor, name, None), int):
-            return found
-    return 8
 
 
 def _here(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
@@ -102,7 +86,7 @@ def result_of(future: Any) -> Any:
         problem = f"{type(error).__name__} {error}".strip()
         raise Error(f"the executor lost its workers: {problem}; resume goes on") from error
     except Exception as error:
-        problem = " ".join(f"{type(error).__name__}: {error}".split())
+        problem = in_one_line(error)
         if type(error).__name__ == "KilledWorker":
             raise Lost(problem) from error
         raise Error(f"a task failed on its worker: {problem}") from error

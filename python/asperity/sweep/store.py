@@ -14,6 +14,7 @@ import numpy as np
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.executors import in_one_line
 from asperity.base.table import imported
 from asperity.sweep.chunks import FAILURE, Place, checksums, content_of
 from asperity.sweep.describe import Described, consolidate
@@ -78,7 +79,7 @@ class ZarrStore:
         except InvalidInput:
             raise
         except Exception as error:  # whatever Zarr finds wrong
-            problem = " ".join(f"{type(error).__name__}: {error}".split())
+            problem = in_one_line(error)
             raise InvalidInput(f"{FilePath(path)}: is damaged: {problem}") from error
         token = token_of(path)
         if not token:

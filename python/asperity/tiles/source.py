@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import brief, is_masked
+from asperity.base.executors import in_one_line
 from asperity.surface import HeightMap, LineScan, pixel_sizes
 from asperity.tiles.file_array import FileArray, file_behind
 from asperity.tiles.fill_values import fill_values, without
@@ -40,8 +41,7 @@ class Piece:
         except (Error, MemoryError):
             raise
         except Exception as error:
-            problem = " ".join(f"{type(error).__name__}: {error}".split())
-            raise InvalidInput(f"heights: cannot be read: {problem}") from error
+            raise InvalidInput(f"heights: cannot be read: {in_one_line(error)}") from error
         wanted = tuple(part.stop - part.start for part in self.box)
         if found.shape != wanted:
             raise InvalidInput(f"heights: gave {found.shape} points where {wanted} were asked for")
