@@ -63,6 +63,19 @@ def test_rings_too():
     assert abs(found.mu - by_grid.mu) <= by_grid.error_estimate + found.error_estimate
 
 
+def test_rows_of_a_modulus_are_not_missed_alike():
+    """G at q_m had the same nodes on all grids, and mu was off by 4.5 times what they told."""
+    q, w = np.geomspace(700, 1.4e5, 38), np.geomspace(1e-8, 1e16, 70)
+    rings = asperity.TabulatedSpectrum(wavenumber=q, density=8.9e-5 * q**-3.6)
+    terms = {"moduli": [1e9, 1e8], "relaxation_times": [1e-7, 1e-3]}
+    e = asperity.PronySeries(equilibrium_modulus=2e6, **terms).modulus(w)
+    curve = asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+    at = {"spectrum": rings, "rubber": curve, "velocity": np.array([0.1, 0.14, 0.3])}
+    found, gsl = hot(**at, rtol=RTOL), hot(**at, rtol=0.1 * RTOL, method="qag")
+    assert np.all(np.abs(found.mu - gsl.mu) <= found.error_estimate + gsl.error_estimate)
+    np.testing.assert_allclose(found.macro_area, gsl.macro_area, rtol=RTOL)
+
+
 def test_a_wrong_start_is_left():
     """GSL's temperatures keep themselves up, whatever those of a loose tolerance were."""
     exact = hot(velocity=1.0, rtol=1e-10)
