@@ -182,9 +182,9 @@ def spectra_picture(judged: Judged) -> bytes:
         x = c.end[i] * np.exp(rule.TAIL)
         of_edges = factor * c.t1[i] / c.t2[i] * judged.stress.beyond[i]
         below.plot(middle, spectrum["loss"][1:] / width, "o", color=exact_colour, markersize=4)
-        places = np.geomspace(c.k0[i], judged.finest[i], 400)
-        total = np.interp(places, k, of_band, right=0) + np.interp(places, x, of_edges, left=0)
-        below.plot(places, total, color=rule_colour)
+        # two curves, as both count between q_e and q1
+        below.plot(k, of_band, color=rule_colour)
+        below.plot(x, of_edges, "--", color=rule_colour, label="rule, edges (T)")
         below.axvline(c.k1[i], color="0.7", linewidth=0.8)
         row = judged.rows[i]
         above.set_title(f"{speed}: H {row['hurst']}, $A/A_0$ {c.area[i]:.3f}", fontsize=10)
@@ -198,6 +198,7 @@ def spectra_picture(judged: Judged) -> bytes:
     panels[0].set_ylabel("$R$ [-]")
     panels[3].set_ylabel(r"$\mathrm{d}\mu_H / \mathrm{d} \ln q$ [-]")
     panels[0].legend()
+    panels[3].legend()
     return picture(figure, Path("sliding_spectra.png"))
 
 
