@@ -6,9 +6,14 @@
 //
 //   k u = mu(p, w) p
 //
-// with the pressure p where the bristle is, and w the velocity at which its tip slides, of the sliding distance D just
-// behind it: a contact that slides is a new one, with another mu, after about the length of the largest asperities.
-// Where mu falls with the velocity this holds the bristle back from stick-slip, as long as k D > p |d mu / d ln v|.
+// with the pressure p where the bristle is, and w the velocity at which its contact has slid: a contact is a new one,
+// with another mu, once it has slid about the length D of the largest asperities, for which it takes the time D / w
+// (J. H. Dieterich, J. Geophys. Res. 84, 2161 (1979)). So w follows the velocity x of the tip by
+//
+//   dw/dt = (w / D) (x - w)
+//
+// Where mu falls with the velocity, by c = p |d mu / d ln v| / (k D), this leaves x (1 - c) = s v_x - c w where the
+// pressure does not change: the bristle is held back from stick-slip as long as c is below 1.
 //
 // A bristle comes into contact cold. The distance that its tip has slid since tells how far its rubber has heated up.
 #ifndef BRUSH_HPP
@@ -71,7 +76,8 @@ SlipPoint roll(const Tire& tire, double slip, const Friction& friction) {
       deflection[i] = std::min(stuck, mu[i] * pressure[i] / tire.stiffness);
       const double slid = stuck - deflection[i];
       distance[i] += slid;
-      if (slid > 0) velocity[i] += std::min(1.0, slid / tire.renewal) * (slid / contact[i] - velocity[i]);
+      const double renewed = std::min(1.0, contact[i] * velocity[i] / tire.renewal);
+      if (slid > 0) velocity[i] += renewed * (slid / contact[i] - velocity[i]);
       if (k < 2 * n) continue;
       force += tire.stiffness * deflection[i];
       sliding += slid > 0;
@@ -82,9 +88,9 @@ SlipPoint roll(const Tire& tire, double slip, const Friction& friction) {
 }
 
 inline const std::vector<double>& slips() {
-  static const std::vector<double> values = {0.0025, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045,
-                                             0.05,   0.055, 0.06, 0.065, 0.07, 0.08,  0.09, 0.1,   0.12, 0.15,
-                                             0.2,    0.25,  0.3,  0.4,   0.5,  0.6,   0.7,  0.8,   0.9,  1};
+  static const std::vector<double> values = {0.0025, 0.005, 0.01,  0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045, 0.05,
+                                             0.055,  0.06,  0.065, 0.07,  0.08, 0.09,  0.1,  0.11,  0.12, 0.13,  0.15,
+                                             0.2,    0.25,  0.3,   0.4,   0.5,  0.6,   0.7,  0.8,   0.9,  1};
   return values;
 }
 

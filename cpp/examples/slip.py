@@ -57,7 +57,7 @@ def draw(path: str, columns: np.ndarray, allowed: float) -> None:
         axes.set_xlabel("slip [%]")
         axes.spines.right.set_visible(False)
 
-    linear = np.linspace(0, 0.043, 30)
+    linear = np.linspace(0, 0.0475, 30)
     stiff = STIFFNESS * linear / (1 - linear)
     curve.plot(100 * linear, stiff, "--", color="0.5", lw=0.9, label="bristle stiffness")
     near = percent < 40
@@ -66,7 +66,7 @@ def draw(path: str, columns: np.ndarray, allowed: float) -> None:
     curve.plot(percent[near], by_map[near], "o", color=BLUE, label="cold, friction map", **ring)
     curve.plot([0, *percent], [0, *memory], color=GREEN, label="heats up as it slides, map")
     curve.plot([0, *percent], [0, *hot], "-.", color=ORANGE, label="hot from the start, map")
-    curve.set(xlim=(0, 40), ylim=(0, 0.9), ylabel="braking force / load [-]")
+    curve.set(xlim=(0, 40), ylim=(0, 1), ylabel="braking force / load [-]")
     curve.legend(loc="lower right")
 
     off = np.abs(by_map / force - 1)
