@@ -16,6 +16,7 @@ from asperity.cli.friction_commands import (
     refuse_overwrite,
     write_outputs,
 )
+from asperity.cli.options import typed_options
 from asperity.io import plausible
 from asperity.io.fields import nearest
 from asperity.io.read_friction import read_friction
@@ -43,7 +44,7 @@ def fit(args: Namespace) -> None:
     """Fit the adhesion; beside a scene's correction also with the original theory, without it."""
     path = FilePath(args.measured)
     outputs = check_outputs(args)
-    with plausible.collected() as unusual:
+    with plausible.collected(typed_options(args)) as unusual:
         held = _held(args.hold or {})
         measured = read_friction(path)
     scene = load_scene(args.scene)

@@ -4,8 +4,10 @@ import sys
 from collections.abc import Sequence
 
 from asperity._core import Error, InvalidInput, OutOfRange
+from asperity.cli.options import typed_options
 from asperity.cli.parser import parser
 from asperity.cli.streams import discard, print_stderr, printable, standard_streams
+from asperity.io.typed import as_typed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -13,9 +15,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with standard_streams():
         try:
             args = parser().parse_args(arguments)
-            args.run(args)
-        except (InvalidInput, OutOfRange) as error:
-            return _fail(error, 2)
+            try:
+                args.run(args)
+            except Error as error:
+                told = as_typed(str(error), typed_options(args))
+                return _fail(told, 2 if isinstance(error, InvalidInput | OutOfRange) else 1)
         except BrokenPipeError:  # the reader of our output has gone
             discard(sys.stdout)
             return 1
@@ -25,8 +29,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fail(f"{named}{error.strerror or error}", 1)
         except MemoryError as error:
             return _fail(f"out of memory: {error}" if str(error) else "out of memory", 1)
-        except Error as error:
-            return _fail(error, 1)
         except KeyboardInterrupt:
             return _fail("interrupted", 130)
         return 0

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
+from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map.build import built
@@ -60,7 +61,7 @@ def friction_map_of(args: Namespace) -> None:
     scene = load_scene(args.scene, for_friction=True)
     heat = heat_of_map(scene)
     refuse_overwrite(outputs, scene.sources)
-    with plausible.collected() as unusual:
+    with plausible.collected(typed_options(args)) as unusual:
         _check_sides(args, scene)
     notes = [*scene.notes, *unusual]
     pressure = side_of_map("pressure", args.pressure, scene.pressure, notes)
@@ -75,8 +76,8 @@ def friction_map_of(args: Namespace) -> None:
         "derived": scene.derived,
     }
     lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
-    names = {name: f"--{name}" for name in given}
-    with rename_in_errors(scene.path, names):
+    names = {"rtol": "[solver] rtol"} | {name: f"--{name}" for name in given}
+    with rename_in_errors(scene.path, names, scene.typed):
         made = _shown_while_built(
             scene,
             pressure=pressure,

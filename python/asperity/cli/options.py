@@ -4,11 +4,12 @@ import argparse
 import math
 import sys
 from argparse import ArgumentTypeError
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from asperity._core import __version__
 from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import MOST_POINTS
+from asperity.io.typed import Typed, TypedWhole
 
 
 class Parser(argparse.ArgumentParser):
@@ -36,7 +37,7 @@ class Version(argparse.Action):
 def numbers(text: str) -> list[float]:
     """Numbers, parted by commas."""
     try:
-        return [float(entry) for entry in text.split(",")]
+        return [Typed(entry) for entry in text.split(",")]
     except ValueError:
         raise ArgumentTypeError(f"{text!r}: must be numbers, parted by commas") from None
 
@@ -52,26 +53,15 @@ def pairs(text: str) -> dict[str, str]:
     return result
 
 
-class Typed(float):
-    """A number that shows as it was typed."""
-
-    text: str
-
-    def __str__(self) -> str:
-        return self.text
-
-
 def number(text: str) -> float:
     """A positive number: all that the options ask for are."""
     try:
-        number = float(text)
+        number = Typed(text)
     except ValueError:
-        number = math.nan
+        number = Typed("nan")
     if not 0 < number < math.inf:
         raise ArgumentTypeError(f"{text!r}: must be a positive number")
-    typed = Typed(number)
-    typed.text = text
-    return typed
+    return number
 
 
 def pixel_size(text: str) -> float | tuple[float, float]:
@@ -98,7 +88,7 @@ def sides(text: str) -> tuple[float, float]:
 def whole(text: str) -> int:
     """A whole number."""
     try:
-        return int(text)
+        return TypedWhole(text)
     except ValueError:
         raise ArgumentTypeError(f"{text!r}: must be a whole number") from None
 
@@ -113,7 +103,7 @@ def points(text: str) -> int:
 def share(text: str) -> float:
     """A number from 0 on; more is refused by whoever takes it."""
     try:
-        return float(text) if float(text) == 0 else number(text)
+        return Typed(text) if float(text) == 0 else number(text)
     except ValueError:
         raise ArgumentTypeError(f"{text!r}: must be a number, 0 or more") from None
 
@@ -128,3 +118,19 @@ def tile(text: str) -> int | tuple[int, int]:
     except (ArgumentTypeError, ValueError):
         raise ArgumentTypeError(f"{text!r}: must be a whole number, or two: NY,NX") from None
     return ny, nx
+
+
+def typed_options(args: argparse.Namespace) -> dict[str, Any]:
+    """The numbers of options by their names, for `as_typed`."""
+    given = {f"--{name.replace('_', '-')}": value for name, value in vars(args).items()}
+    for option, value in list(given.items()):
+        if isinstance(value, dict):  # of NAME=VALUE
+            given |= {f"{option} {name}": _number_or_none(text) for name, text in value.items()}
+    return given
+
+
+def _number_or_none(text: str) -> float | None:
+    try:
+        return Typed(text)
+    except ValueError:
+        return None

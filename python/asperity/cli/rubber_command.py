@@ -9,6 +9,7 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.cli.options import typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
@@ -37,7 +38,7 @@ def rubber(args: Namespace) -> None:
     files = [FilePath(name) for name in args.file]
     shift_file = [] if args.shift is None else [FilePath(args.shift)]
     refuse_overwrite(check_outputs(args), [*files, *shift_file])
-    with plausible.collected() as unusual, rename_in_errors(None, _FLAGS):
+    with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:
             flag, given = "--reference-temperature", args.reference_temperature
             plausible.check(flag, given, plausible.TEMPERATURE)

@@ -10,8 +10,10 @@ import numpy as np
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.demo import input_files
+from asperity.io import plausible
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.plot import curves as plot
@@ -39,7 +41,10 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
     directory = FilePath(args.output)
     plot.check_plot(directory / FILES[2])
     check_directory(directory, FILES, force=args.force)
+    with plausible.collected(typed_options(args)) as unusual:
+        plausible.check("--velocities", args.velocities or [], plausible.VELOCITY)
     scene, notes = _scene(args)
+    notes += unusual
     inputs = [FilePath(name) for name in (args.surface, args.rubber) if name is not None]
     refuse_overwrite([directory / name for name in FILES], inputs)
     velocity = np.array(args.velocities) if args.velocities else scene.velocity

@@ -9,6 +9,7 @@ from typing import Any
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.cli.options import typed_options
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.open_map import open_map
@@ -46,7 +47,7 @@ def spectrum(args: Namespace) -> None:
     """Spectrum of a scan; its moments and fit go to the terminal and into the header."""
     path = FilePath(args.file)
     refuse_overwrite(check_outputs(args), [path])
-    with plausible.collected() as unusual:
+    with plausible.collected(typed_options(args)) as unusual:
         for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
             if q is not None:
                 plausible.check(flag, q, plausible.WAVENUMBER)

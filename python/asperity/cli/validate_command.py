@@ -8,6 +8,7 @@ from typing import Any
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.options import typed_options
 from asperity.cli.sliding_command import refuse_alone, validate_sliding
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.io import plausible
@@ -98,7 +99,7 @@ def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[str]]:
     given = _given(args)
     path = FilePath(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-    with plausible.collected() as unusual, rename_in_errors(None, flags):
+    with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, flags):
         if args.q0 is not None:
             plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
         read = {name: given[name] for name in flags if name in given}

@@ -12,6 +12,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.io import plausible
+from asperity.io.typed import Typed, as_typed
 
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
@@ -213,7 +214,7 @@ def _shown(value: object) -> str:
     elif isinstance(value, datetime.date | datetime.time):
         text = value.isoformat()
     else:
-        text = repr(value)
+        text = str(value) if isinstance(value, Typed) else repr(value)
     return text if len(text) <= 80 else text[:77] + "..."
 
 
@@ -230,10 +231,13 @@ _ADVICE = {
 
 
 @contextmanager
-def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[None]:
+def rename_in_errors(
+    path: Path | None, names: Mapping[str, str], given: Mapping[str, Any] | None = None
+) -> Iterator[None]:
     """Let errors of the core name the file and its fields: `names` is argument -> [table] key.
 
-    Of a file, advice for Python becomes advice for a scene.
+    Of a file, advice for Python becomes advice for a scene. Numbers of `given` are told as they
+    were typed (`as_typed`).
     """
     try:
         yield
@@ -243,6 +247,7 @@ def rename_in_errors(path: Path | None, names: Mapping[str, str]) -> Iterator[No
             name = f"({'|'.join(names)})"
             pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = | \(\d)"
             message = re.sub(pattern, lambda found: names[found[1] or found[2]], message)
+        message = as_typed(message, given or {})
         if path is not None:
             for pattern, in_scene in _ADVICE.items():
                 message = re.sub(pattern, in_scene, message)

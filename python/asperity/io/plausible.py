@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.io.typed import as_typed
 
 
 @dataclass(frozen=True)
@@ -206,26 +207,39 @@ STRAIN = Quantity(
     high=Limit(3.0, "300 %; most rubbers are torn"),
     most=Limit(30.0, "no rubber stretches so far"),
 )
+# c1 of WLF: log10 a_T falls by it between the reference and an infinite temperature. Ferry,
+# Viscoelastic Properties of Polymers, Table 11-II: 3 to 34.
+DECADES = Quantity(
+    _NUMBER,
+    likely=(0, 0),
+    least=Limit(0.0, ""),
+    high=Limit(100.0, "rubbers have 3 to 34 decades between the reference and infinite heat"),
+    most=Limit(1e4, "rubbers have 3 to 34 decades between the reference and infinite heat"),
+)
 
 _notes: ContextVar[list[str] | None] = ContextVar("notes", default=None)
 
 
 @contextmanager
-def collected() -> Iterator[list[str]]:
+def collected(given: Mapping[str, Any] | None = None) -> Iterator[list[str]]:
     """Refuse absurd numbers, and collect the notes on unusual ones in a list.
 
-    An error of the package that follows on a note may well be due to it, and repeats it.
+    An error of the package that follows on a note may well be due to it, and repeats it. Both have
+    the numbers of `given` as they were typed (`as_typed`).
     """
     notes: list[str] = []
     token = _notes.set(notes)
     try:
         yield notes
     except (InvalidInput, OutOfRange, NotConverged) as error:
-        if not notes:
+        message = "; note: ".join([str(error), *notes])
+        told = as_typed(message, given or {})
+        if told == str(error):
             raise
-        raise type(error)("; note: ".join([str(error), *notes])) from error
+        raise type(error)(told) from error
     finally:
         _notes.reset(token)
+        notes[:] = [as_typed(note, given or {}) for note in notes]
 
 
 def tell_again(notes: Sequence[str]) -> None:

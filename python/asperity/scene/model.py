@@ -33,6 +33,7 @@ from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
 from asperity.uncertainty.draws import Drawn, ShiftedRubber
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
+_SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
@@ -79,6 +80,7 @@ class Scene:
     sampling: Mapping[str, Any]  # samples, seed and level of a band
     stated_rtol: float | None  # of [solver], None where the default holds
     unusual: Sequence[str]  # numbers that their units make unlikely
+    typed: Mapping[str, Any]  # what the file has, by the names that messages use
     temperature: float | None = None  # of [conditions] [K]
     heating: Heating | None = None
     others: Sequence["Scene"] = ()  # the same at the further temperatures of a list
@@ -141,7 +143,7 @@ class Scene:
 
     def friction_at(self, pressure: NDArray[np.float64], velocity: NDArray[np.float64]) -> Friction:
         """Friction at points of one's own, in one call; errors name the scene's keys."""
-        with rename_in_errors(self.path, self._names):
+        with rename_in_errors(self.path, self._names, self.typed):
             result: Friction = self._at(self._friction, pressure, velocity)
             return result
 
@@ -217,7 +219,7 @@ class Scene:
         if self.heating is not None:
             options |= {"temperature": self.temperature, "heating": self.heating}
             rubber = _known(self.built_rubber.drawn_at_reference)
-        with rename_in_errors(self.path, {**NAMES, **names_of("uncertainty", UNCERTAINTY)}):
+        with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
             band = swept_band(
                 self.surface.drawn,
                 rubber,
@@ -249,7 +251,7 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        with progress(chunks) as shown, rename_in_errors(self.path, self._names):
+        with progress(chunks) as shown, rename_in_errors(self.path, self._names, self.typed):
             return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
 
     @property
@@ -276,7 +278,7 @@ class Scene:
     ) -> NDArray[np.float64]:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
         options = {key: value for key, value in self.options.items() if key != "form"}
-        with rename_in_errors(self.path, NAMES):
+        with rename_in_errors(self.path, NAMES, self.typed):
             density: NDArray[np.float64] = pressure_distribution(
                 stress,
                 self.spectrum,

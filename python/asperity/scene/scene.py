@@ -19,6 +19,7 @@ from asperity.io.fields import (
     require,
 )
 from asperity.io.files import check_file
+from asperity.io.typed import Typed, typed_in
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
 from asperity.scene.model import Scene
@@ -75,7 +76,7 @@ def scene_of(
     path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
 ) -> Scene:
     """Build a scene as `build_scene` does, with a note of each number that is unusual."""
-    with plausible.collected() as notes:
+    with plausible.collected(typed_in(tables)) as notes:
         scene = build_scene(path, tables, for_friction=for_friction, builders=builders)
     return replace(scene, unusual=tuple(notes))
 
@@ -154,6 +155,7 @@ def build_scene(
         sampling=sampling,
         stated_rtol=stated_rtol,
         unusual=(),
+        typed=typed_in(tables),
         temperature=temperatures[0],
         heating=heating,
     )
@@ -173,7 +175,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     """Tables of a TOML file, whatever they are."""
     try:
         check_file(path)
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Typed)
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

@@ -31,7 +31,7 @@ TEMPERATURE = {
     "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
     "shift": Field(file_name),
 }
-WLF_KEYS = {"wlf_c1": Field(number, "c1"), "wlf_c2_k": Field(number, "c2")}
+WLF_KEYS = {"wlf_c1": Field(number, "c1", plausible.DECADES), "wlf_c2_k": Field(number, "c2")}
 
 
 def shift_of(path: Path, values: Values) -> ShiftFactors | WLF | None:

@@ -112,7 +112,7 @@ def build_surface(path: Path, table: object) -> Surface:
         "rms_height_m": spectrum.rms_height,
         "rms_slope": spectrum.rms_slope,
     }
-    notes = _slope_notes(spectrum, values)
+    notes = _slope_notes(spectrum, values, table)
     drawn = drawn_spectrum(spectrum)
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
@@ -178,14 +178,14 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
     return [f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"]
 
 
-def _slope_notes(spectrum: Spectrum, values: Values) -> list[str]:
+def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[str]:
     wanted = values.get("slope_cutoff")
     if wanted is None or "contamination_size_m" in values:
         return []
     if spectrum.rms_slope >= wanted * (1 - 1e-9):
         return []
     found = f"the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
-    return [f"fatal: slope_cutoff = {wanted} is not reached: {found}"]
+    return [f"fatal: slope_cutoff = {typed['slope_cutoff']} is not reached: {found}"]
 
 
 def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:

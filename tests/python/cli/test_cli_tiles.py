@@ -50,7 +50,7 @@ def test_a_file_and_an_array_give_what_python_does(
 
 BAD = [
     (["none.npy", "--tiles", "512"], "none.npy: cannot be read: No such file"),
-    (["map.npy", "--tiles", "4096"], "--tiles = (4096, 4096): must be at most (600, 700), the map"),
+    (["map.npy", "--tiles", "4096"], "--tiles = 4096: must be at most (600, 700), the map"),
     (["map.npy", "--tiles", "x"], "'x': must be a whole number, or two: NY,NX"),
     (["map.npy", "--tiles", "512", "--overlap", "0.9"], "--overlap = 0.9: must be from 0 to 0.75"),
     (["map.npy", "--overlap", "0.25"], "--overlap 0.25: goes with --tiles"),
