@@ -48,6 +48,7 @@ html_theme = "furo"
 html_title = f"asperity {version}"
 html_static_path = ["_static"]
 html_css_files = ["asperity.css"]
+html_js_files = ["search_offline.js"]
 html_theme_options = {"navigation_with_keys": True}
 html_copy_source = False
 

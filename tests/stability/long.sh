@@ -17,7 +17,7 @@
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
 #   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
-#   browser      the app and the report in Chromium; wants Debian's chromium and playwright
+#   browser      the app, the report and the documentation, if it is built, in Chromium; wants Debian's chromium and playwright
 #   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
 # JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
 set -u
@@ -116,7 +116,9 @@ wine() {
 browser() {
   [ -x /usr/bin/chromium ] || { echo 'chromium is missing'; return 1; }
   "$python" -c 'import playwright.sync_api, nicegui, matplotlib' || return
-  "$python" -m pytest -q -p no:cacheprovider -n0 tests/python/app/test_browser.py tests/python/report/test_report.py
+  "$python" -m pytest -q -p no:cacheprovider -n0 tests/python/app/test_browser.py tests/python/report/test_report.py || return
+  [ -f build/docs/html/index.html ] || { echo 'the documentation is not built: sh docs/build.sh'; return 0; }
+  "$python" -m pytest -q -p no:cacheprovider -n0 -m long tests/python/project/test_site.py
 }
 
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }

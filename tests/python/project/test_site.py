@@ -1,0 +1,81 @@
+"""The documentation that `sh docs/build.sh` built, opened as files in a browser without a network.
+
+`sh tests/stability/long.sh browser` runs this.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytestmark = pytest.mark.long
+SITE = Path(__file__).parents[3] / "build" / "docs" / "html"
+CHROMIUM = Path("/usr/bin/chromium")
+WIDTHS = {"desktop": 1366, "phone": 390}
+PAGES = ("index", "tutorial", "gallery/index", "glossary", "sliding", "reference/command_line")
+FOUND = {
+    "master curve": ("Isotherms become a master curve", "asperity.build_master_curve"),
+    "tau_f0": ("Set the adhesion", "Glossary"),
+    "slope_cutoff": ("Choose where the spectrum ends", "Scenes"),
+}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    playwright = pytest.importorskip("playwright.sync_api", reason="browser tests need playwright")
+    if not CHROMIUM.exists():
+        pytest.skip("needs Chromium")
+    if not (SITE / "searchindex.js").exists():
+        pytest.skip("needs the site: sh docs/build.sh")
+    with playwright.sync_playwright() as started:
+        opened = started.chromium.launch(executable_path=str(CHROMIUM), args=["--no-sandbox"])
+        yield opened
+        opened.close()
+
+
+@pytest.fixture
+def page(browser: Any, request: pytest.FixtureRequest) -> Iterator[Any]:
+    """A page of a browser that has no network; it may ask for files alone and complain of none."""
+    width, scheme = getattr(request, "param", ("desktop", "light"))
+    context = browser.new_context(
+        offline=True, viewport={"width": WIDTHS[width], "height": 900}, color_scheme=scheme
+    )
+    shown = context.new_page()
+    asked: list[str] = []
+    said: list[str] = []
+    shown.on("request", lambda one: asked.append(one.url))
+    shown.on("pageerror", lambda error: said.append(str(error)))
+    shown.on("console", lambda one: said.append(one.text) if one.type == "error" else None)
+    yield shown
+    context.close()
+    assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
+    assert said == []
+
+
+@pytest.mark.parametrize("words", FOUND)
+def test_search(page: Any, words: str) -> None:
+    page.goto((SITE / "index.html").as_uri())
+    box = page.get_by_role("textbox", name="Search")
+    box.fill(words)
+    box.press("Enter")
+    found = page.locator("#search-results")
+    found.get_by_text("Search finished, found").wait_for(timeout=60_000)
+    titles = found.locator("ul.search > li").all_inner_texts()
+    for title in FOUND[words]:
+        assert any(one.startswith(title) for one in titles), titles
+    link = found.get_by_role("link", name=FOUND[words][0]).first
+    link.click()
+    assert page.locator("h1").first.inner_text()
+
+
+@pytest.mark.parametrize(
+    "page", [(width, scheme) for width in WIDTHS for scheme in ("light", "dark")], indirect=True
+)
+def test_pages_fit(page: Any) -> None:
+    """No page is wider than the window, and all of its pictures are there."""
+    for name in PAGES:
+        page.goto((SITE / f"{name}.html").as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
+        broken = "[...document.images].filter(one => !one.complete || !one.naturalWidth).length"
+        assert page.evaluate(broken) == 0, name
