@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 FORMATS = (".png", ".svg", ".pdf")
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
-_COLUMN = 3.4  # inches, of a journal of two columns
+COLUMN = 3.4  # inches, of a journal of two columns
 _DASHES = ("-", "--", ":", "-.")
 PRESSURE, VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
 
@@ -147,7 +147,7 @@ def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
     width = {1: 6.6, 2: 9.0, 3: 13.0, 4: 10.0, 6: 13.0, 8: 16.0}[panels]
     size = (width, 3.5 if rows == 1 else 7.2)
     if narrow():
-        rows, columns, size = panels, 1, (_COLUMN, 2.6 * panels)
+        rows, columns, size = panels, 1, (COLUMN, 2.6 * panels)
     figure = Figure(figsize=size, layout="constrained")
     drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
     for axes in drawn:

@@ -165,14 +165,19 @@ def legend_inside(axes: "Axes", *entries: Any, **how: Any) -> bool:
 def legend_where_room_is(
     figure: "Figure", axes: "Axes", *entries: Any, title: str | None = None
 ) -> None:
-    """A legend inside of the axes, or else beside the panels (above those of a single column)."""
+    """A legend inside of the axes, or else beside a single panel, or above several of them."""
     how: dict[str, Any] = {"title": title, "title_fontsize": "small"} if title else {}
     if legend_inside(axes, *entries, **how):
         return
     if not entries:
         entries = axes.get_legend_handles_labels()
+    panels = [one for one in figure.axes if one.get_subplotspec() is not None]
     if narrow():
         figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small", **how)
+    elif len(panels) > 1:  # above the first, whose curves they are
+        if title:
+            how["title"] = title.replace("\n", " ")
+        figure.legend(*entries, loc="outside upper left", ncols=4, fontsize="small", **how)
     else:
         figure.legend(*entries, loc="outside right upper", fontsize="small", **how)
 

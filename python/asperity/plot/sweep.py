@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.io.fields import without_unit
-from asperity.plot.curves import MOST_ENTRIES, PRESSURE, VELOCITY, picture
+from asperity.plot.curves import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture
 from asperity.plot.style import colours, grey, narrow, shades
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ _MOST_BANDS = 3  # curves of a panel whose bands can be told apart
 _TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}
 _OF_TABLE = ("kind", "file")  # what there is one of in a table
 _WIDE, _LONG = 3.0, 2.5  # inches of a panel
-_COLUMN = 3.4  # inches, of a journal of two columns
 
 
 def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
@@ -99,7 +98,7 @@ def _grid(across: int, down: int) -> "tuple[Figure, list[Axes]]":
 
     if narrow():
         across, down = 1, across * down
-        size = (_COLUMN, 0.6 * _COLUMN * down + 0.6)
+        size = (COLUMN, 0.6 * COLUMN * down + 0.6)
     else:
         size = (max(_WIDE * across, 5.0) + 1.2, max(_LONG * down, 3.4) + 0.5)
     figure = Figure(figsize=size, layout="constrained")

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from asperity.plot.curves import new_figure, picture
+from asperity.plot.curves import COLUMN, new_figure, picture
 from asperity.plot.style import colours as colours_for
-from asperity.plot.style import grey, palette
+from asperity.plot.style import grey, narrow, palette
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,
@@ -32,9 +32,10 @@ def error_figure(
     from matplotlib.figure import Figure
 
     predictions = _different(predictions, quantity)
-    columns = 4
+    columns = 2 if narrow() else 4
     rows = -(-(len(predictions) + 1) // columns)
-    figure = Figure(figsize=(11.5, 2.7 * rows), layout="constrained")
+    size = (COLUMN, 1.4 * rows) if narrow() else (11.5, 2.7 * rows)
+    figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(rows, columns, sharex=True, sharey=True).ravel()
     contacts = [prediction.contact for prediction in predictions[0]]
     bands = sorted({contact.band for contact in contacts})
@@ -57,7 +58,8 @@ def error_figure(
     for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
         if hurst is not None:
             legend.plot([], [], mark, color=grey(0.3), markersize=4, label=f"$H$ = {hurst:g}")
-    legend.legend(loc="center", fontsize="small", ncols=2, frameon=False)
+    together = {"handletextpad": 0.3, "columnspacing": 0.8} if narrow() else {}
+    legend.legend(loc="center", fontsize="small", ncols=2, frameon=False, **together)
     panels[0].set_xscale("log")
     # linear up to what a theory without fitted numbers reaches, logarithmic beyond
     panels[0].set_yscale("symlog", linthresh=10, linscale=1.2, subs=range(2, 10))
@@ -108,7 +110,7 @@ def shift_figure(
     """Which p_T the exact areas and energies ask for and which the article's methods give; beside
     it what the friction integrand makes of the energy."""
     figure, (left, right) = new_figure(2)
-    figure.set_size_inches(12.5, 4.0)
+    figure.set_size_inches(*((COLUMN, 6.8) if narrow() else (12.5, 4.0)))
     by_name = {found[0].model.name: found for found in predictions}
 
     def draw(axes: "Axes", label: str, values: Sequence[float], colour: str, dashes: str) -> None:
@@ -146,7 +148,10 @@ def shift_figure(
     for axes in (left, right):
         axes.set_xscale("log")
         axes.set_xlabel(_LOAD)
-        axes.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
+        where: dict[str, Any] = {"loc": "center left", "bbox_to_anchor": (1.02, 0.5)}
+        if narrow():
+            where = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.2), "ncols": 2}
+        axes.legend(fontsize="small", frameon=False, **where)
     return picture(figure, path)
 
 

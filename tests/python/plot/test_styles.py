@@ -227,3 +227,57 @@ def test_validate_is_drawn_in_a_style(folder: Path) -> None:
     assert main(["validate", "--rows", "few.csv", "--output", "dark", "--style", "dark"]) == 0
     for name in ("area_error.png", "shift.png"):
         assert imread(f"dark/{name}")[:3, :3, :3].max() <= 0.15
+
+
+def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: list[Any]) -> None:
+    from importlib.resources import files
+
+    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
+    (folder / "few.csv").write_text("\n".join(rows[:12]))
+    asked = ["validate", "--rows", "few.csv", "--output", "worth", "--style", "single"]
+    assert main(asked) == 0
+    assert len(figures) == 3
+    for figure in figures:
+        width, height = figure.get_size_inches() * figure.dpi
+        assert width / figure.dpi == pytest.approx(3.4)
+        figure.draw_without_rendering()
+        axes = [one for one in figure.axes if one.axison]
+        assert len({round(one.get_position().x0, 1) for one in axes}) <= 2
+        boxes = [one.get_tightbbox() for one in figure.axes]
+        boxes += [legend.get_window_extent() for one in axes if (legend := one.get_legend())]
+        for box in boxes:
+            assert -1 <= box.x0 <= box.x1 <= width + 1
+            assert -1 <= box.y0 <= box.y1 <= height + 1
+
+
+def test_a_legend_of_several_panels_stands_above_the_first(
+    folder: Path, figures: list[Any]
+) -> None:
+    assert main(["demo", "--output", "demo"]) == 0
+    (figure,) = figures
+    figure.draw_without_rendering()
+    first, *others = figure.axes
+    (legend,) = figure.legends
+    box, panel = legend.get_window_extent(), first.get_window_extent()
+    assert box.x0 < panel.x1
+    assert box.y0 > panel.y1
+    assert all(box.y0 > one.get_window_extent().y1 for one in others)
+
+
+@pytest.mark.parametrize("count", range(1, 13))
+def test_colours_show_on_what_is_drawn_on(count: int) -> None:
+    """By the contrast of WCAG 2.1, 1.4.11: 3 on a dark screen."""
+    from matplotlib.colors import to_rgb
+
+    from asperity.plot import style
+
+    def luminance(colour: Any) -> float:
+        parts = [
+            x / 12.92 if x <= 0.03928 else ((x + 0.055) / 1.055) ** 2.4 for x in to_rgb(colour)
+        ]
+        return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+    with style.drawn_in("dark"):
+        background = luminance(style.paper()) + 0.05
+        for colour in style.colours(count):
+            assert (luminance(colour) + 0.05) / background >= 3
