@@ -167,7 +167,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       throw NotConverged("mu = " + show(map->hysteresis() + map->adhesion()) +
                          " with the heat it makes, on a grid of " + std::to_string(map->grid().size()) +
                          " nodes, changes by more than rtol = " + show(rtol) + " from grid to grid");
-    const double coarse = map->hysteresis() + map->adhesion(), coarse_error = found.mu_error;
+    const double coarse = map->hysteresis() + map->adhesion(), coarse_error = found.mu_error,
+                 coarse_area = map->contact_area();
     FlashMap& finer = map_of(level);
     finer.start(point);
     if (level > level_ + 1) {
@@ -183,7 +184,9 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     // scenes, for which never less than a thirtieth is told.
     const double error = 2 * (std::fabs(mu - coarse) + std::fmax(found.mu_error, coarse_error)) +
                          (std::fmax(rtol / 30, 1e-13) + 4 * map->shift().relative_error) * mu;
-    if (!(error <= rtol * mu)) continue;
+    // an elastic rubber has an area alone
+    const double area = map->contact_area();
+    if (!(error <= rtol * mu && std::fabs(area - coarse_area) <= rtol * area)) continue;
     level_ = level - 1;
     const bool rows = std::holds_alternative<MasterCurve>(scene_.rubber);
     check_temperatures(*map, found, point);

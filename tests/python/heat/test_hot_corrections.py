@@ -48,6 +48,24 @@ def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
         np.testing.assert_array_equal(found.gain, 0)
 
 
+@each("name", ["partial", "nayak"])
+def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name):
+    """It has no friction by which grids could be judged: areas were up to 13e-7 off at 1e-7."""
+    rng = np.random.default_rng(1)
+    elastic = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[])
+    for number in range(10):
+        wavenumber = 500.0 * (4 + np.arange(200))
+        lines = np.where(rng.random(200) < 0.05, 10 ** rng.uniform(1, 5, 200), 1)
+        rings = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=wavenumber**-3.6 * lines)
+        rings = rings.scaled(rings.rms_slope**-2)
+        given = {"pressure": 10 ** rng.uniform(2, 6.7, 3), "correction": CORRECTIONS[name]}
+        found = hot(rings, velocity=0.01, rubber=elastic, **given, rtol=1e-7)
+        truth = asperity.contact_area(rings, elastic, velocity=0.01, **given, rtol=1e-10)
+        with case(number=number):
+            np.testing.assert_array_equal(found.mu, 0)
+            np.testing.assert_allclose(found.contact_area, truth, rtol=1e-7)
+
+
 @each("name", list(CORRECTIONS))
 def test_the_profile_is_what_the_heat_of_the_contributions_makes(name):
     """theta(q) = (2 v sigma0 / (rho c_v P_m)) int q' g(q, q') dmu_H(q'), by the trapezoid."""
