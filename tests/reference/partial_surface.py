@@ -60,23 +60,23 @@ def roughness(q, c):
 def closed_moment(q, c):
     """Return y, y' -> int c dy between them, in closed form."""
     _, power, straight = roughness(q, c)
+    places, p = np.log(q), 4 + power
+    slope = np.where(straight, np.diff(c) / np.diff(q), 0)
+    level = np.where(straight, c[:-1] - slope * q[:-1], 0)
+    divisor = np.where(p == 0, 1, p)
 
     def inside(y, i):
-        if straight[i]:
-            k, b = np.exp(y), (c[i + 1] - c[i]) / (q[i + 1] - q[i])
-            a = c[i] - b * q[i]
-            return a * (k**4 - q[i] ** 4) / 4 + b * (k**5 - q[i] ** 5) / 5
-        p, s = 4 + power[i], y - np.log(q[i])
-        return c[i] * q[i] ** 4 * (np.expm1(p * s) / p if abs(p * s) > 1e-9 else s)
+        k, s = np.exp(y), y - places[i]
+        line = level[i] * (k**4 - q[i] ** 4) / 4 + slope[i] * (k**5 - q[i] ** 5) / 5
+        grown = np.where(np.abs(p[i] * s) > 1e-9, np.expm1(p[i] * s) / divisor[i], s)
+        return np.where(straight[i], line, c[i] * q[i] ** 4 * grown)
 
-    before = np.cumsum([0.0, *(inside(np.log(q[i + 1]), i) for i in range(len(q) - 1))])
+    before = np.cumsum([0.0, *inside(places[1:], np.arange(len(q) - 1))])
 
     def moment(y):
-        result = np.empty(y.size)
-        for at, one in enumerate(y.ravel()):
-            i = min(max(np.searchsorted(np.log(q), one, side="right") - 1, 0), len(q) - 2)
-            result[at] = before[i] + inside(min(max(one, np.log(q[0])), np.log(q[-1])), i)
-        return result.reshape(y.shape)
+        y = np.clip(y, places[0], places[-1])
+        i = np.clip(np.searchsorted(places, y, side="right") - 1, 0, len(q) - 2)
+        return before[i] + inside(y, i)
 
     return lambda low, high: moment(high) - moment(low)
 

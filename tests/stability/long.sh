@@ -2,7 +2,8 @@
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
-#   partial      PartialContact: the roots of ten thousand random scenes, and the estimates of five thousand
+#   partial      PartialContact: the roots of ten thousand random scenes, the estimates of five thousand, and forty thousand
+#                points on tables against brute force
 #   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
@@ -54,7 +55,8 @@ rings() {
 
 partial() {
   "$python" tests/stability/random_roots.py --scenes 10000 &&
-    "$python" tests/stability/random_partial_contact.py --scenes 5000
+    "$python" tests/stability/random_partial_contact.py --scenes 5000 &&
+    "$python" tests/stability/random_partial_tables.py --scenes 1500
 }
 
 heat() { "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1; }

@@ -83,13 +83,38 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   std::ranges::sort(edges);
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
     if (edges[i + 1] > edges[i]) cut(edges[i], edges[i + 1], 0);
-  // nodes of no weight make up for a multiple of four
-  while (nodes_.wavenumber.size() % 4 != 0) {
+  do {
     nodes_.wavenumber.push_back(surface.back().b);
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
-  }
+  } while (nodes_.wavenumber.size() % 4 != 0);
+  take_differences();
   cells_ = RoughnessCells(12, foot_, surface.back().b, nodes_.wavenumber);
   coarse_cells_ = RoughnessCells(4, foot_, surface.back().b, nodes_.wavenumber);
+}
+
+/// The sizes of five coefficients sum to 16, as those of equal steps do. The first of the nodes without weight is at
+/// the end of the band, and the last place of a value.
+void RoughnessPieces::take_differences() {
+  const auto& q = nodes_.wavenumber;
+  const auto& weight = nodes_.weight;
+  const std::size_t n = q.size(), end = static_cast<std::size_t>(std::ranges::find(weight, 0.0) - weight.begin());
+  for (auto& row : nodes_.difference) row.resize(n);
+  for (std::size_t i = 2; i + 2 <= end; ++i) {
+    std::array<double, 5> y, part;
+    for (std::size_t k = 0; k < 5; ++k) y[k] = std::log(q[i + k - 2] / q[i]);
+    double size = 0;
+    for (std::size_t k = 0; k < 5; ++k) {
+      part[k] = 1;
+      for (std::size_t j = 0; j < 5; ++j)
+        if (j != k) part[k] *= (y[4] - y[0]) / (y[k] - y[j]);
+      size += std::fabs(part[k]);
+    }
+    if (!std::isfinite(size)) continue;
+    double whole = weight[i];
+    if (i == 2) whole += weight[0] + weight[1];
+    if (i + 2 == end) whole += weight[i + 1];
+    for (std::size_t k = 0; k < 5; ++k) nodes_.difference[k][i] = 16 * whole * part[k] / size;
+  }
 }
 
 std::size_t RoughnessPieces::segment_at(double y) const {

@@ -1,6 +1,7 @@
 // A measured spectrum as few nodes, for integrals over int c d ln q of functions of ln q, G and the roughness beside q.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -26,10 +27,14 @@ class RoughnessPieces {
   RoughnessPieces(std::span<const Segment> surface, std::size_t level);
 
   struct Nodes {
-    std::vector<double> wavenumber;  // [1/m], two a piece; padded to a multiple of four with nodes of no weight
-    std::vector<double> weight;      // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
-    std::vector<double> window;      // of RoughnessWindow
+    /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.
+    std::vector<double> wavenumber;
+    std::vector<double> weight;  // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
+    std::vector<double> window;  // of RoughnessWindow
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
+    /// Fourth differences of a function in ln q, by its values at the node and at two to each side of it, times the
+    /// weight of the nodes that they stand for.
+    std::array<std::vector<double>, 5> difference;
   };
   [[nodiscard]] const Nodes& nodes() const { return nodes_; }
   /// Over the band from where roughness begins.
@@ -57,6 +62,7 @@ class RoughnessPieces {
   [[nodiscard]] std::size_t segment_at(double y) const;
   [[nodiscard]] double m_at(double y) const;
   void add_piece(const Points& points);
+  void take_differences();
 
   std::span<const Segment> surface_;
   RoughnessWindow window_;

@@ -8,10 +8,13 @@ import pytest
 
 import asperity
 from asperity import MasterCurve, PartialContact, PronySeries, SelfAffineSpectrum
+from helpers import table_rows
 from helpers.cases import case, each, long
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+import partial_truth
 import random_partial_contact
+import random_partial_tables
 import random_roots
 
 RULE = PartialContact()
@@ -87,6 +90,36 @@ def test_estimates_hold_against_gsl(count):
             assert max(random_partial_contact.compute(4, scene, by_gsl=True).values()) <= 1
 
 
+def test_brute_force_meets_the_reference(reference_table):
+    rows = [row for row in reference_table("partial_contact") if row["rms_height"] is None]
+    assert len(rows) > 10
+    for row in rows:
+        measured = row["table_frequency"].size > 0
+        rubber = (table_rows.master_curve if measured else table_rows.prony)(row)
+        surface = partial_truth.Surface(row["table_wavenumber"], row["table_density"])
+        truth = partial_truth.Truth(surface, rubber, row["velocity"], row["poisson_ratio"])
+        with case(case=row["case"]):
+            found = truth.at(row["pressure"])
+            assert found == pytest.approx([row["hysteresis"], row["contact_area"]], rel=1e-11)
+
+
+@pytest.mark.parametrize("count", [40, long(1500)])
+def test_estimates_hold_against_brute_force(count):
+    for scene in range(count):
+        with case(scene=scene):
+            _, points = random_partial_tables.compute(2, scene)
+            assert all(excess <= 1 for _, excess in points)
+
+
+@each("scene", [180, 714, 809, 873, 1160, 1785])
+def test_estimates_hold_beside_knots_that_nearly_meet(scene):
+    # levels of rings missed knots alike, and the sums beyond q_e did not see them: up to 315 times
+    # the error that was told
+    _, points = random_partial_tables.compute(1, scene)
+    assert len(points) == 27
+    assert all(excess <= 1 for _, excess in points)
+
+
 def test_levels_of_rings_do_not_agree_by_chance_on_knots():
     # by one change alone 42 of these points were off, by up to 42 times the estimate
     rng = np.random.default_rng(2)
@@ -105,13 +138,9 @@ def test_levels_of_rings_do_not_agree_by_chance_on_knots():
         "correction": RULE,
     }
     best = asperity.friction(rings, curve, **conditions, rtol=1e-9)
-    exceeded = 0
     for rtol in (1e-4, 1e-5, 1e-6, 1e-7):
         found = asperity.friction(rings, curve, **conditions, rtol=rtol)
-        off = np.abs(found.mu - best.mu) / (found.error_estimate + best.error_estimate)
-        assert off.max() < 3
-        exceeded += np.count_nonzero(off > 1)
-    assert exceeded <= 3  # of 8000
+        assert np.all(np.abs(found.mu - best.mu) <= found.error_estimate + best.error_estimate)
 
 
 def random_scene(rng):

@@ -48,7 +48,10 @@ void PartialPanelSolver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
-  panels_.start(velocity, stop_wavenumbers_);
+  std::vector<double> ends = stop_wavenumbers_;  // and at knots, behind which all is smooth up to the next
+  if (const auto* const curve = std::get_if<MasterCurve>(&rubber_))
+    for (const double w : curve->knots()) ends.push_back(w / velocity);
+  panels_.start(velocity, ends);
   end_.window = panels_.end().window;
   end_.tail = tail_(velocity * panels_.end().wavenumber, 1, partial_contact::tail_end);
 }

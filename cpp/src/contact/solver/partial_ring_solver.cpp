@@ -14,13 +14,16 @@ namespace {
 constexpr double for_tail = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
-constexpr double of_change = 0.75, of_change_with_knots = 1.5, of_others = 0.3, of_rest = 2;
-/// Rows of a measured modulus lie anywhere in pieces, and two levels that miss one alike differ by nothing. What they
-/// miss falls by four from level to level, so that a quarter of the change before counts as well.
-constexpr double of_change_before = 0.25;
+constexpr double of_change = 0.75, of_rest = 2;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;
+/// What the rule of two nodes misses where a function begins to rise as some power of ln q, over the root of the sum of
+/// squares of its fourth differences: at most this for powers from 1 on, wherever it begins and where pieces beside
+/// each other differ in length by two. That of I1 and I2 at a knot of a measured modulus is 5/2, and less at knots that
+/// nearly meet.
+constexpr double of_difference = 0.16;
+constexpr double passed_on = 2;  // |d ln R / d ln G| at most
 
 }  // namespace
 
@@ -111,6 +114,36 @@ PartialRoot PartialRingSolver::root(Level& level, double scale, double start) co
   return partial_root(nodes, level.end, scale, model_.rtol, start, level.stress.data());
 }
 
+/// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth
+/// differences of I1 and I2 at the nodes tell it, whether two levels miss a knot alike or not. An error of G passes on
+/// to all behind it.
+double PartialRingSolver::beside_knots(const Level& level, const PartialRoot& root) const {
+  const auto& difference = level.pieces->nodes().difference;
+  const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / root.slope;
+  const double kappa_on_mu = std::fabs(root.friction_slope) * by_kappa,
+               kappa_on_area = std::fabs(root.share_slope) * by_kappa;
+  const double friction_share = root.friction > 0 ? 1 / root.friction : 0, variance_share = 1 / root.variance;
+  double variance_behind = 1 / level.end.g, friction_behind = 0, of_mu = 0, of_area = 0;
+  for (std::size_t i = level.g.size() - 2; i-- > 2;) {
+    double of_i1 = 0, of_i2 = 0;
+    for (std::size_t k = 0; k < 5; ++k) {
+      of_i1 += difference[k][i] * level.i1[i + k - 2];
+      of_i2 += difference[k][i] * level.i2[i + k - 2];
+    }
+    of_i1 = std::fabs(factor * of_i1);
+    of_i2 = std::fabs(factor * of_i2);
+    const double r = level.stress[i], by_g = passed_on * level.weight[i] * r / level.g[i];
+    variance_behind += by_g * variance_share;
+    friction_behind += by_g * level.ratio[i] * friction_share;
+    const double on_variance = of_i2 * (r * variance_share + variance_behind);
+    const double on_mu = of_i1 * r * friction_share + of_i2 * friction_behind + kappa_on_mu * on_variance;
+    const double on_area = kappa_on_area * on_variance + of_i2 / (2 * level.end.g);
+    of_mu += on_mu * on_mu;
+    of_area += on_area * on_area;
+  }
+  return std::sqrt(std::fmax(of_mu, of_area));
+}
+
 /// The share of friction from frequencies outside of the measured range.
 double PartialRingSolver::outside_share(const Level& level, const PartialRoot& root) const {
   double sum = root.edges * level.end.window * tail_.i1_outside;
@@ -139,20 +172,18 @@ void PartialRingSolver::solve(double pressure, double velocity) {
   check_g(g1_, pressure);
   PartialRoot before = root(*coarse, scale, usual_kappa);
   const double outside = outside_share(*coarse, before);
+  const double of_tail = std::fmax(tail_.i2_error / tail_.i2, tail_.i1 > 0 ? tail_.i1_error / tail_.i1 : 0);
   const bool knots = std::holds_alternative<MasterCurve>(rubber_);
-  double change_before = knots ? 1 : 0;  // not known yet
   for (std::size_t number = 1; number < RoughnessPieces::levels; ++number) {
     Level& level = at_velocity(number, velocity);
     root_ = root(level, scale, before.kappa);
     const double change =
         std::max({difference(root_.friction, before.friction), difference(root_.share, before.share),
-                  difference(level.end.g, coarse->end.g),
-                  of_others * std::max({difference(root_.kappa, before.kappa), std::fabs(root_.slope - before.slope),
-                                        std::fabs(root_.friction_slope - before.friction_slope)})});
-    const double error =
-        (knots ? of_change_with_knots * std::fmax(change, of_change_before * change_before) : of_change * change) +
-        of_rest * RoughnessPieces::roughest(number) + for_tail * model_.rtol;
-    change_before = change;
+                  difference(level.end.g, coarse->end.g), difference(root_.kappa, before.kappa),
+                  std::fabs(root_.slope - before.slope), std::fabs(root_.friction_slope - before.friction_slope)});
+    double error = of_change * change;
+    if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, root_));
+    error += of_rest * RoughnessPieces::roughest(number) + of_tail;
     before = root_;
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;

@@ -34,6 +34,7 @@ class PartialRingSolver : public PartialSolver {
   };
   Level& at_velocity(std::size_t level, double velocity);
   void take_moduli(Level& level, double velocity);
+  [[nodiscard]] double beside_knots(const Level& level, const PartialRoot& root) const;
   [[nodiscard]] double outside_share(const Level& level, const PartialRoot& root) const;
   [[nodiscard]] PartialRoot root(Level& level, double scale, double start) const;
   void by_panels(double pressure, double velocity);

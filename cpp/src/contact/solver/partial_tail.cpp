@@ -1,10 +1,12 @@
-// int I (I2 / I2(v q_e))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q_e, on Gauss-Legendre panels of ln x that are
-// halved until both are known well enough.
+// int I (I2 / I2(v q_e))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q_e, on Gauss-Legendre panels of ln x that end at
+// the knots of a master curve and are halved until both are known well enough.
 #include "contact/solver/partial_tail.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "contact/partial_contact_rule.hpp"
@@ -96,9 +98,20 @@ TailIntegrals PartialTail::operator()(double frequency, double lower, double upp
   if (!(to > from)) return held;
   if (limited_) held.i1_outside += outside(frequency, std::exp(from), std::exp(to), i2_at_end);
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
-  std::vector<Piece> pieces{{from, to}};
-  std::vector<TailIntegrals> values{on_piece(rubber, frequency, i2_at_end, pieces.front())};
-  constexpr std::size_t most_pieces = 1000;
+  std::vector<Piece> pieces;
+  if (const auto* const curve = std::get_if<MasterCurve>(&rubber)) {
+    const std::span<const double> knots = curve->knots();
+    for (auto knot = std::ranges::upper_bound(knots, frequency * lower); knot != knots.end(); ++knot) {
+      const double at = std::log(*knot / frequency);
+      if (!(at < to)) break;
+      if (at > from) pieces.push_back({from, at});
+      from = std::fmax(from, at);
+    }
+  }
+  pieces.push_back({from, to});
+  std::vector<TailIntegrals> values;
+  for (const Piece& piece : pieces) values.push_back(on_piece(rubber, frequency, i2_at_end, piece));
+  constexpr std::size_t most_pieces = 20000;
   for (;;) {
     TailIntegrals sum = held;
     for (const TailIntegrals& value : values) add(sum, value);
