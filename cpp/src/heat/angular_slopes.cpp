@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "numerics/kernels.hpp"
 
 namespace asperity {
-
-using std::numbers::pi;
 
 void AngularColumns::resize(std::size_t n) {
   for (auto* column : {&i1, &i2, &slope1, &slope2}) column->resize(n);
@@ -29,66 +26,42 @@ AngularSlopes::AngularSlopes(const Rubber& rubber) : rubber_(rubber) {
 }
 
 void AngularSlopes::operator()(std::span<const double> w, AngularColumns& result) {
-  result.resize(w.size());
-  if (const auto* series = std::get_if<PronySeries>(&rubber_))
-    of_series(*series, w, result);
+  if (const auto* curve = std::get_if<MasterCurve>(&rubber_))
+    of_curve(*curve, w, result);
   else
-    of_curve(std::get<MasterCurve>(rubber_), w, result);
+    of_series(w, true, result);
 }
 
 void AngularSlopes::values(std::span<const double> w, AngularColumns& result) {
-  const std::size_t n = w.size();
-  result.resize(n);
+  const auto* const curve = std::get_if<MasterCurve>(&rubber_);
+  if (!curve) return of_series(w, false, result);
+  result.resize(w.size());
   held_.assign(w.begin(), w.end());
-  if (const auto* curve = std::get_if<MasterCurve>(&rubber_)) {
-    for (double& one : held_) one = std::clamp(one, curve->lowest_frequency(), curve->highest_frequency());
-    (void)curve->angular_integrals(held_, result.i1, result.i2);
-    return;
-  }
-  const auto& series = std::get<PronySeries>(rubber_);
-  const std::size_t padded = (n + lanes - 1) / lanes * lanes;
-  held_.resize(padded, 1.0);
-  result.i1.resize(padded);
-  result.i2.resize(padded);
-  kernels().prony({series.moduli().data(), weight_.data(), series.relaxation_times().data(), weight_.size(),
-                   series.equilibrium_modulus()},
-                  held_.data(), padded, result.i1.data(), result.i2.data());
-  result.i1.resize(n);
-  result.i2.resize(n);
+  for (double& one : held_) one = std::clamp(one, curve->lowest_frequency(), curve->highest_frequency());
+  (void)curve->angular_integrals(held_, result.i1, result.i2);
 }
 
-void AngularSlopes::of_series(const PronySeries& series, std::span<const double> w, AngularColumns& result) const {
-  const std::size_t n = w.size();
+/// The loops take a multiple of `lanes`.
+void AngularSlopes::of_series(std::span<const double> w, bool sloped, AngularColumns& result) {
+  const auto& series = std::get<PronySeries>(rubber_);
+  const std::size_t n = w.size(), padded = (n + lanes - 1) / lanes * lanes;
+  held_.assign(w.begin(), w.end());
+  held_.resize(padded, 1.0);
+  result.resize(padded);
+  const PronyTerms terms{series.moduli().data(), weight_.data(), series.relaxation_times().data(), weight_.size(),
+                         series.equilibrium_modulus()};
   double *const i1 = result.i1.data(), *const i2 = result.i2.data();
-  double *const slope1 = result.slope1.data(), *const slope2 = result.slope2.data();
-  const double* const frequency = w.data();
-  for (std::size_t i = 0; i < n; ++i) {
-    i1[i] = slope1[i] = slope2[i] = 0;
-    i2[i] = series.equilibrium_modulus() * series.equilibrium_modulus();
-  }
-  for (std::size_t k = 0; k < weight_.size(); ++k) {
-    const double e = series.moduli()[k], tau = series.relaxation_times()[k], weight = weight_[k];
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) {
-      const double t = frequency[i] * tau, square = 1 + t * t, r = std::sqrt(square), inverse = 1 / (square * (r + 1));
-      const double s_over_t = t * r * inverse, slope_over_t = t * (r + 1) * inverse / r;
-      i1[i] += e * s_over_t;
-      i2[i] += weight * t * s_over_t;
-      slope1[i] += e * (slope_over_t - s_over_t);
-      slope2[i] += weight * t * slope_over_t;
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    i1[i] *= 2 * pi;
-    i2[i] *= 2 * pi;
-    slope1[i] *= 2 * pi;
-    slope2[i] *= 2 * pi;
-  }
+  if (sloped)
+    kernels().prony_slopes(terms, held_.data(), padded, i1, i2, result.slope1.data(), result.slope2.data());
+  else
+    kernels().prony(terms, held_.data(), padded, i1, i2);
+  result.resize(n);
 }
 
 void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, AngularColumns& result) {
   constexpr double step = 1e-4;  // in ln w: errors of 1e-9 by the step and 1e-8 by the table's 1e-12
   const std::size_t n = w.size();
+  result.resize(n);
   const double lowest = curve.lowest_frequency(), highest = curve.highest_frequency();
   const auto inside = [&](double at) { return std::clamp(at, lowest, highest); };
   for (const std::size_t side : {0, 1}) {

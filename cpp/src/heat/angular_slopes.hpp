@@ -24,7 +24,7 @@ class AngularSlopes {
   void operator()(std::span<const double> w, AngularColumns& result);
 
  private:
-  void of_series(const PronySeries& series, std::span<const double> w, AngularColumns& result) const;
+  void of_series(std::span<const double> w, bool sloped, AngularColumns& result);
   void of_curve(const MasterCurve& curve, std::span<const double> w, AngularColumns& result);
 
   const Rubber& rubber_;

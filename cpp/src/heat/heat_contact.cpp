@@ -167,12 +167,13 @@ void PerssonHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
       using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
       const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
-      MatrixXd df = slopes.node.middleRows(first, count);
-      for (Index i = 0; i < count; ++i) df.row(i) *= p_s(g_[first + i]);
+      VectorXd share(count);
+      for (Index i = 0; i < count; ++i) share[i] = p_s(g_[first + i]);
+      const MatrixXd df = share.asDiagonal() * slopes.node.middleRows(first, count);
       part.noalias() = -(slope.transpose() * df);
       part += at_upper * (p_s(g_edge_[c + 1]) * slopes.edge.row(edge + 1)) -
               at_lower * (p_s(g_edge_[c]) * slopes.edge.row(edge));
-      for (Index i = 0; i < count; ++i) part.row(i) *= ratio_[first + i];
+      part = ratio_.segment(first, count).asDiagonal() * part;
     } else {
       for (Index i = 0; i < count; ++i) {
         const Index at = first + i;
@@ -182,7 +183,7 @@ void PerssonHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
       }
     }
   }
-  for (Index i = 0; i < n; ++i) result.part.row(i) += part_[i] * along.ratio.row(i);
+  result.part.topRows(n) += part_.head(n).asDiagonal() * along.ratio.topRows(n);
   const double area_g = area_g_(g_edge_.back());
   const double area_slope = p_slope(area_g, form_) * (inside_ ? (*inside_)(area_) : 1);  // dG = S dG(uncorrected)
   result.area = area_slope * slopes.edge.bottomRows(1);

@@ -40,6 +40,9 @@ struct RowsOf24 {
 struct Kernels {
   /// I1 and I2 of a Prony series at n frequencies, n a multiple of `lanes`; no (w tau)^2 may overflow.
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
+  /// The same with dI1/dln w and dI2/dln w; no (w tau)^3 may overflow.
+  void (*prony_slopes)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2, double* slope1,
+                       double* slope2);
   /// Integral of the polynomial through f, and its last coefficients.
   void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
   /// Integral of the polynomial through f, to each node by `columns` of the rule and over all, and its last

@@ -1,0 +1,39 @@
+"""A measured modulus has two ends, and heat moves v q a_T towards the low one."""
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.heat import CUT, hot, rubber
+
+
+def measured(lowest, highest):
+    w = np.geomspace(lowest, highest, 140)
+    modulus = rubber().modulus(w)
+    return asperity.MasterCurve(
+        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
+    )
+
+
+def test_heat_takes_the_rubber_out_at_the_low_end():
+    curve = measured(1950.0, 1e12)  # rad/s; q0 at 1 m/s asks for 2000, and 3 K warmer for 1050
+    cold = asperity.friction(CUT, curve, pressure=2e5, velocity=1.0)
+    # |cos phi| asks for lower frequencies too, which the results tell as extrapolated
+    assert cold.extrapolated_share > 0.01
+    assert cold.mu == pytest.approx(1.294, rel=0.1)
+    with pytest.raises(asperity.OutOfRange) as error:
+        hot(velocity=1.0, rubber=curve)
+    assert "the rubber heats itself to 304." in str(error.value)
+    assert "known in [1950, 1e+12] rad/s" in str(error.value)
+    assert "\n" not in str(error.value)
+    wide = hot(velocity=1.0, rubber=measured(900.0, 1e12), rtol=1e-6)
+    assert wide.mu == pytest.approx(hot(velocity=1.0).mu, rel=0.1)
+    assert wide.extrapolated_share > 0.01
+
+
+def test_the_high_end_is_that_of_the_cold_rubber():
+    curve = measured(1.0, 2.2e4)  # rad/s; q1 at 1 m/s asks for 23340, heated for less than 10^4
+    with pytest.raises(asperity.OutOfRange, match=r"23339.8 rad/s, known in \[1, 22000\] rad/s"):
+        hot(velocity=1.0, rubber=curve)
+    below = hot(velocity=0.94, rubber=curve, rtol=1e-6)
+    assert below.mu == pytest.approx(hot(velocity=0.94).mu, rel=1e-4)
