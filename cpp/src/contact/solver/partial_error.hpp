@@ -9,11 +9,11 @@
 namespace asperity {
 
 /// The rule of n nodes misses coefficients from degree 2 n on. From n / 2 to n they fell by some factor: by as much
-/// they fall from n to 2 n where they go as a power of the degree; by its square where they fall like those of analytic
-/// functions. Where a small part of a function falls more slowly than the rest, they fall less than this says, by
-/// `least_fall`: the power 1.5 beside a kink of a master curve has 2^-2.5.
-inline constexpr double kinked_fall = 0.2, analytic_fall = 0.02;
-inline double rule_error(const double* tail, double least_fall) {
+/// they fall from n to 2 n where they go as a power of the degree, as where a function begins as a broken power at an
+/// end, with a knot of a master curve or else; by its square where they fall like those of analytic functions. Where a
+/// small part of a function falls more slowly than the rest, they fall less than this says, by `least_fall`.
+inline constexpr double least_fall = 0.02;
+inline double rule_error(const double* tail) {
   double last = 0;
   for (std::size_t k = 0; k < LegendreRule::tails; ++k) last = std::fmax(last, std::fabs(tail[k]));
   const double half_way = std::fmax(std::fabs(tail[LegendreRule::tails]), std::fabs(tail[LegendreRule::tails + 1]));

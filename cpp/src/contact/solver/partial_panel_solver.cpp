@@ -104,11 +104,11 @@ double PartialPanelSolver::judge() {
     const double g_upper = active.g_lower + p.g_total;
     for (std::size_t i = 0; i < n; ++i) f[i] = rate[i] * stress_[first + i];
     loops.add_up(*p.rule, f, &total, tail);
-    const double variance = (rule_error(tail, panels_.least_fall()) + at_foot) * variance_share;
+    const double variance = (rule_error(tail) + at_foot) * variance_share;
     active.variance_by_g = passed_on * total / g_upper * variance_share;
     for (std::size_t i = 0; i < n; ++i) f[i] *= ratio[i];
     loops.add_up(*p.rule, f, &total, tail);
-    const double friction = (rule_error(tail, panels_.least_fall()) + at_foot * ratio[0]) * friction_share;
+    const double friction = (rule_error(tail) + at_foot * ratio[0]) * friction_share;
     active.friction_by_g = passed_on * total / g_upper * friction_share;
     of_mu += friction + kappa_on_mu * variance;
     of_area += kappa_on_area * variance;

@@ -28,8 +28,7 @@ PartialPanels::PartialPanels(std::span<const Segment> surface, const Rubber& rub
       window_(surface),
       g_factor_(1 / (8 * (1 - poisson_ratio * poisson_ratio) * (1 - poisson_ratio * poisson_ratio))),
       end_(window_, g_factor_),
-      nodes_(rtol < 1e-8 ? 16 : 12),
-      least_fall_(std::holds_alternative<MasterCurve>(rubber) ? kinked_fall : analytic_fall) {
+      nodes_(rtol < 1e-8 ? 16 : 12) {
   const auto first = std::ranges::find_if(surface, rough);
   foot_ = first == surface.end() ? surface.back().b : first->a;
   start_.reserve(surface.size());
@@ -88,7 +87,7 @@ void PartialPanels::fill(PartialPanel& p) {
                                                        : p.rule->cumulative_cubic;
   kernels().integrate(*p.rule, columns, rows + PartialPanel::rate * n, rows + PartialPanel::cumulative * n, &p.g_total,
                       tail);
-  p.g_error = rule_error(tail, least_fall_) + rounding * p.g_total;
+  p.g_error = rule_error(tail) + rounding * p.g_total;
 }
 
 std::size_t PartialPanels::children(std::size_t index) {

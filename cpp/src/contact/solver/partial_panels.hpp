@@ -61,8 +61,6 @@ class PartialPanels {
   [[nodiscard]] double g_to(const PartialPanel& panel, double wavenumber) const;
   [[nodiscard]] const RoughnessEnd& end() const { return end_; }
   [[nodiscard]] double y_of(double wavenumber) const;
-  /// How little Legendre coefficients of I1 and I2 fall (partial_error.hpp): the rest is analytic on a panel.
-  [[nodiscard]] double least_fall() const { return least_fall_; }
 
  private:
   void lay_out(std::span<const double> stops);
@@ -76,7 +74,6 @@ class PartialPanels {
   double g_factor_, velocity_ = 0;
   RoughnessEnd end_;
   std::size_t nodes_;
-  double least_fall_;
   double foot_ = 0;            // qf [1/m]
   std::vector<double> start_;  // of each segment, in y
   std::size_t starts_ = 0;

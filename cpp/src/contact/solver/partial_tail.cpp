@@ -19,6 +19,7 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t nodes = 16;
+constexpr double longest = 2;  // in ln x: I1 and I2 of a Prony series have singularities pi / 2 off the axis
 constexpr double power = partial_contact::tail_power;
 
 struct Piece {
@@ -32,7 +33,6 @@ double factor(double of_i2, double x) {
 }
 
 TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
-  const double least_fall = std::holds_alternative<MasterCurve>(rubber) ? kinked_fall : analytic_fall;
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
   std::array<double, nodes> w, i1, i2, weight;
@@ -47,9 +47,9 @@ TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end,
   }
   const Kernels& loops = kernels();
   loops.add_up(rule, i1.data(), &result.i1, tail);
-  result.i1_error = rule_error(tail, least_fall);
+  result.i1_error = rule_error(tail);
   loops.add_up(rule, i2.data(), &result.i2, tail);
-  result.i2_error = rule_error(tail, least_fall);
+  result.i2_error = rule_error(tail);
   return result;
 }
 
@@ -97,20 +97,27 @@ TailIntegrals PartialTail::operator()(double frequency, double lower, double upp
   }
   if (!(to > from)) return held;
   if (limited_) held.i1_outside += outside(frequency, std::exp(from), std::exp(to), i2_at_end);
-  // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   std::vector<Piece> pieces;
+  const auto add_pieces_to = [&](double end) {
+    const double count = std::ceil((end - from) / longest), begin = from;
+    for (double k = 1; k <= count; ++k) {
+      const double next = k == count ? end : begin + (end - begin) * (k / count);
+      pieces.push_back({from, next});
+      from = next;
+    }
+  };
   if (const auto* const curve = std::get_if<MasterCurve>(&rubber)) {
     const std::span<const double> knots = curve->knots();
     for (auto knot = std::ranges::upper_bound(knots, frequency * lower); knot != knots.end(); ++knot) {
       const double at = std::log(*knot / frequency);
       if (!(at < to)) break;
-      if (at > from) pieces.push_back({from, at});
-      from = std::fmax(from, at);
+      if (at > from) add_pieces_to(at);
     }
   }
-  pieces.push_back({from, to});
+  add_pieces_to(to);
   std::vector<TailIntegrals> values;
   for (const Piece& piece : pieces) values.push_back(on_piece(rubber, frequency, i2_at_end, piece));
+  // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   constexpr std::size_t most_pieces = 20000;
   for (;;) {
     TailIntegrals sum = held;
