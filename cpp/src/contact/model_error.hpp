@@ -23,10 +23,11 @@ class ModelError {
   [[nodiscard]] SpeedRegime regime() const { return regime_; }
 
  private:
-  const double (*table_)[4] = nullptr;
+  const double (*by_load_)[4] = nullptr;  // by speed and load
+  const double* by_speed_ = nullptr;      // or by speed alone
   const Rubber& rubber_;
   std::optional<Rubber> unlimited_;  // instead of it: a series without the range that it was fitted on
-  double q0_ = 0, q1_ = 0, lightest_ = 0;
+  double q0_ = 0, q1_ = 0, lightest_ = 0, heaviest_ = 0;
   bool known_ = false;
   SpeedRegime regime_ = SpeedRegime::slow;
 };

@@ -149,16 +149,18 @@ std::vector<std::string> Notes::texts(bool heated) const {
     result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
                      show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
   for (const auto& [flag, regime, error] :
-       {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5 % rms"},
-        {constant_, "about constant loss tangents", "3 to 7 % rms (1 to 7 where q1/q0 is below 5)"},
-        {fast_regime_, "fast (the modulus outgrows the loss)", "2 to 11 % rms (2 to 15 where q1/q0 is below 5)"}})
+       {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5 % rms (12 where q1/q0 is above 128)"},
+        {constant_, "about constant loss tangents", "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128)"},
+        {fast_regime_, "fast (the modulus outgrows the loss)",
+         "2 to 11 % rms (2 to 15 where q1/q0 is below 5, 8 where it is above 128)"}})
     if (flag)
       result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
                        ": mu +-" + error + ", the more the lighter the load");
   if (unmeasured_)
     result.emplace_back(
         "the model error of PartialContact is not known at some points: exact sliding contacts were solved "
-        "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5");
+        "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5, and from 128 to "
+        "16384 with loads from 0.005 to 0.3");
   if (worse_)
     result.emplace_back(
         "fatal: the affine shift takes the contact area further from that of boundary elements than no correction "

@@ -13,10 +13,12 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
 import fit_partial_contact
 import make_exact_sliding
 import make_exact_sliding_ends
+import make_exact_sliding_wide
 import make_exact_spectra
 
 ROWS = make_exact_sliding.rows()
 SLIDING = [row for row in ROWS if float(row["velocity"]) > 0]
+WIDE = make_exact_sliding_wide.rows()
 
 
 @pytest.mark.parametrize("name", ["a_39", "ja_7", "sk_5"])
@@ -121,10 +123,13 @@ def cells(scenes, correction):
     "correction",
     [None, asperity.SFactor(gamma=0.4), asperity.SFactor(gamma=0.5), asperity.PartialContact()],
 )
-@each(("chosen", "count"), [("wide", 12), ("narrow", 7)])
+@each(("chosen", "count"), [("wide", 12), ("narrow", 7), ("road", 3)])
 def test_model_error_is_what_contacts_that_no_fit_saw_are_off(correction, chosen, count):
     if chosen == "wide":
         scenes = [(*parts(row), float(row["mu"])) for row in gaussian("judge") + gaussian("curve")]
+    elif chosen == "road":
+        judged = zip(WIDE, make_exact_sliding_wide.truths(WIDE), strict=True)
+        scenes = [(*parts(row), mu) for row, (mu, _) in judged if mu and ratio(row) > 128]
     else:
         scenes = [
             (
@@ -200,3 +205,43 @@ def test_the_rule_holds_on_narrow_bands_from_5_on():
     known = wide > 5
     assert np.sqrt(np.mean(errors[known] ** 2, axis=0)) == pytest.approx([0.025, 0.033], rel=0.03)
     assert np.sqrt(np.mean(errors[~known] ** 2, axis=0)) == pytest.approx([0.08, 0.05], rel=0.03)
+
+
+def wide(kind):
+    """Errors of mu and A on wide bands: solved on one grid, elastic, or nested."""
+    judged = zip(WIDE, make_exact_sliding_wide.truths(WIDE), strict=True)
+    chosen = [
+        (row, truth)
+        for row, truth in judged
+        if kind == ("nested" if not row["points"] else "sliding" if truth[0] else "elastic")
+    ]
+    errors = []
+    for row, (mu, area) in chosen:
+        found = by_the_package(row if mu else row | {"velocity": "1e-12"})
+        errors.append((found[0] / (mu or 1) - 1, found[1] / area - 1))
+    return np.array(errors)
+
+
+def test_a_nested_contact_is_what_the_solver_gives():
+    (row,) = [row for row in WIDE if row["case"] == "n_5"]
+    found = make_exact_sliding_wide.solved(row)
+    assert float(found["A_nested"]) == pytest.approx(float(row["A_nested"]), rel=5e-3)
+    assert float(found["mu_nested"]) == pytest.approx(float(row["mu_nested"]), rel=5e-3)
+
+
+def test_nested_contacts_are_near_those_of_one_grid():
+    for name, mean, deviation in (("mu", 0.0533, 0.0307), ("A", 0.0258, 0.0264)):
+        excess = make_exact_sliding_wide.excess(WIDE, name) - 1
+        assert excess.mean() == pytest.approx(mean, abs=1e-4)
+        assert excess.std(ddof=1) == pytest.approx(deviation, abs=1e-4)
+
+
+@each(
+    ("kind", "mu", "area"),
+    [("sliding", 0.1007, 0.0419), ("nested", 0.0778, 0.0317), ("elastic", None, 0.0438)],
+)
+def test_the_rule_holds_on_wide_bands(kind, mu, area):
+    errors = wide(kind)
+    if mu:
+        assert np.sqrt(np.mean(errors[:, 0] ** 2)) == pytest.approx(mu, rel=0.02)
+    assert np.sqrt(np.mean(errors[:, 1] ** 2)) == pytest.approx(area, rel=0.02)
