@@ -93,6 +93,17 @@
 #include <utility>
 #include <vector>
 
+#ifdef __GNUC__
+#define ASPERITY_MAP_INLINE __attribute__((always_inline))
+#define ASPERITY_MAP_APART __attribute__((noinline))
+#define ASPERITY_MAP_KNOWN(is_so) \
+  if (!(is_so)) __builtin_unreachable()
+#else
+#define ASPERITY_MAP_INLINE
+#define ASPERITY_MAP_APART
+#define ASPERITY_MAP_KNOWN(is_so)
+#endif
+
 #ifdef _MSC_VER
 #pragma warning(push)
 #pragma warning(disable : 4996)  // fopen and strerror are standard C++
@@ -146,23 +157,66 @@ inline double ln(double x) noexcept {
 }
 
 /// e^x to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r, |r| < ln(2) / 256.
+constexpr double steps_per_unit = 128 / 0.693147180559945309417;  // of ln(2) / 128
+// 1.5 * 2^52: a number added to it is rounded to an integer, and the low bits of the sum are this integer.
+constexpr double whole = 6755399441055744.0;
+// The first part of ln(2) / 128 has zeros enough to be multiplied exactly.
+constexpr double step_high = 0.693147180369123816490 / 128, step_low = 1.90821492927058770002e-10 / 128;
+
+inline double held(double x) noexcept {
+  const double above = x < -700 ? -700 : x;
+  return above > 700 ? 700 : above;
+}
+
+/// The integer in the lower half.
+inline double integer(std::uint64_t u) noexcept {
+  return static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(u)));
+}
+
 inline double exp(double x) noexcept {
-  x = x < -700 ? -700 : x > 700 ? 700 : x;
-  const double half = from_bits((bits(x) & 0x8000000000000000) | 0x3fe0000000000000);  // with the sign of x
-  const auto k = static_cast<std::int32_t>(x * (128 / 0.693147180559945309417) + half);
-  const auto steps = static_cast<double>(k);
-  // the first part of ln(2) / 128 has zeros enough to be multiplied exactly
-  const double r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128),
-               r2 = r * r;
+  x = held(x);
+  const std::uint64_t u = bits(x * steps_per_unit + whole);
+  const double steps = integer(u), r = (x - steps * step_high) - steps * step_low, r2 = r * r;
   const double tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  const double scale = from_bits(static_cast<std::uint64_t>((k >> 7) + 1023) << 52);
-  return (1 + (r + r2 * tail)) * (tables.power[k & 127] * scale);
+  const double scale = from_bits(((u >> 7) << 52) + (std::uint64_t{1023} << 52));
+  return (1 + (r + r2 * tail)) * (tables.power[u & 127] * scale);
 }
 
 /// Two numbers, which a vector unit takes at once where there is one.
 #if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
-using Pair = double __attribute__((vector_size(16)));
-inline Pair pair(const double* x) noexcept { return Pair{x[0], x[1]}; }
+#define ASPERITY_MAP_PAIRS
+using Pair = double __attribute__((vector_size(16), may_alias));
+using PairOfBits = std::uint64_t __attribute__((vector_size(16)));
+/// From where two of them are aligned.
+inline Pair pair(const double* x) noexcept { return *static_cast<const Pair*>(static_cast<const void*>(x)); }
+
+#if defined(__SSE2__) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define ASPERITY_MAP_SHUFFLES
+#endif
+#endif
+
+// Four of them, where the processor that a program finds has AVX. A host of MSVC's libraries lacks the function that
+// asks.
+#if defined(ASPERITY_MAP_SHUFFLES) && defined(__x86_64__) && !defined(_MSC_VER)
+#define ASPERITY_MAP_FOURS __attribute__((target("avx")))
+using Four = double __attribute__((vector_size(32)));
+struct __attribute__((packed, may_alias)) AnyFour {  // wherever they are
+  Four four;
+};
+#endif
+
+inline PairOfBits bits(Pair x) noexcept {
+  PairOfBits result{};
+  std::memcpy(&result, &x, sizeof x);
+  return result;
+}
+
+inline Pair from_bits(PairOfBits u) noexcept {
+  Pair result{};
+  std::memcpy(&result, &u, sizeof u);
+  return result;
+}
 #else
 struct Pair {
   double two[2];
@@ -173,23 +227,58 @@ inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[
 inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
 #endif
 
+#ifdef ASPERITY_MAP_PAIRS
+inline Pair integers(PairOfBits u) noexcept {
+#ifdef ASPERITY_MAP_SHUFFLES
+  using Halves = std::int32_t __attribute__((vector_size(16)));
+  Halves halves{};
+  std::memcpy(&halves, &u, sizeof u);
+#ifdef __clang__
+  return __builtin_convertvector(__builtin_shufflevector(halves, halves, 0, 2), Pair);
+#else
+  return __builtin_ia32_cvtdq2pd(__builtin_shufflevector(halves, halves, 0, 2, 0, 2));
+#endif
+#else
+  return Pair{integer(u[0]), integer(u[1])};
+#endif
+}
+
+inline Pair held(Pair x) noexcept {
+#if defined(__SSE2__)
+  return __builtin_ia32_minpd(Pair{700, 700}, __builtin_ia32_maxpd(Pair{-700, -700}, x));
+#else
+  return Pair{held(x[0]), held(x[1])};
+#endif
+}
+#endif
+
+/// ln of both, with the digits of `ln`.
+inline Pair ln(Pair x) noexcept {
+#ifdef ASPERITY_MAP_PAIRS
+  const PairOfBits u = bits(x);
+  const std::size_t i = (u[0] >> 45) & 127, j = (u[1] >> 45) & 127;
+  const Pair k = integers((u >> 52) - 1023);
+  const Pair m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
+  const Pair inverse{tables.inverse[i], tables.inverse[j]}, ln_c{tables.ln[i], tables.ln[j]};
+  const Pair r = m * inverse - 1, r2 = r * r;
+  const Pair tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
+  return (k * 0.693147180559945309417 + ln_c) + (r + r2 * tail);
+#else
+  return {{ln(x[0]), ln(x[1])}};
+#endif
+}
+
 /// e^x of both, with the digits of `exp`.
-inline Pair exp(Pair x) noexcept {
-#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
-  const auto held = [](double y) { return y < -700 ? -700 : y > 700 ? 700 : y; };
-  const auto nearest = [](double y) {
-    const double half = from_bits((bits(y) & 0x8000000000000000) | 0x3fe0000000000000);
-    return static_cast<std::int32_t>(y * (128 / 0.693147180559945309417) + half);
-  };
-  const auto power_of = [](std::int32_t k) {
-    return tables.power[k & 127] * from_bits(static_cast<std::uint64_t>((k >> 7) + 1023) << 52);
-  };
-  x = Pair{held(x[0]), held(x[1])};
-  const std::int32_t k0 = nearest(x[0]), k1 = nearest(x[1]);
-  const Pair steps{static_cast<double>(k0), static_cast<double>(k1)}, power{power_of(k0), power_of(k1)};
-  const Pair r = (x - steps * (0.693147180369123816490 / 128)) - steps * (1.90821492927058770002e-10 / 128), r2 = r * r;
+ASPERITY_MAP_INLINE inline Pair exp(Pair x) noexcept {
+#ifdef ASPERITY_MAP_PAIRS
+  x = held(x);
+  const PairOfBits u = bits(x * steps_per_unit + whole);
+  const Pair steps = integers(u);
+  const Pair power{tables.power[u[0] & 127], tables.power[u[1] & 127]};
+  const Pair r = (x - steps * step_high) - steps * step_low, r2 = r * r;
   const Pair tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  return (1 + (r + r2 * tail)) * power;
+  const Pair scale = from_bits(((u >> 7) << 52) + (std::uint64_t{1023} << 52));
+  return (1 + (r + r2 * tail)) * (power * scale);
 #else
   return {{exp(x[0]), exp(x[1])}};
 #endif
@@ -202,9 +291,16 @@ inline bool within(double x, const std::array<double, 2>& box) noexcept {
   return bits(x) - bits(box[0]) <= bits(box[1]) - bits(box[0]);
 }
 
+/// Aligned as `pair` wants it.
+struct alignas(16) Two {
+  double number[2];
+};
+inline const double* numbers(const std::vector<Two>& of) noexcept { return reinterpret_cast<const double*>(of.data()); }
+
 struct Grid {
   double x, z, columns_per_x, rows_per_z;
   std::uint32_t columns, rows, first;
+  std::int64_t last_column, last_row;
 };
 
 constexpr std::size_t cell_size = 34, head_size = 152, heat_head_size = 48;  // of a cell without an axis of T0
@@ -254,7 +350,11 @@ class FrictionMap {
     const bool has_memory = info_.heat && temperature.distance < map_detail::long_slid;
     const double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     const double shifted = speed * temperature.a_T;
-    if (steps_ == 0 && !has_memory && is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
+    if (is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
+      if (steps_ > 0)
+        return has_memory ? warm_mu<true, true>(pressure, speed, temperature)
+                          : warm_mu<true, false>(pressure, speed, temperature);
+      if (has_memory) return warm_mu<false, true>(pressure, speed, temperature);
       const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
       const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
       double slope = 0;
@@ -262,9 +362,7 @@ class FrictionMap {
       const double* const cell = cell_at(x, z);
       return mu_of(bicubic(cell + 2, x - cell[0], z - cell[1]), log_adhesion(ln_p, ln_v));
     }
-    const Where at = where(pressure, velocity, outside, temperature);
-    if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+    return settled_mu(pressure, velocity, outside, temperature);
   }
 
   /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
@@ -338,7 +436,7 @@ class FrictionMap {
     double x = 0, dx = 0, dz = 0, slope = 0;  // s'(x)
     double ln_p = 0, ln_v = 0;                // as the adhesion takes them
     double background = 0, dT = 0;            // T0, and from the node below it
-    std::uint32_t step = 0;                   // of T0
+    std::int64_t step = 0;                    // of T0
     Status status = Status::ok;
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
@@ -347,26 +445,63 @@ class FrictionMap {
     double share, slope;  // of what was without heat, and d ln of it / d ln v
   };
 
-  [[nodiscard]] map_detail::Pair logarithms(const Where& at) const noexcept {
-    return steps_ == 0 ? bicubic(at.cell + 2, at.dx, at.dz) : tricubic(at);
+  [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair logarithms(const Where& at) const noexcept {
+    if (steps_ == 0) return bicubic(at.cell + 2, at.dx, at.dz);
+#ifdef ASPERITY_MAP_FOURS
+    if (has_fours_) return tricubic_of_fours(at.cell + 2 + 128 * at.step, at.dx, at.dz, at.dT);
+#endif
+    return tricubic(at);
   }
 
   /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
-  [[nodiscard]] double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
     if (!(info_.shear_stress > 0)) return info_.hysteresis ? map_detail::exp(f[0]) : 0;
     const map_detail::Pair mu = map_detail::exp(map_detail::Pair{f[0], f[1] + log_adhesion});
     return info_.hysteresis ? mu[0] + mu[1] : mu[1];
   }
 
-  /// Hot and cold beside the memory, none of which waits for another.
-  [[nodiscard]] double mu_after(const Where& at, double distance) const noexcept {
+  /// `mu` in the box of a map with heat.
+  template <bool has_axis, bool has_memory>
+  [[nodiscard]] double warm_mu(double pressure, double speed, const MapTemperature& temperature) const noexcept {
+    ASPERITY_MAP_KNOWN(has_axis == (steps_ > 0));
+    const map_detail::Pair logarithms_of_both = map_detail::ln(map_detail::Pair{speed, pressure});
+    Where at;
+    at.x = at.ln_v = logarithms_of_both[0];
+    at.ln_p = logarithms_of_both[1];
+    if (has_axis) set_step(temperature.background, at);
+    at.cell = cell_at(at.x, at.ln_p);
+    at.dx = at.x - at.cell[0];
+    at.dz = at.ln_p - at.cell[1];
+    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+  }
+
+  /// `mu` of all other points: outside of the box, or at a temperature that the map has not.
+  [[nodiscard]] ASPERITY_MAP_APART double settled_mu(double pressure, double velocity, Outside outside,
+                                                     const MapTemperature& temperature) const noexcept {
+    const Where at = where(pressure, velocity, outside, temperature);
+    if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    const bool has_memory = info_.heat && temperature.distance < map_detail::long_slid;
+    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+  }
+
+  /// Six exponentials, two at a time: s0 first, for which the memory waits, beside one of the cold map, as the hot
+  /// map's polynomials take longest.
+  [[nodiscard]] ASPERITY_MAP_INLINE double mu_after(const Where& at, double distance) const noexcept {
+    using map_detail::Pair;
     double slope = 0;
-    const double adhesion = log_adhesion(at), x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
+    const double length = log_sliding_length(sliding_rows(at), at.x), adhesion = log_adhesion(at);
+    const double x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
     const double* const cell = cold_->cell_at(x, z);
-    const map_detail::Pair of_hot = logarithms(at), of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]);
-    const double hot = mu_of(of_hot, adhesion), cold = mu_of(of_cold, adhesion);
-    const double share = share_left(distance, log_sliding_length(sliding_rows(at), at.x));
-    return hot + share * (cold - hot);
+    const Pair of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]), of_hot = logarithms(at);
+    const Pair first = map_detail::exp(Pair{-length, of_cold[0]});
+    const Pair last = map_detail::exp(Pair{-(distance * first[0]), of_cold[1] + adhesion});
+    const double cold = sum_of_parts(first[1], last[1]), hot = mu_of(of_hot, adhesion);
+    return hot + last[0] * (cold - hot);
+  }
+
+  /// mu of its hysteresis and its adhesion, of which a map may be without either.
+  [[nodiscard]] double sum_of_parts(double hysteresis, double adhesion) const noexcept {
+    return (info_.hysteresis ? hysteresis : 0) + (info_.shear_stress > 0 ? adhesion : 0);
   }
 
   static constexpr std::size_t together = 64;  // points
@@ -375,12 +510,12 @@ class FrictionMap {
   struct CellsAtT0 {
     static constexpr std::size_t size = 128;
     const double* cell[size] = {};
-    double coefficients[size][32];
+    alignas(16) double coefficients[size][32];
   };
 
   /// Points in the box that need nothing but polynomials, one after another.
   struct Block {
-    double ln_p[together], ln_v[together], x[together], z[together], law[together], cold[together];
+    alignas(16) double ln_p[together], ln_v[together], x[together], z[together], law[together], cold[together];
     std::size_t point[together];  // which they are, from the end which are others
   };
 
@@ -435,7 +570,7 @@ class FrictionMap {
     }
     double slope = 0;
     for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
-    double hot[together];
+    alignas(16) double hot[together];
     mu_of_polynomials(n, x, z, law, at, cells, hot);
     if (info_.heat && temperature.distance < map_detail::long_slid) {
       double* const share = ln_v;
@@ -466,16 +601,16 @@ class FrictionMap {
   void mu_of_polynomials(std::size_t n, const double* x, const double* z, const double* law, const Where& at,
                          CellsAtT0* cells, double* mu) const noexcept {
     std::size_t entry[together];
-    double area[together];
+    alignas(16) double area[together];
     for (std::size_t k = 0; k < n; ++k) entry[k] = entry_at(x[k], z[k]);
     for (std::size_t k = 0; k < n; ++k) {
-      const double* const cell = &cells_[entry[k] * cell_size_];
+      const double* const cell = this->cells() + entry[k] * cell_size_;
       const double* c = cell + 2;
       if (cells != nullptr) {
         const std::size_t slot = entry[k] % CellsAtT0::size;
         double* const room = cells->coefficients[slot];
         if (cells->cell[slot] != cell) {
-          to_temperature(c + 128 * std::size_t{at.step}, at.dT, room);
+          to_temperature(c + 128 * at.step, at.dT, room);
           cells->cell[slot] = cell;
         }
         c = room;
@@ -495,7 +630,8 @@ class FrictionMap {
   }
 
   [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
-    double fx[2] = {0, 0}, fz[2] = {0, 0}, room[32];
+    double fx[2] = {0, 0}, fz[2] = {0, 0};
+    alignas(16) double room[32];
     const double* const c = coefficients(at, room);
     const map_detail::Pair f = bicubic(c, at.dx, at.dz);
     for (int j = 4; j-- > 0;)
@@ -517,25 +653,48 @@ class FrictionMap {
   }
 
   /// Two coefficients, of ln mu_H and ln A/A0, at dT from a node of T0.
-  static map_detail::Pair at_temperature(const double* c, double t, double t2) noexcept {
+  ASPERITY_MAP_INLINE static map_detail::Pair at_temperature(const double* c, double t, double t2) noexcept {
     using map_detail::pair;
     return (pair(c) + pair(c + 32) * t) + (pair(c + 64) + pair(c + 96) * t) * t2;
   }
 
-  static map_detail::Pair tricubic(const Where& at) noexcept {
+#ifdef ASPERITY_MAP_FOURS
+  /// The same digits in half the steps, where the processor has AVX.
+  ASPERITY_MAP_FOURS static map_detail::Pair tricubic_of_fours(const double* c, double x, double z, double t) noexcept {
+    using map_detail::Four;
+    using map_detail::Pair;
+    const double x2 = x * x, z2 = z * z, t2 = t * t;
+    Four at[8];  // the two lower and the two higher powers of x, for each of z
+    const auto* const row = static_cast<const map_detail::AnyFour*>(static_cast<const void*>(c));
+    for (int i = 0; i < 8; ++i)
+      at[i] = (row[i].four + row[8 + i].four * t) + (row[16 + i].four + row[24 + i].four * t) * t2;
+    Four in_x[2];  // for two powers of z
+    for (int j = 0; j < 2; ++j) {
+      const Four *const a = at + 4 * j, *const b = a + 2;
+      in_x[j] =
+          (__builtin_shufflevector(a[0], b[0], 0, 1, 4, 5) + __builtin_shufflevector(a[0], b[0], 2, 3, 6, 7) * x) +
+          (__builtin_shufflevector(a[1], b[1], 0, 1, 4, 5) + __builtin_shufflevector(a[1], b[1], 2, 3, 6, 7) * x) * x2;
+    }
+    const Four low = in_x[0], high = in_x[1];
+    return (Pair{low[0], low[1]} + Pair{low[2], low[3]} * z) +
+           (Pair{high[0], high[1]} + Pair{high[2], high[3]} * z) * z2;
+  }
+#endif
+
+  ASPERITY_MAP_INLINE static map_detail::Pair tricubic(const Where& at) noexcept {
     const double x = at.dx, z = at.dz, x2 = x * x, z2 = z * z, t = at.dT, t2 = t * t;
     const auto row = [=](const double* r) {
       return (at_temperature(r, t, t2) + at_temperature(r + 2, t, t2) * x) +
              (at_temperature(r + 4, t, t2) + at_temperature(r + 6, t, t2) * x) * x2;
     };
-    const double* const c = at.cell + 2 + 128 * std::size_t{at.step};
+    const double* const c = at.cell + 2 + 128 * at.step;
     return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
   }
 
   /// The polynomials of a cell at T0, in `room` where they depend on it.
   const double* coefficients(const Where& at, double* room) const noexcept {
     if (steps_ == 0) return at.cell + 2;
-    to_temperature(at.cell + 2 + 128 * std::size_t{at.step}, at.dT, room);
+    to_temperature(at.cell + 2 + 128 * at.step, at.dT, room);
     return room;
   }
 
@@ -547,28 +706,31 @@ class FrictionMap {
     }
   }
 
-  /// Cubics of ln s0 over a share of a step of x, in the rows about a T0, and the share of the upper row.
+  /// Cubics of ln s0 over a share of a step of x: four coefficients in the row below a T0, by how much those in the
+  /// row above differ, and the share of it.
   struct SlidingRows {
-    const double *lower, *upper;
+    const double* cubics;
     double share;
   };
-  [[nodiscard]] SlidingRows sliding_rows(const Where& at) const noexcept {
-    const double row = rows_ == 1 ? 0 : (at.background - info_.temperature[0]) * rows_per_T_;
-    const std::uint32_t j = rows_ == 1 ? 0 : index(row, rows_ - 1);
-    const double* const lower = &sliding_[4 * std::size_t{columns_} * j];
-    return {lower, rows_ == 1 ? lower : lower + 4 * std::size_t{columns_}, row - j};
+  [[nodiscard]] ASPERITY_MAP_INLINE SlidingRows sliding_rows(const Where& at) const noexcept {
+    if (steps_ == 0) return {map_detail::numbers(sliding_), 0};
+    const double row = (at.background - info_.temperature[0]) * rows_per_T_;
+    const std::int64_t j = index(row, last_row_);
+    return {map_detail::numbers(sliding_) + row_size_ * j, row - static_cast<double>(j)};
   }
 
   /// ln s0 at an x, and its slope.
-  [[nodiscard]] double log_sliding_length(const SlidingRows& rows, double x, double* slope = nullptr) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const SlidingRows& rows, double x,
+                                                              double* slope = nullptr) const noexcept {
+    using map_detail::Pair;
+    using map_detail::pair;
     const double column = (x - offset_x_) * sliding_per_x_;
-    const std::uint32_t i = index(column, columns_);
-    const double *const lower = rows.lower + 4 * std::size_t{i}, *const upper = rows.upper + 4 * std::size_t{i};
-    const double t = column - i;
-    double c[4];
-    for (int k = 0; k < 4; ++k) c[k] = lower[k] + rows.share * (upper[k] - lower[k]);
-    if (slope != nullptr) *slope = (c[1] + t * (2 * c[2] + t * 3 * c[3])) * sliding_per_x_;
-    return (c[0] + c[1] * t) + (c[2] + c[3] * t) * (t * t);
+    const std::int64_t i = index(column, last_column_);
+    const double* const c = rows.cubics + 8 * i;
+    const double t = column - static_cast<double>(i);
+    const Pair low = pair(c) + pair(c + 4) * rows.share, high = pair(c + 2) + pair(c + 6) * rows.share;
+    if (slope != nullptr) *slope = (low[1] + t * (2 * high[0] + t * 3 * high[1])) * sliding_per_x_;
+    return (low[0] + low[1] * t) + (high[0] + high[1] * t) * (t * t);
   }
 
   /// exp(-s / s0)
@@ -584,18 +746,20 @@ class FrictionMap {
   }
 
   /// ln of a_T v on the map without heat.
-  [[nodiscard]] double cold_x(const Where& at) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE double cold_x(const Where& at) const noexcept {
     return steps_ == 0 ? at.x : held_cold_x(at.x + log_a_T(at));
   }
 
-  [[nodiscard]] double held_cold_x(double x) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE double held_cold_x(double x) const noexcept {
     const double first = cold_->offset_x_, last = cold_->last_x_;
     return x < first ? first : x > last ? last : x;  // by rounding
   }
 
   /// From the lowest T0 to that of a point, on a map with an axis of it.
-  [[nodiscard]] double log_a_T(const Where& at) const noexcept {
-    return cubic_value(&shift_[2 * std::size_t{at.step}], at.dT * steps_per_T_, step_of_T_);
+  [[nodiscard]] ASPERITY_MAP_INLINE double log_a_T(const Where& at) const noexcept {
+    const double* const c = shift_.data() + 4 * at.step;
+    const double t = at.dT * steps_per_T_;
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
   }
 
   [[nodiscard]] Where cold_place(const Where& at) const noexcept {
@@ -609,7 +773,7 @@ class FrictionMap {
   }
 
   /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
-  static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
+  ASPERITY_MAP_INLINE static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
     using map_detail::pair;
     const double x2 = x * x, z2 = z * z;
     const auto row = [=](const double* r) {
@@ -626,10 +790,9 @@ class FrictionMap {
   }
 
   /// The loader has seen to it that `at` is far below the largest integer.
-  static std::uint32_t index(double at, std::uint32_t n) noexcept {
+  ASPERITY_MAP_INLINE static std::int64_t index(double at, std::int64_t last) noexcept {
     const auto i = static_cast<std::int64_t>(at);
-    const std::int64_t last = std::int64_t{n} - 1;
-    return static_cast<std::uint32_t>(i < 0 ? 0 : i > last ? last : i);
+    return i < 0 ? 0 : i > last ? last : i;
   }
 
   [[nodiscard]] Where where(double pressure, double velocity, Outside outside,
@@ -701,11 +864,11 @@ class FrictionMap {
     return true;
   }
 
-  void set_step(double background, Where& at) const noexcept {
+  ASPERITY_MAP_INLINE void set_step(double background, Where& at) const noexcept {
     at.background = background;
     const double scaled = (background - info_.temperature[0]) * steps_per_T_;
-    at.step = index(scaled, steps_);
-    at.dT = background - info_.temperature[0] - at.step * step_of_T_;
+    at.step = index(scaled, last_step_);
+    at.dT = background - info_.temperature[0] - static_cast<double>(at.step) * step_of_T_;
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
@@ -730,18 +893,11 @@ class FrictionMap {
   static double cubic(const double* table, std::size_t nodes, double per_step, double step, double from,
                       double& slope) noexcept {
     const double scaled = from * per_step;
-    const std::uint32_t i = index(scaled, static_cast<std::uint32_t>(nodes - 1));
-    return cubic(&table[2 * std::size_t{i}], scaled - i, per_step, step, slope);
+    const std::int64_t i = index(scaled, static_cast<std::int64_t>(nodes) - 2);
+    return cubic(table + 2 * i, scaled - static_cast<double>(i), per_step, step, slope);
   }
 
-  /// Between two nodes, a share t of the step from the first.
-  static double cubic_value(const double* s, double t, double step) noexcept {
-    const double rise = s[2] - s[0];
-    const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
-    return s[0] + t * (step * s[1] + t * (square + t * cube));
-  }
-
-  /// The same with its slope.
+  /// Between two nodes, a share t of the step from the first, and the slope there.
   static double cubic(const double* s, double t, double per_step, double step, double& slope) noexcept {
     const double rise = s[2] - s[0];
     const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
@@ -756,14 +912,16 @@ class FrictionMap {
     return cubic(offset_.data(), offset_.size() / 2, offset_per_x_, offset_step_, x - offset_x_, slope);
   }
 
-  [[nodiscard]] const double* cell_at(double x, double z) const noexcept {
-    return &cells_[entry_at(x, z) * cell_size_];
+  [[nodiscard]] ASPERITY_MAP_INLINE const double* cell_at(double x, double z) const noexcept {
+    return cells() + entry_at(x, z) * cell_size_;
   }
 
+  [[nodiscard]] const double* cells() const noexcept { return map_detail::numbers(cells_); }
+
   /// Which cell.
-  [[nodiscard]] std::size_t entry_at(double x, double z) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE std::size_t entry_at(double x, double z) const noexcept {
     std::size_t g = 0;
-    while (g + 2 < cuts_.size() && z >= cuts_[g + 1]) ++g;
+    while (z >= ends_[g]) ++g;  // the last is beyond all
     for (;;) {
       const std::int32_t entry = entries_[entry_of(grids_[g], x, z)];
       if (entry >= 0) return static_cast<std::size_t>(entry);
@@ -772,26 +930,32 @@ class FrictionMap {
   }
 
   static std::size_t entry_of(const map_detail::Grid& grid, double x, double z) noexcept {
-    const std::size_t column = index((x - grid.x) * grid.columns_per_x, grid.columns);
-    return grid.first + column * grid.rows + index((z - grid.z) * grid.rows_per_z, grid.rows);
+    const std::int64_t column = index((x - grid.x) * grid.columns_per_x, grid.last_column);
+    return grid.first + static_cast<std::size_t>(column * (grid.last_row + 1) +
+                                                 index((z - grid.z) * grid.rows_per_z, grid.last_row));
   }
 
   friend class FrictionMapBatch;  // of the full library: many points at once
 
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
-  std::vector<double> cuts_, offset_;
-  double offset_x_ = 0, last_x_ = 0;  // ln of the box's velocities
+  std::vector<double> ends_, offset_;                          // of the bands
+  double offset_x_ = 0, last_x_ = 0;                           // ln of the box's velocities
   double offset_per_x_ = 0, offset_step_ = 0;
   std::size_t cell_size_ = map_detail::cell_size;
-  std::uint32_t steps_ = 0;               // of T0 in cells, 0 for one T0
-  std::uint32_t rows_ = 1, columns_ = 1;  // of the table of ln s0: nodes of T0, steps of x
+  std::uint32_t steps_ = 0;  // of T0 in cells, 0 for one T0
+  std::int64_t last_step_ = 0;
+  std::int64_t last_row_ = 0, last_column_ = 0, row_size_ = 0;
   double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
-  std::vector<double> shift_, sliding_;  // ln a_T over T0, coefficients of ln s0 over x and T0
+  std::vector<double> shift_;             // coefficients of ln a_T over T0
+  std::vector<map_detail::Two> sliding_;  // of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
-  std::vector<double> cells_;
+  std::vector<map_detail::Two> cells_;
+#ifdef ASPERITY_MAP_FOURS
+  bool has_fours_ = __builtin_cpu_supports("avx") != 0;  // the processor
+#endif
 };
 
 namespace map_detail {
@@ -821,14 +985,24 @@ class Reader {
   bool numbers(std::vector<double>& to, std::size_t n, double most) {
     to.resize(n);
     bool good = true;
-    for (double& x : to) {
-      x = f64();
-      good = good && !is_nan(x) && x >= -most && x <= most;
-    }
+    for (double& x : to) good = number(x, most) && good;
+    return good;
+  }
+  /// The same of twice as many.
+  bool numbers(std::vector<Two>& to, std::size_t n, double most) {
+    to.resize(n);
+    bool good = true;
+    for (Two& two : to)
+      for (double& x : two.number) good = number(x, most) && good;
     return good;
   }
 
  private:
+  bool number(double& x, double most) noexcept {
+    x = f64();
+    return !is_nan(x) && x >= -most && x <= most;
+  }
+
   std::uint64_t number(int n) noexcept {
     std::uint64_t result = 0;
     for (int i = n; i-- > 0;) result = (result << 8) | at_[i];
@@ -884,6 +1058,20 @@ inline std::vector<double> cubics(const std::vector<double>& values, std::size_t
   return result;
 }
 
+/// Rows of cubics, each beside by how much that of the next row differs, if there is one; but the last of several.
+inline std::vector<Two> with_differences(const std::vector<double>& cubics, std::size_t row) {
+  std::vector<Two> result;
+  const std::size_t rows = cubics.size() / row;
+  for (std::size_t i = 0; i < (rows < 2 ? 1 : rows - 1) * row; i += 4) {
+    for (std::size_t k = i; k < i + 4; k += 2) result.push_back({{cubics[k], cubics[k + 1]}});
+    for (std::size_t k = i; k < i + 4; k += 2) {
+      const auto next = [&](std::size_t at) { return rows < 2 ? 0 : cubics[at + row] - cubics[at]; };
+      result.push_back({{next(k), next(k + 1)}});
+    }
+  }
+  return result;
+}
+
 /// Every grid comes after those that it is in, and they are no more than look-ups shall go through.
 inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<std::int32_t>& entries) {
   std::vector<std::uint32_t> around(grids.size());  // how many grids each is in
@@ -899,8 +1087,8 @@ inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<
 }
 
 /// Powers of the offsets from a cell's corner stay finite.
-inline bool corners_are_near(const std::vector<double>& cells, std::size_t size) noexcept {
-  for (std::size_t i = 0; i < cells.size(); i += size)
+inline bool corners_are_near(const double* cells, std::size_t n, std::size_t size) noexcept {
+  for (std::size_t i = 0; i < n * size; i += size)
     if (!(std::fabs(cells[i]) < 1e4 && std::fabs(cells[i + 1]) < 1e4)) return false;
   return true;
 }
@@ -967,10 +1155,13 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (!good) return refuse("is damaged: its head contradicts itself");
 
   if (heat) good = in.numbers(map.shift_, 2 * std::size_t{warm.nodes}, 1e3);
-  if (heat) good = in.numbers(map.sliding_, 2 * std::size_t{warm.columns} * warm.rows, 1e3) && good;
+  std::vector<double> sliding;
+  if (heat) good = in.numbers(sliding, 2 * std::size_t{warm.columns} * warm.rows, 1e3) && good;
   if (!good) return refuse("is damaged: its tables contradict each other");
-  good = in.numbers(map.cuts_, bands + std::size_t{1}, 2000);
-  for (std::size_t i = 0; i < bands; ++i) good = good && map.cuts_[i] < map.cuts_[i + 1];
+  good = in.numbers(map.ends_, bands + std::size_t{1}, 2000);
+  for (std::size_t i = 0; i < bands; ++i) good = good && map.ends_[i] < map.ends_[i + 1];
+  map.ends_.erase(map.ends_.begin());
+  map.ends_.back() = 1e308;  // beyond all
   good = in.numbers(map.offset_, 2 * std::size_t{nodes}, 1e3) && good;
   // Steps of a grid are counted in 64 bits; x is no further from 0 than 700, s between its nodes than 1e7.
   constexpr double far_x = 1e3, far_z = 2e7, most_steps = 4e18;
@@ -979,7 +1170,9 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   for (map_detail::Grid& grid : map.grids_) {
     std::vector<double> place;
     good = in.numbers(place, 4, 1e12) && good;
-    grid = {place[0], place[1], place[2], place[3], in.u32(), in.u32(), in.u32()};
+    grid = {place[0], place[1], place[2], place[3], in.u32(), in.u32(), in.u32(), 0, 0};
+    grid.last_column = std::int64_t{grid.columns} - 1;
+    grid.last_row = std::int64_t{grid.rows} - 1;
     in.u32();
     good = good && grid.columns > 0 && grid.rows > 0 && grid.first == used &&
            (std::fabs(grid.x) + far_x) * std::fabs(grid.columns_per_x) < most_steps &&
@@ -995,8 +1188,8 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   }
   in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
   good = good && map_detail::no_grid_in_itself(map.grids_, map.entries_) &&
-         in.numbers(map.cells_, map.cell_size_ * std::size_t{cells}, 1e100) &&
-         map_detail::corners_are_near(map.cells_, map.cell_size_);
+         in.numbers(map.cells_, map.cell_size_ / 2 * std::size_t{cells}, 1e100) &&
+         map_detail::corners_are_near(map.cells(), cells, map.cell_size_);
   if (!good) return refuse("is damaged: its tables contradict each other");
   info.cells = cells;
   if (heat) {
@@ -1016,15 +1209,19 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (heat) {
     const double kelvin = info.temperature[1] - info.temperature[0];
     map.steps_ = warm.nodes - 1;
-    map.rows_ = warm.rows;
-    map.columns_ = warm.columns - 1;
     if (map.steps_ > 0) {
       map.steps_per_T_ = map.steps_ / kelvin;
       map.step_of_T_ = 1 / map.steps_per_T_;
+      map.shift_ = map_detail::cubics(map.shift_, warm.nodes, map.step_of_T_);
+      map.rows_per_T_ = (warm.rows - 1) / kelvin;
     }
-    if (map.rows_ > 1) map.rows_per_T_ = (map.rows_ - 1) / kelvin;
+    map.last_step_ = std::int64_t{map.steps_} - 1;
+    map.last_row_ = std::int64_t{warm.rows} - 2;
+    map.last_column_ = std::int64_t{warm.columns} - 2;
+    map.row_size_ = 8 * (std::int64_t{warm.columns} - 1);
     map.sliding_per_x_ = (warm.columns - 1) / (map.last_x_ - map.offset_x_);
-    map.sliding_ = map_detail::cubics(map.sliding_, warm.columns, 1 / map.sliding_per_x_);
+    map.sliding_ = map_detail::with_differences(map_detail::cubics(sliding, warm.columns, 1 / map.sliding_per_x_),
+                                                4 * (std::size_t{warm.columns} - 1));
   }
   if (nodes != 0) {
     map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);

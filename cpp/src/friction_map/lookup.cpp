@@ -95,8 +95,7 @@ class FrictionMapBatch {
       });
     find_cells(map_, x_, n);
     const MapSlopes found{h_, a_, h_x_, a_x_, h_z_, a_z_};
-    loops_.slopes(map_.cells_.data(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z_, dT_, n,
-                  found);
+    loops_.slopes(map_.cells(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z_, dT_, n, found);
     exponentials(MapQuantity::hysteresis, map_, at.ln_v, n, h_);
     exponentials(MapQuantity::adhesion, map_, at.ln_v, n, cold_);
     loops_.chain_rule(h_, cold_, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
@@ -170,9 +169,9 @@ class FrictionMapBatch {
                 double* result) {
     find_cells(map, x, n);
     if (map.steps_ == 0)
-      loops_.polynomials(map.cells_.data(), cell_, x, z_, n, h_, a_);
+      loops_.polynomials(map.cells(), cell_, x, z_, n, h_, a_);
     else
-      loops_.warm_polynomials(map.cells_.data(), map.cell_size_, cell_, step_, x, z_, dT_, n, h_, a_);
+      loops_.warm_polynomials(map.cells(), map.cell_size_, cell_, step_, x, z_, dT_, n, h_, a_);
     exponentials(quantity, map, ln_v, n, result);
   }
 
@@ -195,10 +194,10 @@ class FrictionMapBatch {
     } else {
       for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], offset_slope_[i]);
     }
-    const bool one_band = map.cuts_.size() == 2;
+    const bool one_band = map.ends_.size() == 1;
     if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z_, n, cell_)) return;
     for (std::size_t i = 0; i < n; ++i)
-      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z_[i]) - map.cells_.data()) /
+      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z_[i]) - map.cells()) /
                                            static_cast<std::ptrdiff_t>(map.cell_size_));
   }
 
@@ -209,7 +208,7 @@ class FrictionMapBatch {
       at.x = x_[i];
       at.background = place.background[i];
       if (map_.steps_ > 0) {
-        at.step = static_cast<std::uint32_t>(step_[i]);
+        at.step = step_[i];
         at.dT = dT_[i];
       }
       share_[i] = -map_.log_sliding_length(map_.sliding_rows(at), at.x);
