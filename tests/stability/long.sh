@@ -4,7 +4,7 @@
 #   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
 #   partial      PartialContact: the roots of ten thousand random scenes, the estimates of five thousand, and forty thousand
 #                points on tables against brute force
-#   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11
+#   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11, and a thousand of master curves
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
@@ -59,7 +59,10 @@ partial() {
     "$python" tests/stability/random_partial_tables.py --scenes 1500
 }
 
-heat() { "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1; }
+heat() {
+  "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1 &&
+    "$python" tests/stability/random_heat.py --scenes 1000 --seed 3 --rings 0.5 --curves 1
+}
 
 maps() {
   "$python" tests/stability/random_maps.py --maps 200 &&

@@ -55,7 +55,8 @@ class FlashSolver {
   };
   [[nodiscard]] Eigen::VectorXd guess(double velocity) const;
   bool end_panel_where_held(const HeatPoint& point, const Eigen::VectorXd& theta);
-  void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point) const;
+  void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point,
+                          double in_doubt = 1e-12) const;
 
   const HeatScene& scene_;
   Branch branch_;
