@@ -50,9 +50,10 @@ def with_size_of_heat(
         rise = hot.temperature - hot.cold.temperature
         found[i] = (
             "above 0.01 m/s flash heating matters, which is not modelled without heating: at "
-            f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K and take mu from "
-            f"{hot.cold.mu:.3g} to {hot.mu:.3g}, with the constants of a tread compound in "
-            "contacts of 1 mm (Persson 2006, J. Phys.: Condens. Matter 18, 7789)"
+            f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from "
+            f"{hot.cold.temperature:.5g} K and take mu from {hot.cold.mu:.3g} to {hot.mu:.3g}, "
+            "with the constants of a tread compound in contacts of 1 mm (Persson 2006, J. Phys.: "
+            "Condens. Matter 18, 7789)"
         )
     return tuple(found)
 

@@ -32,7 +32,7 @@ def test_the_note_on_heat_says_its_size():
     rise = hot.temperature[1] - 290.0
     assert rise > 1
     told = note_of(cold, "not modelled")
-    assert f"at 10 m/s it would warm the rubber by {rise:.2g} K" in told
+    assert f"at 10 m/s it would warm the rubber by {rise:.2g} K from 290 K" in told
     assert f"take mu from {hot.cold.mu[1]:.3g} to {hot.mu[1]:.3g}" in told
     assert note_of(hot, "not modelled") is None
     single = asperity.friction(ROAD, RUBBER, velocity=10.0, **AT)
