@@ -167,8 +167,8 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   check_gauss(model.method, "in a map with heat, whose sliding lengths GSL's methods do not know");
   if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
     throw InvalidInput(
-        "correction: must be none of Greenwood-Williamson's in a map with heat, in which the kinks of its p_T would "
-        "move with the temperature of the contacts");
+        "correction: must be none of Greenwood-Williamson's in a map with heat. Without it all kinks of p_T lie along "
+        "one curve, E*(velocity), which the map follows; with heat each has a curve of its own. friction takes it");
   const Places at = places_of(request, temperature);
   const FlashFriction found =
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);
