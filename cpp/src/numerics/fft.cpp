@@ -74,7 +74,7 @@ int side(std::size_t n) {
 
 template <class T>
 auto* raw(std::complex<T>* modes) {
-  return reinterpret_cast<Fftw<T>::Complex*>(modes);
+  return reinterpret_cast<typename Fftw<T>::Complex*>(modes);
 }
 
 /// Plans under the lock, and gives the plan back under the lock.
@@ -88,7 +88,7 @@ std::shared_ptr<void> planned(Make make) {
   if (!plan) throw Error("FFTW could not plan this transform");
   return {plan, [](void* p) {
             const std::scoped_lock lock(planner());
-            F::destroy(static_cast<F::Plan>(p));
+            F::destroy(static_cast<typename F::Plan>(p));
           }};
 }
 
@@ -165,7 +165,7 @@ void tangle(std::complex<float>* z, std::size_t h, const std::complex<float>* tw
 
 template <class T>
 void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
-  const auto plan = static_cast<Fftw<T>::Plan>(plan_.get());
+  const auto plan = static_cast<typename Fftw<T>::Plan>(plan_.get());
   if constexpr (std::is_same_v<T, float>)
     if (!twiddles_.empty()) {
       Fftw<T>::run(plan, raw(reinterpret_cast<std::complex<T>*>(in)), raw(out));

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.extras import to_install
-from asperity.plot.labels import MOST_NAMED, legend_inside, name_curves
+from asperity.plot.labels import MOST_NAMED, legend_with_room, name_curves
 from asperity.plot.style import colours, grey, narrow, palette, shades
 from asperity.scene.model import Scene
 
@@ -79,8 +79,7 @@ def area_figure(
     if axes.get_legend_handles_labels()[1]:
         some = f"{drawn.size} of {dashed.size}" if drawn.size < dashed.size else None
         how = {"title": some, "title_fontsize": "small"}
-        if not legend_inside(axes, **how):
-            axes.legend(loc="best", fontsize="small", **how)
+        legend_with_room(axes, **how)
     return picture(figure, path)
 
 

@@ -141,12 +141,15 @@ def _legends(figure: "Figure") -> list[Any]:
 def legend_inside(axes: "Axes", *entries: Any, **how: Any) -> bool:
     """A legend where it covers nothing. False, and there is none, where it would."""
     figure = _settled(axes)
-    drawn = [_points(axes, line) for line in axes.lines if len(line.get_xdata())]  # type: ignore[arg-type]
-    for filled in axes.collections:
-        drawn += [_dense(axes.transData.transform(path.vertices)) for path in filled.get_paths()]
+    drawn = []
+    for one in (other for other in figure.axes if other.bbox.bounds == axes.bbox.bounds):  # twins
+        drawn += [_points(one, line) for line in one.lines if len(line.get_xdata())]  # type: ignore[arg-type]
+        for filled in one.collections:
+            drawn += [_dense(one.transData.transform(path.vertices)) for path in filled.get_paths()]
     boxes = [text.get_window_extent() for text in axes.texts]
     taken = [np.array([box.x0, box.y0, box.x1, box.y1]) for box in boxes]
     legend = axes.legend(*entries, loc="center", fontsize="small", **how)
+    legend.set_in_layout(False)  # it moves nothing
     _settled(axes)
     size = legend.get_window_extent()
     half = np.array([size.width, size.height]) / 2
@@ -160,6 +163,25 @@ def legend_inside(axes: "Axes", *entries: Any, **how: Any) -> bool:
             return True
     legend.remove()
     return False
+
+
+def legend_with_room(axes: "Axes", **how: Any) -> None:
+    """A legend inside of the axes: where it covers nothing, or else at the top, above the curves,
+    for which the axis is made longer."""
+    if legend_inside(axes, **how):
+        return
+    for columns in (4, 3, 2, 1):
+        legend = axes.legend(loc="upper center", fontsize="small", ncols=columns, **how)
+        legend.set_in_layout(False)
+        figure = _settled(axes)
+        if legend.get_window_extent().width < axes.bbox.width:
+            break
+    share = (legend.get_window_extent().height + 4 * _GAP * figure.dpi / 72) / axes.bbox.height
+    if share < 1:
+        scale = axes.yaxis.get_transform()
+        low, high = scale.transform(np.array(axes.get_ylim()))
+        longer = low + (high - low) / (1 - share)
+        axes.set_ylim(top=float(scale.inverted().transform(np.array([longer]))[0]))
 
 
 def legend_where_room_is(

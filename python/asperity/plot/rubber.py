@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity.dma import MasterCurveBuild
 from asperity.plot.curves import new_figure, picture
+from asperity.plot.labels import legend_with_room
 from asperity.plot.style import grey, palette, shades
 from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
@@ -76,7 +77,7 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     right.set_ylabel("$\\tan\\delta$ [-]", color=palette()[_TAN])
     right.set_ylim(0, 1.6 * float(tan.max()))
     right.tick_params(direction="in", colors=palette()[_TAN])
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
 
 
 def draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> None:
@@ -97,7 +98,7 @@ def draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> No
         axes.plot(t, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
     axes.set_xlabel("Temperature $T$ [K]")
     axes.set_ylabel("$\\log_{10} a_T$ [-]")
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
 
 
 def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
@@ -117,7 +118,7 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
         label = f"{name}, rms {np.sqrt(np.mean(miss**2)):.2g} %"  # of the points drawn
         w = points.angular_frequency
         axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
 
 
 def _logarithmic(axes: "Axes", x: str, y: str) -> None:
@@ -125,4 +126,4 @@ def _logarithmic(axes: "Axes", x: str, y: str) -> None:
     axes.set_yscale("log")
     axes.set_xlabel(x)
     axes.set_ylabel(y)
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)

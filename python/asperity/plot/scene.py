@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.plot.curves import new_figure, picture
+from asperity.plot.labels import legend_with_room
 from asperity.plot.rubber import draw_isotherms, draw_shifts
 from asperity.plot.style import grey, palette
 from asperity.plot.surface import draw_line, draw_map, draw_spectrum
@@ -61,7 +62,7 @@ def _draw_used(
         axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
     used = f"used, rms slope {spectrum.rms_slope:.3g}"
     axes.axvspan(q0, q1, color=grey(0.4), alpha=0.1, linewidth=0, label=used)
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
 
 
 def rubber_figure(scene: Scene, path: Path) -> bytes:
@@ -88,7 +89,7 @@ def rubber_figure(scene: Scene, path: Path) -> bytes:
     axes.set_ylabel("Modulus [Pa]")
     if built.temperature is not None:
         axes.set_title(f"the rubber at {built.temperature:.5g} K", fontsize="medium")
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
     if built.build is not None:
         draw_isotherms(panels[0], built.isotherms)
         panels[0].set_title("isotherms", fontsize="medium")

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.plot.curves import new_figure, picture
+from asperity.plot.labels import legend_with_room
 from asperity.plot.style import grey, narrow, palette
 from asperity.scene.scan import Scan
 from asperity.self_affine_fit import SelfAffineFit
@@ -102,7 +103,7 @@ def draw_spectrum(
         axes.set_yscale("log")
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
-    axes.legend(loc="best", fontsize="small")
+    legend_with_room(axes)
 
 
 def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:

@@ -195,7 +195,7 @@ def test_velocities_outside_of_the_measured_frequencies(tmp_path, velocity, caps
     out, err = capsys.readouterr()
     assert out == ""
     (line,) = err.splitlines()
-    assert line.startswith(f"asperity: {path}: [conditions] velocity_m_s = {velocity:g}: ")
+    assert line.startswith(f"asperity: {path}: [conditions] velocity_m_s = {velocity}: ")
     assert "velocities from" in line
     allowed = [float(word) for word in line.rpartition("velocities from ")[2].split()[:3:2]]
     assert mu(scene(tmp_path, 293.15, velocity=[1.001 * allowed[0], 0.999 * allowed[1]])).all()

@@ -281,3 +281,43 @@ def test_colours_show_on_what_is_drawn_on(count: int) -> None:
         background = luminance(style.paper()) + 0.05
         for colour in style.colours(count):
             assert (luminance(colour) + 0.05) / background >= 3
+
+
+DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
+
+
+@pytest.mark.parametrize("style", ["print", "single"])
+@pytest.mark.parametrize("verb", ["area", "spectrum", "rubber"])
+def test_legends_cover_no_curve(folder: Path, figures: list[Any], verb: str, style: str) -> None:
+    (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 20"))
+    arguments = ["scene.toml", "--points", "40"]
+    if verb == "spectrum":
+        arguments = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    if verb == "rubber":
+        rows = ["f,T,E1,E2"]
+        for celsius in range(-20, 41, 5):
+            for hertz in np.geomspace(0.1, 30, 12):
+                w = hertz * 10 ** (-8 * (celsius - 20) / (110 + celsius - 20))
+                modulus = 3 + sum(30j * w * t / (1 + 1j * w * t) for t in 10.0 ** np.arange(-7, 3))
+                rows.append(f"{hertz},{celsius},{modulus.real},{modulus.imag}")
+        (folder / "dma.csv").write_text("\n".join(rows))
+        arguments = ["dma.csv", "--columns", DMA[0], "--units", DMA[1], "--modulus", "E"]
+    output = ["--plot", "a.png", "--output", "a.csv", "--style", style]
+    assert main([verb, *arguments, *output]) == 0
+    (figure,) = figures
+    figure.draw_without_rendering()
+    seen = 0
+    for axes in figure.axes:
+        if (legend := axes.get_legend()) is None or (verb == "area" and axes is figure.axes[1]):
+            continue
+        box = legend.get_window_extent()
+        for line in axes.lines:
+            with np.errstate(all="ignore"):
+                points = line.get_transform().transform(line.get_xydata())
+            points = points[np.isfinite(points).all(axis=1)]
+            if len(points) == 0 or (verb == "spectrum" and len(points) == 2):  # the cut-off's line
+                continue
+            seen += 1
+            over = (points > (box.x0, box.y0)) & (points < (box.x1, box.y1))
+            assert not over.all(axis=1).any(), (axes.get_ylabel(), line.get_label())
+    assert seen
