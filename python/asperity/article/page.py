@@ -9,6 +9,8 @@ import numpy as np
 from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
 from asperity.io.table import Table
 from asperity.plot.curves import picture
+from asperity.plot.labels import legend_with_room
+from asperity.plot.style import narrow
 from asperity.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:
@@ -36,7 +38,9 @@ def panel(axes: "Axes", title: str = "", legend: Any = None, **settings: Any) ->
     """Scales, limits and labels as `Axes.set` takes them, a title, and a legend at its place."""
     axes.set(**settings)
     axes.set_title(title, fontsize="medium")
-    if legend is not None:
+    if legend is not None and narrow():  # where places of the wide picture may be taken
+        legend_with_room(axes)
+    elif legend is not None:
         axes.legend(loc=legend, fontsize="small")
 
 
