@@ -195,7 +195,7 @@ RealInverse<T>::RealInverse(std::size_t n) : n_(n) {
 
 template <class T>
 void RealInverse<T>::operator()(std::complex<T>* in, T* out) const {
-  const auto plan = static_cast<Fftw<T>::Plan>(plan_.get());
+  const auto plan = static_cast<typename Fftw<T>::Plan>(plan_.get());
   if constexpr (std::is_same_v<T, float>)
     if (!twiddles_.empty()) {
       tangle(in, n_ / 2, twiddles_.data());
@@ -215,7 +215,7 @@ ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction) {
 
 template <class T>
 void ColumnsTransform<T>::operator()(std::complex<T>* columns) const {
-  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(columns), raw(columns));
+  Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(columns), raw(columns));
 }
 
 template <class T>
@@ -230,7 +230,7 @@ ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::siz
 
 template <class T>
 void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
-  Fftw<T>::run(static_cast<Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
+  Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
 }
 
 template class RealTransform<float>;
