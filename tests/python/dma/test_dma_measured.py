@@ -205,4 +205,4 @@ def test_a_temperature_outside_of_the_isotherms(tmp_path, capsys):
     path = scene(tmp_path, 330.0, 293.15)
     assert main(["friction", str(path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"asperity: {path}: [rubber] temperature_k = 330: shift factors are")
+    assert line.startswith(f"asperity: {path}: [rubber] temperature_k = 330.0: shift factors are")
