@@ -50,6 +50,9 @@ ShiftValue shift_at(const TemperatureShift& shift, double temperature) {
   if (!(std::fabs(value.log10_a_T) <= 200))
     throw OutOfRange("temperature = " + show(temperature, 6) + ": log10 a_T = " + show(value.log10_a_T, 6) +
                      ", must be in [-200, 200]");
+  if (!(std::fabs(value.slope) <= 1e6))
+    throw OutOfRange("temperature = " + show(temperature, 6) + ": log10 a_T changes by " + show(value.slope, 6) +
+                     " per kelvin, must be at most 1e6");
   return value;
 }
 

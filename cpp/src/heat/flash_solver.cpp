@@ -231,9 +231,9 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
                          2 * std::fmax(found.mu_error, coarse_error) +
                          (std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error) * mu;
     // an elastic rubber has an area alone
-    const double area = map->contact_area(), of_area = std::fabs(area - coarse_area) / area;
-    if (!(error <= rtol * mu && of_area <= rtol)) {
-      check_temperatures(*map, found, point, std::fmin(0.01 + std::fmax(error / mu, of_area), 1));
+    const double area = map->contact_area(), of_area = std::fabs(area - coarse_area);
+    if (!(error <= rtol * mu && of_area <= rtol * area)) {
+      check_temperatures(*map, found, point, std::fmin(0.01 + std::fmax(error / mu, of_area / area), 1));
       continue;
     }
     level_ = level - 1;
