@@ -140,7 +140,7 @@ def test_a_shift_that_is_not_known_is_out_of_range():
     with pytest.raises(asperity.OutOfRange, match=r"shift factors are known in \[273, 313\] K"):
         asperity.friction(ROAD, RUBBER, temperature=320.0, shift=FACTORS, **at)
     steep = asperity.WLF(c1=7e99, c2=101.6, reference_temperature=293.15)
-    with pytest.raises(asperity.OutOfRange, match=r"changes by -6.8\d+e\+97 per kelvin, must be at"):
+    with pytest.raises(asperity.OutOfRange, match=r"changes by -6.8\d+e\+97 per kelvin"):
         asperity.friction(ROAD, RUBBER, temperature=293.15, shift=steep, **at)
     with pytest.raises(asperity.OutOfRange, match=r"temperature = 301: velocity = 10: q0 = 1000"):
         asperity.friction(ROAD, BUILD.master_curve, pressure=1e5, velocity=10.0, temperature=301.0)
