@@ -341,7 +341,7 @@ def test_bad_uncertainty_in_a_scene(scene, capsys):
             "[uncertainty]\nsamples = 5",
             "[uncertainty] samples = 5: must be a whole number, 20 or more",
         ),
-        ("[uncertainty]\nlevel = 2", "[uncertainty] level = 2.0: must be in (0, 1)"),
+        ("[uncertainty]\nlevel = 2", "[uncertainty] level = 2: must be in (0, 1)"),
         ("[uncertainty]\nsample = 50", "[uncertainty] sample: unknown key, did you mean samples?"),
     ):
         assert main(["friction", str(scene(more=more))]) == 2
