@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
@@ -19,6 +20,24 @@ struct MapSlopes {
   double *h, *a, *h_x, *a_x, *h_z, *a_z;
 };
 
+/// Cubics of ln s0 over steps of x, each beside by how much that of the next row of T0 differs.
+struct SlidingTable {
+  const double* cubics;
+  double first_x, per_x, last_column, first_T0, rows_per_T0, last_row;
+  std::int32_t row_size;
+};
+
+/// Cubics of ln a_T over steps of T0, and between which x a_T may lead.
+struct ColdVelocities {
+  const double* cubics;
+  double steps_per_T0, lowest, highest;
+};
+
+/// ln mu_A = ln A/A0 + ln_shear_stress - ln p - fall (ln v - ln_reference)^2
+struct MapAdhesion {
+  double ln_shear_stress, ln_reference, fall;
+};
+
 struct MapLoops {
   bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* a_T,
                   std::size_t n, double* speed, double* shifted);
@@ -28,14 +47,25 @@ struct MapLoops {
                   std::size_t n, std::int32_t* entry);
   void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
+  bool (*all_within)(const double* x, double lowest, double highest, std::size_t n);
   void (*steps)(const double* temperature, double first, double per_kelvin, double last, std::size_t n,
                 std::int32_t* step, double* t);
   void (*warm_polynomials)(const double* cells, std::size_t cell_size, const std::int32_t* cell,
                            const std::int32_t* step, const double* x, const double* z, const double* t, std::size_t n,
                            double* h, double* a);
+  void (*at_temperature)(const double* cells, std::size_t cell_size, std::size_t step, double t, std::size_t n,
+                         double* result);
+  void (*sliding_lengths)(const SlidingTable& table, const double* x, const double* temperature, std::size_t n,
+                          double* ln_s0, double* share, std::int32_t* place);
+  void (*cold_velocities)(const ColdVelocities& table, const std::int32_t* step, const double* t, const double* x,
+                          std::size_t n, double* shifted);
+  void (*held_sums)(const double* x, double more, double lowest, double highest, std::size_t n, double* sum);
+  void (*blend)(const double* ln_s0, const double* distance, const double* cold, std::size_t n, double* hot);
   void (*exponentials)(const double* x, double* e, std::size_t n);
-  void (*add_adhesion)(const double* ln_area, const double* ln_p, const double* ln_v, double ln_shear_stress,
-                       double ln_reference, double fall, std::size_t n, double* mu);
+  void (*adhesions)(const double* ln_area, const double* ln_p, const double* ln_v, const MapAdhesion& law,
+                    std::size_t n, double* mu);
+  void (*both_parts)(const double* ln_hysteresis, const double* ln_area, const double* ln_p, const double* ln_v,
+                     const MapAdhesion& law, std::size_t n, double* mu);
   void (*slopes)(const double* cells, std::size_t cell_size, const std::int32_t* cell, const std::int32_t* step,
                  const double* x, const double* z, const double* t, std::size_t n, const MapSlopes& to);
   void (*chain_rule)(const double* hysteresis, const double* adhesion, const MapSlopes& of, const double* offset_slope,
@@ -68,6 +98,19 @@ class FrictionMapBatch {
   FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
       : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
 
+  /// Before n points: where they share T0 and are more than the cells, sums the cells' polynomials at it once for all.
+  void share_temperature(const MapColumns& points, std::size_t n) {
+    if (map_.steps_ == 0 || points.background.size() != 1 || n < map_.info_.cells) return;
+    const auto [lowest, highest] = map_.info_.temperature;
+    const double background = points.background[0];
+    if (!(background >= lowest && background <= highest)) return;
+    FrictionMap::Where at;
+    map_.set_step(background, at);
+    at_shared_T0_.resize(map_.info_.cells * map_detail::cell_size);
+    loops_.at_temperature(map_.cells(), map_.cell_size_, static_cast<std::size_t>(at.step), at.dT, map_.info_.cells,
+                          at_shared_T0_.data());
+  }
+
   /// A number at points [begin, begin + n), at most a block; how many come before the first without a value.
   std::size_t find(MapQuantity quantity, const MapColumns& points, std::size_t begin, std::size_t n, double* result) {
     const Block at = take(points, begin, n);
@@ -93,9 +136,13 @@ class FrictionMapBatch {
         by_v[i] = found.dmu_dlnv;
         return found.mu;
       });
-    find_cells(map_, x_, n);
+    if (map_.offset_.empty()) std::fill_n(offset_slope_, n, 0.0);
+    const double* const z = find_cells(map_, x_, n);
     const MapSlopes found{h_, a_, h_x_, a_x_, h_z_, a_z_};
-    loops_.slopes(map_.cells(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z_, dT_, n, found);
+    if (at_shared_T0_.empty())
+      loops_.slopes(map_.cells(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z, dT_, n, found);
+    else
+      loops_.slopes(at_shared_T0_.data(), map_detail::cell_size, cell_, nullptr, x_, z, dT_, n, found);
     exponentials(MapQuantity::hysteresis, map_, at.ln_v, n, h_);
     exponentials(MapQuantity::adhesion, map_, at.ln_v, n, cold_);
     loops_.chain_rule(h_, cold_, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
@@ -151,15 +198,13 @@ class FrictionMapBatch {
 
   /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
   bool plain(const MapColumns& points, const double* background, const double* distance, std::size_t n) {
-    if (!points.distance.empty() && !std::all_of(distance, distance + n, [](double s) { return s >= 0; })) return false;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (!points.distance.empty() && !loops_.all_within(distance, 0, any, n)) return false;
     if (!map_.info_.heat) return points.background.empty();
     if (!is_one(points.a_T) || shifts_adhesion_) return false;
     const bool only = map_.steps_ == 0 && points.background.empty();
     const auto [lowest, highest] = map_.info_.temperature;
-    int outside = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      outside |= static_cast<int>(!(background[i] >= lowest && background[i] <= highest));
-    if (!only && outside != 0) return false;
+    if (!only && !loops_.all_within(background, lowest, highest, n)) return false;
     if (map_.steps_ > 0) loops_.steps(background, lowest, map_.steps_per_T_, map_.steps_ - 1.0, n, step_, dT_);
     return true;
   }
@@ -167,58 +212,67 @@ class FrictionMapBatch {
   /// A number of a map at ln p and these ln v; ln_v is that which the adhesion takes.
   void find_all(MapQuantity quantity, const FrictionMap& map, const double* x, const double* ln_v, std::size_t n,
                 double* result) {
-    find_cells(map, x, n);
+    const double* const z = find_cells(map, x, n);
     if (map.steps_ == 0)
-      loops_.polynomials(map.cells(), cell_, x, z_, n, h_, a_);
+      loops_.polynomials(map.cells(), cell_, x, z, n, h_, a_);
+    else if (!at_shared_T0_.empty())
+      loops_.polynomials(at_shared_T0_.data(), cell_, x, z, n, h_, a_);
     else
-      loops_.warm_polynomials(map.cells(), map.cell_size_, cell_, step_, x, z_, dT_, n, h_, a_);
+      loops_.warm_polynomials(map.cells(), map.cell_size_, cell_, step_, x, z, dT_, n, h_, a_);
     exponentials(quantity, map, ln_v, n, result);
   }
 
   /// From ln mu_H and ln A/A0, h_ and a_; mu for the traction. `result` may be h_.
   void exponentials(MapQuantity quantity, const FrictionMap& map, const double* ln_v, std::size_t n, double* result) {
     if (quantity == MapQuantity::contact_area) return loops_.exponentials(a_, result, n);
-    if (quantity != MapQuantity::adhesion && map.info_.hysteresis)
+    const bool has_hysteresis = quantity != MapQuantity::adhesion && map.info_.hysteresis;
+    const bool has_adhesion = quantity != MapQuantity::hysteresis && map.info_.shear_stress > 0;
+    const MapAdhesion law{map.ln_shear_stress_, map.ln_reference_, map.width_};
+    if (has_hysteresis && has_adhesion)
+      loops_.both_parts(h_, a_, ln_p_, ln_v, law, n, result);
+    else if (has_hysteresis)
       loops_.exponentials(h_, result, n);
+    else if (has_adhesion)
+      loops_.adhesions(a_, ln_p_, ln_v, law, n, result);
     else
       std::fill_n(result, n, 0.0);
-    if (quantity != MapQuantity::hysteresis && map.info_.shear_stress > 0)
-      loops_.add_adhesion(a_, ln_p_, ln_v, map.ln_shear_stress_, map.ln_reference_, map.width_, n, result);
   }
 
-  /// z_ with its slope over x and cell_ of x and ln_p_.
-  void find_cells(const FrictionMap& map, const double* x, std::size_t n) {
-    if (map.offset_.empty()) {
-      std::copy_n(ln_p_, n, z_);
-      std::fill_n(offset_slope_, n, 0.0);
-    } else {
+  /// z of x and ln_p_; the cells there in cell_, and the slope of s over x in offset_slope_ where the map has s.
+  const double* find_cells(const FrictionMap& map, const double* x, std::size_t n) {
+    const double* const z = map.offset_.empty() ? ln_p_ : z_;
+    if (!map.offset_.empty())
       for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], offset_slope_[i]);
-    }
     const bool one_band = map.ends_.size() == 1;
-    if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z_, n, cell_)) return;
+    if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z, n, cell_)) return z;
     for (std::size_t i = 0; i < n; ++i)
-      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z_[i]) - map.cells()) /
+      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z[i]) - map.cells()) /
                                            static_cast<std::ptrdiff_t>(map.cell_size_));
+    return z;
   }
 
   /// Adds to the hot number at x_ the share of the cold one that is left after a distance.
   void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* hot) {
-    FrictionMap::Where at;
-    for (std::size_t i = 0; i < n; ++i) {
-      at.x = x_[i];
-      at.background = place.background[i];
-      if (map_.steps_ > 0) {
-        at.step = step_[i];
-        at.dT = dT_[i];
-      }
-      share_[i] = -map_.log_sliding_length(map_.sliding_rows(at), at.x);
-      speed_[i] = map_.cold_x(at);
+    const SlidingTable lengths{map_detail::numbers(map_.sliding_),
+                               map_.offset_x_,
+                               map_.sliding_per_x_,
+                               static_cast<double>(map_.last_column_),
+                               map_.info_.temperature[0],
+                               map_.rows_per_T_,
+                               static_cast<double>(std::max<std::int64_t>(map_.last_row_, 0)),
+                               static_cast<std::int32_t>(map_.row_size_)};
+    loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
+    const double* x = x_;
+    if (map_.steps_ > 0) {
+      x = speed_;
+      const ColdVelocities shift{map_.shift_.data(), map_.steps_per_T_, map_.cold_->offset_x_, map_.cold_->last_x_};
+      if (at_shared_T0_.empty())
+        loops_.cold_velocities(shift, step_, dT_, x_, n, speed_);
+      else
+        loops_.held_sums(x_, map_.log_a_T({.dT = dT_[0], .step = step_[0]}), shift.lowest, shift.highest, n, speed_);
     }
-    loops_.exponentials(share_, share_, n);
-    for (std::size_t i = 0; i < n; ++i) share_[i] = std::fmax(-700, -place.distance[i] * share_[i]);
-    loops_.exponentials(share_, share_, n);
-    find_all(quantity, *map_.cold_, speed_, x_, n, cold_);
-    for (std::size_t i = 0; i < n; ++i) hot[i] += share_[i] * (cold_[i] - hot[i]);
+    find_all(quantity, *map_.cold_, x, x_, n, cold_);
+    loops_.blend(ln_s0_, place.distance, cold_, n, hot);
   }
 
   /// A column's part, or its only entry as often as it is needed.
@@ -236,9 +290,10 @@ class FrictionMapBatch {
   FrictionMap::Outside outside_;
   bool shifts_adhesion_;
   const MapLoops& loops_;
+  std::vector<double> at_shared_T0_;  // cells as those of a map of this T0, or none
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
-  double dT_[block], share_[block], cold_[block];
+  double dT_[block], ln_s0_[block], cold_[block];
   double offset_slope_[block], h_x_[block], a_x_[block], h_z_[block], a_z_[block];
   std::int32_t cell_[block], step_[block];
 };
@@ -273,6 +328,7 @@ std::size_t look_up(const FrictionMap& map, const MapColumns& points, FrictionMa
 std::size_t look_up(MapQuantity quantity, const FrictionMap& map, const MapColumns& points,
                     FrictionMap::Outside outside, bool shifts_adhesion, std::span<double> result) {
   FrictionMapBatch batch(map, outside, shifts_adhesion);
+  batch.share_temperature(points, result.size());
   const char* const name = quantity == MapQuantity::mu ? "mu" : "result";
   return in_blocks(points, name, result.size(), [&](std::size_t begin, std::size_t n) {
     return batch.find(quantity, points, begin, n, &result[begin]);
@@ -283,6 +339,7 @@ std::size_t look_up_slopes(const FrictionMap& map, const MapColumns& points, Fri
                            bool shifts_adhesion, std::span<double> dmu_dlnp, std::span<double> dmu_dlnv) {
   require_same_size("dmu_dlnp", dmu_dlnp.size(), "dmu_dlnv", dmu_dlnv.size());
   FrictionMapBatch batch(map, outside, shifts_adhesion);
+  batch.share_temperature(points, dmu_dlnp.size());
   return in_blocks(points, "dmu_dlnp", dmu_dlnp.size(), [&](std::size_t begin, std::size_t n) {
     return batch.find_slopes(points, begin, n, &dmu_dlnp[begin], &dmu_dlnv[begin]);
   });

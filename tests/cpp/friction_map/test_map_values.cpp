@@ -102,8 +102,9 @@ TEST_CASE("columns of any number and of slopes are those of single points") {
     for (const bool outside : {false, true})
       for (const bool shifted : {false, true})
         for (const bool slid : {false, true})
-          for (const bool shifts_adhesion : {false, true}) {
-            if (heat && (shifted || shifts_adhesion)) continue;
+          for (const bool is_option : {false, true}) {  // of the adhesion without heat, of T0 with it
+            if (heat && shifted) continue;
+            const bool shifts_adhesion = !heat && is_option, shares_T0 = heat && is_option;
             std::vector<double> p(n), v(n), a_T(n, 1.0), background(n), distance(n);
             for (std::size_t i = 0; i < n; ++i) {
               const bool within = !outside || i % 7 != 3;
@@ -111,10 +112,11 @@ TEST_CASE("columns of any number and of slopes are those of single points") {
               v[i] = 0.01 * std::pow(100, unit(random)) * (i % 3 == 0 ? -1 : 1);
               if (shifted) a_T[i] = 0.5 + unit(random);
               background[i] = heat ? small_map::coldest + unit(random) * small_map::range(kind) : 0;
+              if (shares_T0) background[i] = background[0];
               distance[i] = i % 5 == 0 ? infinity : 2e-3 * unit(random);
             }
-            MapColumns columns{p, v, a_T};
-            if (heat) columns.background = background;
+            MapColumns columns{p, v, {a_T.data(), shifted ? n : 1}};
+            if (heat) columns.background = {background.data(), shares_T0 ? 1 : n};
             if (slid) columns.distance = distance;
             std::vector<double> mu(n), hysteresis(n), adhesion(n), area(n), traction(n), by_p(n), by_v(n);
             for (const FrictionMap::Outside policy : {FrictionMap::Outside::nan, FrictionMap::Outside::clamp}) {
