@@ -5,7 +5,8 @@
 #   partial      PartialContact: the roots of ten thousand random scenes, the estimates of five thousand, and forty thousand
 #                points on tables against brute force
 #   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11, and a thousand of master curves
-#   maps         friction maps of two hundred random scenes, and five checked on a million points each
+#   maps         friction maps of two hundred random scenes, and five checked on a million points each;
+#                with heat those of measured scans
 #   tests        the tests of Python that take too long for every day
 #   properties   the property tests on 2000 drawn examples each
 #   isotherms    shift factors of 400 random sets of isotherms
@@ -66,7 +67,8 @@ heat() {
 
 maps() {
   "$python" tests/stability/random_maps.py --maps 200 &&
-    "$python" tests/stability/random_maps.py --maps 5 --points 1000000 --tables 0 --seed 2
+    "$python" tests/stability/random_maps.py --maps 5 --points 1000000 --tables 0 --seed 2 &&
+    "$python" tests/stability/hot_maps.py
 }
 
 tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }

@@ -92,6 +92,9 @@ struct FlashFriction {
   std::vector<double> gain;                 // eigenvalue of the rise over the temperature, of the largest size
   std::vector<int> branches;                // solutions at the point, 1 but for a thermal runaway
   std::vector<double> temperature_profile;  // with contributions: points x wavenumbers [K]
+  // relative, of the hot mu_H and A/A0, the larger of both; error_estimate is of their sum, of which mu_H may be a
+  // small part. Empty for GSL's methods and for one temperature, where they are not told apart
+  std::vector<double> parts_error;
 };
 
 /// Hysteresis and adhesion warm the rubber, whose modulus follows its temperature at each wavenumber T(q), steadily:

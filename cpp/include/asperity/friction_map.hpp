@@ -64,7 +64,7 @@
 //
 // Version 2 differs so: s is 0. After the head, before the values of z,
 //   152  f64 T0 lo, hi [K], equal where the map is for one
-//   168  f64 largest relative error that s0 of this table makes in mu, seen at random points and distances
+//   168  f64 relative error that s0 of this table makes in mu, which 99 % of points and distances keep
 //   176  u64 bytes of the map without heat
 //   184  u32 m temperatures between which cells have polynomials, 1 for one T0, else from 2 on; a columns, b rows of
 //            ln s0, from 2 on, b = 1 for one T0; 0
@@ -321,7 +321,7 @@ struct FrictionMapInfo {
   bool heat = false;
   std::array<double, 2> temperature{};  // T0 of a map with heat [K], equal ends where it is for one
   std::size_t temperatures = 0;         // at which its cells have polynomials
-  double memory_error = 0;              // relative, that s0 makes in mu while the rubber heats up
+  double memory_error = 0;              // relative, that s0 makes in mu while the rubber heats up, at 99 % of points
 };
 
 /// Another temperature than the one that the map was made for; of a map with heat that of the background, and how far

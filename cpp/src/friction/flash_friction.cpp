@@ -203,6 +203,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
     heat_to_one_temperature(scene, adhesion, branch, threads, f);
     return f;
   }
+  if (model.method == Method::gauss) f.parts_error.assign(n, 0.0);
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
   constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
   const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
@@ -233,6 +234,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       f.hot.contact_area[i] = at.contact_area;
       f.hot.shift_factor[i] = at.shift.p;
       f.hot.error_estimate[i] = at.error_estimate;
+      if (!f.parts_error.empty()) f.parts_error[i] = at.parts_error;
       f.hot.extrapolated_share[i] = at.extrapolated_share;
       f.hot.temperature[i] = at.temperature;
       f.macro_area[i] = at.macro_area;

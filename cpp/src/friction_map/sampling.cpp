@@ -21,7 +21,8 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
       rtol_(request.rtol),
       velocity_(request.velocity),
       heat_(std::move(heat)) {
-  model_.rtol = std::clamp(request.rtol * 1e-2, 1e-12, 1e-6);
+  // a point with heat is a hundred times as dear as one without, and of measured moduli dearer the more is asked
+  model_.rtol = std::clamp(request.rtol * 1e-2, 1e-12, heat_ ? 1e-4 : 1e-6);
   x_lo_ = std::log(velocity_[0]);
   x_hi_ = std::log(velocity_[1]);
   y_lo_ = std::log(request.pressure[0]);
@@ -83,7 +84,7 @@ std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::ve
   const std::vector<double> velocity = velocities_of(places);
   if (heat_) return with_heat(pressure, velocity, std::vector<double>(places.size(), heat_->temperature), threads);
   return samples_of(
-      solved(rtol_, [&] { return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads); }));
+      solved(rtol_, [&] { return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads); }), {});
 }
 
 std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> temperature,
@@ -111,10 +112,11 @@ std::vector<MapSample> MapFrame::with_heat(std::span<const double> pressure, std
                     temperature, Branch::coldest, false, threads);
   });
   refuse_folds(f);
-  return samples_of(f.hot);
+  return samples_of(f.hot, f.parts_error);
 }
 
-std::vector<MapSample> MapFrame::samples_of(const Friction& f) const {
+/// Without errors of the parts that of mu counts, of which mu_H may be a small part.
+std::vector<MapSample> MapFrame::samples_of(const Friction& f, std::span<const double> parts_error) const {
   std::vector<MapSample> result;
   for (std::size_t i = 0; i < f.mu.size(); ++i) {
     const double h = f.hysteresis[i], a = f.contact_area[i];
@@ -122,7 +124,8 @@ std::vector<MapSample> MapFrame::samples_of(const Friction& f) const {
       if (!std::isnormal(value))
         throw InvalidInput("pressure = " + show(f.pressure[i]) + " at velocity = " + show(f.velocity[i]) + ": " + name +
                            " = " + show(value) + ", whose logarithm cannot be mapped");
-    result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, h > 0 ? f.error_estimate[i] / h : model_.rtol});
+    const double error = !parts_error.empty() ? parts_error[i] : h > 0 ? f.error_estimate[i] / h : model_.rtol;
+    result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, error});
   }
   return result;
 }

@@ -84,7 +84,7 @@ class MapFrame {
   [[nodiscard]] std::vector<MapSample> sample(const ContactModel& model, const std::vector<double>& pressure,
                                               std::span<const MapPlace> places, unsigned threads) const;
   [[nodiscard]] std::vector<double> velocities_of(std::span<const MapPlace> places) const;
-  [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction) const;
+  [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction, std::span<const double> parts_error) const;
   [[nodiscard]] std::vector<MapSample> with_heat(std::span<const double> pressure, std::span<const double> velocity,
                                                  std::span<const double> temperature, unsigned threads) const;
   void make_log_modulus_offset();

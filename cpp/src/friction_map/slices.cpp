@@ -78,7 +78,13 @@ void MapSlices::add(double lower, double upper, int depth) {
   interval.error = 2 * test(interval);
   if (interval.error > 2 * share * rtol_ && depth < deepest) return halve();
   intervals_.push_back(std::move(interval));
-  if (progress_) progress_((upper - range_[0]) / (range_[1] - range_[0]));
+  tell(upper);
+}
+
+/// Progress up to a temperature; it stays where an interval that was halved is made anew.
+void MapSlices::tell(double temperature) {
+  told_ = std::fmax(told_, (temperature - range_[0]) / (range_[1] - range_[0]));
+  if (progress_) progress_(told_);
 }
 
 void MapSlices::make(Interval& interval) {
@@ -88,6 +94,8 @@ void MapSlices::make(Interval& interval) {
     interval.frames.push_back(std::make_unique<MapFrame>(frame_.at_temperature(temperature)));
     interval.patches.push_back(
         std::make_unique<MapPatches>(*interval.frames.back(), rtol_, threads_, std::function<void(double)>{}));
+    const double made = static_cast<double>(interval.patches.size()) / n;
+    tell(interval.lower + made * (interval.upper - interval.lower));
   }
 }
 

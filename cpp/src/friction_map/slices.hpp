@@ -45,6 +45,7 @@ class MapSlices {
     Weights value, slope;
   };
 
+  void tell(double temperature);
   void add(double lower, double upper, int depth);
   [[nodiscard]] bool is_smooth(double lower, double upper) const;
   void make(Interval& interval);
@@ -61,6 +62,7 @@ class MapSlices {
   unsigned threads_;
   const std::function<void(double)>& progress_;
   std::array<double, 2> range_;
+  double told_ = 0;                  // of the progress
   std::vector<Interval> intervals_;  // rising
   std::vector<double> nodes_, checked_;
   std::vector<Combination> at_nodes_, at_checked_;

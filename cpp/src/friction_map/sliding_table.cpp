@@ -20,7 +20,7 @@ constexpr double step_x = 0.25, step_T = 2.5;  // longest of the grid that is co
 constexpr double most_columns = 65, most_rows = 25;
 constexpr std::size_t most_nodes = 20'000, most_in_row = 1'025;  // which halving may make
 constexpr double allowed = 0.01;                                 // of mu while the rubber heats up
-constexpr std::size_t tested = 200;                              // random points
+constexpr std::size_t tested = 460;                              // random points: 0.99^460 is less than 1 %
 constexpr double longest = 3;                                    // distance slid there, over s0
 
 std::size_t points(double range, double step, double most) {
@@ -83,6 +83,9 @@ double found_at(const SlidingTable& table, double share_x, double share_T, doubl
   return (1 - t) * in_row(j) + t * in_row(j + 1);
 }
 
+/// The largest error of mu at random points. 99 % of all keep it, with a confidence of 99 %: were more than 1 % beyond,
+/// one of these would be but for a chance of 0.99^460. No point is off by more than the heat changes mu, as
+/// exp(-s / s0) is between 0 and 1 whatever s0 is.
 double error_of(const SlidingTable& table, const Scene& scene) {
   const MapRequest& request = scene.request;
   Random random(20261124);

@@ -83,17 +83,20 @@ std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, 
   return theta;
 }
 
-/// What a step that is not taken any more would do to mu, at most: slopes of an earlier pass may cancel where those of
-/// the solution do not.
-double effect_on_mu(const Tangent& tangent, const VectorXd& step) {
-  return tangent.slope_of_mu.cwiseAbs().dot(step.cwiseAbs());
+/// What a step that is not taken any more would do to mu and its parts, at most: slopes of an earlier pass may cancel
+/// where those of the solution do not.
+void take_effects(const Tangent& tangent, const VectorXd& step, FixedPoint& found) {
+  const VectorXd size = step.cwiseAbs();
+  found.mu_error = tangent.slope_of_mu.cwiseAbs().dot(size);
+  found.hysteresis_error = tangent.part_slopes.hysteresis.cwiseAbs().dot(size);
+  found.area_error = tangent.part_slopes.area.cwiseAbs().dot(size);
 }
 
 FixedPoint finished(const FlashMap& map, const VectorXd& theta, const Tangent& tangent) {
   FixedPoint found;
   found.theta = theta;
   found.residual = map.rise() - theta;
-  found.mu_error = effect_on_mu(tangent, tangent.lu.solve(found.residual));
+  take_effects(tangent, tangent.lu.solve(found.residual), found);
   return found;
 }
 
@@ -131,6 +134,7 @@ void Tangent::take(FlashMap& map) {
   jacobian = map.jacobian();
   lu.compute(identity_less(jacobian));
   slope_of_mu = map.slope_of_mu();
+  part_slopes = map.part_slopes();
 }
 
 FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, bool alone, Branch branch,
@@ -162,7 +166,7 @@ FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, 
     map(found.theta);
     found.residual = map.rise() - found.theta;
     const VectorXd coarse = down * found.residual, step = tangent.lu.solve(coarse);
-    found.mu_error = effect_on_mu(tangent, step);
+    take_effects(tangent, step, found);
     const double size = size_of(found.residual, found.theta);
     if (size <= tolerance || (size < 1e-12 && size >= before)) return found;
     if (size > 0.5 * before) break;

@@ -9,11 +9,12 @@
 namespace asperity {
 
 struct FixedPoint {
-  Eigen::VectorXd theta;     // at the grid's temperature points [K]
-  Eigen::VectorXd residual;  // F(theta) - theta
-  double gain = 0;           // eigenvalue of dF/dtheta of the largest size
-  double mu_error = 0;       // what the residual does to mu
-  int solutions = 1;         // stable and unstable ones
+  Eigen::VectorXd theta;                        // at the grid's temperature points [K]
+  Eigen::VectorXd residual;                     // F(theta) - theta
+  double gain = 0;                              // eigenvalue of dF/dtheta of the largest size
+  double mu_error = 0;                          // what the residual does to mu, at most
+  double hysteresis_error = 0, area_error = 0;  // and to mu_H and A / A0
+  int solutions = 1;                            // stable and unstable ones
 };
 
 /// The slopes of a pass, with which further ones step towards the fixed point.
@@ -21,6 +22,7 @@ struct Tangent {
   Eigen::MatrixXd jacobian;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;  // of 1 - dF/dtheta
   Eigen::RowVectorXd slope_of_mu;
+  FlashMap::PartSlopes part_slopes;
   void take(FlashMap& map);
 };
 

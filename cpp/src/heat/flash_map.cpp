@@ -123,19 +123,24 @@ void FlashMap::heat() {
 }
 
 const MatrixXd& FlashMap::jacobian() {
-  if (!differentiated_) jacobian_ = slopes_along(MatrixXd::Identity(rise_size(), rise_size()), slope_of_mu_);
+  if (!differentiated_) jacobian_ = slopes_along(MatrixXd::Identity(rise_size(), rise_size()), part_slopes_);
   differentiated_ = true;
   return jacobian_;
 }
 
-const Eigen::RowVectorXd& FlashMap::slope_of_mu() {
+const FlashMap::PartSlopes& FlashMap::part_slopes() {
   (void)jacobian();
-  return slope_of_mu_;
+  return part_slopes_;
+}
+
+Eigen::RowVectorXd FlashMap::slope_of_mu() {
+  const PartSlopes& of = part_slopes();
+  return of.hysteresis + point_.adhesion_per_area * of.area;
 }
 
 VectorXd FlashMap::along(const VectorXd& direction) {
-  Eigen::RowVectorXd of_mu;
-  return slopes_along(direction, of_mu);
+  PartSlopes of_parts;
+  return slopes_along(direction, of_parts);
 }
 
 void FlashMap::take_slopes() {
@@ -151,10 +156,11 @@ void FlashMap::take_slopes() {
   }
 }
 
-MatrixXd FlashMap::slopes_along(const MatrixXd& directions, Eigen::RowVectorXd& of_mu) {
+MatrixXd FlashMap::slopes_along(const MatrixXd& directions, PartSlopes& of_parts) {
   const Index count = directions.cols();
   if (!touches()) {
-    of_mu.setZero(count);
+    of_parts.hysteresis.setZero(count);
+    of_parts.area.setZero(count);
     return MatrixXd::Zero(rise_size(), count);
   }
   take_slopes();
@@ -170,7 +176,8 @@ MatrixXd FlashMap::slopes_along(const MatrixXd& directions, Eigen::RowVectorXd& 
   MatrixXd result = by_depth * (kernel_ * slopes.part);
   if (by_surface > 0) result += by_surface * surface_ * slopes.area;
   if (!scene_.heating.macro_area) result -= rise_ * (slopes.macro / macro_area_);
-  of_mu = mu_factor_ * slopes.part.colwise().sum() + point_.adhesion_per_area * slopes.area;
+  of_parts.hysteresis = mu_factor_ * slopes.part.colwise().sum();
+  of_parts.area = slopes.area;
   return result;
 }
 

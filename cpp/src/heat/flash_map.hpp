@@ -55,9 +55,14 @@ class FlashMap {
   [[nodiscard]] const HeatGrid& grid() const { return grid_; }
   [[nodiscard]] const HeatScene& scene() const { return scene_; }
   [[nodiscard]] const Eigen::VectorXd& rise() const { return rise_; }  // F
-  /// Slopes of the last pass: dF_i / dtheta_j, and d(mu_H + mu_A) / dtheta.
+  /// Slopes of the last pass: dF_i / dtheta_j, and those of mu_H and A / A0 over theta.
+  struct PartSlopes {
+    Eigen::RowVectorXd hysteresis, area;
+  };
   [[nodiscard]] const Eigen::MatrixXd& jacobian();
-  [[nodiscard]] const Eigen::RowVectorXd& slope_of_mu();
+  [[nodiscard]] const PartSlopes& part_slopes();
+  /// d(mu_H + mu_A) / dtheta.
+  [[nodiscard]] Eigen::RowVectorXd slope_of_mu();
   /// The Jacobian times a profile.
   [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& direction);
   /// How many temperature points there are.
@@ -88,7 +93,7 @@ class FlashMap {
   void pass(const ShiftValue& also_felt);
   void heat();
   void take_slopes();
-  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, Eigen::RowVectorXd& of_mu);
+  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, PartSlopes& of_parts);
   [[nodiscard]] bool touches() const { return shift_.shift.state != ContactState::no_contact; }
 
   const HeatScene& scene_;
@@ -112,7 +117,7 @@ class FlashMap {
   bool differentiated_ = false, sloped_ = false;
   Eigen::VectorXd log_i2_, log_ratio_;  // slopes over the temperature
   Eigen::MatrixXd jacobian_;
-  Eigen::RowVectorXd slope_of_mu_;
+  PartSlopes part_slopes_;
 };
 
 }  // namespace asperity

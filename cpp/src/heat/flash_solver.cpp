@@ -213,8 +213,9 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
                          " with the heat it makes, on a grid of " + std::to_string(map->grid().size()) +
                          " nodes, changes by more than rtol = " + show(rtol) + " from grid to grid");
     }
-    const double coarse = map->hysteresis() + map->adhesion(), coarse_error = found.mu_error,
+    const double coarse = map->hysteresis() + map->adhesion(), coarse_hysteresis = map->hysteresis(),
                  coarse_area = map->contact_area();
+    const FixedPoint on_coarse = found;
     FlashMap& finer = map_of(level);
     finer.start(point);
     if (level > level_ + 1) {
@@ -227,9 +228,10 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
     // the residual's effect is taken to first order
-    const double error = (rows ? differences_with_rows : differences) * std::fmax(std::fabs(mu - coarse), apart) +
-                         2 * std::fmax(found.mu_error, coarse_error) +
-                         (std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error) * mu;
+    const double times = rows ? differences_with_rows : differences;
+    const double least = std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error;
+    const double error = times * std::fmax(std::fabs(mu - coarse), apart) +
+                         2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
     // an elastic rubber has an area alone
     const double area = map->contact_area(), of_area = std::fabs(area - coarse_area);
     if (!(error <= rtol * mu && of_area <= rtol * area)) {
@@ -240,10 +242,18 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     check_temperatures(*map, found, point);
     theta_ = found.theta;
     point_ = point;
+    const double hysteresis = map->hysteresis();
+    const double of_hysteresis = times * std::fmax(std::fabs(hysteresis - coarse_hysteresis), apart) +
+                                 2 * std::fmax(found.hysteresis_error, on_coarse.hysteresis_error);
+    const double off_area = times * of_area + 2 * std::fmax(found.area_error, on_coarse.area_error);
+    double parts_error = area > 0 ? off_area / area : 0;
+    if (hysteresis > 0) parts_error = std::fmax(parts_error, of_hysteresis / hysteresis);
+    parts_error = std::fmax(parts_error + least, rows ? rtol : 0);
     return {map->hysteresis(),
             map->adhesion(),
             map->contact_area(),
             rows ? rtol * mu : error,
+            parts_error,
             map->outside_share(),
             point.temperature + map->grid().row_at(band(scene_.spectrum)[1]).dot(found.theta),
             map->macro_area(),

@@ -38,6 +38,7 @@ def friction_map(
     temperature: float | tuple[float, float] | None = None,
     shift: TemperatureShift | None = None,
     heating: Heating | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> FrictionMap:
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
 
@@ -76,7 +77,10 @@ def friction_map(
     shift, heating
         As for `friction`. With heating a point of the solver takes some 0.2 ms, the check of a
         million some minutes. Corrections by Greenwood-Williamson's model are refused, and
-        so are GSL's methods.
+        so are GSL's methods. A measured master curve over a range takes
+        many minutes: `progress` tells how far it is.
+    progress : callable, optional
+        Called with the share of the work that is done, from 0 to 1, now and then.
 
     Returns
     -------
@@ -108,7 +112,7 @@ def friction_map(
     return built(
         spectrum,
         rubber,
-        None,
+        progress,
         pressure=pressure,
         velocity=velocity,
         rtol=rtol,
@@ -129,7 +133,7 @@ def friction_map(
 def built(
     spectrum: Spectrum,
     rubber: Rubber,
-    told: Callable[[float], None] | None,
+    told: Callable[[float], object] | None,
     *,
     pressure: tuple[float, float],
     velocity: tuple[float, float],
