@@ -4,41 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
 #include "contact/partial_contact_rule.hpp"
+#include "heat/panel_nodes.hpp"
 #include "spectrum/ring_gauss.hpp"
 
 namespace asperity {
 
-using std::numbers::pi;
-
 namespace {
 
 constexpr double same = 1e-12;  // relative distance of two wavenumbers that are one
-constexpr int first_digits = HeatGrid::first_digits;
-
-/// How many nodes a panel of this length in ln q takes: by its distance from the nearest singularities at the lowest
-/// level, and four more from level to level, which are two digits and more. At the front F has an essential
-/// singularity.
-std::size_t nodes_for(double length, std::size_t level, bool front, bool tabulated) {
-  const double falling = std::asinh(pi / length) * (front ? 0.6 : 1);
-  const double nodes = (front ? 8 : tabulated ? 8 : 4) + first_digits * std::numbers::ln10 / (2 * falling);
-  return 4 * static_cast<std::size_t>(std::ceil(nodes / 4)) + 4 * level;
-}
-
-/// Into how many pieces a length is to be cut so that a rule has the nodes for one; in two where the highest level asks
-/// the shortest panel for more than any rule has.
-double pieces_for(double length, double longest, std::size_t level, bool tabulated) {
-  constexpr double shortest = 0.05;
-  const auto too_few = [&](double pieces) {
-    return nodes_for(length / pieces, level, false, tabulated) > LegendreRule::most;
-  };
-  double pieces = std::ceil(length / longest);
-  while (too_few(pieces) && length / pieces > shortest) ++pieces;
-  return too_few(pieces) ? 2 * pieces : pieces;
-}
 
 }  // namespace
 
@@ -49,12 +24,13 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& opti
   std::size_t first = 0;
   while (first + 1 < surface.size() && surface[first].at_a == 0 && surface[first].at_b == 0) ++first;
   start_ = std::log(surface[first].a);
+  if (options.beyond_end && !options.pieces) beyond_.of_surface.emplace(surface);
   if (options.pieces)
     add_pieces(*options.pieces);
   else
     add_panels(surface.subspan(first), options);
   band_size_ = wavenumber_.size();
-  if (options.beyond_end) add_beyond(surface, options);
+  if (options.beyond_end) add_beyond(options);
   if (options.pieces) add_macro_nodes(surface.subspan(first), options);
   macro_weights_.resize(wavenumber_.size());
   weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
@@ -66,20 +42,16 @@ void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOption
   const double longest = options.tabulated ? 0.5 : 3;
   std::vector<double> stops = options.stops;
   stops.push_back(options.macro_wavenumber);
-  if (options.beyond_end) {  // the window has kinks where it meets the ends of segments
-    constexpr std::size_t most_met = 40;
-    const double reach = std::exp(RoughnessWindow::half_length);
-    for (const Segment& segment : surface.size() <= most_met ? surface : surface.first(1))
-      for (const double q : {segment.a * reach, segment.b / reach, segment.a / reach, segment.b * reach})
-        stops.push_back(q);
-    stops.push_back(surface.back().b / reach);
-  }
+  if (options.beyond_end)  // where the window meets the end of a segment it has a kink
+    for (const Segment& segment : surface)
+      for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
+        for (const double end : {segment.a, segment.b}) stops.push_back(end * std::exp(side));
+  std::ranges::sort(stops);
   for (const Segment& segment : surface) {
     std::vector<double> ends{segment.a};
-    for (const double q : stops)
-      if (q > segment.a * (1 + same) && q < segment.b * (1 - same)) ends.push_back(q);
+    for (auto stop = std::ranges::upper_bound(stops, segment.a); stop != stops.end() && *stop < segment.b; ++stop)
+      if (*stop > ends.back() * (1 + same) && *stop < segment.b * (1 - same)) ends.push_back(*stop);
     ends.push_back(segment.b);
-    std::ranges::sort(ends);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double lower = std::fmax(std::log(ends[i]) - start_, 0), upper = std::log(ends[i + 1]) - start_;
       const double pieces = pieces_for(upper - lower, longest, options.level, options.tabulated);
@@ -89,7 +61,7 @@ void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOption
         if (from == 0)
           add_front(segment, std::sqrt(to), end, options);
         else
-          add_after(segment, from, to, end, options);
+          add_after(surface, segment, from, to, end, options);
       }
     }
   }
@@ -115,9 +87,10 @@ void HeatGrid::add_front(const Segment& segment, double upper, double end, const
 
 /// A panel further on, in y = ln q. Where the roughness of its beginning is far above all that came before, that is
 /// where the contact breaks up: it is cut like a front, down to what came before.
-void HeatGrid::add_after(const Segment& segment, double from, double to, double end, const HeatGridOptions& options) {
+void HeatGrid::add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end,
+                         const HeatGridOptions& options) {
   constexpr double cut = 1.0 / 16, far = 100;
-  const double before = std::accumulate(weights_.begin(), weights_.end(), 0.0), first = start_ - std::log(segment.a);
+  const double before = roughness_before_.back(), first = start_ - std::log(segment.a);
   const auto roughness_to = [&](double y) {  // about, from the panel's beginning
     const double middle = (from + y) / 2, q = std::exp(start_ + middle);
     return g_factor_ * (q * q) * (q * q) * segment.density_at(std::fmax(first + middle, 0)) * (y - from);
@@ -125,7 +98,15 @@ void HeatGrid::add_after(const Segment& segment, double from, double to, double 
   std::vector<double> ends{to};
   while (ends.size() < options.level && roughness_to(from + cut * (ends.back() - from)) > far * before)
     ends.push_back(from + cut * (ends.back() - from));
-  const std::size_t n = nodes_for(to - from, options.level, ends.size() > 1, options.tabulated);
+  std::size_t n = nodes_for(to - from, options.level, ends.size() > 1, options.tabulated);
+  // rows of a measured modulus lie anywhere in panels, and levels tell what they miss of these only where they differ
+  if (!options.tabulated && ends.size() == 1) {
+    const auto unit = std::ranges::partition_point(cells_, [&](const Cell& c) { return c.upper * c.upper < from - 1; });
+    const double whole_before = roughness_before_[static_cast<std::size_t>(unit - cells_.begin())];
+    const PanelPlace place{segment, start_ + from, start_ + to, (before - whole_before) / g_factor_};
+    n = std::min(n,
+                 most_for(to - from, singularity(place, surface, beyond_.of_surface ? &*beyond_.of_surface : nullptr)));
+  }
   double lower = from;
   for (std::size_t k = ends.size(); k-- > 0; lower = ends[k])
     add_panel(segment, std::sqrt(lower), std::sqrt(ends[k]), k == 0 ? end : std::exp(start_ + ends[k]),
@@ -138,16 +119,19 @@ void HeatGrid::add_panel(const Segment& segment, double lower, double upper, dou
   Cell cell{wavenumber_.size(), rule.n, &rule, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
   const double half = (upper - lower) / 2, from = start_ - std::log(segment.a);
   const auto& columns = lower == 0 ? rule.cumulative_linear : rule.cumulative;
+  double sum = roughness_before_.back();
   for (std::size_t j = 0; j < rule.n; ++j) {
     const double t = lower + half * (1 + rule.node[j]), q = std::exp(start_ + t * t);
     const double s = std::clamp(from + t * t, 0.0, segment.length());
     const double roughness = g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t);
     wavenumber_.push_back(q);
     weights_.push_back(roughness * rule.weight[j]);
+    sum += weights_.back();
     for (std::size_t i = 0; i < rule.n; ++i)
       cell.to_g(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = columns[j][i] * roughness;
   }
   cells_.push_back(std::move(cell));
+  roughness_before_.push_back(sum);
 }
 
 void HeatGrid::add_pieces(const RoughnessPieces& pieces) {
@@ -165,8 +149,8 @@ void HeatGrid::add_pieces(const RoughnessPieces& pieces) {
   }
 }
 
-void HeatGrid::add_beyond(std::span<const Segment> surface, const HeatGridOptions& options) {
-  const RoughnessWindow& window = options.pieces ? options.pieces->window() : beyond_.of_surface.emplace(surface);
+void HeatGrid::add_beyond(const HeatGridOptions& options) {
+  const RoughnessWindow& window = options.pieces ? options.pieces->window() : *beyond_.of_surface;
   beyond_.g_factor = g_factor_;
   if (options.pieces) {
     for (const double mean : options.pieces->nodes().window) beyond_.window.push_back(g_factor_ * mean);

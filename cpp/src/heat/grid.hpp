@@ -85,10 +85,11 @@ class HeatGrid {
  private:
   void add_panels(std::span<const Segment> surface, const HeatGridOptions& options);
   void add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options);
-  void add_after(const Segment& segment, double from, double to, double end, const HeatGridOptions& options);
+  void add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end,
+                 const HeatGridOptions& options);
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
-  void add_beyond(std::span<const Segment> surface, const HeatGridOptions& options);
+  void add_beyond(const HeatGridOptions& options);
   void add_macro_nodes(std::span<const Segment> surface, const HeatGridOptions& options);
   void add_temperature_points(const HeatGridOptions& options);
 
@@ -102,6 +103,7 @@ class HeatGrid {
   Eigen::MatrixXd to_nodes_;
   Eigen::RowVectorXd also_felt_;
   std::vector<double> weights_, macro_weights_;
+  std::vector<double> roughness_before_{0.0};  // each panel, and after all: sums of weights_
   Beyond beyond_;
 };
 

@@ -48,22 +48,58 @@ def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
         np.testing.assert_array_equal(found.gain, 0)
 
 
+def rings_with_lines(rng):
+    """One ring in twenty has up to 1e5 times the density of those beside it."""
+    wavenumber = 500.0 * (4 + np.arange(200))
+    lines = np.where(rng.random(200) < 0.05, 10 ** rng.uniform(1, 5, 200), 1)
+    rings = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=wavenumber**-3.6 * lines)
+    return rings.scaled(rings.rms_slope**-2)
+
+
+@each("rtol", [1e-7, 1e-9])
 @each("name", ["partial", "nayak"])
-def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name):
-    """It has no friction by which grids could be judged: areas were up to 13e-7 off at 1e-7."""
+def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name, rtol):
+    """It has no friction by which grids could be judged: areas were up to 13e-7 off at 1e-7.
+
+    At 1e-8 they were up to 4e-7 off, or grids never agreed, while panels did not end at all kinks
+    of PartialContact's window.
+    """
     rng = np.random.default_rng(1)
     elastic = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[])
     for number in range(10):
-        wavenumber = 500.0 * (4 + np.arange(200))
-        lines = np.where(rng.random(200) < 0.05, 10 ** rng.uniform(1, 5, 200), 1)
-        rings = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=wavenumber**-3.6 * lines)
-        rings = rings.scaled(rings.rms_slope**-2)
+        rings = rings_with_lines(rng)
         given = {"pressure": 10 ** rng.uniform(2, 6.7, 3), "correction": CORRECTIONS[name]}
-        found = hot(rings, velocity=0.01, rubber=elastic, **given, rtol=1e-7)
-        truth = asperity.contact_area(rings, elastic, velocity=0.01, **given, rtol=1e-10)
+        found = hot(rings, velocity=0.01, rubber=elastic, **given, rtol=rtol)
+        truth = asperity.contact_area(rings, elastic, velocity=0.01, **given, rtol=rtol / 1000)
         with case(number=number):
             np.testing.assert_array_equal(found.mu, 0)
-            np.testing.assert_allclose(found.contact_area, truth, rtol=1e-7)
+            np.testing.assert_allclose(found.contact_area, truth, rtol=rtol)
+
+
+@each("name", ["partial", "nayak"])
+def test_rings_with_strong_lines_are_as_near_as_they_say(name):
+    """Lines, steps and empty rings, each a kink of the window a unit of ln q away."""
+    rng = np.random.default_rng(6)
+    for number in range(8):
+        rings = rings_with_lines(rng)
+        density = rings.density.copy()
+        if number % 4 == 1:
+            density[90:95] = 0
+        if number % 4 == 2:
+            density[120:] *= 1e-4
+        given = {
+            "spectrum": asperity.TabulatedSpectrum(wavenumber=rings.wavenumber, density=density),
+            "pressure": 10 ** rng.uniform(3, 6.7),
+            "velocity": 10 ** rng.uniform(-4, 0.5),
+            "correction": CORRECTIONS[name],
+        }
+        truth = hot(**given, rtol=1e-10)
+        for rtol in (1e-4, 1e-7, 3e-8, 1e-8):
+            with case(number=number, rtol=rtol):
+                found = hot(**given, rtol=rtol)
+                assert found.error_estimate <= rtol * found.mu
+                assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+                assert found.contact_area == pytest.approx(truth.contact_area, rel=rtol)
 
 
 @each("name", list(CORRECTIONS))
