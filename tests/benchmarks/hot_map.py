@@ -2,11 +2,13 @@
 
     python tests/benchmarks/hot_map.py [--output DIR]
 
-Singly and by one call for all points, with one temperature of the background and with several,
-long after sliding began and after a distance. In one process by turns, medians of processor time.
+Singly, by one call for all points and of arrays in Python, with one temperature of the background
+and with several, long after sliding began and after a distance. In one process by turns, medians of
+processor time.
 """
 
 import tempfile
+import time
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +27,12 @@ KINDS = {
     "distance": "after a distance",
     "hot, various": "long ago, T0 of its own",
     "distance, various": "after a distance, T0 of its own",
+}
+
+CALLS = {
+    "one look-up": "",
+    "one call for all points": "all ",
+    "arrays in Python": "arrays ",
 }
 
 
@@ -47,6 +55,28 @@ def scene() -> dict[str, Any]:
     }
 
 
+def arrays(
+    made: asperity.FrictionMap, p: list[float], v: list[float], own: list[float]
+) -> dict[str, list[float]]:
+    """Return the nanoseconds a point of calls that take arrays, by turns."""
+    points = {"pressure": np.array(p), "velocity": np.array(v)}
+    hot = {"hot": {"temperature": SHARED}}
+    if own:
+        hot["hot, various"] = {"temperature": np.array(own)}
+    after = {
+        key.replace("hot", "distance"): asked | {"distance": DISTANCE} for key, asked in hot.items()
+    }
+    found: dict[str, list[float]] = {}
+    for _ in range(friction_map.RUNS):
+        for key, asked in ({"cold": {}} | hot | after).items():
+            queried = made.cold if key == "cold" else made
+            queried.mu(**points, **asked)  # the one before it left other cells in the cache
+            start = time.process_time_ns()
+            queried.mu(**points, **asked)
+            found.setdefault(key, []).append((time.process_time_ns() - start) / len(p))
+    return {f"arrays {key}": times for key, times in found.items()}
+
+
 def make() -> timing.Report:
     compiled = friction_map.module("hot_map")
     draws = np.random.default_rng(20261123)
@@ -60,7 +90,8 @@ def make() -> timing.Report:
             path = Path(folder) / "bench.fmap"
             made.save(path)
             found = compiled.queries(str(path), p, v, own, SHARED, DISTANCE, friction_map.RUNS)
-        for call, before in (("one look-up", ""), ("one call for all points", "all ")):
+        found |= arrays(made, p, v, own)
+        for call, before in CALLS.items():
             cold = found[f"{before}cold"]
             for key, kind in KINDS.items():
                 times = found.get(f"{before}{key}")
