@@ -11,7 +11,7 @@ from pathlib import Path
 
 from asperity.app.state import State
 from asperity.fmu.export import export_fmu
-from asperity.friction_map.build import built
+from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
@@ -65,10 +65,9 @@ def map_of(scene: Scene) -> FrictionMap:
     notes = list(scene.notes)
     inputs = scene_inputs(_unplaced(scene))
     lines = [f"{line}\n" for line in input_lines(inputs)]
-    return built(
+    return friction_map(
         scene.spectrum,
         rubber_of_map(scene),
-        None,
         pressure=side_of_map("pressure", None, scene.pressure, notes),
         velocity=side_of_map("velocity", None, scene.velocity, notes),
         adhesion=scene.adhesion,

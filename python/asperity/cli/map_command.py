@@ -15,7 +15,7 @@ from asperity.cli.friction_commands import check_outputs, progress, refuse_overw
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
-from asperity.friction_map.build import built
+from asperity.friction_map.build import friction_map
 from asperity.friction_map.grid import check_export, grid_file
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io import plausible
@@ -121,7 +121,7 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
             while done < int(share * len(steps)):
                 done = next(left).stop
 
-        return built(scene.spectrum, rubber_of_map(scene), tell, **asked)
+        return friction_map(scene.spectrum, rubber_of_map(scene), progress=tell, **asked)
 
 
 def _check_sides(args: Namespace, scene: Scene) -> None:

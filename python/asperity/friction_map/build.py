@@ -109,50 +109,10 @@ def friction_map(
     >>> round(fmap.mu(81e3, 1e-2), 4)
     0.0205
     """
-    return built(
-        spectrum,
-        rubber,
-        progress,
-        pressure=pressure,
-        velocity=velocity,
-        rtol=rtol,
-        poisson_ratio=poisson_ratio,
-        correction=correction,
-        adhesion=adhesion,
-        form=form,
-        method=method,
-        checked=checked,
-        text=text,
-        threads=threads,
-        temperature=temperature,
-        shift=shift,
-        heating=heating,
-    )
-
-
-def built(
-    spectrum: Spectrum,
-    rubber: Rubber,
-    told: Callable[[float], object] | None,
-    *,
-    pressure: tuple[float, float],
-    velocity: tuple[float, float],
-    rtol: float = 1e-4,
-    poisson_ratio: float = 0.5,
-    correction: Correction | None = None,
-    adhesion: Adhesion | None = None,
-    form: Form = "exact",
-    method: Method = "gauss",
-    checked: int = 1_000_000,
-    text: str = "",
-    threads: int | None = None,
-    temperature: float | tuple[float, float] | None = None,
-    shift: TemperatureShift | None = None,
-    heating: Heating | None = None,
-) -> FrictionMap:
-    """`friction_map`, which calls `told` with the share of the work that is done, now and then."""
     if not isinstance(text, str):
         raise InvalidInput(f"text = {brief(text)}: must be a str")
+    if progress is not None and not callable(progress):
+        raise InvalidInput(f"progress = {brief(progress)}: must be a function, or None")
     parts = surface_and_rubber(spectrum, rubber)
     model = contact_model(poisson_ratio, correction, form, 1e-6, method)
     added = adhesion_core(adhesion)
@@ -182,7 +142,7 @@ def built(
         whole(checked, "checked"),
         lines,
         0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
-        told,
+        progress,
         heat,
     )
     return FrictionMap(content=content)

@@ -443,6 +443,8 @@ def test_bad_boxes_and_tolerances_are_refused():
         made(rtol=1e-12)
     with pytest.raises(InvalidInput, match="checked = -1"):
         made(checked=-1)
+    with pytest.raises(InvalidInput, match="progress = True: must be a function, or None"):
+        made(progress=True)
 
 
 def test_a_box_beyond_the_measured_range_is_refused():

@@ -137,20 +137,20 @@ from asperity.cli.main import main
 from asperity.cli import map_command
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-running, compute = threading.Event(), map_command.built
+running, compute = threading.Event(), map_command.friction_map
 
-def built(surface, rubber, told, **asked):
+def interrupted(surface, rubber, *, progress, **asked):
     def tell(share):
-        told(share)
+        progress(share)
         if share > 0.2:  # in the check
             running.set()
-    return compute(surface, rubber, tell, **asked)
+    return compute(surface, rubber, progress=tell, **asked)
 
 def interrupt():
     running.wait()
     os.kill(os.getpid(), signal.SIGINT)
 
-map_command.built = built
+map_command.friction_map = interrupted
 threading.Thread(target=interrupt, daemon=True).start()
 sys.exit(main(["map", "scene.toml", "--output", "a.fmap", "--checked", "2000000000"]))  # an hour
 """
