@@ -269,7 +269,9 @@ def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> Maste
 def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
     """Return a build as its errors would have it: a_T drawn from `covariance`, the points moved.
 
-    The coefficients of the spline through the points are drawn from their own covariance.
+    The coefficients of the spline through the points are drawn from their own covariance. The curve
+    has the extrapolation of the build's, or a power law, and reaches further at both ends: drawn
+    shifts move what was measured, and a draw is to answer wherever the build's curve does.
     """
     if build.covariance is None:
         raise InvalidInput("build: has no covariance to draw from")
@@ -282,4 +284,4 @@ def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
         build.covariance,
         seed,
     )
-    return _built(parts, "power-law")
+    return _built(parts, build.master_curve.extrapolation or "power-law")

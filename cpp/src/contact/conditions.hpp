@@ -1,6 +1,7 @@
 // Checks of arguments that contact and friction share.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -62,33 +63,42 @@ void at_temperature(double temperature, Work work) {
   }
 }
 
-/// What would let a rubber be asked beyond its measured frequencies, at the end of a message.
+/// What would let a rubber be asked beyond its measured frequencies, as a part of a message.
 inline const char* way_beyond(const Rubber& rubber) {
   if (const auto* curve = std::get_if<MasterCurve>(&rubber))
     return curve->extrapolation() ? "" : "; extrapolation= of the master curve adds a decade at each end";
   return "; extrapolation=\"prony\" of fit_prony goes on beyond them";
 }
 
-/// OutOfRange with the velocity in it where v q0 or v q1 leaves the measured frequencies.
-inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, double velocity) {
+/// OutOfRange where v q0 or v q1 of a velocity leaves the measured frequencies. It speaks of the fastest one, or of the
+/// slowest where that one alone is out, so that what it offers serves all of them.
+inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, std::span<const double> velocity) {
   const std::optional<FrequencyRange> known = known_range(rubber);
   if (!known) return;
   constexpr double rounding = 1e-12;
   const auto [q0, q1] = band(spectrum);
   const auto [lowest, highest] = *known;
-  if (velocity * q0 >= lowest * (1 - rounding) && velocity * q1 <= highest * (1 + rounding)) return;
+  const auto [slowest, fastest] = std::ranges::minmax(velocity);
+  const bool above = fastest * q1 > highest * (1 + rounding), below = slowest * q0 < lowest * (1 - rounding);
+  if (!above && !below) return;
+  const double told = above ? fastest : slowest;
   const ShownRange range(lowest, highest);
-  std::string shown = show(velocity, 6), where = "; no velocity asks for less than is known, with this q0 and this q1";
+  std::string shown = show(told, 6), where = "; no velocity asks for less than is known, with this q0 and this q1";
   if (lowest / q0 <= highest / q1) {
     const ShownRange allowed(lowest / q0, highest / q1);
-    shown = allowed.value(velocity);
+    shown = allowed.value(told);
     where = "; velocities from " + allowed.lowest() + " to " + allowed.highest() + " m/s are allowed";
   }
   std::string text = "velocity = " + shown + ": q0 = " + show(q0, 6) + " and q1 = " + show(q1, 6) +
-                     " 1/m ask for the modulus from " + range.value(velocity * q0) + " to " +
-                     range.value(velocity * q1) + " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber);
-  if (velocity * q0 < highest && highest < velocity * q1)
-    text += "; .truncated(q1=" + ShownRange(q0, highest / velocity).highest() + ") ends the spectrum where it is known";
+                     " 1/m ask for the modulus from " + range.value(told * q0) + " to " + range.value(told * q1) +
+                     " rad/s, known in " + range.text() + " rad/s";
+  const auto cut = [&](double end) { return ".truncated(q1=" + ShownRange(q0, end / fastest).highest() + ")"; };
+  if (!below && fastest * q0 < highest) text += "; " + cut(highest) + " ends the spectrum where it is known";
+  const std::string way = way_beyond(rubber);
+  text += way;
+  const double decade = 10 * highest;
+  if (!way.empty() && std::holds_alternative<MasterCurve>(rubber) && fastest * q0 < decade && decade < fastest * q1)
+    text += ", and " + cut(decade) + " ends it there";
   throw OutOfRange(text + where);
 }
 

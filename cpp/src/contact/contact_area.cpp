@@ -66,7 +66,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
              const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
              std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
-  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  check_frequencies(spectrum, rubber, velocity);
   Solver solver(surface, rubber, model, false, {});
   const double q1 = band(spectrum)[1];
   if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_rings_of(spectrum);
@@ -94,7 +94,7 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
                    std::span<const double> pressure, std::span<const double> velocity,
                    std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
-  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  check_frequencies(spectrum, rubber, velocity);
   const std::vector<std::size_t> order = by_velocity(velocity);
   const auto [q0, q1] = band(spectrum);
   for (std::size_t j = 0; j < wavenumber.size(); ++j) {
@@ -178,7 +178,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
   std::vector<double> result(pressure.size() * q.size());
   if (by_partial_contact(model)) {
     check_contact(model, pressure, velocity);
-    for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+    check_frequencies(spectrum, rubber, velocity);
     const SurfaceSegments whole(spectrum);
     const auto solver = partial_profile_solver(whole.get(), rubber, model);
     for (const std::size_t i : by_velocity(velocity)) {

@@ -4,7 +4,9 @@
 // correlated. Nothing is searched for.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <memory>
+#include <optional>
 
 #include "dma/master_spline.hpp"
 #include "numerics/interpolation.hpp"
@@ -48,6 +50,21 @@ Eigen::VectorXd drawn_shifts(const std::vector<double>& covariance, std::size_t 
   return axes.vectors * deviation.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(along.data(), size));
 }
 
+/// The curve with a row at each end of its extrapolation, so that it goes on from there. Drawn shifts move the ends of
+/// what was measured, and whoever asks the plain curve at the end of its decade is to have that of a draw too.
+MasterCurve with_rows_at_ends(const MasterCurve& curve) {
+  std::vector<double> w = curve.angular_frequency();
+  w.insert(w.begin(), curve.lowest_frequency());
+  w.push_back(curve.highest_frequency());
+  std::vector<double> storage, loss;
+  for (const double one : w) {
+    const std::complex<double> e = curve.modulus(one);
+    storage.push_back(e.real());
+    loss.push_back(e.imag());
+  }
+  return {std::move(w), std::move(storage), std::move(loss), curve.extrapolation()};
+}
+
 }  // namespace
 
 MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t seed) {
@@ -87,8 +104,11 @@ MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t 
     p.angular_frequency *= std::pow(10, log10_a_T[p.isotherm] - build.shifts.log10_a_T()[p.isotherm]);
   std::ranges::stable_sort(reduced, {}, &MasterPoint::angular_frequency);
   ShiftTable shifts(build.shifts.reference(), points.temperature, log10_a_T, build.shifts.standard_deviation());
-  MasterCurve curve =
-      spline.sampled(0, Extrapolation::power_law).with_shifts(std::make_shared<const ShiftTable>(shifts));
+  // a plain curve that ends with what was measured needs no more than this decade
+  const std::optional<Extrapolation> beyond = build.master_curve.extrapolation();
+  MasterCurve curve = spline.sampled(0, beyond.value_or(Extrapolation::power_law));
+  if (beyond) curve = with_rows_at_ends(curve);
+  curve = curve.with_shifts(std::make_shared<const ShiftTable>(shifts));
   return {std::move(curve), std::move(shifts), build.b_T, std::move(reduced), build.residual, build.covariance, {}};
 }
 

@@ -33,7 +33,8 @@ void require_rows(double temperature, const std::vector<double>& angular_frequen
 void require_enough(std::size_t different, double temperature) {
   if (different < 4)
     throw InvalidInput("angular_frequency has " + std::to_string(different) + " different entries at temperature = " +
-                       show(temperature, 6) + ": must have 4 or more for an isotherm");
+                       show(temperature, 6) + ": must have 4 or more for an isotherm" +
+                       (different == 1 ? "; rows of one frequency are a strain sweep, which is none" : ""));
 }
 
 }  // namespace

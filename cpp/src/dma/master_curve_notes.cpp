@@ -60,10 +60,12 @@ void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreemen
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (apart.deviations[i] > beyond_chance && distance(i) > std::max(undetermined_shift, distance(worst))) worst = i;
   if (worst == fixed) return;
-  notes.push_back("fatal: E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) +
-                  ": log10 a_T against " + kelvin(isotherms[fixed]) + " would be " + show(apart.storage[worst], 3) +
-                  " and " + show(apart.loss[worst], 3) + ", " + show(distance(worst), 2) +
-                  " decades apart; standard deviations do not hold this");
+  notes.push_back(
+      "E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) + ": log10 a_T against " +
+      kelvin(isotherms[fixed]) + " would be " + show(apart.storage[worst], 3) + " and " + show(apart.loss[worst], 3) +
+      ", " + show(distance(worst), 2) +
+      " decades apart, as those of many filled rubbers do; the standard deviations of a_T and the bands from them "
+      "leave that out");
 }
 
 void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, const MasterSpline& spline,

@@ -5,6 +5,7 @@
 #include "asperity/friction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -306,7 +307,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
                   const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                   std::span<const double> velocity, bool contributions, unsigned threads) {
   check_points(model, adhesion, pressure, velocity, threads);
-  for (const double v : velocity) check_frequencies(spectrum, rubber, v);
+  check_frequencies(spectrum, rubber, velocity);
   const RubberPoints all{rubber, by_velocity(velocity)};
   return solve_groups(spectrum, model, adhesion, {&all, 1}, pressure, velocity, contributions, threads);
 }
@@ -333,9 +334,8 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
   for (auto& [at, order] : points) {
     heed();
     rubbers.push_back(shifted(rubber, shift, at));
-    at_temperature(at, [&] {
-      for (const std::size_t i : order) check_frequencies(spectrum, rubbers.back(), velocity[i]);
-    });
+    const std::array ends{velocity[order.front()], velocity[order.back()]};
+    at_temperature(at, [&] { check_frequencies(spectrum, rubbers.back(), ends); });
     groups.push_back({rubbers.back(), std::move(order)});
   }
   Friction f = solve_groups(spectrum, model, adhesion, groups, pressure, velocity, contributions, threads, heated);

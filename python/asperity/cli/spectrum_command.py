@@ -56,11 +56,12 @@ def spectrum(args: Namespace) -> None:
     fit, fit_notes = _fit(measured, args)
     whole = measured.truncated(q1=min(found.nyquist, measured.q1))
     cutoff = whole.cutoff_for_slope(1.3)
+    reached = cutoff < whole.q1
     inputs = {"file": str(path), "channel": args.channel, **found.inputs}
     for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
         if given is not None:
             inputs[key] = given
-    numbers = {
+    numbers: dict[str, float | None] = {
         "rms_height_m": whole.rms_height,
         "rms_slope": whole.rms_slope,
         "rms_slope_by_differences": found.statistics.rms_slope,
@@ -68,7 +69,7 @@ def spectrum(args: Namespace) -> None:
         "kurtosis": found.statistics.kurtosis,
         "z_max_m": found.statistics.z_max,
         "z_min_m": found.statistics.z_min,
-        "slope_cutoff_1.3_per_m": cutoff,
+        "slope_cutoff_1.3_per_m": cutoff if reached else None,
     }
     if found.lay is not None:
         numbers["slope_anisotropy"] = found.lay
@@ -77,10 +78,13 @@ def spectrum(args: Namespace) -> None:
     if fit is not None:
         numbers |= _fitted(fit)
     notes = [*unusual, *fit_notes, *found.notes]
-    if cutoff >= whole.q1:
-        notes.append("the rms slope stays below 1.3 up to pi / pixel")
+    if not reached:
+        notes.append(
+            "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
+            f"{whole.q1:.4g} 1/m, is {whole.rms_slope:.3g}"
+        )
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
-    drawn = cutoff if cutoff < whole.q1 else None
+    drawn = cutoff if reached else None
     draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn)
     write_outputs(args, table, draw, numbers)
 

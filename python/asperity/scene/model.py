@@ -1,7 +1,7 @@
 """A scene as objects of the core, and what is computed of it."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity._core import OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.base.notes import fatal_first
+from asperity.base.notes import FATAL, fatal_first
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import ROUGHLY, Friction, friction
@@ -251,8 +252,28 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        with progress(chunks) as shown, rename_in_errors(self.path, self._names, self.typed):
-            return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
+        with self._explaining_range(), rename_in_errors(self.path, self._names, self.typed):
+            try:
+                with progress(chunks) as shown:
+                    return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
+            except OutOfRange:  # of a chunk: it is to offer what serves all velocities
+                ends = np.array([self.velocity.min(), self.velocity.max()])
+                self._at(compute, pressure[[0, 0]], ends)
+                raise
+
+    @contextmanager
+    def _explaining_range(self) -> Iterator[None]:
+        """Let an error on a range say too that the spectrum did not end where the scene wants."""
+        try:
+            yield
+        except OutOfRange as error:
+            said = "; ".join(
+                [
+                    str(error),
+                    *(n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)),
+                ]
+            )
+            raise OutOfRange(said) from error
 
     @property
     def _names(self) -> Mapping[str, str]:

@@ -193,6 +193,22 @@ def _blaming_celsius(values: Values) -> Iterator[None]:
 
 
 @contextmanager
+def _naming_temperature(values: Values) -> Iterator[None]:
+    """Let errors on the reference name the temperature that it was taken from, and say what serves
+    beyond the isotherms."""
+    try:
+        yield
+    except (InvalidInput, OutOfRange) as error:
+        message = str(error)
+        if "reference_temperature_k" not in values:
+            message = message.replace("[rubber] reference_temperature_k", "[rubber] temperature_k")
+        if isinstance(error, OutOfRange) and "shift" not in values:
+            message += "; beyond them a scene needs their master curve, wlf_c1 and wlf_c2_k, which "
+            message += "asperity rubber gives"
+        raise type(error)(message) from error
+
+
+@contextmanager
 def _blaming_conditions() -> Iterator[None]:
     """Let errors on a temperature name the table that has it."""
     try:
@@ -217,6 +233,10 @@ def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCu
     """Isotherms and the master curve of them, whatever temperature the rubber is wanted at."""
     fitted = values.get("prony", False)
     files = [path.parent / name for name in values["isotherms"]]
+    for name, file in zip(values["isotherms"], files, strict=True):
+        if set(name) & {"*", "?"} and not file.exists():
+            problem = "there is no such file: a scene names each file, * and ? stand for nothing"
+            refuse(path, f"[rubber] isotherms = {name!r}", problem)
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
     with rename_in_errors(
@@ -235,7 +255,13 @@ def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCu
 def _from_isotherms(path: Path, values: Values, measure: Measured) -> BuiltRubber:
     require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
-    values = {"reference_temperature_k": values["temperature_k"], **values}
+    with _naming_temperature(values):
+        return _at_a_temperature(
+            path, {"reference_temperature_k": values["temperature_k"], **values}, measure
+        )
+
+
+def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRubber:
     extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
     if extrapolation is not None and fitted != (extrapolation == "prony"):
         allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'

@@ -133,6 +133,9 @@ def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture
     assert {"rms_height_m", "rms_slope", "rms_slope_by_differences", "skewness"} < set(found)
     assert {"slope_cutoff_1.3_per_m", "reliable_to_per_m", "fit_residual"} < set(found)
     assert any(line.startswith("# found.fit_hurst = 0.") for line in comments)
+    # where the slope is not reached, no wavenumber is told as if it were
+    assert found["slope_cutoff_1.3_per_m"] == "none"
+    assert "note: slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel" in err
 
 
 @pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])

@@ -268,6 +268,33 @@ def test_advice_beyond_what_was_measured_is_in_the_keys_of_a_scene(folder: Path)
     load_scene(folder / "scene.toml").friction()
 
 
+def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder: Path) -> None:
+    """The first step of a progress bar that is refused does not reach the fastest velocity."""
+    swept = MASTER.replace("to = 1, points = 5", "to = 200, points = 200")
+    message = refusal(folder, swept)
+    assert message.startswith("[conditions] velocity_m_s = 200: ")
+    both = re.search(
+        r"q1_per_m = (\S+) ends the spectrum where it is known; "
+        r'\[rubber\] extrapolation = "power-law" or "clamp" adds a decade at each end, '
+        r"and \[surface\] q1_per_m = (\S+) ends it there; velocities from",
+        message,
+    )
+    assert both is not None, message
+    plain = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[1]}", swept)
+    further = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[2]}", swept)
+    further = further.replace("[rubber]", '[rubber]\nextrapolation = "power-law"')
+    for followed in (plain, further):
+        (folder / "scene.toml").write_text(followed)
+        load_scene(folder / "scene.toml").friction()
+
+
+def test_a_range_error_says_that_the_slope_is_not_reached(folder: Path) -> None:
+    """The spectrum then ends with the pixels, which is why it asks for so much."""
+    scene = SCAN + "slope_cutoff = 90\n" + MASTER[MASTER.index("[rubber]") :]
+    message = refusal(folder, scene.replace("to = 1,", "to = 60,"))
+    assert re.search(r" are allowed; slope_cutoff = 90 is not reached: the rms slope up", message)
+
+
 def test_endless_scene() -> None:
     with pytest.raises(InvalidInput, match="/dev/zero: cannot be read: not a regular file"):
         load_scene("/dev/zero")

@@ -78,6 +78,25 @@ def built(seed, noise=0.01):
     return build_master_curve(isotherms, reference_temperature=T_REF, smooth=True)
 
 
+@each("temperature", [None, 298.0])
+@each("extrapolation", ["power-law", "clamp"])
+def test_a_draw_answers_wherever_the_plain_curve_does(extrapolation, temperature):
+    """Drawn shifts move the ends of what was measured."""
+    build = build_master_curve(
+        measured_isotherms(1), reference_temperature=T_REF, extrapolation=extrapolation
+    )
+    a_t = 1 if temperature is None else build.shift_factor(temperature)
+    low, high = build.master_curve.angular_frequency[[0, -1]] * [0.1, 10] / a_t
+    scene = {"pressure": 2e5, "velocity": [low / ROAD.q0, high / ROAD.q1]}
+    if temperature is not None:
+        scene["temperature"] = temperature
+    band = friction_band(ROAD, build, samples=30, seed=1, **scene)
+    assert band.notes == ()
+    assert (0 < band.lower).all()
+    assert (band.lower < band.upper).all()
+
+
+
 def share_of_truth(bands, truth):
     """In how many of the bands the true mu lies, at each velocity."""
     return np.mean([(b.lower <= truth) & (truth <= b.upper) for b in bands], axis=0)
