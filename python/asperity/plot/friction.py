@@ -204,6 +204,17 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     for v, line, colour in zip(velocity[::-1], rise[::-1], tints[::-1], strict=True):
         axes.plot(q, line, color=colour, label=f"{v:.2g} m/s")
     axes.set_xscale("log")
+    q1 = scene.spectrum.q1
+    if q[-1] > 1.01 * q1:  # edges of contacts, which PartialContact counts, are finer than the road
+        axes.axvline(q1, color=grey(0.5), linestyle=":", linewidth=1)
+        axes.annotate(
+            "$q_1$",
+            (q1, 0.95),
+            xycoords=axes.get_xaxis_transform(),
+            xytext=(3, 0),
+            textcoords="offset points",
+            color=grey(0.3),
+        )
     decades = math.log10(scene.spectrum.q1 / scene.spectrum.q0)
     axes.xaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2 else (1, 2, 5)))
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -211,7 +222,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
     at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.5g} K"]
-    axes.legend(loc="upper left", fontsize="small", title=", ".join(at), title_fontsize="small")
+    axes.legend(loc="best", fontsize="small", title=", ".join(at), title_fontsize="small")
 
 
 def _label(axes: "Axes", abscissa: str) -> None:

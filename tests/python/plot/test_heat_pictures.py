@@ -71,6 +71,18 @@ def test_over_velocity_there_is_mu_with_its_rise_and_that_of_each_roughness(
     assert {text.get_text() for text in mu.texts} >= {"100 kPa", "300 kPa"}  # beside their curves
 
 
+def test_roughness_beyond_q1_is_marked(folder: Path, figures: list[Any]) -> None:
+    """PartialContact counts the edges of contacts, which are finer than the road."""
+    partial = HEATING + '\n[correction]\nkind = "partial-contact"\n'
+    draw(folder, "290", "{from = 1e-3, to = 10, points = 3}", partial)
+    profile = figures[0].axes[2]
+    *curves, mark = shown(profile)
+    q1 = load_scene("hot.toml", for_friction=True).spectrum.q1
+    assert set(mark.get_xdata()) == {q1}
+    assert all(curve.get_xdata()[-1] > q1 for curve in curves)
+    assert "$q_1$" in [text.get_text() for text in profile.texts]
+
+
 @each("more", ["", HEATING])
 def test_a_list_of_temperatures_at_one_velocity_is_drawn_over_them(
     folder: Path, figures: list[Any], more: str
