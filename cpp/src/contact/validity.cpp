@@ -91,6 +91,7 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
   extrapolated_ |= extrapolated_share > share_limit;
+  mostly_extrapolated_ |= extrapolated_share > 0.5;
   constexpr double rounding = 1e-12;
   beyond_fit_ |=
       fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
@@ -106,8 +107,8 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
 void Notes::add(const Notes& others) {
   for (bool Notes::*const flag :
        {&Notes::beyond_fit_, &Notes::lowest_bin_, &Notes::fast_, &Notes::full_, &Notes::no_contact_, &Notes::far_,
-        &Notes::extrapolated_, &Notes::worse_, &Notes::light_, &Notes::slow_, &Notes::constant_, &Notes::fast_regime_,
-        &Notes::unmeasured_})
+        &Notes::extrapolated_, &Notes::mostly_extrapolated_, &Notes::worse_, &Notes::light_, &Notes::slow_,
+        &Notes::constant_, &Notes::fast_regime_, &Notes::unmeasured_})
     this->*flag |= others.*flag;
 }
 
@@ -132,6 +133,8 @@ std::vector<std::string> Notes::texts(bool heated) const {
   if (extrapolated_)
     result.push_back("more than " + show(100 * share_limit) +
                      " % of the hysteresis comes from frequencies outside of the measured ones at some points");
+  if (mostly_extrapolated_)
+    result.emplace_back("fatal: most of the hysteresis is that of an extrapolated modulus at some points");
   if (beyond_fit_)
     result.emplace_back(
         "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "

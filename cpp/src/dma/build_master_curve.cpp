@@ -86,6 +86,7 @@ void require_meeting(const std::vector<Isotherm>& isotherms, const std::vector<d
     if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i]))
       throw InvalidInput("isotherms at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
                          ": have no storage modulus in common, neighbours must overlap (a smaller step of temperature, "
+                         "isotherms on one side of the gap alone, "
                          "or a shift table from outside)");
 }
 

@@ -118,7 +118,8 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
     solver_.solve(pressure, velocity, shift.p);
   const Solver::Hysteresis& hysteresis = partial_ ? partial_->hysteresis() : solver_.hysteresis();
   at.hysteresis = hysteresis.value;
-  if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
+  // both are integrals with errors of their own, which may carry a share of all above one
+  if (hysteresis.value > 0) at.extrapolated_share = std::min(1.0, hysteresis.outside / hysteresis.value);
 
   const double g = partial_ ? partial_->g() : solver_.g(q1_);
   at.contact_area = partial_ ? partial_->area() : contact_share(area_g_(g), scene_.model.form);

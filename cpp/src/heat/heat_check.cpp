@@ -47,7 +47,7 @@ GslHeat::Pass GslHeat::pass(const HeatPoint& point, const HeatGrid& grid, const 
                          model.rtol, adaptive_rule(model.method));
   const GslSolver::Hysteresis hysteresis = solver.hysteresis(model.form, factor_);
   at.hysteresis = hysteresis.value;
-  if (hysteresis.value > 0) at.extrapolated_share = hysteresis.outside / hysteresis.value;
+  if (hysteresis.value > 0) at.extrapolated_share = std::min(1.0, hysteresis.outside / hysteresis.value);
   at.g = solver.g(q1);
   at.contact_area = contact_share(area_g_(at.g), model.form);
   at.adhesion = at.contact_area * point.adhesion_per_area;

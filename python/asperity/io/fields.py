@@ -54,6 +54,12 @@ def number(value: object) -> float:
         raise _WrongValueError("must be a finite number") from None
 
 
+def one_temperature(value: object) -> float:
+    if isinstance(value, list):
+        raise _WrongValueError("must be a number; several temperatures go into [conditions]")
+    return number(value)
+
+
 def numbers(value: object) -> list[float]:
     try:
         return [number(entry) for entry in value]  # type: ignore[attr-defined]

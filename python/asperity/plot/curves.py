@@ -171,7 +171,7 @@ def picture(figure: "Figure", path: Path) -> bytes:
 
 def band_text(level: float) -> str:
     """What a band is, for a legend."""
-    return f"{100 * level:.4g} % of draws of the\nmeasured inputs' errors"
+    return f"{100 * level:.4g} % band of the\nmeasured inputs' errors"
 
 
 def pressure_text(value: float) -> str:

@@ -1,7 +1,8 @@
 """Friction over velocity, pressure or temperature; beside it what heat makes of it."""
 
 import math
-from collections.abc import Iterator, Sequence
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity.base.notes import FATAL
 from asperity.plot.curves import (
     MOST_ENTRIES,
     PRESSURE,
@@ -21,15 +23,17 @@ from asperity.plot.curves import (
     shaded,
 )
 from asperity.plot.labels import legend_beside
-from asperity.plot.style import colours, grey, shades
+from asperity.plot.style import colours, grey, narrow, shades
+from asperity.results.extrapolation_notes import MOSTLY
 from asperity.scene.model import Curves, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _MOST_SHADED = 3  # curves whose model error can be told apart
 _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
-_TEMPERATURE = "Temperature $T_0$ [K]"
+_TEMPERATURE = "Temperature $T_0$"
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
 _WIDTH = 1.8  # points, of the line of mu
@@ -45,6 +49,7 @@ class _Curve:
     kinds: Sequence[NDArray[np.float64]]  # mu, hysteresis, adhesion
     band: Sequence[NDArray[np.float64]]  # lower and upper mu, or nothing
     off: NDArray[np.float64]  # how far the model may be
+    guessed: NDArray[np.bool_]  # where most of the hysteresis is that of an extrapolated modulus
     heat: Sequence[NDArray[np.float64]]  # mu without heat and the rise at q1, or nothing
 
 
@@ -73,21 +78,24 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     if len(kinds) > 1:
         for kind, dashes in kinds.items():
             axes.plot([], [], dashes, color=grey(0.3), label=kind)
-    _label(axes, abscissa)
+    _label(axes, abscissa, scenes)
     _scale_friction(axes, curves)
     drawn = zip(scenes, results, strict=True)
     for level in sorted({s.sampling["level"] for s, r in drawn if r.band is not None}):
         seen = any(_shows(axes, *curve.band) for curve in curves if curve.band)
         _tell_band(axes, band_text(level), seen=seen, color=grey(0.3), alpha=0.2, linewidth=0)
+    _mark_guesses(axes, curves)
     if hatched:
         _tell_errors(axes, curves, results)
-    axes.set_ylabel("Friction coefficient $\\mu$ [-]")
+    alone = "" if len(kinds) > 1 else ", hysteresis alone"
+    axes.set_ylabel(f"Friction coefficient $\\mu${alone} [-]")
     if beside:
-        _label(beside[0], abscissa)
+        _label(beside[0], abscissa, scenes)
         beside[0].set_ylim(bottom=0)
         beside[0].set_ylabel("Temperature rise at $q_1$ [K]")
     if profiled is not None:
         _draw_profiles(beside[1], profiled)
+    _warn(figure, results)
     entries = axes.get_legend_handles_labels()
     if entries[1]:
         legend_beside(figure, *entries)
@@ -121,7 +129,7 @@ def _curves(scenes: Sequence[Scene], results: Sequence[Curves], abscissa: str) -
     for file in dict.fromkeys(scene.path for scene in scenes):
         of_file = [(s, r) for s, r in zip(scenes, results, strict=True) if s.path == file]
         columns = [np.stack(one) for one in zip(*(_columns(s, r) for s, r in of_file), strict=True)]
-        x = np.array([scene.temperature for scene, _ in of_file])
+        x = np.array([scene.temperature for scene, _ in of_file]) - _zero(scenes)
         first, result = of_file[0]
         several = len({scene.path for scene in scenes}) > 1
         for row, pressure in enumerate(first.pressure):
@@ -133,7 +141,9 @@ def _curves(scenes: Sequence[Scene], results: Sequence[Curves], abscissa: str) -
 def _columns(scene: Scene, result: Curves) -> list[NDArray[np.float64]]:
     """Everything that a curve takes from a result, of shape (pressures, velocities)."""
     assert result.model_error is not None
+    share = result.extrapolated_share
     columns = [result.mu, result.hysteresis, result.adhesion]
+    columns += [np.zeros_like(result.mu) if share is None else share]
     columns += [result.model_error * result.hysteresis, *(result.band or ())]
     if result.mu_cold is not None and result.hot_temperature is not None:
         columns += [result.mu_cold, result.hot_temperature - (scene.temperature or 0.0)]
@@ -144,9 +154,9 @@ def _curve(
     label: str, x: NDArray[np.float64], lines: Sequence[NDArray[np.float64]], result: Curves
 ) -> _Curve:
     order = np.argsort(x)
-    mu, hysteresis, adhesion, off, *rest = (line[order] for line in lines)
+    mu, hysteresis, adhesion, share, off, *rest = (line[order] for line in lines)
     band = [rest.pop(0), rest.pop(0)] if result.band else []
-    return _Curve(label, x[order], (mu, hysteresis, adhesion), band, off, rest)
+    return _Curve(label, x[order], (mu, hysteresis, adhesion), band, off, share > MOSTLY, rest)
 
 
 def _draw(
@@ -177,6 +187,33 @@ def _draw(
         )
     if curve.heat:
         axes.plot(curve.x, curve.heat[0], linestyle=_COLD, color=colour, linewidth=1.2)
+
+
+def _mark_guesses(axes: "Axes", curves: Sequence[_Curve]) -> None:
+    """Grey behind what no measured modulus carries."""
+    label: str | None = "most of the hysteresis from\nan extrapolated modulus"
+    for start, end in _joined(run for curve in curves for run in _runs(curve)):
+        axes.axvspan(start, end, color=grey(0.5), alpha=0.15, linewidth=0, zorder=0, label=label)
+        label = None  # one entry for all
+
+
+def _runs(curve: _Curve) -> Iterator[tuple[float, float]]:
+    """Where a curve is guessed, half of the way to the points that are not."""
+    middle = np.sqrt(curve.x[1:] * curve.x[:-1])
+    ends = np.concatenate([curve.x[:1], middle, curve.x[-1:]])
+    for i in np.flatnonzero(curve.guessed):
+        yield float(ends[i]), float(ends[i + 1])
+
+
+def _joined(runs: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Intervals that touch as one."""
+    joined: list[tuple[float, float]] = []
+    for start, end in sorted(runs):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+        else:
+            joined.append((start, end))
+    return joined
 
 
 def _draw_rises(axes: "Axes", curves: Sequence[_Curve], tints: Sequence[Any]) -> None:
@@ -221,14 +258,16 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.set_ylim(bottom=0)
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
-    at = [pressure_text(float(scene.pressure[0])), f"{scene.temperature:.5g} K"]
+    at = [pressure_text(float(scene.pressure[0])), _temperature_text(scene)]
     axes.legend(loc="best", fontsize="small", title=", ".join(at), title_fontsize="small")
 
 
-def _label(axes: "Axes", abscissa: str) -> None:
+def _label(axes: "Axes", abscissa: str, scenes: Sequence[Scene]) -> None:
     if abscissa != _TEMPERATURE:
         axes.set_xscale("log")
-    axes.set_xlabel(abscissa)
+        axes.set_xlabel(abscissa)
+    else:
+        axes.set_xlabel(f"{abscissa} [{'°C' if _zero(scenes) else 'K'}]")
 
 
 def _scale_friction(axes: "Axes", curves: Sequence[_Curve]) -> None:
@@ -265,7 +304,9 @@ def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[Curve
     """Entries of the legend for the error of the model and that of the numbers."""
     around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
     seen = any(_shows(axes, *ends) for ends in around)
-    _tell_band(axes, "model error, from exact\nsliding contacts", seen=seen, **_hatch(grey(0.3)))
+    _tell_band(
+        axes, "model error (rms), from\nexact sliding contacts", seen=seen, **_hatch(grey(0.3))
+    )
     numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
     power = f"$10^{{{math.ceil(math.log10(max(numerical, 1e-16)))}}}$"
     label = f"numerical error below {power},\ntoo small to see"
@@ -282,6 +323,27 @@ def _hatch(colour: Any) -> dict[str, Any]:
     }
 
 
+def _zero(scenes: Sequence[Scene]) -> float:
+    """What a picture calls zero [K]: of degrees Celsius where all scenes have them."""
+    return 273.15 if all(scene.in_celsius for scene in scenes) else 0.0
+
+
+def _temperature_text(scene: Scene) -> str:
+    assert scene.temperature is not None
+    if scene.in_celsius:
+        return f"{scene.temperature - 273.15:.4g} °C"
+    return f"{scene.temperature:.5g} K"
+
+
+def _warn(figure: "Figure", results: Sequence[Curves]) -> None:
+    """The first fatal note above the picture, which may travel without its table."""
+    fatal = next((n for result in results for n in result.notes if n.startswith(FATAL)), None)
+    if fatal is not None:
+        width = 50 if narrow() else 90
+        text = textwrap.fill(textwrap.shorten(fatal, 2 * width, placeholder=" ..."), width)
+        figure.suptitle(_plain(text), fontsize="small", color="#c0392b")
+
+
 def _names(scenes: Sequence[Scene]) -> list[str]:
     """What tells scenes apart: their files, and temperatures where a file has several."""
     paths = {scene.path for scene in scenes}
@@ -290,7 +352,7 @@ def _names(scenes: Sequence[Scene]) -> list[str]:
     for scene in scenes:
         file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
         several = sum(other.path == scene.path for other in scenes) > 1
-        names.append(", ".join(file + ([f"{scene.temperature:.5g} K"] if several else [])))
+        names.append(", ".join(file + ([_temperature_text(scene)] if several else [])))
     return names
 
 

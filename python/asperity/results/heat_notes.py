@@ -11,6 +11,7 @@ from asperity._core import Error
 from asperity.heating import Heating
 from asperity.shift_factors import ArrheniusFit, WlfFit
 
+_LITTLE = 0.02  # of mu, less than any model error
 _LEFT_OUT = "flash heating, which is not modelled"  # in the core's note
 
 
@@ -48,8 +49,10 @@ def with_size_of_heat(
         except Error:
             continue
         rise = hot.temperature - hot.cold.temperature
+        small = abs(hot.mu - hot.cold.mu) < _LITTLE * hot.cold.mu
+        size = "changes little here, though it" if small else "matters, which"
         found[i] = (
-            "above 0.01 m/s flash heating matters, which is not modelled without heating: at "
+            f"above 0.01 m/s flash heating {size} is not modelled without heating: at "
             f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from "
             f"{hot.cold.temperature:.5g} K and take mu from {hot.cold.mu:.3g} to {hot.mu:.3g}, "
             "with the constants of a tread compound in contacts of 1 mm (Persson 2006, J. Phys.: "

@@ -21,6 +21,7 @@ from asperity.io.fields import (
     names_of,
     rename_in_errors,
 )
+from asperity.results.extrapolation_notes import with_velocities
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scene.keys import NAMES, UNCERTAINTY
@@ -52,6 +53,7 @@ class Curves:
     shift_factor: NDArray[np.float64]
     error_estimate: NDArray[np.float64]
     model_error: NDArray[np.float64] | None = None  # relative, of the hysteresis; NaN: unknown
+    extrapolated_share: NDArray[np.float64] | None = None  # of it, from unmeasured frequencies
     hot_temperature: NDArray[np.float64] | None = None  # T(q1) [K], and mu without heat
     mu_cold: NDArray[np.float64] | None = None
     band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
@@ -104,6 +106,11 @@ class Scene:
         return self.surface.derived
 
     @property
+    def in_celsius(self) -> bool:
+        """Whether the temperature was given so."""
+        return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
+
+    @property
     def sources(self) -> list[Path]:
         """The scene file and the files that it names."""
         rubber = self.inputs["rubber"]
@@ -122,10 +129,12 @@ class Scene:
         parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         found = dict.fromkeys(note for part in parts for note in part.notes)
-        notes = fatal_first([*self.notes, *self._with_size_of_heat([*found])])
+        share = np.concatenate([part.extrapolated_share for part in parts])
+        told = with_velocities([*found], self.points[1], share)
+        notes = fatal_first([*self.notes, *self._with_size_of_heat(told)])
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
-            for name in (*COLUMNS, "model_error")
+            for name in (*COLUMNS, "model_error", "extrapolated_share")
         }
         if self.heating is not None:
             columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])
@@ -263,17 +272,16 @@ class Scene:
 
     @contextmanager
     def _explaining_range(self) -> Iterator[None]:
-        """Let an error on a range say too that the spectrum did not end where the scene wants."""
+        """Let an error on a range say at which temperature it is, and whether the spectrum did not
+        end where the scene wants."""
         try:
             yield
         except OutOfRange as error:
-            said = "; ".join(
-                [
-                    str(error),
-                    *(n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)),
-                ]
-            )
-            raise OutOfRange(said) from error
+            said = [str(error)]
+            if self.temperature is not None:
+                said.append(f"this is at {self.temperature:.5g} K")
+            said += [n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)]
+            raise OutOfRange("; ".join(said)) from error
 
     @property
     def _names(self) -> Mapping[str, str]:

@@ -81,7 +81,8 @@ HEATING_NAMES = names_of("heating", HEATING)
 
 def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
     values = read_table(path, "heating", table, HEATING)
-    require(path, "heating", values, tuple(HEATING)[:4])
+    needed = tuple(HEATING)[:4]
+    require(path, "heating", values, needed, "[heating] needs " + ", ".join(needed))
     with rename_in_errors(path, HEATING_NAMES):
         heating = Heating(**arguments(values, HEATING))
     return heating, _with_defaults(values, HEATING, heating)
@@ -109,7 +110,8 @@ def build_correction(
     if kind is None:
         refuse(path, "[correction] kind", "missing, " + nearest("", CORRECTIONS))
     if not isinstance(kind, str) or kind not in CORRECTIONS:
-        refuse(path, f"[correction] kind = {kind!r}", nearest(str(kind), CORRECTIONS))
+        known = f"{nearest(str(kind), CORRECTIONS)}; a scene without [correction] has none"
+        refuse(path, f"[correction] kind = {kind!r}", known)
     fields = CORRECTIONS[kind]
     values = read_table(path, "correction", table, fields)
     if "z_max_m" in fields:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from asperity._core import InvalidInput, OutOfRange
+from asperity.base.notes import FATAL
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import (
@@ -233,10 +234,6 @@ def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCu
     """Isotherms and the master curve of them, whatever temperature the rubber is wanted at."""
     fitted = values.get("prony", False)
     files = [path.parent / name for name in values["isotherms"]]
-    for name, file in zip(values["isotherms"], files, strict=True):
-        if set(name) & {"*", "?"} and not file.exists():
-            problem = "there is no such file: a scene names each file, * and ? stand for nothing"
-            refuse(path, f"[rubber] isotherms = {name!r}", problem)
     with rename_in_errors(path, names_of("rubber", _DMA)):
         isotherms = read_isotherms(files, **arguments(values, _DMA))
     with rename_in_errors(
@@ -304,7 +301,7 @@ def _at_temperature(
     if values.get("vertical_shift") == "T/T_ref":
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
-        return curve, ()
+        return curve, [note for note in quiet_prony(curve).notes if note.startswith(FATAL)]
     with rename_in_errors(path, {"residual": "[rubber] prony"}):
         series = quiet_prony(curve, "prony" if beyond == "prony" else None)
     return series, series.notes

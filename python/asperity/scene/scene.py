@@ -3,6 +3,7 @@
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from glob import glob
 from pathlib import Path
 from typing import Any
 
@@ -131,6 +132,8 @@ def build_scene(
     heating = None
     if "heating" in tables:
         heating, inputs["heating"] = build_heating(path, tables["heating"])
+        if temperatures == [None]:  # it may stand in [rubber]
+            temperatures = [rubber.temperature]
         check_heated(path, temperatures[0], rubber)
     inputs["solver"] = solver
     sampling = {"samples": 100, "seed": 0, "level": 0.95}
@@ -168,7 +171,32 @@ def read_scene(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
     tables = read_toml(path)
     check_tables(path, tables)
+    _list_isotherms(path, tables["rubber"])
     return tables
+
+
+def _list_isotherms(path: Path, rubber: Any) -> None:
+    """Put the names of files where patterns such as "dma/*.csv" stand for them."""
+    if not isinstance(rubber, dict) or not isinstance(rubber.get("isotherms"), list):
+        return
+    names = []
+    for name in rubber["isotherms"]:
+        if not _is_pattern(path, name):
+            names.append(name)
+        elif found := sorted(glob(name, root_dir=path.parent)):
+            names += found
+        else:
+            refuse(path, f"[rubber] isotherms = {name!r}", "no file has such a name")
+    rubber["isotherms"] = names
+
+
+def _is_pattern(path: Path, name: object) -> bool:
+    return (
+        isinstance(name, str)
+        and "\0" not in name
+        and not set(name).isdisjoint("*?")
+        and not (path.parent / name).exists()
+    )
 
 
 def read_toml(path: Path) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from asperity.io.fields import (
     file_name,
     names_of,
     number,
+    one_temperature,
     refuse,
     rename_in_errors,
     require,
@@ -27,8 +28,8 @@ BUILD = {
     "vertical_shift": Field(text, "vertical_shift"),
 }
 TEMPERATURE = {
-    "temperature_k": Field(number, "temperature", plausible.TEMPERATURE),
-    "temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
+    "temperature_k": Field(one_temperature, "temperature", plausible.TEMPERATURE),
+    "temperature_c": Field(one_temperature, "", plausible.TEMPERATURE, "C"),
     "shift": Field(file_name),
 }
 WLF_KEYS = {"wlf_c1": Field(number, "c1", plausible.DECADES), "wlf_c2_k": Field(number, "c2")}

@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from asperity._core import OutOfRange
+from asperity._core import InvalidInput, OutOfRange
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
@@ -22,7 +22,14 @@ from asperity.io.fields import (
     require,
     text,
 )
-from asperity.scene.scan import Scan, nyquist, read_filled, surface_spectrum
+from asperity.scene.scan import (
+    Scan,
+    lay,
+    nyquist,
+    read_filled,
+    scan_notes,
+    surface_spectrum,
+)
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.surface import HeightMap
@@ -113,6 +120,8 @@ def build_surface(path: Path, table: object) -> Surface:
         "rms_slope": spectrum.rms_slope,
     }
     notes = _slope_notes(spectrum, values, table)
+    if scan is not None:
+        notes += scan_notes(scan, lay(scan, **_transform(values)))
     drawn = drawn_spectrum(spectrum)
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
@@ -131,13 +140,18 @@ def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
     return filled
 
 
+def _transform(values: Values) -> dict[str, Any]:
+    settings = arguments(values, _TRANSFORM)
+    if settings["detrend"] == "none":
+        settings["detrend"] = None
+    return settings
+
+
 def _measure(
     path: Path, scan: Scan, values: Values
 ) -> tuple[TabulatedSpectrum, SelfAffineFit | None]:
     """The scan's spectrum, or the self-affine fit to it where the scene asks for one."""
-    settings = arguments(values, _TRANSFORM)
-    if settings["detrend"] == "none":
-        settings["detrend"] = None
+    settings = _transform(values)
     band = arguments(values, _BAND)
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
@@ -145,12 +159,21 @@ def _measure(
     with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
         spectrum = surface_spectrum(scan, **settings)
         if wanted is not None:
-            return spectrum, fit_self_affine(spectrum)
+            return spectrum, _fitted(spectrum)
         band.setdefault("q1", min(nyquist(scan), spectrum.q1))  # beyond it rings are incomplete
         try:
             return spectrum.truncated(**band), None
         except OutOfRange as error:
             raise OutOfRange(f'{error}; fit = "self-affine" goes on beyond it') from error
+
+
+def _fitted(spectrum: TabulatedSpectrum) -> SelfAffineFit:
+    try:
+        return fit_self_affine(spectrum)
+    except InvalidInput as error:
+        raise InvalidInput(
+            f"{error}; without fit the measured rows are taken as they are"
+        ) from error
 
 
 def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:

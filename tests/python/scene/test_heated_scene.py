@@ -153,9 +153,10 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
         (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
         (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
         (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out where shift"),
+        (scene("", more=HEATING, law=""), "[heating]: needs [conditions]"),
         (
-            scene("", more=HEATING, law=LAW + "temperature_k = 300\n"),
-            "[heating]: needs [conditions]",
+            scene(more="[heating]\ndensity_kg_m3 = 1200\n"),
+            "[heating] heat_capacity_j_kg_k: missing; [heating] needs density_kg_m3, heat_capac",
         ),
         (scene(more=HEATING.replace("1200", "1.2")), "[heating] density_kg_m3 = 1.2: must be in"),
         (

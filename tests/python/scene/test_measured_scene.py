@@ -1,0 +1,199 @@
+"""Scenes of a scan and of isotherms: what a user's own files need before there is a curve."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import InvalidInput, OutOfRange
+from asperity.cli.main import main
+from asperity.scene.scene import load_scene
+from helpers import scenes
+from helpers.cases import each
+
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=np.geomspace(3e8, 1e6, 12),
+    relaxation_times=np.geomspace(1e-9, 1e2, 12),
+)
+LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+CELSIUS = range(0, 51, 10)
+SCENE = """
+[rubber]
+isotherms = ["dma/T*.csv"]
+columns = { frequency = "f", temperature = "T", storage = "E1", loss = "E2" }
+units = { frequency = "Hz", temperature = "C", modulus = "MPa" }
+modulus = "E"
+temperature_c = 20
+[conditions]
+pressure_pa = 2e5
+velocity_m_s = { from = 1e-4, to = 1e-3, points = 9 }
+"""
+HEATING = """
+[heating]
+density_kg_m3 = 1200
+heat_capacity_j_kg_k = 1650
+conductivity_w_m_k = 0.23
+contact_diameter_m = 1e-3
+"""
+
+
+@pytest.fixture
+def dma(tmp_path: Path) -> Path:
+    """A folder with a sweep a temperature, 1 % of noise on every modulus."""
+    noise = np.random.default_rng(4)
+    (tmp_path / "dma").mkdir()
+    for celsius in CELSIUS:
+        lines = ["f,T,E1,E2"]
+        for hertz in np.geomspace(0.1, 50, 12):
+            modulus = RUBBER.modulus(2 * np.pi * hertz * 10 ** LAW.log10_a_T(273.15 + celsius))
+            one, two = 1e-6 * (1 + 0.01 * noise.normal(size=2))
+            lines.append(f"{hertz},{celsius},{modulus.real * one},{modulus.imag * two}")
+        (tmp_path / f"dma/T{celsius:02d}.csv").write_text("\n".join(lines) + "\n")
+    return tmp_path
+
+
+def loaded(folder: Path, text: str, surface: str = scenes.SURFACE, **how: Any) -> Any:
+    (folder / "scene.toml").write_text(surface + text)
+    return load_scene(folder / "scene.toml", **how)
+
+
+def known(folder: Path) -> tuple[float, float]:
+    """Velocities [m/s] from which to which the measured modulus reaches."""
+    scene = loaded(folder, SCENE)
+    low, high = scene.rubber.angular_frequency[[0, -1]]
+    return float(low / scene.spectrum.q0), float(high / scene.spectrum.q1)
+
+
+def swept(text: str, slowest: float, fastest: float) -> str:
+    return text.replace("from = 1e-4, to = 1e-3", f"from = {slowest!r}, to = {fastest!r}")
+
+
+def test_a_pattern_stands_for_files(dma: Path) -> None:
+    names = [f"dma/T{celsius:02d}.csv" for celsius in CELSIUS]
+    by_pattern = loaded(dma, SCENE)
+    assert by_pattern.inputs["rubber"]["isotherms"] == names
+    one_by_one = loaded(dma, SCENE.replace('["dma/T*.csv"]', str(names)))
+    np.testing.assert_array_equal(by_pattern.friction().mu, one_by_one.friction().mu)
+    with pytest.raises(InvalidInput, match=r"isotherms = 'dma/X\*': no file has such a name"):
+        loaded(dma, SCENE.replace("T*.csv", "X*"))
+
+
+def test_swapped_columns_are_fatal(dma: Path) -> None:
+    def fatal(text: str) -> list[str]:
+        return [note for note in loaded(dma, text).notes if note.startswith("fatal: ")]
+
+    assert fatal(SCENE) == []
+    (note,) = fatal(SCENE.replace('"E1"', '"x"').replace('"E2"', '"E1"').replace('"x"', '"E2"'))
+    assert "columns swapped" in note
+
+
+def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
+    _, fastest = known(dma)
+    beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
+    found = loaded(dma, swept(beyond, 3 * fastest, 9.9 * fastest)).friction()
+    share = found.extrapolated_share[0]
+    velocity = np.geomspace(3 * fastest, 9.9 * fastest, 9)
+    assert (share <= 1).all()
+    (most,) = [note for note in found.notes if "that of an extrapolated modulus" in note]
+    first = velocity[share > 0.5][0]
+    count = (share > 0.5).sum()
+    assert 1 < count < 9
+    span = f"from {first:.3g} to {velocity[-1]:.3g} m/s"
+    assert most.endswith(f" at {count} of 9 velocities, {span}")
+    assert most.startswith("fatal: ")
+
+
+def test_a_picture_is_grey_where_most_is_extrapolated(
+    dma: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    figures: list[Any] = []
+    monkeypatch.setattr(
+        "asperity.plot.friction.picture", lambda figure, path: figures.append(figure) or b"picture"
+    )
+    _, fastest = known(dma)
+    beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
+    for text in (swept(beyond, 3 * fastest, 9.9 * fastest), swept(SCENE, 1e-5, 0.1 * fastest)):
+        loaded(dma, text)
+        drawn = [str(dma / name) for name in ("scene.toml", "mu.csv", "mu.png")]
+        assert main(["friction", drawn[0], "--output", drawn[1], "--plot", drawn[2]]) == 0
+    beyond_figure, within = figures
+    labels = beyond_figure.axes[0].get_legend_handles_labels()[1]
+    assert "most of the hysteresis from\nan extrapolated modulus" in labels
+    (span,) = [p for p in beyond_figure.axes[0].patches if p.get_label().startswith("most of the")]
+    assert span.get_x() > fastest
+    assert beyond_figure.get_suptitle().startswith("fatal: most of the hysteresis")
+    assert not within.axes[0].patches
+    assert within.get_suptitle() == ""
+    assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$, hysteresis alone [-]"
+
+
+@each(
+    ("text", "named"),
+    [
+        (SCENE.replace("= 20", "= 80"), "[rubber] temperature_c (in K) = 353.15: isotherms"),
+        (
+            SCENE.replace("= 20", "= 80\nreference_temperature_c = 20"),
+            "[rubber] temperature_c (in K) = 353.15: shift factors are known in",
+        ),
+        (
+            SCENE.replace("temperature_c = 20\n", "") + "temperature_c = 80\n",
+            "[conditions] temperature = 353.15: isotherms",
+        ),
+    ],
+)
+def test_a_temperature_beyond_the_isotherms_has_a_way_out(
+    dma: Path, text: str, named: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(OutOfRange) as caught:
+        loaded(dma, text)
+    message = str(caught.value)
+    assert named in message
+    way = "; beyond them a scene needs their master curve, wlf_c1 and wlf_c2_k, which asperity "
+    assert message.endswith(way + "rubber gives")
+    # and the way leads there
+    names = ["--columns", "frequency=f,temperature=T,storage=E1,loss=E2", "--modulus", "E"]
+    names += ["--units", "frequency=Hz,temperature=C,modulus=MPa"]
+    names += ["--reference-temperature", "293.15", "--output", str(dma / "curve.csv")]
+    files = [str(file) for file in sorted((dma / "dma").iterdir())]
+    assert main(["rubber", *files, *names]) == 0
+    told = capsys.readouterr().err.splitlines()
+    found = dict(line.split(" = ") for line in told if " = " in line)
+    curve = f"""
+[rubber]
+master_curve = "curve.csv"
+wlf_c1 = {found["wlf_c1"]}
+wlf_c2_k = {found["wlf_c2_k"]}
+reference_temperature_c = 20
+temperature_c = 80
+"""
+    rubber = loaded(dma, curve + SCENE[SCENE.index("[conditions]") :]).rubber
+    w = rubber.angular_frequency[10]
+    exact = RUBBER.modulus(w * 10 ** LAW.log10_a_T(353.15))
+    assert rubber.modulus(w).real == pytest.approx(exact.real, rel=0.2)
+
+
+def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
+    """It may stand in [rubber], beside isotherms, or in [conditions]."""
+    there = loaded(dma, SCENE + HEATING, for_friction=True)
+    moved = SCENE.replace("temperature_c = 20\n", "") + "temperature_c = 20\n" + HEATING
+    here = loaded(dma, moved, for_friction=True)
+    assert there.temperature == here.temperature == pytest.approx(293.15)
+    np.testing.assert_array_equal(there.friction().mu, here.friction().mu)
+
+
+def test_the_lay_of_a_scan_is_noted(dma: Path) -> None:
+    heights = np.random.default_rng(3).normal(size=(256, 256))
+    grooves = np.cumsum(heights, axis=1)
+    np.save(dma / "scan.npy", grooves - grooves.mean(axis=1, keepdims=True))
+    surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 1e-4\nunit = "um"\n'
+    slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
+    assert any("across the lay" in note for note in loaded(dma, slow, surface).notes)
+
+
+def test_several_temperatures_in_the_wrong_table_are_sent_to_the_right_one(dma: Path) -> None:
+    with pytest.raises(InvalidInput, match=r"several temperatures go into \[conditions\]$"):
+        loaded(dma, SCENE.replace("= 20", "= [0, 20]"))
