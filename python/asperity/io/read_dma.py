@@ -91,7 +91,7 @@ def read_isotherms(
             rows = np.sort(rows)
             try:
                 isotherm = Isotherm(
-                    temperature=float(table["temperature"][rows].mean()),
+                    temperature=_mean(table["temperature"][rows]),
                     angular_frequency=table["frequency"][rows],
                     storage_modulus=factor * table["storage"][rows],
                     loss_modulus=factor * table["loss"][rows],
@@ -102,6 +102,11 @@ def read_isotherms(
                 raise InvalidInput(f"{path}: {problem}") from error
             result.append(isotherm)
     return sorted(result, key=lambda isotherm: isotherm.temperature)
+
+
+def _mean(values: NDArray[np.float64]) -> float:
+    """Of numbers that are all the same, that number to its last digit: who types it is inside."""
+    return float(values[0] + np.mean(values - values[0]))
 
 
 def read_strain_sweep(
@@ -124,8 +129,8 @@ def read_strain_sweep(
     order = np.argsort(table["strain"], kind="stable")
     try:
         return StrainSweep(
-            temperature=float(table["temperature"].mean()),
-            angular_frequency=float(table["frequency"].mean()),
+            temperature=_mean(table["temperature"]),
+            angular_frequency=_mean(table["frequency"]),
             strain=table["strain"][order],
             storage_modulus=factor * table["storage"][order],
             loss_modulus=factor * table["loss"][order],

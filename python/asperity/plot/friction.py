@@ -258,7 +258,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.set_ylim(bottom=0)
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
-    at = [pressure_text(float(scene.pressure[0])), _temperature_text(scene)]
+    at = [pressure_text(float(scene.pressure[0])), scene.temperature_text]
     axes.legend(loc="best", fontsize="small", title=", ".join(at), title_fontsize="small")
 
 
@@ -328,13 +328,6 @@ def _zero(scenes: Sequence[Scene]) -> float:
     return 273.15 if all(scene.in_celsius for scene in scenes) else 0.0
 
 
-def _temperature_text(scene: Scene) -> str:
-    assert scene.temperature is not None
-    if scene.in_celsius:
-        return f"{scene.temperature - 273.15:.4g} °C"
-    return f"{scene.temperature:.5g} K"
-
-
 def _warn(figure: "Figure", results: Sequence[Curves]) -> None:
     """The first fatal note above the picture, which may travel without its table."""
     fatal = next((n for result in results for n in result.notes if n.startswith(FATAL)), None)
@@ -352,7 +345,7 @@ def _names(scenes: Sequence[Scene]) -> list[str]:
     for scene in scenes:
         file = [scene.path.name if short else f"{scene.path}"] if len(paths) > 1 else []
         several = sum(other.path == scene.path for other in scenes) > 1
-        names.append(", ".join(file + ([_temperature_text(scene)] if several else [])))
+        names.append(", ".join(file + ([scene.temperature_text] if several else [])))
     return names
 
 

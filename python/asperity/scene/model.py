@@ -111,6 +111,15 @@ class Scene:
         return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
 
     @property
+    def temperature_text(self) -> str:
+        """The temperature in the unit that it was given in."""
+        if self.temperature is None:
+            return ""
+        if self.in_celsius:
+            return f"{self.temperature - 273.15:.4g} °C"
+        return f"{self.temperature:.5g} K"
+
+    @property
     def sources(self) -> list[Path]:
         """The scene file and the files that it names."""
         rubber = self.inputs["rubber"]
@@ -279,7 +288,7 @@ class Scene:
         except OutOfRange as error:
             said = [str(error)]
             if self.temperature is not None:
-                said.append(f"this is at {self.temperature:.5g} K")
+                said.append(f"this is at {self.temperature_text}")
             said += [n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)]
             raise OutOfRange("; ".join(said)) from error
 

@@ -56,15 +56,25 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
 
 def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
     """Every note once, fatal ones first; of several scenes with the names of those it is about."""
-    about: dict[str, list[str]] = {}
+    about: dict[str, list[Scene]] = {}
     for scene, result in zip(scenes, curves, strict=True):
         for note in dict.fromkeys(result.notes):
-            about.setdefault(note, []).append(f"{scene.path}")
-    if len({scene.path for scene in scenes}) == 1:
-        return fatal_first(about)
-    return fatal_first(
-        note_about(", ".join(dict.fromkeys(names)), note) for note, names in about.items()
-    )
+            about.setdefault(note, []).append(scene)
+    named = ((_told_of(its, scenes), note) for note, its in about.items())
+    return fatal_first(note_about(name, note) if name else note for name, note in named)
+
+
+def _told_of(its: Sequence[Scene], scenes: Sequence[Scene]) -> str:
+    """Which scenes a note is about: their files where there are several, and the temperatures of
+    a file unless it is about all of them."""
+    files = {scene.path for scene in scenes}
+    names = []
+    for file in dict.fromkeys(scene.path for scene in its):
+        at = [scene for scene in its if scene.path == file]
+        every = sum(scene.path == file for scene in scenes)
+        temperatures = [one.temperature_text for one in at] if len(at) < every else []
+        names.append(", ".join(([f"{file}"] if len(files) > 1 else []) + temperatures))
+    return ", ".join(filter(None, names))
 
 
 def _curves(scene: Scene, *, band: bool, bar: Bar) -> Curves:

@@ -197,3 +197,19 @@ def test_the_lay_of_a_scan_is_noted(dma: Path) -> None:
 def test_several_temperatures_in_the_wrong_table_are_sent_to_the_right_one(dma: Path) -> None:
     with pytest.raises(InvalidInput, match=r"several temperatures go into \[conditions\]$"):
         loaded(dma, SCENE.replace("= 20", "= [0, 20]"))
+
+
+def test_what_is_said_of_one_temperature_names_it(
+    dma: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _, fastest = known(dma)
+    text = SCENE.replace("temperature_c = 20", 'extrapolation = "power-law"')
+    loaded(dma, swept(text, fastest, 4 * fastest) + "temperature_c = [20, 30]\n", for_friction=True)
+    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 0
+    notes = capsys.readouterr().err
+    assert "note: 20 °C: more than 5 % of the hysteresis" in notes
+    assert "note: the measured spectrum" not in notes
+    assert "note: 30 °C: more than 5 %" not in notes  # warmer, so all of it was measured
+    loaded(dma, swept(text, fastest, 9 * fastest) + "temperature_c = [0, 20]\n", for_friction=True)
+    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 2
+    assert capsys.readouterr().err.endswith("m/s are allowed; this is at 0 °C\n")
