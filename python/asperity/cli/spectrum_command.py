@@ -1,6 +1,8 @@
 """The verb `spectrum`: of a scan in memory, or of a map by tiles."""
 
+import math
 from argparse import Namespace
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -77,16 +79,46 @@ def spectrum(args: Namespace) -> None:
         numbers |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
     if fit is not None:
         numbers |= _fitted(fit)
+    of_map = isinstance(found.flat, HeightMap)
+    floor = scan.noise_floor(measured, found.nyquist) if of_map else None
+    if floor is not None:
+        numbers["noise_from_per_m"] = floor
     notes = [*unusual, *fit_notes, *found.notes]
     if not reached:
         notes.append(
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
             f"{whole.q1:.4g} 1/m, is {whole.rms_slope:.3g}"
         )
+    if floor is not None:
+        slope = measured.truncated(q1=floor).rms_slope
+        notes.append(
+            f"C(q) ends flat, as no surface does: from {floor:.3g} 1/m on noise of the instrument, "
+            "or roughness finer than the pixels, is half of it or more; without what lies there "
+            f"the rms slope is {slope:.3g} instead of {whole.rms_slope:.3g}"
+        )
+    notes.append(_serves(band, floor))
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
-    draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn)
+    draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn, floor)
     write_outputs(args, table, draw, numbers)
+
+
+def _serves(band: Sequence[float] | None, floor: float | None) -> str:
+    """Whether the scan serves, and from where to where."""
+    if band is None:
+        return "this scan does not serve: no row of its spectrum is reliable, take a larger one"
+    first, last = band[0], min(band[1], floor or math.inf)
+    decades = math.log10(last / first)
+    where = f"from {first:.3g} to {last:.3g} 1/m, {decades:.2g} decades"
+    upper, better = "half of pi / pixel", "finer pixels"
+    if last < band[1]:
+        upper, better = "the noise", "an instrument of less noise"
+    if decades < 1:
+        return (
+            f"this scan serves {where} only: mu would hang on what lies beyond; take a larger scan "
+            f"for longer waves, {better} for shorter ones"
+        )
+    return f"this scan serves {where}, the window's first sound row to {upper}"
 
 
 def _in_memory(path: Path, args: Namespace) -> Measured:

@@ -1,7 +1,7 @@
 """Figures of a scan and its spectrum (matplotlib)."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_with_room
 from asperity.plot.style import grey, narrow, palette
-from asperity.scene.scan import Scan
+from asperity.scene.scan import Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_PIXELS = 1000  # of a side, in a picture: a larger map is thinned out
+_ABOVE = 10  # points between a panel and its title: the 0 of a map's corner stands there
+# inches: of a map, of the scales and the bar beside it, and of the panel of the spectrum
+_MAP_HEIGHT, _BESIDE_MAP, _SPECTRUM = 2.7, 1.7, 4.6
 
 
 def spectrum_figure(
@@ -27,23 +30,39 @@ def spectrum_figure(
     spectrum: TabulatedSpectrum,
     fit: SelfAffineFit | None,
     cutoff: float | None,
+    floor: float | None,
     path: Path,
 ) -> bytes:
     """The scan as measured, without its trend (the article's Fig. 6), and its spectrum up to pi /
-    pixel (Fig. 7)."""
+    pixel (Fig. 7). `floor` is the wavenumber from which noise is more than half of it."""
     figure, (left, middle, right) = new_figure(3)
+    if isinstance(flat, HeightMap) and not narrow():
+        _fit_to_maps(figure, flat)
     for axes, scan, title in (
         (left, raw, "(a) as measured"),
-        (middle, flat, "(b) trend removed, holes filled"),
+        (middle, flat, f"(b) {_without(raw)}"),
     ):
         if isinstance(scan, HeightMap):
             draw_map(figure, axes, scan)
         else:
             draw_line(axes, scan)
-        axes.set_title(title, fontsize="medium")
-    draw_spectrum(right, spectrum, fit, cutoff)
-    right.set_title("(c) spectrum", fontsize="medium")
+        axes.set_title(title, fontsize="medium", pad=_ABOVE)
+    draw_spectrum(right, spectrum, fit, cutoff, end=nyquist(flat), floor=floor)
+    right.set_title("(c) spectrum", fontsize="medium", pad=_ABOVE)
     return picture(figure, path)
+
+
+def _without(raw: Scan) -> str:
+    return "trend removed" + (", holes filled" if raw.dropout_fraction > 0 else "")
+
+
+def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
+    """Give two panels of maps the width that their shape fills, and the spectrum its own."""
+    ny, nx = scan.heights.shape
+    wide = nx * scan.pixel_size[1] / (ny * scan.pixel_size[0])
+    width = float(np.clip(_MAP_HEIGHT * wide, 1.0, 4.0)) + _BESIDE_MAP
+    figure.set_size_inches(2 * width + _SPECTRUM, float(figure.get_size_inches()[1]))
+    figure.axes[0].get_gridspec().set_width_ratios([width, width, _SPECTRUM])  # type: ignore[union-attr]
 
 
 def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
@@ -79,8 +98,15 @@ def draw_line(axes: "Axes", scan: LineScan) -> None:
 
 
 def draw_spectrum(
-    axes: "Axes", spectrum: TabulatedSpectrum, fit: SelfAffineFit | None, cutoff: float | None
+    axes: "Axes",
+    spectrum: TabulatedSpectrum,
+    fit: SelfAffineFit | None,
+    cutoff: float | None,
+    *,
+    end: float | None = None,
+    floor: float | None = None,
 ) -> None:
+    """C(q); `end` is pi / pixel of its scan."""
     q, density, good = spectrum.wavenumber, spectrum.density, spectrum.reliable
     shown = density > 0
     _draw_band(axes, spectrum)
@@ -97,13 +123,29 @@ def draw_spectrum(
             label += f"\nroll-off {fit.rolloff:.3g}/m"
         axes.plot(fitted, fit.spectrum.at(fitted), color=palette()[1], linewidth=1.5, label=label)
     if cutoff is not None:
-        axes.axvline(cutoff, color=grey(0.4), linestyle="--", label="rms slope 1.3")
+        axes.axvline(cutoff, color=grey(0.4), linestyle="--", label="$q_1$ for rms slope 1.3")
+    if end is not None:
+        axes.axvline(end / 2, color=grey(0.4), linestyle=":", label="half of π / pixel; π / pixel")
+        axes.axvline(end, color=grey(0.4), linestyle=":")
+    if floor is not None:
+        end_of_rows, colour = float(q[-1]), palette()[1]
+        label = "flat: noise, no surface"
+        axes.axvspan(floor, end_of_rows, color=colour, alpha=0.15, linewidth=0, label=label)
     axes.set_xscale("log")
     if shown.any():
         axes.set_yscale("log")
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
-    legend_with_room(axes)
+    how: dict[str, Any] = {}
+    if end is not None:
+        slope = f"rms slope {spectrum.rms_slope:.3g} up to π / pixel"
+        how = {"title": slope, "title_fontsize": "small"}
+    if end is not None and narrow():  # so long a legend leaves no room for the curve
+        figure: Any = axes.get_figure()
+        entries = axes.get_legend_handles_labels()
+        figure.legend(*entries, loc="outside lower center", ncols=2, fontsize="small", **how)
+    else:
+        legend_with_room(axes, **how)
 
 
 def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.io.read_surface import read_surface
@@ -19,6 +21,14 @@ Scan = HeightMap | LineScan
 _LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
 _FEW_PERIODS, _NEAR_NYQUIST = 1, 2  # bits of TabulatedSpectrum.flag
+# White noise of an instrument has a flat C(q), a surface one that falls as q^-2 or steeper. Heights
+# taken at points fold finer roughness back (aliasing), by which C(q) falls less below pi / pixel.
+# Exponents of a fit over the last quarter, half and whole octave below it, for a surface of
+# H = 0.2 that is rough down to an 80th of a pixel, summed over its aliases: what falls less than
+# these is no surface, or none that the pixels show.
+_FOLDED = ((2**0.25, -0.43), (2**0.5, -0.59), (2.0, -0.89))
+_ROWS = 6  # fewer tell no exponent with its error
+_SMOOTHED = 5  # rows of a running median, past which a single line does not reach
 
 
 def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Scan, Scan]:
@@ -83,3 +93,35 @@ def trusted(spectrum: TabulatedSpectrum) -> Sequence[float] | None:
         return None
     sound = spectrum.wavenumber[(spectrum.flag & (_FEW_PERIODS | _NEAR_NYQUIST)) == 0]
     return (float(sound[0]), float(sound[-1])) if np.size(sound) else None
+
+
+def noise_floor(spectrum: TabulatedSpectrum, end: float) -> float | None:
+    """The wavenumber [1/m] from which C(q) of a map is less than twice the level at which it ends
+    flat below `end` = pi / pixel; None where it falls up to there."""
+    band = trusted(spectrum)
+    whole = (spectrum.wavenumber <= end) & (spectrum.density > 0)
+    q, density = spectrum.wavenumber[whole], spectrum.density[whole]
+    if band is None or q.size < _SMOOTHED:
+        return None
+    for part, least in _FOLDED:
+        last = q >= end / part
+        if np.count_nonzero(last) < _ROWS:
+            continue
+        exponent, error = _exponent(q[last], density[last])
+        if exponent - 2 * error > least:
+            break
+    else:
+        return None
+    level = float(np.median(density[last]))
+    middle = slice(_SMOOTHED // 2, -(_SMOOTHED // 2))
+    smooth = np.median(sliding_window_view(density, _SMOOTHED), axis=-1)
+    drowned = (q[middle] >= band[0]) & (smooth <= 2 * level)
+    return float(q[middle][drowned][0]) if drowned.any() else None
+
+
+def _exponent(q: NDArray[np.float64], density: NDArray[np.float64]) -> tuple[float, float]:
+    """That of the power law through the rows, and its standard error by their scatter."""
+    x, y = np.log(q) - np.log(q).mean(), np.log(density) - np.log(density).mean()
+    exponent = (x @ y) / (x @ x)
+    left = y - exponent * x
+    return float(exponent), math.sqrt((left @ left) / (x @ x) / (x.size - 2))

@@ -1,12 +1,14 @@
 """`asperity spectrum`: line scans, directions, drop-outs, what is flagged."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import asperity
 from asperity.cli.main import main
+from asperity.scene.scan import noise_floor
 from helpers.scenes import SCENE
 
 SIDE, PIXEL = 256, 1e-6
@@ -102,3 +104,66 @@ def test_friction_says_where_its_spectrum_is_uncertain(folder: Path) -> None:
     sound = spectrum.truncated(q0=4.2e5, q1=1.5e6)
     notes = asperity.friction(sound, rubber, pressure=1e5, velocity=1e-3).notes
     assert not any("measured spectrum" in note for note in notes)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 1.0])
+@pytest.mark.parametrize("rolloff", [None, 8])
+@pytest.mark.parametrize("finer", [1, 4])
+def test_noise_is_seen_where_it_is_and_nowhere_else(
+    hurst: float, rolloff: int | None, finer: int
+) -> None:
+    """Maps of rings up to pi / pixel, and points of four times finer ones, which fold back."""
+    end, first = np.pi / PIXEL, 2 * np.pi / (SIDE * PIXEL)
+    road = asperity.SelfAffineSpectrum(
+        rms_height=1e-6,
+        hurst=hurst,
+        q0=first,
+        q1=0.999 * finer * end,
+        rolloff=None if rolloff is None else rolloff * first,
+    )
+    shape = (SIDE * finer, SIDE * finer)
+    made = asperity.synthesize(road, shape=shape, pixel_size=PIXEL / finer, seed=5)
+    # white noise has C = s^2 pixel^2 / (4 pi^2): as much as the surface at 0.4 of pi / pixel
+    crossing = 0.4 * end
+    deviation = 2 * np.pi / PIXEL * np.sqrt(road.at(crossing))
+    white = deviation * np.random.default_rng(6).standard_normal((SIDE, SIDE))
+    for side in (SIDE // 2, SIDE):  # a part of it is not periodic
+        clean = made.heights[::finer, ::finer][:side, :side]
+        noisy = clean + white[:side, :side]
+        assert noise_floor(measured(clean), end) is None
+        assert noise_floor(measured(noisy), end) == pytest.approx(crossing, rel=0.2)
+
+
+def measured(heights: Any) -> asperity.TabulatedSpectrum:
+    return asperity.power_spectrum(asperity.HeightMap(heights, pixel_size=PIXEL))
+
+
+def test_noise_is_told_and_drawn_and_whether_the_scan_serves(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figure_of = pytest.importorskip("matplotlib.figure").Figure
+    drawn: list[Any] = []
+    save = figure_of.savefig
+    monkeypatch.setattr(
+        figure_of, "savefig", lambda self, *a, **k: (drawn.append(self), save(self, *a, **k))
+    )
+    heights = SCAN.heights
+    noise = 2 * np.pi / PIXEL * np.sqrt(SURFACE.at(0.3 * np.pi / PIXEL))
+    noise = noise * np.random.default_rng(1).standard_normal(heights.shape)
+    for name, scan in (("clean.npy", heights), ("noisy.npy", heights + noise)):
+        np.save(name, scan)
+        found, said = run(capsys, name, *READ, "--plot", "s.png", "--output", "s.csv")
+        (line,) = [line for line in said.splitlines() if "this scan serves" in line]
+        last = found.get("noise_from_per_m", found["reliable_to_per_m"])
+        assert f"from {found['reliable_from_per_m']:.3g} to {last:.3g} 1/m" in line
+        assert ("ends flat" in said) == ("noise_from_per_m" in found) == (name == "noisy.npy")
+        assert "only: mu would hang on" in line  # 0.9 and 0.7 decades
+    for figure, noisy in zip(drawn, (False, True), strict=True):
+        axes = figure.axes[2]
+        legend = axes.get_legend() or figure.legends[0]
+        names = [text.get_text() for text in legend.get_texts()]
+        assert ("flat: noise, no surface" in names) == noisy
+        marks = [line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1]
+        assert marks[-2:] == pytest.approx([np.pi / PIXEL / 2, np.pi / PIXEL])
+        assert "rms slope" in legend.get_title().get_text()
+        assert figure.axes[1].get_title() == "(b) trend removed"  # there are no holes
