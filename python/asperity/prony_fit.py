@@ -39,7 +39,9 @@ class PronyFit(PronySeries):
     equilibrium_modulus, moduli, relaxation_times
         As in PronySeries.
     storage_residual, loss_residual : float
-        Relative root mean square of E' and of E'' about the fit [-].
+        Relative root mean square of E' and of E'' of the rows that it was fitted to about it [-].
+        The rows of a `MasterCurveBuild` are a smooth curve through its points, which scatter more:
+        `MasterCurveBuild.residual` is what that curve leaves of them.
     causal : bool
         False where E' and E'' contradict each other (Kramers-Kronig) by more than their noise.
     lowest_frequency, highest_frequency : float

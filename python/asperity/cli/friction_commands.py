@@ -43,7 +43,7 @@ def demo(args: Namespace) -> None:
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
-        with drawn_in(args.style):
+        with drawn_in(args.style, table.notes):
             files[picture.name] = plot_friction.friction_figure([scene], curves, picture)
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "mu_cold", "hysteresis", "adhesion", "hot_temperature_k")
@@ -138,7 +138,7 @@ def write_outputs(
     text = table.json() if args.json else table.csv()
     files: dict[Path, bytes] = {}
     if args.plot is not None:
-        with drawn_in(args.style):
+        with drawn_in(args.style, table.notes):
             files[FilePath(args.plot)] = draw(FilePath(args.plot))
     if args.output is not None:
         files[FilePath(args.output)] = _bytes(text)

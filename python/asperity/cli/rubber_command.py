@@ -90,8 +90,10 @@ def rubber(args: Namespace) -> None:
     }
     table = Table("rubber", [inputs], [*unusual, *build.notes, *notes], columns)
 
+    celsius = (args.units or {}).get("temperature") == "C"
+
     def draw(path: Path) -> bytes:
-        return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path)
+        return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path, celsius=celsius)
 
     write_outputs(args, table, draw, found)
 
@@ -137,8 +139,19 @@ def _found(build: MasterCurveBuild, wlf: WlfFit | None, prony: PronyFit | None) 
             "prony_modes": float(prony.moduli.size),
             "prony_storage_residual": prony.storage_residual,
             "prony_loss_residual": prony.loss_residual,
+            **_of_points(build, prony),
         }
     return found
+
+
+def _of_points(build: MasterCurveBuild, prony: PronyFit) -> dict[str, float]:
+    """What the series leaves of the measured points, which scatter about the master curve that it
+    was fitted to; `residual` is what that curve leaves of them."""
+    points = build.points
+    fitted = prony.modulus(points.angular_frequency)
+    off = points.storage_modulus / fitted.real - 1, points.loss_modulus / fitted.imag - 1
+    names = "prony_points_storage_residual", "prony_points_loss_residual"
+    return {name: float(np.sqrt(np.mean(one**2))) for name, one in zip(names, off, strict=True)}
 
 
 def _isotherms(build: MasterCurveBuild) -> dict[str, list[float]]:

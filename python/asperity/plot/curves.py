@@ -1,6 +1,7 @@
 """Figures for a paper: what all have in common, and area over magnification (matplotlib)."""
 
 import io
+import textwrap
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.extras import to_install
 from asperity.plot.labels import MOST_NAMED, legend_with_room, name_curves
-from asperity.plot.style import colours, grey, narrow, palette, shades
+from asperity.plot.style import colours, fatal_notes, grey, narrow, palette, shades
 from asperity.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 FORMATS = (".png", ".svg", ".pdf")
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
+_MOST_FATAL = 3  # notes below a picture
+_LETTERS, _LETTERS_NARROW = 13, 18  # of a small font that fit an inch
 COLUMN = 3.4  # inches, of a journal of two columns
 _DASHES = ("-", "--", ":", "-.")
 PRESSURE, VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
@@ -148,6 +151,7 @@ def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
     if narrow():
         rows, columns, size = panels, 1, (COLUMN, 2.6 * panels)
     figure = Figure(figsize=size, layout="constrained")
+    _warn(figure)
     drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
     for axes in drawn:
         axes.tick_params(which="both", direction="in", top=True, right=True)
@@ -167,6 +171,20 @@ def picture(figure: "Figure", path: Path) -> bytes:
         warnings.filterwarnings("ignore", "Glyph ")  # of a file name, in a font that lacks it
         figure.savefig(out, format=kind, dpi=300, metadata=undated)
     return out.getvalue()
+
+
+def _warn(figure: "Figure") -> None:
+    """Write the fatal notes of the result below all panels."""
+    notes = fatal_notes()
+    if not notes:
+        return
+    told = [*notes[:_MOST_FATAL]]
+    if len(notes) > len(told):
+        told.append(f"and {len(notes) - len(told)} more fatal notes")
+    letters = int(figure.get_size_inches()[0] * (_LETTERS_NARROW if narrow() else _LETTERS))
+    lines = [line for note in told for line in textwrap.wrap(note, letters)]
+    how = {"fontsize": "small", "color": palette()[1]}
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", parse_math=False, **how)
 
 
 def band_text(level: float) -> str:

@@ -17,6 +17,7 @@ from asperity.sweeps import Isotherm
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_ZERO = 273.15  # [K] of 0 C
 _STORAGE, _LOSS, _TAN = 0, 1, 2  # of the palette
 
 
@@ -26,22 +27,30 @@ def rubber_figure(
     wlf: WlfFit | None,
     prony: PronyFit | None,
     path: Path,
+    *,
+    celsius: bool,
 ) -> bytes:
-    """Isotherms as measured, the master curve (the article's Fig. 5), a_T, what the fit leaves."""
+    """Isotherms as measured, the master curve (the article's Fig. 5), a_T, what the fit leaves.
+    Temperatures are in the unit that the files have."""
     figure, (first, second, third, fourth) = new_figure(4)
-    draw_isotherms(first, isotherms)
+    draw_isotherms(first, isotherms, celsius=celsius)
     first.set_title("(a) isotherms", fontsize="medium")
     _draw_master(second, build, prony)
-    reference = build.reference_temperature
-    second.set_title(f"(b) master curve at {reference:.4g} K", fontsize="medium")
-    draw_shifts(third, build, wlf)
+    reference = temperature_text(build.reference_temperature, celsius=celsius)
+    second.set_title(f"(b) master curve at {reference}", fontsize="medium")
+    draw_shifts(third, build, wlf, celsius=celsius)
     third.set_title("(c) shift factors", fontsize="medium")
     _draw_residual(fourth, build, prony)
     fourth.set_title("(d) points about the Prony fit", fontsize="medium")
     return picture(figure, path)
 
 
-def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
+def temperature_text(kelvin: float, *, celsius: bool) -> str:
+    """A temperature in the unit that a reader gave."""
+    return f"{kelvin - _ZERO:.1f} °C" if celsius else f"{kelvin:.1f} K"
+
+
+def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm], *, celsius: bool) -> None:
     temperatures = np.array([isotherm.temperature for isotherm in isotherms])
     span = max(float(np.ptp(temperatures)), 1.0)
     for isotherm in isotherms:
@@ -51,7 +60,7 @@ def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm]) -> None:
         axes.plot(w, isotherm.loss_modulus, "^:", markersize=2.5, linewidth=0.8, color=colour)
     for extreme in (temperatures.min(), temperatures.max()):
         colour = shades()((extreme - temperatures.min()) / span)
-        axes.plot([], [], color=colour, label=f"{extreme:.4g} K")
+        axes.plot([], [], color=colour, label=temperature_text(extreme, celsius=celsius))
     axes.plot([], [], "o-", color=grey(0.4), markersize=2.5, label="$E$′")
     axes.plot([], [], "^:", color=grey(0.4), markersize=2.5, label="$E$″")
     _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
@@ -80,9 +89,12 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     legend_with_room(axes)
 
 
-def draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> None:
+def draw_shifts(
+    axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None, *, celsius: bool
+) -> None:
+    zero = _ZERO if celsius else 0.0
     axes.errorbar(
-        build.temperature,
+        build.temperature - zero,
         build.log10_a_T,
         yerr=2 * build.standard_deviation,
         fmt="o",
@@ -94,9 +106,10 @@ def draw_shifts(axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None) -> No
     if wlf is not None:
         t = np.linspace(build.temperature[0], build.temperature[-1], 200)
         d = t - wlf.reference_temperature
-        label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\nresidual {wlf.residual:.2g}"
-        axes.plot(t, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
-    axes.set_xlabel("Temperature $T$ [K]")
+        label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\n"
+        label += f"residual {wlf.residual:.2g} decades"
+        axes.plot(t - zero, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
+    axes.set_xlabel(f"Temperature $T$ [{'°C' if celsius else 'K'}]")
     axes.set_ylabel("$\\log_{10} a_T$ [-]")
     legend_with_room(axes)
 
@@ -110,12 +123,14 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
         return
     points = build.points
     fitted = prony.modulus(points.angular_frequency)
-    for measured, fit, mark, colour, name in (
-        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E$′"),
-        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E$″"),
+    storage, loss = prony.storage_residual, prony.loss_residual
+    for measured, fit, mark, colour, name, of_curve in (
+        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E$′", storage),
+        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E$″", loss),
     ):
         miss = 100 * (measured / fit - 1)
-        label = f"{name}, rms {np.sqrt(np.mean(miss**2)):.2g} %"  # of the points drawn
+        rms = np.sqrt(np.mean(miss**2))  # of the points drawn; the fit knows their smooth curve
+        label = f"{name}, rms {rms:.2g} %; of the master curve {100 * of_curve:.2g} %"
         w = points.angular_frequency
         axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
     legend_with_room(axes)

@@ -9,9 +9,9 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_with_room
-from asperity.plot.rubber import draw_isotherms, draw_shifts
+from asperity.plot.rubber import draw_isotherms, draw_shifts, temperature_text
 from asperity.plot.style import grey, palette
-from asperity.plot.surface import draw_line, draw_map, draw_spectrum
+from asperity.plot.surface import draw_line, draw_map, draw_spectrum, without_trend
 from asperity.scene.model import Scene
 from asperity.scene.scan import flat, nyquist, surface_spectrum
 from asperity.self_affine_fit import SelfAffineFit
@@ -36,7 +36,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
             draw_map(figure, panels[0], shown)
         else:
             draw_line(panels[0], shown)
-        panels[0].set_title("trend removed, holes filled", fontsize="medium")
+        panels[0].set_title(without_trend(scan), fontsize="medium")
         measured = surface_spectrum(scan, window=values["window"], detrend=detrend)
         measured = measured.truncated(q1=min(nyquist(scan), measured.q1))
     _draw_used(panels[-1], scene, measured, scene.surface.fit)
@@ -87,15 +87,17 @@ def rubber_figure(scene: Scene, path: Path) -> bytes:
     axes.set_xlim(low, high)
     axes.set_xlabel("Angular frequency $\\omega$ [rad/s]")
     axes.set_ylabel("Modulus [Pa]")
+    celsius = built.values.get("units", {}).get("temperature") == "C"
     if built.temperature is not None:
-        axes.set_title(f"the rubber at {built.temperature:.5g} K", fontsize="medium")
+        at = temperature_text(built.temperature, celsius=celsius)
+        axes.set_title(f"the rubber at {at}", fontsize="medium")
     legend_with_room(axes)
     if built.build is not None:
-        draw_isotherms(panels[0], built.isotherms)
+        draw_isotherms(panels[0], built.isotherms, celsius=celsius)
         panels[0].set_title("isotherms", fontsize="medium")
         wlf: WlfFit | None = None
         with suppress(InvalidInput, NotConverged):  # then the picture is without the law
             wlf = built.build.fit_wlf()
-        draw_shifts(panels[1], built.build, wlf)
+        draw_shifts(panels[1], built.build, wlf, celsius=celsius)
         panels[1].set_title("shift factors", fontsize="medium")
     return picture(figure, path)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.base.notes import FATAL, fatal_first
+
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
 
@@ -19,11 +21,28 @@ _ON_DARK = ("#56B4E9", "#E69F00", "#2FC7A0", "#E29BC4", "#F0E442", "#E8703A", "#
 _DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
 _NARROW = {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4}
 _style: ContextVar[str] = ContextVar("style", default="print")
+_fatal: ContextVar[Sequence[str]] = ContextVar("fatal", default=())
 
 
 @contextmanager
-def drawn_in(style: str | None) -> Iterator[None]:
-    """Let the pictures that are drawn meanwhile have a style."""
+def drawn_in(style: str | None, notes: Sequence[str] = ()) -> Iterator[None]:
+    """Let the pictures that are drawn meanwhile have a style, and below them the fatal ones of the
+    notes: a picture goes on its way without the terminal that told them."""
+    token = _fatal.set([note for note in fatal_first(notes) if note.startswith(FATAL)])
+    try:
+        with _in_style(style):
+            yield
+    finally:
+        _fatal.reset(token)
+
+
+def fatal_notes() -> Sequence[str]:
+    """Those of the picture that is being drawn."""
+    return _fatal.get()
+
+
+@contextmanager
+def _in_style(style: str | None) -> Iterator[None]:
     if style is None:
         yield
         return

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _MOST_PIXELS = 1000  # of a side, in a picture: a larger map is thinned out
 _ABOVE = 10  # points between a panel and its title: the 0 of a map's corner stands there
+_BELOW = 0.9  # inches, of the legend below panels under one another
 # inches: of a map, of the scales and the bar beside it, and of the panel of the spectrum
 _MAP_HEIGHT, _BESIDE_MAP, _SPECTRUM = 2.7, 1.7, 4.6
 
@@ -36,11 +37,14 @@ def spectrum_figure(
     """The scan as measured, without its trend (the article's Fig. 6), and its spectrum up to pi /
     pixel (Fig. 7). `floor` is the wavenumber from which noise is more than half of it."""
     figure, (left, middle, right) = new_figure(3)
-    if isinstance(flat, HeightMap) and not narrow():
+    if narrow():
+        width, height = figure.get_size_inches()
+        figure.set_size_inches(float(width), float(height) + _BELOW)
+    elif isinstance(flat, HeightMap):
         _fit_to_maps(figure, flat)
     for axes, scan, title in (
         (left, raw, "(a) as measured"),
-        (middle, flat, f"(b) {_without(raw)}"),
+        (middle, flat, f"(b) {without_trend(raw)}"),
     ):
         if isinstance(scan, HeightMap):
             draw_map(figure, axes, scan)
@@ -52,7 +56,8 @@ def spectrum_figure(
     return picture(figure, path)
 
 
-def _without(raw: Scan) -> str:
+def without_trend(raw: Scan) -> str:
+    """What was done to a scan that is shown without its trend."""
     return "trend removed" + (", holes filled" if raw.dropout_fraction > 0 else "")
 
 

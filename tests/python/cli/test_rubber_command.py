@@ -202,3 +202,34 @@ def test_one_isotherm_is_refused(folder, capsys):
     assert main(["rubber", "one.csv", *SYNTHETIC]) == 2
     err = capsys.readouterr().err
     assert "isotherms at 1 temperature(s): must be at 2 or more to shift" in err
+
+
+@pytest.mark.parametrize(("unit", "shown"), [("C", "°C"), ("K", "K")])
+def test_temperatures_of_a_picture_are_in_the_unit_of_the_files(folder, monkeypatch, unit, shown):
+    figure_of = pytest.importorskip("matplotlib.figure").Figure
+    drawn = []
+    save = figure_of.savefig
+    monkeypatch.setattr(
+        figure_of, "savefig", lambda self, *a, **k: (drawn.append(self), save(self, *a, **k))
+    )
+    zero = 273.15 if unit == "C" else 0.0
+    header, *rows = (folder / "dma.csv").read_text().splitlines()
+    cells = [row.split(",", 1) for row in rows]
+    text = "\n".join([header, *(f"{float(t) - zero!r},{rest}" for t, rest in cells)])
+    (folder / "dma.csv").write_text(text)
+    options = [one.replace("temperature=K", f"temperature={unit}") for one in SYNTHETIC]
+    assert main(["rubber", "dma.csv", *options, "--output", "a.csv", "--plot", "a.png"]) == 0
+    first, second, third, fourth = drawn[0].axes[:4]
+    ends = [f"{t - zero:.1f} {shown}" for t in (TEMPERATURES.min(), TEMPERATURES.max())]
+    assert [text.get_text() for text in first.get_legend().get_texts()][:2] == ends
+    assert second.get_title().endswith(f" {shown}")
+    assert third.get_xlabel() == f"Temperature $T$ [{shown}]"
+    (points,) = [line for line in third.lines if line.get_marker() == "o"]
+    np.testing.assert_allclose(points.get_xdata(), TEMPERATURES - zero, atol=1e-9)
+    # the errors on it are those of the table
+    lines = (folder / "a.csv").read_text().splitlines()
+    header = dict(line[2:].split(" = ") for line in lines if line.startswith("# found."))
+    for name, text in zip(("storage", "loss"), fourth.get_legend().get_texts(), strict=True):
+        of_points = 100 * float(header[f"found.prony_points_{name}_residual"])
+        of_curve = 100 * float(header[f"found.prony_{name}_residual"])
+        assert f"rms {of_points:.2g} %; of the master curve {of_curve:.2g} %" in text.get_text()

@@ -44,7 +44,7 @@ def test_wlf_is_the_curve_drawn_and_its_residual_that_of_the_points() -> None:
 
     build = built(sweeps(noise=0.05, seed=1))
     axes = pyplot.figure().subplots()
-    draw_shifts(axes, build, build.fit_wlf())
+    draw_shifts(axes, build, build.fit_wlf(), celsius=False)
     curve = labelled(axes, "WLF")
     (points,) = [line for line in axes.lines if line.get_marker() == "o"]
     t, shift = (np.asarray(one) for one in points.get_data())

@@ -283,6 +283,37 @@ def test_colours_show_on_what_is_drawn_on(count: int) -> None:
             assert (luminance(colour) + 0.05) / background >= 3
 
 
+@pytest.mark.parametrize("style", ["print", "single", "dark"])
+def test_fatal_notes_stand_on_the_picture(style: str) -> None:
+    """And no others do; they lie inside of it, below the panels, and say how many were left out."""
+    from asperity.plot import style as styles
+    from asperity.plot.curves import new_figure
+
+    notes = [f"fatal: number {i}, {'which tells at $length and _much_ ' * 4}" for i in range(5)]
+    with styles.drawn_in(style, ["of no weight", *notes]):
+        figure, panels = new_figure(2)
+    figure.draw_without_rendering()
+    told = figure.get_supxlabel()
+    assert "of no weight" not in told
+    assert [f"number {i}" in told for i in range(5)] == [True, True, True, False, False]
+    assert told.endswith("and 2 more fatal notes")
+    box = figure._supxlabel.get_window_extent()  # type: ignore[attr-defined]
+    assert box.x0 >= 0
+    assert box.x1 <= figure.bbox.x1
+    assert box.y1 < min(axes.get_tightbbox().y0 for axes in panels)  # type: ignore[union-attr]
+    with styles.drawn_in(style):
+        assert new_figure(2)[0].get_supxlabel() == ""
+
+
+def test_a_fatal_note_of_a_result_stands_on_its_picture(folder: Path, figures: list[Any]) -> None:
+    scan = 'file = "scan.npy"\npixel_size_m = [2e-5, 1e-5]\nunit = "m"\nslope_cutoff = 99'
+    before, after = SCENE.split("[rubber]")
+    scene = before[: before.index("rms_height_m")] + scan + "\n[rubber]" + after
+    (folder / "scene.toml").write_text(scene)
+    assert main(["area", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    assert figures[0].get_supxlabel().startswith("fatal: ")
+
+
 DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
 
 
@@ -320,4 +351,4 @@ def test_legends_cover_no_curve(folder: Path, figures: list[Any], verb: str, sty
             seen += 1
             over = (points > (box.x0, box.y0)) & (points < (box.x1, box.y1))
             assert not over.all(axis=1).any(), (axes.get_ylabel(), line.get_label())
-    assert seen
+    assert seen or figure.legends  # below all panels
