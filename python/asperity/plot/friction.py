@@ -1,7 +1,6 @@
 """Friction over velocity, pressure or temperature; beside it what heat makes of it."""
 
 import math
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.base.notes import FATAL
 from asperity.plot.curves import (
     MOST_ENTRIES,
     PRESSURE,
@@ -23,13 +21,12 @@ from asperity.plot.curves import (
     shaded,
 )
 from asperity.plot.labels import legend_beside
-from asperity.plot.style import colours, grey, narrow, shades
+from asperity.plot.style import colours, grey, shades
 from asperity.results.extrapolation_notes import MOSTLY
 from asperity.scene.model import Curves, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_SHADED = 3  # curves whose model error can be told apart
 _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
@@ -95,7 +92,6 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         beside[0].set_ylabel("Temperature rise at $q_1$ [K]")
     if profiled is not None:
         _draw_profiles(beside[1], profiled)
-    _warn(figure, results)
     entries = axes.get_legend_handles_labels()
     if entries[1]:
         legend_beside(figure, *entries)
@@ -326,15 +322,6 @@ def _hatch(colour: Any) -> dict[str, Any]:
 def _zero(scenes: Sequence[Scene]) -> float:
     """What a picture calls zero [K]: of degrees Celsius where all scenes have them."""
     return 273.15 if all(scene.in_celsius for scene in scenes) else 0.0
-
-
-def _warn(figure: "Figure", results: Sequence[Curves]) -> None:
-    """The first fatal note above the picture, which may travel without its table."""
-    fatal = next((n for result in results for n in result.notes if n.startswith(FATAL)), None)
-    if fatal is not None:
-        width = 50 if narrow() else 90
-        text = textwrap.fill(textwrap.shorten(fatal, 2 * width, placeholder=" ..."), width)
-        figure.suptitle(_plain(text), fontsize="small", color="#c0392b")
 
 
 def _names(scenes: Sequence[Scene]) -> list[str]:

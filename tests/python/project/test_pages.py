@@ -15,6 +15,7 @@ from asperity.cli.main import main
 from asperity.cli.parser import parser
 from asperity.scene import keys, model, parts, rubber, surface
 from asperity.scene.scene import load_scene
+from helpers.measured import present
 
 ROOT = Path(__file__).parents[3]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -146,6 +147,49 @@ def test_scene(folder: Path) -> None:
     curves = load_scene(folder / "shown.toml").friction()
     assert curves.mu.shape == (2, 60)
     assert np.all(curves.mu > curves.hysteresis)
+
+
+@pytest.mark.parametrize("page", ["docs/howto/temperature.md", "docs/reference/scene.md"])
+def test_a_hot_scene_runs_as_it_stands(page: str, folder: Path) -> None:
+    (hot,) = [block for block in blocks(page, "toml") if "[heating]" in block]
+    (folder / "hot.toml").write_text(hot, encoding="utf-8")
+    curves = load_scene(folder / "hot.toml", for_friction=True).friction()
+    assert curves.mu_cold is not None
+    assert np.all(curves.mu != curves.mu_cold)
+
+
+def test_a_scene_with_isotherms_at_another_temperature(folder: Path) -> None:
+    isotherms = blocks("docs/howto/temperature.md", "toml")[0]
+    road = "[surface]\nrms_height_m = 1e-4\nhurst = 0.8\nq0_per_m = 2e3\nq1_per_m = 2e4\n"
+    (folder / "warm.toml").write_text(road + isotherms, encoding="utf-8")
+    scene = load_scene(folder / "warm.toml", for_friction=True)
+    assert scene.temperature == pytest.approx(313.15)
+    assert np.all(scene.friction().mu > 0)
+    both = isotherms.replace("[rubber]\n", "[rubber]\ntemperature_c = 40\n")
+    (folder / "both.toml").write_text(road + both, encoding="utf-8")
+    with pytest.raises(asperity.InvalidInput, match="must be left out where"):
+        load_scene(folder / "both.toml")
+
+
+def test_beyond_the_isotherms_by_their_law(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = PAGES["docs/howto/temperature.md"]
+    (command,) = [one for one in commands(page) if "tf_015p" in one]
+    words = command.split()[1:]
+    words[1] = str(present("dma", "material_a", "tf_015p.csv"))
+    assert main([word for word in words if word != "\\"]) == 0
+    told = capsys.readouterr().err
+    (printed,) = re.findall(r"```text\n(reference.*?)```", page, re.DOTALL)
+    for line in printed.splitlines():
+        assert line in told.splitlines()
+    (scene,) = [block for block in blocks("docs/howto/temperature.md", "toml") if "60" in block]
+    (folder / "warm.toml").write_text(scene, encoding="utf-8")
+    assert np.all(load_scene(folder / "warm.toml", for_friction=True).friction().mu > 0)
+    slow = scene.replace("from = 2e-3", "from = 1e-3")
+    (folder / "slow.toml").write_text(slow, encoding="utf-8")
+    assert main(["friction", str(folder / "slow.toml")]) == 2
+    assert "0.00135768" in capsys.readouterr().err
 
 
 def test_the_scene_of_the_readme_takes_files_of_ones_own(folder: Path) -> None:

@@ -125,9 +125,9 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
     assert "most of the hysteresis from\nan extrapolated modulus" in labels
     (span,) = [p for p in beyond_figure.axes[0].patches if p.get_label().startswith("most of the")]
     assert span.get_x() > fastest
-    assert beyond_figure.get_suptitle().startswith("fatal: most of the hysteresis")
+    assert beyond_figure.get_supxlabel().startswith("fatal: most of the hysteresis")
     assert not within.axes[0].patches
-    assert within.get_suptitle() == ""
+    assert within.get_supxlabel() == ""
     assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$, hysteresis alone [-]"
 
 
