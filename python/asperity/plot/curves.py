@@ -25,7 +25,8 @@ FORMATS = (".png", ".svg", ".pdf")
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
 _MOST_LABELS = 24  # names beside a colour bar
 _MOST_FATAL = 3  # notes below a picture
-_LETTERS, _LETTERS_NARROW = 13, 18  # of a small font that fit an inch
+_LETTERS, _LETTERS_NARROW = 15, 18  # of a small font that fit an inch
+_LINE = 0.17  # inches, of its height
 COLUMN = 3.4  # inches, of a journal of two columns
 _DASHES = ("-", "--", ":", "-.")
 PRESSURE, VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ [m/s]"
@@ -183,6 +184,8 @@ def _warn(figure: "Figure") -> None:
         told.append(f"and {len(notes) - len(told)} more fatal notes")
     letters = int(figure.get_size_inches()[0] * (_LETTERS_NARROW if narrow() else _LETTERS))
     lines = [line for note in told for line in textwrap.wrap(note, letters)]
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + _LINE * len(lines))  # the panels keep theirs
     how = {"fontsize": "small", "color": palette()[1]}
     figure.supxlabel("\n".join(lines), x=0.01, ha="left", parse_math=False, **how)
 

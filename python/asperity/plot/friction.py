@@ -20,7 +20,7 @@ from asperity.plot.curves import (
     pressure_text,
     shaded,
 )
-from asperity.plot.labels import legend_beside
+from asperity.plot.labels import legend_beside, legend_with_room
 from asperity.plot.style import colours, grey, shades
 from asperity.results.extrapolation_notes import MOSTLY
 from asperity.scene.model import Curves, Scene
@@ -71,6 +71,8 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
         _draw(axes, curve, colour, kinds, labelled=not many, hatched=hatched)
     if beside:
         axes.plot([], [], linestyle=_COLD, color=grey(0.3), linewidth=1.2, label="without heat")
+        if len(kinds) == 1:
+            axes.plot([], [], color=grey(0.3), linewidth=_WIDTH, label="with heat")
         _draw_rises(beside[0], curves, tints)
     if len(kinds) > 1:
         for kind, dashes in kinds.items():
@@ -84,8 +86,8 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     _mark_guesses(axes, curves)
     if hatched:
         _tell_errors(axes, curves, results)
-    alone = "" if len(kinds) > 1 else ", hysteresis alone"
-    axes.set_ylabel(f"Friction coefficient $\\mu${alone} [-]")
+    alone = "" if len(kinds) > 1 else "\nof hysteresis alone"
+    axes.set_ylabel(f"Friction coefficient $\\mu$ [-]{alone}")
     if beside:
         _label(beside[0], abscissa, scenes)
         beside[0].set_ylim(bottom=0)
@@ -95,6 +97,9 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     entries = axes.get_legend_handles_labels()
     if entries[1]:
         legend_beside(figure, *entries)
+    if profiled is not None:  # where that left it
+        at = [pressure_text(float(profiled.pressure[0])), profiled.temperature_text]
+        legend_with_room(beside[1], title=", ".join(at), title_fontsize="small")
     return picture(figure, path)
 
 
@@ -242,7 +247,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
         axes.axvline(q1, color=grey(0.5), linestyle=":", linewidth=1)
         axes.annotate(
             "$q_1$",
-            (q1, 0.95),
+            (q1, 0.02),
             xycoords=axes.get_xaxis_transform(),
             xytext=(3, 0),
             textcoords="offset points",
@@ -254,8 +259,6 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.set_ylim(bottom=0)
     axes.set_xlabel("Wavenumber $q$ [1/m]")
     axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
-    at = [pressure_text(float(scene.pressure[0])), scene.temperature_text]
-    axes.legend(loc="best", fontsize="small", title=", ".join(at), title_fontsize="small")
 
 
 def _label(axes: "Axes", abscissa: str, scenes: Sequence[Scene]) -> None:

@@ -128,7 +128,7 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
     assert beyond_figure.get_supxlabel().startswith("fatal: most of the hysteresis")
     assert not within.axes[0].patches
     assert within.get_supxlabel() == ""
-    assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$, hysteresis alone [-]"
+    assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$ [-]\nof hysteresis alone"
 
 
 @each(
