@@ -291,11 +291,13 @@ inline bool within(double x, const std::array<double, 2>& box) noexcept {
   return bits(x) - bits(box[0]) <= bits(box[1]) - bits(box[0]);
 }
 
-/// Aligned as `pair` wants it.
-struct alignas(16) Two {
-  double number[2];
+/// A line of the processor's cache: numbers that are read together begin with one.
+struct alignas(64) Line {
+  double number[8];
 };
-inline const double* numbers(const std::vector<Two>& of) noexcept { return reinterpret_cast<const double*>(of.data()); }
+inline const double* numbers(const std::vector<Line>& of) noexcept {
+  return reinterpret_cast<const double*>(of.data());
+}
 
 struct Grid {
   double x, z, columns_per_x, rows_per_z;
@@ -303,9 +305,10 @@ struct Grid {
   std::int64_t last_column, last_row;
 };
 
-constexpr std::size_t cell_size = 34, head_size = 152, heat_head_size = 48;  // of a cell without an axis of T0
-constexpr double long_slid = 1e300;                                          // [m]
-constexpr std::uint32_t most_bands = 64, most_nested = 64;                   // what a look-up goes through is bounded
+constexpr std::size_t head_size = 152, heat_head_size = 48;
+constexpr std::size_t corner_size = 2, block_size = 32;     // numbers of a cell: its corner, then one block or more
+constexpr double long_slid = 1e300;                         // [m]
+constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
 
 }  // namespace map_detail
 
@@ -359,8 +362,9 @@ class FrictionMap {
       const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
       double slope = 0;
       const double z = ln_p - log_modulus_offset(x, slope);
-      const double* const cell = cell_at(x, z);
-      return mu_of(bicubic(cell + 2, x - cell[0], z - cell[1]), log_adhesion(ln_p, ln_v));
+      double dx = 0, dz = 0;
+      const double* const cell = cell_at(x, z, dx, dz);
+      return mu_of(bicubic(cell, dx, dz), log_adhesion(ln_p, ln_v));
     }
     return settled_mu(pressure, velocity, outside, temperature);
   }
@@ -446,9 +450,9 @@ class FrictionMap {
   };
 
   [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair logarithms(const Where& at) const noexcept {
-    if (steps_ == 0) return bicubic(at.cell + 2, at.dx, at.dz);
+    if (steps_ == 0) return bicubic(at.cell, at.dx, at.dz);
 #ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) return tricubic_of_fours(at.cell + 2 + 128 * at.step, at.dx, at.dz, at.dT);
+    if (has_fours_) return tricubic_of_fours(at.cell + 128 * at.step, at.dx, at.dz, at.dT);
 #endif
     return tricubic(at);
   }
@@ -469,9 +473,7 @@ class FrictionMap {
     at.x = at.ln_v = logarithms_of_both[0];
     at.ln_p = logarithms_of_both[1];
     if (has_axis) set_step(temperature.background, at);
-    at.cell = cell_at(at.x, at.ln_p);
-    at.dx = at.x - at.cell[0];
-    at.dz = at.ln_p - at.cell[1];
+    at.cell = cell_at(at.x, at.ln_p, at.dx, at.dz);
     return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
   }
 
@@ -491,8 +493,9 @@ class FrictionMap {
     double slope = 0;
     const double length = log_sliding_length(sliding_rows(at), at.x), adhesion = log_adhesion(at);
     const double x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
-    const double* const cell = cold_->cell_at(x, z);
-    const Pair of_cold = bicubic(cell + 2, x - cell[0], z - cell[1]), of_hot = logarithms(at);
+    double dx = 0, dz = 0;
+    const double* const cell = cold_->cell_at(x, z, dx, dz);
+    const Pair of_cold = bicubic(cell, dx, dz), of_hot = logarithms(at);
     const Pair first = map_detail::exp(Pair{-length, of_cold[0]});
     const Pair last = map_detail::exp(Pair{-(distance * first[0]), of_cold[1] + adhesion});
     const double cold = sum_of_parts(first[1], last[1]), hot = mu_of(of_hot, adhesion);
@@ -605,7 +608,7 @@ class FrictionMap {
     for (std::size_t k = 0; k < n; ++k) entry[k] = entry_at(x[k], z[k]);
     for (std::size_t k = 0; k < n; ++k) {
       const double* const cell = this->cells() + entry[k] * cell_size_;
-      const double* c = cell + 2;
+      const double* c = cell;
       if (cells != nullptr) {
         const std::size_t slot = entry[k] % CellsAtT0::size;
         double* const room = cells->coefficients[slot];
@@ -615,7 +618,8 @@ class FrictionMap {
         }
         c = room;
       }
-      const map_detail::Pair f = bicubic(c, x[k] - cell[0], z[k] - cell[1]);
+      const double* const corner = &corners_[2 * entry[k]];
+      const map_detail::Pair f = bicubic(c, x[k] - corner[0], z[k] - corner[1]);
       mu[k] = f[0];
       area[k] = f[1];
     }
@@ -687,14 +691,14 @@ class FrictionMap {
       return (at_temperature(r, t, t2) + at_temperature(r + 2, t, t2) * x) +
              (at_temperature(r + 4, t, t2) + at_temperature(r + 6, t, t2) * x) * x2;
     };
-    const double* const c = at.cell + 2 + 128 * at.step;
+    const double* const c = at.cell + 128 * at.step;
     return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
   }
 
   /// The polynomials of a cell at T0, in `room` where they depend on it.
   const double* coefficients(const Where& at, double* room) const noexcept {
-    if (steps_ == 0) return at.cell + 2;
-    to_temperature(at.cell + 2 + 128 * at.step, at.dT, room);
+    if (steps_ == 0) return at.cell;
+    to_temperature(at.cell + 128 * at.step, at.dT, room);
     return room;
   }
 
@@ -766,9 +770,7 @@ class FrictionMap {
     Where cold = at;
     cold.x = cold_x(at);
     const double z = at.ln_p - cold_->log_modulus_offset(cold.x, cold.slope);
-    cold.cell = cold_->cell_at(cold.x, z);
-    cold.dx = cold.x - cold.cell[0];
-    cold.dz = z - cold.cell[1];
+    cold.cell = cold_->cell_at(cold.x, z, cold.dx, cold.dz);
     return cold;
   }
 
@@ -809,9 +811,7 @@ class FrictionMap {
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
     const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
-    at.cell = cell_at(at.x, z);
-    at.dx = at.x - at.cell[0];
-    at.dz = z - at.cell[1];
+    at.cell = cell_at(at.x, z, at.dx, at.dz);
     return at;
   }
 
@@ -912,8 +912,12 @@ class FrictionMap {
     return cubic(offset_.data(), offset_.size() / 2, offset_per_x_, offset_step_, x - offset_x_, slope);
   }
 
-  [[nodiscard]] ASPERITY_MAP_INLINE const double* cell_at(double x, double z) const noexcept {
-    return cells() + entry_at(x, z) * cell_size_;
+  /// A cell's polynomials, and how far from its corner.
+  [[nodiscard]] ASPERITY_MAP_INLINE const double* cell_at(double x, double z, double& dx, double& dz) const noexcept {
+    const std::size_t entry = entry_at(x, z);
+    dx = x - corners_[2 * entry];
+    dz = z - corners_[2 * entry + 1];
+    return cells() + entry * cell_size_;
   }
 
   [[nodiscard]] const double* cells() const noexcept { return map_detail::numbers(cells_); }
@@ -942,17 +946,18 @@ class FrictionMap {
   std::vector<double> ends_, offset_;                          // of the bands
   double offset_x_ = 0, last_x_ = 0;                           // ln of the box's velocities
   double offset_per_x_ = 0, offset_step_ = 0;
-  std::size_t cell_size_ = map_detail::cell_size;
-  std::uint32_t steps_ = 0;  // of T0 in cells, 0 for one T0
+  std::size_t cell_size_ = map_detail::block_size;  // numbers from one to the next
+  std::uint32_t steps_ = 0;                         // of T0 in cells, 0 for one T0
   std::int64_t last_step_ = 0;
   std::int64_t last_row_ = 0, last_column_ = 0, row_size_ = 0;
   double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
-  std::vector<double> shift_;             // coefficients of ln a_T over T0
-  std::vector<map_detail::Two> sliding_;  // of ln s0 over x and T0
+  std::vector<double> shift_;              // coefficients of ln a_T over T0
+  std::vector<map_detail::Line> sliding_;  // of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
-  std::vector<map_detail::Two> cells_;
+  std::vector<double> corners_;  // of cells: x, z
+  std::vector<map_detail::Line> cells_;
 #ifdef ASPERITY_MAP_FOURS
   bool has_fours_ = __builtin_cpu_supports("avx") != 0;  // the processor
 #endif
@@ -988,12 +993,16 @@ class Reader {
     for (double& x : to) good = number(x, most) && good;
     return good;
   }
-  /// The same of twice as many.
-  bool numbers(std::vector<Two>& to, std::size_t n, double most) {
-    to.resize(n);
+  /// Cells: corners, of which powers of the distance stay finite, and so many lines of polynomials.
+  bool cells(std::vector<double>& corners, std::vector<Line>& to, std::size_t n, std::size_t lines, double most) {
+    corners.resize(2 * n);
+    to.resize(n * lines);
     bool good = true;
-    for (Two& two : to)
-      for (double& x : two.number) good = number(x, most) && good;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) good = number(corners[k], 1e4) && good;
+      for (std::size_t k = lines * i; k < lines * (i + 1); ++k)
+        for (double& c : to[k].number) good = number(c, most) && good;
+    }
     return good;
   }
 
@@ -1059,16 +1068,15 @@ inline std::vector<double> cubics(const std::vector<double>& values, std::size_t
 }
 
 /// Rows of cubics, each beside by how much that of the next row differs, if there is one; but the last of several.
-inline std::vector<Two> with_differences(const std::vector<double>& cubics, std::size_t row) {
-  std::vector<Two> result;
+inline std::vector<Line> with_differences(const std::vector<double>& cubics, std::size_t row) {
   const std::size_t rows = cubics.size() / row;
-  for (std::size_t i = 0; i < (rows < 2 ? 1 : rows - 1) * row; i += 4) {
-    for (std::size_t k = i; k < i + 4; k += 2) result.push_back({{cubics[k], cubics[k + 1]}});
-    for (std::size_t k = i; k < i + 4; k += 2) {
-      const auto next = [&](std::size_t at) { return rows < 2 ? 0 : cubics[at + row] - cubics[at]; };
-      result.push_back({{next(k), next(k + 1)}});
+  std::vector<Line> result((rows < 2 ? 1 : rows - 1) * row / 4);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double c = cubics[4 * i + k];
+      result[i].number[k] = c;
+      result[i].number[4 + k] = rows < 2 ? 0 : cubics[4 * i + k + row] - c;
     }
-  }
   return result;
 }
 
@@ -1083,13 +1091,6 @@ inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<
       if (inner <= k || around[k] + 1 >= most_nested) return false;
       if (around[inner] <= around[k]) around[inner] = around[k] + 1;
     }
-  return true;
-}
-
-/// Powers of the offsets from a cell's corner stay finite.
-inline bool corners_are_near(const double* cells, std::size_t n, std::size_t size) noexcept {
-  for (std::size_t i = 0; i < n * size; i += size)
-    if (!(std::fabs(cells[i]) < 1e4 && std::fabs(cells[i + 1]) < 1e4)) return false;
   return true;
 }
 
@@ -1146,10 +1147,10 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   good = good && in.u32() == 0;
   map_detail::HeatHead warm;
   if (heat) good = warm.read(in, info, size) && good && nodes == 0;
-  map.cell_size_ = 2 + 32 * warm.blocks();
+  map.cell_size_ = map_detail::block_size * warm.blocks();
   const std::uint64_t needed = map_detail::head_size + warm.bytes() + 8 * (bands + 1ull) + 16ull * nodes +
-                               48ull * grids + padded(4ull * entries) + 8ull * map.cell_size_ * cells + padded(text) +
-                               8;
+                               48ull * grids + padded(4ull * entries) +
+                               8ull * (map_detail::corner_size + map.cell_size_) * cells + padded(text) + 8;
   good = good && flags < 2 && bands > 0 && bands <= map_detail::most_bands && nodes != 1 && grids >= bands &&
          entries > 0 && cells > 0 && needed == size;
   if (!good) return refuse("is damaged: its head contradicts itself");
@@ -1188,8 +1189,7 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   }
   in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
   good = good && map_detail::no_grid_in_itself(map.grids_, map.entries_) &&
-         in.numbers(map.cells_, map.cell_size_ / 2 * std::size_t{cells}, 1e100) &&
-         map_detail::corners_are_near(map.cells(), cells, map.cell_size_);
+         in.cells(map.corners_, map.cells_, cells, map.cell_size_ / 8, 1e100);
   if (!good) return refuse("is damaged: its tables contradict each other");
   info.cells = cells;
   if (heat) {

@@ -20,7 +20,7 @@ struct MapSlopes {
   double *h, *a, *h_x, *a_x, *h_z, *a_z;
 };
 
-/// Cubics of ln s0 over steps of x, each beside by how much that of the next row of T0 differs.
+/// Cubics of ln s0 over steps of x, each beside by how much that of the next row of T0 differs; or a row's alone.
 struct SlidingTable {
   const double* cubics;
   double first_x, per_x, last_column, first_T0, rows_per_T0, last_row;
@@ -38,6 +38,12 @@ struct MapAdhesion {
   double ln_shear_stress, ln_reference, fall;
 };
 
+/// Blocks of polynomials of each cell, so many numbers from one cell to the next, and the cells' corners.
+struct Cells {
+  const double *polynomials, *corners;
+  std::size_t size;
+};
+
 struct MapLoops {
   bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* a_T,
                   std::size_t n, double* speed, double* shifted);
@@ -45,18 +51,18 @@ struct MapLoops {
   void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
   bool (*entries)(const map_detail::Grid& grid, const std::int32_t* all, const double* x, const double* z,
                   std::size_t n, std::int32_t* entry);
-  void (*polynomials)(const double* cells, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
+  void (*polynomials)(const Cells& of, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
   bool (*all_within)(const double* x, double lowest, double highest, std::size_t n);
   void (*steps)(const double* temperature, double first, double per_kelvin, double last, std::size_t n,
                 std::int32_t* step, double* t);
-  void (*warm_polynomials)(const double* cells, std::size_t cell_size, const std::int32_t* cell,
-                           const std::int32_t* step, const double* x, const double* z, const double* t, std::size_t n,
-                           double* h, double* a);
-  void (*at_temperature)(const double* cells, std::size_t cell_size, std::size_t step, double t, std::size_t n,
-                         double* result);
+  void (*warm_polynomials)(const Cells& of, const std::int32_t* cell, const std::int32_t* step, const double* x,
+                           const double* z, const double* t, std::size_t n, double* h, double* a);
+  void (*at_temperature)(const Cells& of, std::size_t step, double t, std::size_t n, double* result);
   void (*sliding_lengths)(const SlidingTable& table, const double* x, const double* temperature, std::size_t n,
                           double* ln_s0, double* share, std::int32_t* place);
+  void (*sliding_lengths_of_row)(const SlidingTable& table, const double* x, std::size_t n, double* ln_s0,
+                                 std::int32_t* place);
   void (*cold_velocities)(const ColdVelocities& table, const std::int32_t* step, const double* t, const double* x,
                           std::size_t n, double* shifted);
   void (*held_sums)(const double* x, double more, double lowest, double highest, std::size_t n, double* sum);
@@ -66,8 +72,8 @@ struct MapLoops {
                     std::size_t n, double* mu);
   void (*both_parts)(const double* ln_hysteresis, const double* ln_area, const double* ln_p, const double* ln_v,
                      const MapAdhesion& law, std::size_t n, double* mu);
-  void (*slopes)(const double* cells, std::size_t cell_size, const std::int32_t* cell, const std::int32_t* step,
-                 const double* x, const double* z, const double* t, std::size_t n, const MapSlopes& to);
+  void (*slopes)(const Cells& of, const std::int32_t* cell, const std::int32_t* step, const double* x, const double* z,
+                 const double* t, std::size_t n, const MapSlopes& to);
   void (*chain_rule)(const double* hysteresis, const double* adhesion, const MapSlopes& of, const double* offset_slope,
                      const double* ln_v, double ln_reference, double fall, std::size_t n, double* by_p, double* by_v);
 };
@@ -98,17 +104,29 @@ class FrictionMapBatch {
   FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
       : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
 
-  /// Before n points: where they share T0 and are more than the cells, sums the cells' polynomials at it once for all.
+  /// Before n points: where they share T0, sums over it once for all the cubics of ln s0 and, if the points are more
+  /// than the cells, the cells' polynomials.
   void share_temperature(const MapColumns& points, std::size_t n) {
-    if (map_.steps_ == 0 || points.background.size() != 1 || n < map_.info_.cells) return;
-    const auto [lowest, highest] = map_.info_.temperature;
-    const double background = points.background[0];
-    if (!(background >= lowest && background <= highest)) return;
+    if (!map_.info_.heat || points.background.size() > 1) return;
     FrictionMap::Where at;
-    map_.set_step(background, at);
-    at_shared_T0_.resize(map_.info_.cells * map_detail::cell_size);
-    loops_.at_temperature(map_.cells(), map_.cell_size_, static_cast<std::size_t>(at.step), at.dT, map_.info_.cells,
-                          at_shared_T0_.data());
+    if (map_.steps_ > 0) {
+      const auto [lowest, highest] = map_.info_.temperature;
+      const double background = points.background.empty() ? 0 : points.background[0];
+      if (!(background >= lowest && background <= highest)) return;
+      map_.set_step(background, at);
+      shared_log_a_T_ = map_.log_a_T(at);
+    }
+    if (!points.distance.empty()) {
+      const FrictionMap::SlidingRows rows = map_.sliding_rows(at);
+      for (std::int64_t i = 0; i < map_.row_size_; i += 8)
+        for (std::int64_t k = i; k < i + 4; ++k)
+          sliding_at_shared_T0_.push_back(rows.cubics[k] + rows.cubics[k + 4] * rows.share);
+    }
+    if (map_.steps_ == 0 || n < map_.info_.cells) return;
+    const Cells of = cells_of(map_);
+    at_shared_T0_.resize(map_.info_.cells * map_detail::block_size / std::size(map_detail::Line{}.number));
+    loops_.at_temperature(of, static_cast<std::size_t>(at.step), at.dT, map_.info_.cells,
+                          reinterpret_cast<double*>(at_shared_T0_.data()));
   }
 
   /// A number at points [begin, begin + n), at most a block; how many come before the first without a value.
@@ -139,10 +157,8 @@ class FrictionMapBatch {
     if (map_.offset_.empty()) std::fill_n(offset_slope_, n, 0.0);
     const double* const z = find_cells(map_, x_, n);
     const MapSlopes found{h_, a_, h_x_, a_x_, h_z_, a_z_};
-    if (at_shared_T0_.empty())
-      loops_.slopes(map_.cells(), map_.cell_size_, cell_, map_.steps_ == 0 ? nullptr : step_, x_, z, dT_, n, found);
-    else
-      loops_.slopes(at_shared_T0_.data(), map_detail::cell_size, cell_, nullptr, x_, z, dT_, n, found);
+    const bool has_steps = map_.steps_ > 0 && at_shared_T0_.empty();
+    loops_.slopes(cells_of(map_), cell_, has_steps ? step_ : nullptr, x_, z, dT_, n, found);
     exponentials(MapQuantity::hysteresis, map_, at.ln_v, n, h_);
     exponentials(MapQuantity::adhesion, map_, at.ln_v, n, cold_);
     loops_.chain_rule(h_, cold_, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
@@ -199,13 +215,15 @@ class FrictionMapBatch {
   /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
   bool plain(const MapColumns& points, const double* background, const double* distance, std::size_t n) {
     constexpr double any = std::numeric_limits<double>::infinity();
-    if (!points.distance.empty() && !loops_.all_within(distance, 0, any, n)) return false;
+    const auto entries = [n](std::span<const double> of) { return of.size() == 1 ? 1 : n; };
+    if (!points.distance.empty() && !loops_.all_within(distance, 0, any, entries(points.distance))) return false;
     if (!map_.info_.heat) return points.background.empty();
     if (!is_one(points.a_T) || shifts_adhesion_) return false;
     const bool only = map_.steps_ == 0 && points.background.empty();
     const auto [lowest, highest] = map_.info_.temperature;
-    if (!only && !loops_.all_within(background, lowest, highest, n)) return false;
-    if (map_.steps_ > 0) loops_.steps(background, lowest, map_.steps_per_T_, map_.steps_ - 1.0, n, step_, dT_);
+    if (!only && !loops_.all_within(background, lowest, highest, entries(points.background))) return false;
+    if (map_.steps_ > 0 && at_shared_T0_.empty())
+      loops_.steps(background, lowest, map_.steps_per_T_, map_.steps_ - 1.0, n, step_, dT_);
     return true;
   }
 
@@ -213,12 +231,10 @@ class FrictionMapBatch {
   void find_all(MapQuantity quantity, const FrictionMap& map, const double* x, const double* ln_v, std::size_t n,
                 double* result) {
     const double* const z = find_cells(map, x, n);
-    if (map.steps_ == 0)
-      loops_.polynomials(map.cells(), cell_, x, z, n, h_, a_);
-    else if (!at_shared_T0_.empty())
-      loops_.polynomials(at_shared_T0_.data(), cell_, x, z, n, h_, a_);
+    if (map.steps_ == 0 || !at_shared_T0_.empty())
+      loops_.polynomials(cells_of(map), cell_, x, z, n, h_, a_);
     else
-      loops_.warm_polynomials(map.cells(), map.cell_size_, cell_, step_, x, z, dT_, n, h_, a_);
+      loops_.warm_polynomials(cells_of(map), cell_, step_, x, z, dT_, n, h_, a_);
     exponentials(quantity, map, ln_v, n, result);
   }
 
@@ -245,15 +261,21 @@ class FrictionMapBatch {
       for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], offset_slope_[i]);
     const bool one_band = map.ends_.size() == 1;
     if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z, n, cell_)) return z;
-    for (std::size_t i = 0; i < n; ++i)
-      cell_[i] = static_cast<std::int32_t>((map.cell_at(x[i], z[i]) - map.cells()) /
-                                           static_cast<std::ptrdiff_t>(map.cell_size_));
+    for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map.entry_at(x[i], z[i]));
     return z;
+  }
+
+  /// As its points find them: at the T0 that they share, if there is one.
+  [[nodiscard]] Cells cells_of(const FrictionMap& map) const {
+    const bool shared = map.steps_ > 0 && !at_shared_T0_.empty();
+    return {shared ? map_detail::numbers(at_shared_T0_) : map.cells(), map.corners_.data(),
+            shared ? map_detail::block_size : map.cell_size_};
   }
 
   /// Adds to the hot number at x_ the share of the cold one that is left after a distance.
   void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* hot) {
-    const SlidingTable lengths{map_detail::numbers(map_.sliding_),
+    const bool has_row = !sliding_at_shared_T0_.empty();
+    const SlidingTable lengths{has_row ? sliding_at_shared_T0_.data() : map_detail::numbers(map_.sliding_),
                                map_.offset_x_,
                                map_.sliding_per_x_,
                                static_cast<double>(map_.last_column_),
@@ -261,7 +283,10 @@ class FrictionMapBatch {
                                map_.rows_per_T_,
                                static_cast<double>(std::max<std::int64_t>(map_.last_row_, 0)),
                                static_cast<std::int32_t>(map_.row_size_)};
-    loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
+    if (has_row)
+      loops_.sliding_lengths_of_row(lengths, x_, n, ln_s0_, cell_);
+    else
+      loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
     const double* x = x_;
     if (map_.steps_ > 0) {
       x = speed_;
@@ -269,16 +294,16 @@ class FrictionMapBatch {
       if (at_shared_T0_.empty())
         loops_.cold_velocities(shift, step_, dT_, x_, n, speed_);
       else
-        loops_.held_sums(x_, map_.log_a_T({.dT = dT_[0], .step = step_[0]}), shift.lowest, shift.highest, n, speed_);
+        loops_.held_sums(x_, shared_log_a_T_, shift.lowest, shift.highest, n, speed_);
     }
     find_all(quantity, *map_.cold_, x, x_, n, cold_);
     loops_.blend(ln_s0_, place.distance, cold_, n, hot);
   }
 
-  /// A column's part, or its only entry as often as it is needed.
+  /// A column's part, or its only entry as often as the first block, none of which is longer, needs it.
   static const double* column(std::span<const double> all, std::size_t begin, std::size_t n, double* room) {
     if (all.size() > 1) return &all[begin];
-    std::fill_n(room, n, all[0]);
+    if (begin == 0) std::fill_n(room, n, all[0]);
     return room;
   }
   static const double* optional(std::span<const double> all, double otherwise, std::size_t begin, std::size_t n,
@@ -290,7 +315,9 @@ class FrictionMapBatch {
   FrictionMap::Outside outside_;
   bool shifts_adhesion_;
   const MapLoops& loops_;
-  std::vector<double> at_shared_T0_;  // cells as those of a map of this T0, or none
+  std::vector<map_detail::Line> at_shared_T0_;  // the cells' polynomials of a map of this T0, or none
+  std::vector<double> sliding_at_shared_T0_;    // the cubics of ln s0 over x at it, or none
+  double shared_log_a_T_ = 0;
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
   double dT_[block], ln_s0_[block], cold_[block];
