@@ -25,14 +25,16 @@ constexpr std::size_t level = 1;            // of the grid: six digits
 constexpr std::size_t steps_a_length = 80;  // of the residence; errors of s0 are a small part of a step
 constexpr std::size_t steps = steps_a_length * 3 / 2;
 
-/// What is left of heat that came so many steps before, a unit of it that rises and falls over a step each: at the
-/// nodes (temperature points x nodes [s]) and at the surface [s/m].
+/// What is left of heat that came so many steps before, a unit of it that rises and falls over a step each. The kernel
+/// is a sum of two products: (felt_i b_j - a_i^2 heated_j) / (b_j^2 - a_i^2) of temperature point i and node j, and
+/// felt_i of the surface, so that two vectors a step are all of it.
 struct Left {
-  std::vector<MatrixXd> nodes;
-  std::vector<VectorXd> surface;
+  std::vector<VectorXd> felt, heated;
 };
 struct Response {
   Left whole, falling;  // of the very first heat there is but the fall: it does not rise from nothing
+  VectorXd a, b;
+  MatrixXd inverse;  // 1 / (b^2 - a^2), temperature points x nodes
 };
 
 double overlap(Residence residence, double share) {
@@ -51,19 +53,19 @@ Response response(const HeatScene& scene, const HeatGrid& grid, double residence
   const auto columns = [](const std::vector<double>& q) -> VectorXd {
     return 2 * Eigen::Map<const VectorXd>(q.data(), static_cast<Index>(q.size()));
   };
-  const VectorXd a = columns(grid.temperature_points()), b = columns(grid.wavenumber());
-  // 1 / (b^2 - a^2), moved a little off where the two are the same: K is smooth there
-  MatrixXd inverse(a.size(), b.size());
+  Response result{{}, {}, columns(grid.temperature_points()), columns(grid.wavenumber()), {}};
+  const VectorXd &a = result.a, &b = result.b;
+  // moved a little off where the two are the same: K is smooth there
+  result.inverse.resize(a.size(), b.size());
   for (Index j = 0; j < b.size(); ++j)
     for (Index i = 0; i < a.size(); ++i) {
       double apart = b[j] - a[i];
       if (std::fabs(apart) < 1e-7 * b[j]) apart = std::copysign(1e-7 * b[j], apart);
-      inverse(i, j) = 1 / (apart * (b[j] + a[i]));
+      result.inverse(i, j) = 1 / (apart * (b[j] + a[i]));
     }
-  Response result;
   for (Left* const left : {&result.whole, &result.falling}) {
-    left->nodes.assign(steps_a_length + 1, MatrixXd::Zero(a.size(), b.size()));
-    left->surface.assign(steps_a_length + 1, VectorXd::Zero(a.size()));
+    left->felt.assign(steps_a_length + 1, VectorXd::Zero(a.size()));
+    left->heated.assign(steps_a_length + 1, VectorXd::Zero(b.size()));
   }
   const LegendreRule& rule = legendre_rule(8);
   const double step = residence_time / steps_a_length;
@@ -76,19 +78,16 @@ Response response(const HeatScene& scene, const HeatGrid& grid, double residence
       const double share = tau / step - static_cast<double>(k);  // of the step
       const double weight = (upper - lower) * rule.weight[i] * root * overlap(heating.residence, tau / residence_time);
       const double length = std::sqrt(diffusivity) * root;
-      const VectorXd felt = scaled_erfcs(a, length), heated = scaled_erfcs(b, length);
-      const MatrixXd kernel =
-          weight * (a.cwiseProduct(felt) * b.transpose() - a.cwiseAbs2() * heated.transpose()).cwiseProduct(inverse);
-      const VectorXd surface = weight * a.cwiseProduct(felt);
-      result.whole.nodes[k] += (1 - share) * kernel;
-      result.whole.surface[k] += (1 - share) * surface;
-      result.falling.nodes[k + 1] += share * kernel;
-      result.falling.surface[k + 1] += share * surface;
+      const VectorXd felt = weight * a.cwiseProduct(scaled_erfcs(a, length)), heated = weight * scaled_erfcs(b, length);
+      result.whole.felt[k] += (1 - share) * felt;
+      result.whole.heated[k] += (1 - share) * heated;
+      result.falling.felt[k + 1] += share * felt;
+      result.falling.heated[k + 1] += share * heated;
     }
   }
   for (std::size_t k = 0; k <= steps_a_length; ++k) {
-    result.whole.nodes[k] += result.falling.nodes[k];
-    result.whole.surface[k] += result.falling.surface[k];
+    result.whole.felt[k] += result.falling.felt[k];
+    result.whole.heated[k] += result.falling.heated[k];
   }
   return result;
 }
@@ -117,29 +116,37 @@ double sliding_length(const HeatScene& scene, const HeatPoint& point) {
   map.start(point);
   const double reach = scene.heating.contact_diameter / (scene.heating.residence == Residence::box ? 2 : 1);
   const Response after = response(scene, grid, reach / point.velocity);
+  const VectorXd a2 = after.a.cwiseAbs2();
+  const MatrixXd at_once =
+      (after.whole.felt[0] * after.b.transpose() - a2 * after.whole.heated[0].transpose()).cwiseProduct(after.inverse);
   const Eigen::RowVectorXd at_end = grid.row_at(scene.surface.back().b);
-  std::vector<VectorXd> nodes;
-  std::vector<double> surface, mu, rise;
-  VectorXd theta = VectorXd::Zero(static_cast<Index>(grid.temperature_points().size()));
+  std::vector<VectorXd> nodes, felt;  // heat, and what each temperature point makes of it together with the surface's
+  std::vector<double> mu, rise;
+  double heat_of_surface = 0;
+  VectorXd theta = VectorXd::Zero(after.a.size());
   for (std::size_t n = 0; n <= steps; ++n) {
     heed();
     if (n > 0) {
-      VectorXd before = VectorXd::Zero(theta.size());
+      VectorXd of_felt = VectorXd::Zero(after.a.size()), of_heated = VectorXd::Zero(after.b.size());
       for (std::size_t k = 1; k <= std::min(n, steps_a_length); ++k) {
         const Left& left = k == n ? after.falling : after.whole;
-        before += left.nodes[k] * nodes[n - k] + surface[n - k] * left.surface[k];
+        of_felt += left.felt[k].cwiseProduct(felt[n - k]);
+        of_heated += left.heated[k].cwiseProduct(nodes[n - k]);
       }
+      const VectorXd before = of_felt - a2.cwiseProduct(after.inverse * of_heated);
       for (int pass = 0; pass < 3; ++pass) {  // the last heat, by what it was a step before at first
         const VectorXd& f = pass == 0 ? nodes.back() : map.heat_of_nodes();
-        const double f_surface = pass == 0 ? surface.back() : map.heat_of_surface();
-        theta = (before + after.whole.nodes[0] * f + f_surface * after.whole.surface[0]).cwiseMax(0.0);
+        theta = (before + at_once * f + heat_of_surface * after.whole.felt[0]).cwiseMax(0.0);
         map(theta);
+        heat_of_surface = map.heat_of_surface();
       }
     } else {
       map(theta);
+      heat_of_surface = map.heat_of_surface();
     }
     nodes.push_back(map.heat_of_nodes());
-    surface.push_back(map.heat_of_surface());
+    felt.emplace_back(after.inverse * after.b.cwiseProduct(nodes.back()));
+    felt.back().array() += heat_of_surface;
     mu.push_back(map.hysteresis() + map.adhesion());
     rise.push_back(at_end.dot(theta));
   }
