@@ -100,18 +100,22 @@ unsigned threads_of(const MapRequest& request) {
   return request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// The share of the work that samples the solver, where there is a check after it.
+/// The share of the work that samples the solver, where there is a check after it; half of that is the tables' with
+/// heat.
 constexpr double sampling_share = 0.2;
+
+/// What goes with the heat of a map of these temperatures, telling how far it is.
+using WithHeat = std::function<MapHeatTables(const std::vector<double>&, const std::function<void(double)>&)>;
 
 /// Refines a map, adds to it what goes with its heat, and checks the finished file.
 std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
-                                const MapRequest& request,
-                                const std::function<MapHeatTables(const std::vector<double>&)>& with_heat = {}) {
+                                const MapRequest& request, const WithHeat& with_heat = {}) {
   const unsigned threads = threads_of(request);
   const double sampled = request.checked == 0 ? 1 : sampling_share;
-  const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, sampled));
+  const double refining = with_heat ? sampled / 2 : sampled;
+  const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, refining));
   std::optional<MapHeatTables> heat;
-  if (with_heat) heat = with_heat(refined.temperatures);
+  if (with_heat) heat = with_heat(refined.temperatures, part_of(request.progress, refining, sampled));
   MapCertificate certificate{.max_error = refined.max_error};
   const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, heat ? &*heat : nullptr); };
   if (request.checked == 0) return file();
@@ -178,7 +182,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   whole.text = text;
 
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
-  const auto tables = [&](const std::vector<double>& temperatures) {
+  const auto tables = [&](const std::vector<double>& temperatures, const std::function<void(double)>& progress) {
     MapHeatTables result;
     result.shift = shifts(shift, temperatures, temperature[0]);
     const double step = (temperature[1] - temperature[0]) / std::max(1.0, static_cast<double>(temperatures.size() - 1));
@@ -187,7 +191,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
     cold.progress = {};  // a second or two
     const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
     result.cold = build_friction_map(spectrum, at_lowest, model, adhesion, cold);
-    result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request));
+    result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
     return result;
   };
   return made(MapFrame(spectrum, rubber, model, request, heat), adhesion, whole, tables);

@@ -35,6 +35,24 @@ struct Points {
   std::vector<double> pressure, velocity, temperature;
 };
 
+/// How far the table is: halvings of the grid, which nobody foresees, share what is left with the test that is to come.
+class Progress {
+ public:
+  explicit Progress(const std::function<void(double)>& tell) : tell_(tell) {}
+  /// So many lengths begin, before so many others that are known of.
+  void begin(std::size_t lengths, std::size_t others) {
+    from_ = to_;
+    to_ = from_ + (1 - from_) * static_cast<double>(lengths) / static_cast<double>(lengths + others);
+  }
+  void tell(double share) const {
+    if (tell_) tell_(from_ + share * (to_ - from_));
+  }
+
+ private:
+  const std::function<void(double)>& tell_;
+  double from_ = 0, to_ = 0;
+};
+
 struct Scene {
   const Spectrum& spectrum;
   const Rubber& rubber;
@@ -42,20 +60,26 @@ struct Scene {
   const MapHeat& heat;
   const MapRequest& request;
   unsigned threads;
+  Progress& progress;
 };
 
 double temperature_at(const std::array<double, 2>& range, double share) {
   return std::fmin(range[1], range[0] + share * (range[1] - range[0]));
 }
 
-std::vector<double> lengths(const Scene& scene, const Points& at) {
+std::vector<double> lengths(const Scene& scene, const Points& at, std::size_t others) {
+  constexpr std::size_t together = 4;  // a tenth of a second and more on a scan
   std::vector<double> result(at.velocity.size());
-  in_parts(scene.threads, result.size(), [&](unsigned, std::size_t begin, std::size_t end) {
+  scene.progress.begin(result.size(), others);
+  in_blocks(scene.threads, result.size(), together, [&](unsigned thread, std::size_t begin, std::size_t end) {
     const auto part = [&](const std::vector<double>& all) { return std::span(all).subspan(begin, end - begin); };
     std::ranges::copy(sliding_length(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model,
                                      scene.heat.adhesion, part(at.pressure), part(at.velocity), part(at.temperature)),
                       result.begin() + static_cast<std::ptrdiff_t>(begin));
+    // from this thread alone: blocks are taken in their order
+    if (thread + 1 == scene.threads) scene.progress.tell(static_cast<double>(end) / static_cast<double>(result.size()));
   });
+  scene.progress.tell(1);
   return result;
 }
 
@@ -100,7 +124,7 @@ double error_of(const SlidingTable& table, const Scene& scene) {
     ln_length.push_back(found_at(table, share_x, share_T, range_x));
     slid.push_back(longest * random());
   }
-  const std::vector<double> length = lengths(scene, at);
+  const std::vector<double> length = lengths(scene, at, 0);
   const FlashFriction f = heated(scene, at);
   double largest = 0;
   for (std::size_t i = 0; i < tested; ++i) {
@@ -223,7 +247,7 @@ class Grid {
       at.velocity.push_back(between(request.velocity, share(k % columns_, columns_)));
       at.temperature.push_back(temperature_at(scene_.heat.range, share(k / columns_, rows_)));
     }
-    const std::vector<double> length = lengths(scene_, at);
+    const std::vector<double> length = lengths(scene_, at, tested);
     const FlashFriction f = heated(scene_, at);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const double hot = f.hot.mu[k], cold = f.cold.mu[k];
@@ -239,8 +263,10 @@ class Grid {
 }  // namespace
 
 SlidingTable sliding_table(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-                           const MapHeat& heat, const MapRequest& request, unsigned threads) {
-  const Scene scene{spectrum, rubber, model, heat, request, threads};
+                           const MapHeat& heat, const MapRequest& request, unsigned threads,
+                           const std::function<void(double)>& progress) {
+  Progress done(progress);
+  const Scene scene{spectrum, rubber, model, heat, request, threads, done};
   Grid grid(scene);
   while (grid.is_too_coarse()) grid.halve();
   SlidingTable table = grid.table();

@@ -144,6 +144,30 @@ def test_progress_is_told_and_rises():
     assert told[-1] == 1
 
 
+def test_the_table_of_sliding_lengths_tells_its_progress_and_ends_where_that_raises():
+    """It is the second half of the work of a map without a check."""
+    told = []
+    made(adhesion=None, rtol=1e-2, progress=told.append)
+    assert told == sorted(told)
+    assert sum(share > 0.5 for share in told) > 50
+    assert told[-1] == 1
+
+    class Enough(Exception):
+        pass
+
+    heard = []
+
+    def tell(share):
+        heard.append(share)
+        if share > 0.6:
+            raise Enough
+
+    with pytest.raises(Enough):
+        made(adhesion=None, rtol=1e-2, progress=tell)
+    assert sum(share > 0.6 for share in heard) == 1
+    assert heard[-1] < 0.7
+
+
 @each("which", ["one", "several"])
 def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
     found = request.getfixturevalue(which)
