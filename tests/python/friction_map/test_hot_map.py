@@ -168,6 +168,17 @@ def test_the_table_of_sliding_lengths_tells_its_progress_and_ends_where_that_rai
     assert heard[-1] < 0.7
 
 
+def test_what_heat_hardly_changes_is_the_error_of_its_memory():
+    told = []
+    found = made(adhesion=None, box=BOX | {"velocity": (1e-6, 1e-5)}, progress=told.append)
+    assert (told == sorted(told), told[-1]) == (True, 1)
+    at = {"pressure": np.geomspace(*BOX["pressure"], 20)[:, None], "velocity": [1e-6, 3e-6, 1e-5]}
+    truth = friction(ROAD, RUBBER, temperature=293.15, **at, **HEAT, rtol=1e-10)
+    change = np.abs(truth.mu / truth.cold.mu - 1).max()
+    assert 0 < change < 0.1 * found.rtol
+    assert 0.9 * change < found.memory_error < 1.01 * change
+
+
 @each("which", ["one", "several"])
 def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
     found = request.getfixturevalue(which)
