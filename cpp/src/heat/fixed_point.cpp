@@ -110,10 +110,7 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
   const auto& [low, high] = branch == Branch::coldest ? crossings.front() : crossings.back();
   for (const double near : {0.1, 0.01, 1e-3}) {
     const std::optional<VectorXd> theta = newton(map, march.between(low, high, near), tolerance, 30, tangent);
-    if (!theta) continue;
-    const double tau = (*theta)[theta->size() - 1];
-    constexpr double off = 1e-3;                                            // of places
-    if (tau < low.tau * (1 - off) || tau > high.tau * (1 + off)) continue;  // another solution
+    if (!theta || !March::is_between(low, high, *theta)) continue;  // or another solution
     FixedPoint found = finished(map, *theta, tangent);
     found.solutions = static_cast<int>(crossings.size());
     return found;

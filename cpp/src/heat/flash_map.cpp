@@ -13,6 +13,7 @@ namespace asperity {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
@@ -53,12 +54,16 @@ void FlashMap::take_frequency(std::size_t node, const ShiftValue& shift) {
   }
 }
 
-void FlashMap::operator()(const VectorXd& theta) {
+void FlashMap::operator()(const VectorXd& theta) { pass(theta, {}); }
+
+void FlashMap::operator()(const VectorXd& theta, double log_kappa) { pass(theta, log_kappa); }
+
+void FlashMap::pass(const VectorXd& theta, std::optional<double> log_kappa) {
   const VectorXd temperature = (grid_.to_nodes() * theta).array() + point_.temperature;
   for (std::size_t j = 0; j < reduced_.size(); ++j)
     take_frequency(j, held_shift(scene_.shift, temperature[static_cast<Index>(j)]));
   const bool shifted = grid_.also_felt().size() != 0;
-  pass(shifted ? held_shift(scene_.shift, point_.temperature + grid_.also_felt().dot(theta)) : ShiftValue{});
+  pass(shifted ? held_shift(scene_.shift, point_.temperature + grid_.also_felt().dot(theta)) : ShiftValue{}, log_kappa);
 }
 
 void FlashMap::at_one_shift(double log_a_T) {
@@ -100,15 +105,15 @@ NodeModulus FlashMap::cold_modulus() {
   return cold;
 }
 
-void FlashMap::pass(const ShiftValue& also_felt) {
+void FlashMap::pass(const ShiftValue& also_felt, std::optional<double> log_kappa) {
   differentiated_ = sloped_ = false;
   take_modulus(modulus_);
   shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, also_felt, scene_.model.poisson_ratio,
                      point_.pressure, point_.velocity);
-  heat();
+  heat(log_kappa);
 }
 
-void FlashMap::heat() {
+void FlashMap::heat(std::optional<double> log_kappa) {
   if (!touches()) {
     hysteresis_ = 0;
     macro_area_ = scene_.heating.macro_area.value_or(0);
@@ -116,7 +121,7 @@ void FlashMap::heat() {
     return;
   }
   const double root = 1 / (point_.pressure * shift_.shift.p);
-  contact_->evaluate(modulus_, root * root);
+  contact_->evaluate(modulus_, root * root, log_kappa);
   hysteresis_ = mu_factor_ * contact_->part().sum();
   macro_area_ = scene_.heating.macro_area.value_or(contact_->macro_area());
   rise_ = 2 * per_flux_ * mu_factor_ / macro_area_ * (kernel_ * contact_->part()) + heat_of_surface() * surface_;
@@ -133,9 +138,19 @@ const FlashMap::PartSlopes& FlashMap::part_slopes() {
   return part_slopes_;
 }
 
-Eigen::RowVectorXd FlashMap::slope_of_mu() {
+RowVectorXd FlashMap::slope_of_mu() {
   const PartSlopes& of = part_slopes();
   return of.hysteresis + point_.adhesion_per_area * of.area;
+}
+
+MatrixXd FlashMap::jacobian_with_kappa() {
+  const Index n = rise_size();
+  PartSlopes of_parts;
+  RowVectorXd rule;
+  MatrixXd result(n + 1, n + 1);
+  result.topRows(n) = slopes_along(MatrixXd::Identity(n, n + 1), of_parts, RowVectorXd::Unit(n + 1, n), &rule);
+  result.bottomRows(1) = rule;
+  return result;
 }
 
 VectorXd FlashMap::along(const VectorXd& direction) {
@@ -156,7 +171,8 @@ void FlashMap::take_slopes() {
   }
 }
 
-MatrixXd FlashMap::slopes_along(const MatrixXd& directions, PartSlopes& of_parts) {
+MatrixXd FlashMap::slopes_along(const MatrixXd& directions, PartSlopes& of_parts,
+                                const std::optional<RowVectorXd>& log_kappa, RowVectorXd* rule) {
   const Index count = directions.cols();
   if (!touches()) {
     of_parts.hysteresis.setZero(count);
@@ -165,12 +181,18 @@ MatrixXd FlashMap::slopes_along(const MatrixXd& directions, PartSlopes& of_parts
   }
   take_slopes();
   const bool shifted = grid_.also_felt().size() != 0;
-  const MatrixXd at_nodes = count == rise_size() ? grid_.to_nodes() : (grid_.to_nodes() * directions).eval();
-  const ModulusSlopes along{log_i2_.asDiagonal() * at_nodes, log_ratio_.asDiagonal() * at_nodes,
-                            shifted ? Eigen::RowVectorXd(-2 * shift_.slope * (grid_.also_felt() * directions))
-                                    : Eigen::RowVectorXd::Zero(count)};
+  MatrixXd at_nodes = MatrixXd::Zero(grid_.to_nodes().rows(), count);
+  if (count < rise_size())
+    at_nodes.noalias() = grid_.to_nodes() * directions;
+  else  // the unit vectors, and nothing where ln kappa alone changes
+    at_nodes.leftCols(rise_size()) = grid_.to_nodes();
+  const ModulusSlopes along{
+      log_i2_.asDiagonal() * at_nodes, log_ratio_.asDiagonal() * at_nodes,
+      shifted ? RowVectorXd(-2 * shift_.slope * (grid_.also_felt() * directions)) : RowVectorXd::Zero(count),
+      log_kappa};
   ContactSlopes slopes;
   contact_->differentiate(along, slopes);
+  if (rule) *rule = slopes.rule;
   const double by_depth = 2 * per_flux_ * mu_factor_ / macro_area_;
   const double by_surface = scene_.heating.interface_share * per_flux_ * point_.adhesion_per_area / macro_area_;
   MatrixXd result = by_depth * (kernel_ * slopes.part);

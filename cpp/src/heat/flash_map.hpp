@@ -41,6 +41,16 @@ class FlashMap {
   void start(const HeatPoint& point);
   /// A pass; theta at the temperature points [K].
   void operator()(const Eigen::VectorXd& theta);
+  /// A pass with ln kappa of PartialContact given too, and the slopes of F and of what the rule of kappa is off, a row
+  /// more, over theta and ln kappa, a column more.
+  void operator()(const Eigen::VectorXd& theta, double log_kappa);
+  [[nodiscard]] Eigen::MatrixXd jacobian_with_kappa();
+  [[nodiscard]] double off_rule() const { return contact_->off_rule(); }
+  /// ln kappa of the last pass, none but with PartialContact; from that of another one the next roots are sought.
+  [[nodiscard]] std::optional<double> log_kappa() const { return contact_->log_kappa(); }
+  void begin_at_kappa_of(const FlashMap& other) {
+    if (const auto known = other.log_kappa()) contact_->begin_at(*known);
+  }
 
   /// A pass with one a_T for all roughness.
   void at_one_shift(double log_a_T);
@@ -90,10 +100,13 @@ class FlashMap {
   void take_frequency(std::size_t node, const ShiftValue& shift);
   void take_modulus(NodeModulus& modulus);
   [[nodiscard]] NodeModulus cold_modulus();
-  void pass(const ShiftValue& also_felt);
-  void heat();
+  void pass(const Eigen::VectorXd& theta, std::optional<double> log_kappa);
+  void pass(const ShiftValue& also_felt, std::optional<double> log_kappa = {});
+  void heat(std::optional<double> log_kappa);
   void take_slopes();
-  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, PartSlopes& of_parts);
+  [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, PartSlopes& of_parts,
+                                             const std::optional<Eigen::RowVectorXd>& log_kappa = {},
+                                             Eigen::RowVectorXd* rule = nullptr);
   [[nodiscard]] bool touches() const { return shift_.shift.state != ContactState::no_contact; }
 
   const HeatScene& scene_;

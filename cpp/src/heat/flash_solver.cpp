@@ -218,6 +218,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     const FixedPoint on_coarse = found;
     FlashMap& finer = map_of(level);
     finer.start(point);
+    finer.begin_at_kappa_of(*map);
     if (level > level_ + 1) {
       tangent_.take(*map);
       before_.back() = {point.velocity, level - 1, found.theta};

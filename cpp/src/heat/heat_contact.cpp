@@ -87,7 +87,7 @@ class PerssonHeat final : public HeatContact {
         contact_(model.form, factor_),
         area_g_(model, spectrum, surface, surface.back().b) {}
 
-  void evaluate(const NodeModulus& modulus, double scale) override;
+  void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) override;
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
@@ -118,7 +118,7 @@ void PerssonHeat::integral_of(const double* g, Index n, double* f) const {
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-void PerssonHeat::evaluate(const NodeModulus& modulus, double scale) {
+void PerssonHeat::evaluate(const NodeModulus& modulus, double scale, std::optional<double> /*log_kappa*/) {
   add_up(modulus, scale);
   const auto& cells = grid_.cells();
   const Index n = g_.size();

@@ -20,16 +20,18 @@ struct NodeModulus {
 };
 
 /// Slopes of their logarithms along directions in which the temperature changes, a column each, and that of the scale
-/// of G.
+/// of G; and those of ln kappa, unless it goes along as the root of its rule.
 struct ModulusSlopes {
   Eigen::MatrixXd i2, ratio;
   Eigen::RowVectorXd scale;
+  std::optional<Eigen::RowVectorXd> log_kappa = std::nullopt;
 };
 
 /// The same of the result.
 struct ContactSlopes {
   Eigen::MatrixXd part;            // of each node, not of its logarithm
   Eigen::RowVectorXd area, macro;  // dA / A0, dP_m
+  Eigen::RowVectorXd rule;         // of what the rule of kappa is off, where ln kappa has slopes of its own
 };
 
 /// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
@@ -45,8 +47,13 @@ class HeatContact {
   /// A new point, whose numbers shall not depend on the one before. `cold` has the rubber at T0 at all nodes; it may be
   /// asked for until the next point.
   virtual void start(std::function<NodeModulus()> /*cold*/) {}
-  /// `scale` is 1 / (sigma0 p_T)^2.
-  virtual void evaluate(const NodeModulus& modulus, double scale) = 0;
+  /// `scale` is 1 / (sigma0 p_T)^2. PartialContact takes kappa as it is given, or the root of its rule to which steps
+  /// from the kappa before lead: where long waves are colder than short ones there may be several.
+  virtual void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) = 0;
+  /// ln kappa of the last evaluation, and by how much its rule is off; none without PartialContact.
+  [[nodiscard]] virtual std::optional<double> log_kappa() const { return {}; }
+  [[nodiscard]] virtual double off_rule() const { return 0; }
+  virtual void begin_at(double /*log_kappa*/) {}
   /// Of the last evaluation.
   virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
   /// dmu_H / dln q over 4 (1 - nu^2) sigma0 where G has the slope `rate` over ln q, at u in [-1, 1] of a panel.

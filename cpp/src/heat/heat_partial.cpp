@@ -29,7 +29,10 @@ class PartialHeat final : public HeatContact {
     cold_ = std::move(cold);
     cold_excess_.reset();
   }
-  void evaluate(const NodeModulus& modulus, double scale) override;
+  void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) override;
+  [[nodiscard]] std::optional<double> log_kappa() const override { return std::log(kappa_); }
+  [[nodiscard]] double off_rule() const override { return off_rule_; }
+  void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
@@ -59,7 +62,7 @@ class PartialHeat final : public HeatContact {
   std::function<NodeModulus()> cold_;
   std::optional<double> cold_excess_;
   bool held_ = false;  // excess_ is that at T0, or 0
-  double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0;
+  double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0, off_rule_ = 0;
   VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q_e) of the edges'
 };
 
@@ -72,7 +75,7 @@ double share_slope(double g, double share) {
   return -s * std::exp(-s * s) * std::numbers::inv_sqrtpi / share;
 }
 
-void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
+void PartialHeat::evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) {
   add_up(modulus, 1);
   scale_ = scale;
   const HeatGrid::Beyond& beyond = grid_.beyond();
@@ -82,6 +85,7 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
   part_.setZero(i2_.size());
   if (g_unit_ == 0) {
     area_ = macro_ = 1;
+    off_rule_ = 0;
     return;
   }
   excess_ = excess();
@@ -102,18 +106,22 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale) {
   end.tail.i1 = in_tail_.dot(ratio_.segment(first, count));
   const PartialNodes nodes{floored.data(), steepness.data(), weight.data(), ratio_.data(), static_cast<std::size_t>(n)};
   constexpr double to_rounding = 1e-15;
-  kappa_ = partial_root(nodes, end, scale, to_rounding, kappa_, stress.data()).kappa;
+  kappa_ = log_kappa ? std::exp(*log_kappa) : partial_root(nodes, end, scale, to_rounding, kappa_, stress.data()).kappa;
 
   const partial_contact::AtEnd at = rule(0, excess_);
   edges_ = at.edges.value;
   obstacle_ = at.obstacle.value;
   share_.resize(n);
   of_waves_.resize(n);
+  double variance = edges_ * beyond.end->window * end.tail.i2;
   for (Index j = 0; j < n; ++j) {
     const double a = share_[j] = share_of(kappa_ * scale * g_[j]);
     of_waves_[j] = obstacle_ * scale * steepness[j] * a * a;
-    part_[j] = scale * weight[j] * ratio_[j] * partial_contact::stress(a, of_waves_[j]);
+    const double stressed = weight[j] * partial_contact::stress(a, of_waves_[j]);
+    part_[j] = scale * stressed * ratio_[j];
+    variance += stressed;
   }
+  off_rule_ = std::log(at.integral * at.spread.value / (scale * variance));
   part_.segment(first, count) =
       scale * edges_ * beyond.end->window * in_tail_.cwiseProduct(ratio_.segment(first, count));
   area_ = at.share;
@@ -130,6 +138,7 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
   const Index directions = along.i2.cols();
   result.part.setZero(part_.size(), directions);
   result.area = result.macro = RowVectorXd::Zero(directions);
+  result.rule = along.log_kappa.value_or(result.area);
   if (g_unit_ == 0) return;
   GSlopes slopes;
   add_up(along, slopes);
@@ -180,7 +189,8 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
   const double integral_by_g = g1 * at.share / at.integral;
   const RowVectorXd residual = (integral_by_g + spread_by_g) * log_g1 + spread_by_excess * excess - variance / sum;
   const double residual_by_kappa = integral_by_g + at.spread.log_slope - variance_by_kappa / sum;
-  const RowVectorXd log_kappa = residual / -residual_by_kappa;
+  const RowVectorXd log_kappa = along.log_kappa.value_or(residual / -residual_by_kappa);
+  result.rule = residual + residual_by_kappa * log_kappa;
 
   for (Index j = 0; j < n; ++j)
     result.part.row(j) =

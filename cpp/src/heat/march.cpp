@@ -1,5 +1,8 @@
-// theta = eps F(theta) with theta(q1) = tau given is solved for the profile and eps by bordered Newton steps, from tau
-// to tau: the shape hardly depends on tau, so that this does not fail where Newton's steps in theta do.
+// The curve theta = eps F(theta) is followed from theta = 0 by its length in ln theta: bordered Newton steps solve for
+// ln theta and ln eps, and ln kappa with PartialContact, on a plane across the way. Neither eps nor theta(q1) serves as
+// its parameter: eps turns about where there are several states, and theta(q1) where a strong line of the roughness
+// runs away by itself, which heats the long waves and leaves the short ones colder. H. B. Keller, in: Applications of
+// Bifurcation Theory, 359 (1977).
 #include "heat/march.hpp"
 
 #include <Eigen/LU>
@@ -19,7 +22,10 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double flat = 0.1;       // of ln eps over a stride, where solutions may be near each other
-constexpr double exactly = 1e-12;  // of tau
+constexpr double exactly = 1e-12;  // of the largest rise
+
+/// The length of a change of x: 1 where all of it grows by a factor e.
+double length_of(const VectorXd& change) { return change.norm() / std::sqrt(static_cast<double>(change.size())); }
 
 }  // namespace
 
@@ -31,31 +37,85 @@ MatrixXd identity_less(const MatrixXd& jacobian, double factor) {
 
 March::March(FlashMap& map, double background, const VectorXd& cold_rise)
     : map_(map), background_(background), highest_(std::fmax(highest_rubber_temperature - background, 1)) {
-  const Index last = cold_rise.size() - 1;
-  constexpr double first = 0.02;
-  at_ = {first * cold_rise[last], first, first * cold_rise};
+  constexpr double least = 0.02, unfelt = 0.05;  // of the cold rise, and of ln a_T
+  const double rate = std::numbers::ln10 * std::fabs(held_shift(map.scene().shift, background).slope);
+  const double first = std::fmin(least, unfelt / (rate * cold_rise.maxCoeff()));
+  const Index points = cold_rise.size();
+  const std::optional<double> log_kappa = map.log_kappa();
+  at_ = {0, first, VectorXd(points + (log_kappa ? 1 : 0)), points};
+  at_.x.head(points) = (first * cold_rise).array().log();
+  direction_ = VectorXd::Zero(at_.x.size());
+  direction_.head(points).setOnes();
+  direction_ /= length_of(direction_);
+  if (log_kappa) at_.x[points] = *log_kappa;
 }
 
-/// The next place, at up to twice the tau and half a decade of a_T.
+/// The next place, over at most half a decade of a_T.
 std::optional<Place> March::next() {
   constexpr double longest = 1.2;  // of ln a_T, over which no term of a rubber comes and goes
-  const ShiftValue shift = held_shift(map_.scene().shift, background_ + at_.tau);
-  const double rate = at_.tau * std::numbers::ln10 * std::fabs(shift.slope);
-  for (double stride = std::fmin(std::numbers::ln2, std::log1p(longest / rate)); stride > 1e-4; stride /= 2) {
+  constexpr double bend = 1.2;     // of the way to the next place over its projection
+  const double tau = at_.tau();
+  const double rate = tau * std::numbers::ln10 * std::fabs(held_shift(map_.scene().shift, background_ + tau).slope);
+  const double whole = std::log1p(longest / rate) / direction_.cwiseAbs().maxCoeff();
+  for (double stride = stride_ > 0 ? std::fmin(whole, 2 * stride_) : whole; stride > 1e-4; stride /= 2) {
     heed();
-    const double tau = at_.tau * std::exp(stride);
-    if (tau > 2 * highest_) return {};
-    if (auto found = solve(tau)) {
-      at_ = *found;
-      return found;
-    }
+    if (std::log(tau) + stride * direction_[at_.points - 1] > std::log(2 * highest_)) return {};
+    const auto found =
+        solve(at_.x + stride * direction_, direction_, at_.s + stride, 0.01 * stride, stride_ > 0 ? &slopes_ : nullptr);
+    if (!found || length_of(found->x - at_.x) > bend * stride) continue;
+    at_ = *found;
+    stride_ = stride;
+    turn();
+    return found;
   }
-  throw NotConverged("the flash temperature is not found beyond a rise of " + show(at_.tau, 6) + " K at q1");
+  throw NotConverged("the flash temperature is not found beyond a rise of " + show(tau, 6) + " K at q1");
+}
+
+/// Takes the direction of the curve at the place that was found last.
+void March::turn() {
+  const Index n = direction_.size();
+  slopes_ = slopes(at_.x);
+  const VectorXd way = bordered(slopes_, direction_).partialPivLu().solve(VectorXd::Unit(n + 1, n));
+  if (way.allFinite()) direction_ = way.head(n) / length_of(way.head(n));
+}
+
+void March::pass(const VectorXd& x) {
+  const VectorXd theta = x.head(at_.points).array().exp();
+  if (x.size() > at_.points)
+    map_(theta, x[at_.points]);
+  else
+    map_(theta);
+}
+
+/// Of the last pass: the slopes of ln F, and of what the rule of kappa is off, over x.
+MatrixXd March::slopes(const VectorXd& x) {
+  const Index points = at_.points;
+  MatrixXd result = x.size() > points ? map_.jacobian_with_kappa() : map_.jacobian();
+  result.leftCols(points) = result.leftCols(points) * x.head(points).array().exp().matrix().asDiagonal();
+  result.topRows(points) = map_.rise().cwiseInverse().asDiagonal() * result.topRows(points);
+  return result;
+}
+
+/// What steps of x and ln eps change of ln theta - ln F - ln eps, of the rule of kappa, and along a direction.
+MatrixXd March::bordered(const MatrixXd& slopes, const VectorXd& direction) const {
+  const Index n = slopes.cols(), points = at_.points;
+  MatrixXd result = MatrixXd::Zero(n + 1, n + 1);
+  result.topLeftCorner(n, n) = -slopes;
+  result.diagonal().head(points).array() += 1;
+  result.topRightCorner(points, 1).setConstant(-1);
+  result.bottomLeftCorner(1, n) = direction.transpose();
+  return result;
+}
+
+/// The profile of a place, with the map left there, so that roots of kappa are sought from that of the place.
+VectorXd March::settled(const Place& place) {
+  pass(place.x);
+  return place.theta();
 }
 
 /// Where eps turns about before it is 1 at three places, one at which it is past 1, if there is one: by parabolas.
 std::optional<Place> March::beyond_turn(Place low, Place middle, Place high) {
-  const auto x = [](const Place& place) { return std::log(place.tau); };
+  const auto x = [](const Place& place) { return place.s; };
   const auto y = [](const Place& place) { return std::log(place.eps); };
   const auto nearer = [&](const Place& a, const Place& b) { return std::fabs(y(a)) < std::fabs(y(b)); };
   for (int i = 0; i < 8 && nearer(middle, low) && nearer(middle, high); ++i) {
@@ -67,11 +127,11 @@ std::optional<Place> March::beyond_turn(Place low, Place middle, Place high) {
     const double at = into_longer ? x(middle) + (after > before ? least : -least) : turn;
     const double expected = y(middle) - (rise - next) / (before + after) * off * off;
     if (i > 1 && std::fabs(expected) > 0.9 * std::fabs(y(middle)) && !std::signbit(expected * y(middle))) return {};
-    at_ = middle;
-    const std::optional<Place> found = solve(std::exp(at));
+    const bool lower = at < x(middle);
+    const std::optional<Place> found = lower ? solve_between(low, middle, (at - x(low)) / before)
+                                             : solve_between(middle, high, (at - x(middle)) / after);
     if (!found) return {};
     if (std::signbit(y(*found)) != std::signbit(y(middle))) return found;
-    const bool lower = at < x(middle);
     if (nearer(*found, middle)) {
       (lower ? high : low) = middle;
       middle = *found;
@@ -89,11 +149,8 @@ void March::divide_flat(std::vector<Place>& places) {
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Place &low = places[i - 1], &high = places[i];
     if (std::fabs(std::log(low.eps)) + std::fabs(std::log(high.eps)) < flat)
-      for (int k = 1; k < parts; ++k) {
-        at_ = result.back();
-        if (const auto found = solve(low.tau * std::pow(high.tau / low.tau, static_cast<double>(k) / parts)))
-          result.push_back(*found);
-      }
+      for (int k = 1; k < parts; ++k)
+        if (const auto found = solve_between(low, high, static_cast<double>(k) / parts)) result.push_back(*found);
     result.push_back(high);
   }
   places = std::move(result);
@@ -108,7 +165,7 @@ std::vector<std::pair<Place, Place>> March::crossings() {
     const bool below = places[i].eps < 1;
     if ((places[i - 1].eps < 1) != below || (places[i + 1].eps < 1) != below) continue;
     if (const auto found = beyond_turn(places[i - 1], places[i], places[i + 1])) {
-      const bool after = found->tau > places[i].tau;
+      const bool after = found->s > places[i].s;
       places.insert(places.begin() + static_cast<std::ptrdiff_t>(i + (after ? 1 : 0)), *found);
       ++i;
     }
@@ -123,11 +180,9 @@ VectorXd March::between(Place low, Place high, double near) {
   double from = std::log(low.eps), to = std::log(high.eps);
   for (int i = 0; i < 40; ++i) {
     const Place& nearer = std::fabs(from) < std::fabs(to) ? low : high;
-    if (std::fabs(std::log(nearer.eps)) < near) return nearer.theta;
+    if (std::fabs(std::log(nearer.eps)) < near) return settled(nearer);
     const double share = i % 3 == 2 ? 0.5 : std::clamp(from / (from - to), 0.05, 0.95);
-    const double tau = low.tau * std::pow(high.tau / low.tau, share);
-    at_ = nearer;
-    const std::optional<Place> found = solve(tau);
+    const std::optional<Place> found = solve_between(low, high, share);
     if (!found) break;
     if ((std::log(found->eps) < 0) == (from < 0)) {
       low = *found;
@@ -137,28 +192,25 @@ VectorXd March::between(Place low, Place high, double near) {
       to = std::log(high.eps);
     }
   }
-  return std::fabs(from) < std::fabs(to) ? low.theta : high.theta;
+  return settled(std::fabs(from) < std::fabs(to) ? low : high);
 }
 
 /// By Ridders' steps, as eps may be nearly flat.
 std::optional<VectorXd> March::root(Place low, Place high) {
   constexpr int most = 60;
   for (int i = 0; i < most; ++i) {
-    const double x_low = std::log(low.tau), x_high = std::log(high.tau);
     const double y_low = std::log(low.eps), y_high = std::log(high.eps);
-    at_ = std::fabs(y_low) < std::fabs(y_high) ? low : high;
-    if (std::fabs(std::log(at_.eps)) < 10 * exactly || x_high - x_low < exactly) return at_.theta;
-    const std::optional<Place> middle = solve(std::exp((x_low + x_high) / 2));
+    const Place& nearer = std::fabs(y_low) < std::fabs(y_high) ? low : high;
+    if (std::fabs(std::log(nearer.eps)) < 10 * exactly || high.s - low.s < exactly) return settled(nearer);
+    const std::optional<Place> middle = solve_between(low, high, 0.5);
     if (!middle) return {};
     const double y = std::log(middle->eps), size = std::sqrt(y * y - y_low * y_high);
     std::optional<Place> found = middle;
-    if (size > 0) {
-      const double x = (x_low + x_high) / 2 + (x_high - x_low) / 2 * (y_low < y_high ? -1 : 1) * y / size;
-      at_ = *middle;
-      if (auto next = solve(std::exp(x))) found = std::move(next);
-    }
+    if (size > 0)
+      if (auto next = solve_between(low, high, 0.5 + 0.5 * (y_low < y_high ? -1 : 1) * y / size))
+        found = std::move(next);
     std::vector<Place> places{low, *middle, *found, high};
-    std::ranges::sort(places, {}, &Place::tau);
+    std::ranges::sort(places, {}, &Place::s);
     for (std::size_t k = 1; k < places.size(); ++k)
       if ((places[k].eps < 1) != (places[k - 1].eps < 1)) {
         low = places[k - 1];
@@ -169,35 +221,53 @@ std::optional<VectorXd> March::root(Place low, Place high) {
   return {};
 }
 
-std::optional<Place> March::solve(double tau) {
-  const double grown = tau / at_.tau;
-  VectorXd theta = at_.theta * grown;
-  const Index n = theta.size();
-  double eps = at_.eps;
-  double before = HUGE_VAL;
-  for (int pass = 0; pass < 12; ++pass) {
-    map_(theta);
-    if (pass == 0) eps = theta[n - 1] / map_.rise()[n - 1];
-    const VectorXd residual = eps * map_.rise() - theta;
-    const double size = residual.lpNorm<Eigen::Infinity>() / tau;
+bool March::is_between(const Place& low, const Place& high, const VectorXd& theta) {
+  constexpr double off = 1e-3;  // of places
+  const VectorXd x = theta.array().log(), low_x = low.x.head(low.points), high_x = high.x.head(high.points);
+  const double apart = length_of(high_x - low_x) + off;
+  return length_of(x - low_x) < apart && length_of(high_x - x) < apart;
+}
+
+/// The place on the plane across the straight line from one to the other.
+std::optional<Place> March::solve_between(const Place& low, const Place& high, double share) {
+  const VectorXd way = high.x - low.x;
+  return solve(low.x + share * way, way / length_of(way), low.s + share * (high.s - low.s), 1e-3, nullptr);
+}
+
+/// The place on the plane through `start` across `direction`. With the slopes of a place nearby as long as these serve.
+std::optional<Place> March::solve(const VectorXd& start, const VectorXd& direction, double s, double tolerance,
+                                  const MatrixXd* nearby) {
+  constexpr double farthest = 1;   // of a step in ln theta
+  constexpr double enough = 0.15;  // of the residual, which slopes of another place leave at most
+  VectorXd x = start;
+  const Index n = start.size(), points = at_.points;
+  double log_eps = 0, before = HUGE_VAL, way_before = HUGE_VAL;
+  for (int i = 0; i < 12; ++i) {
+    pass(x);
+    if (!(map_.rise().minCoeff() > 0)) return {};
+    const VectorXd log_rise = map_.rise().array().log(), theta = x.head(points).array().exp();
+    if (i == 0) log_eps = x[points - 1] - log_rise[points - 1];
+    VectorXd residual(n + 1);
+    residual.head(points) = (log_rise - x.head(points)).array() + log_eps;
+    if (n > points) residual[points] = map_.off_rule();
+    residual[n] = direction.dot(start - x);
+    const double of_rise = residual.head(points).cwiseProduct(theta).lpNorm<Eigen::Infinity>() / theta.maxCoeff();
+    const double size = std::fmax(of_rise, n > points ? std::fabs(residual[points]) : 0);
     // near 1 it matters on which side eps is
-    const bool near_1 = std::fabs(eps - 1) < flat;
-    if (size < (near_1 ? exactly : 1e-3) || (size < 1e-9 && !(size < 0.5 * before))) return Place{tau, eps, theta};
-    if (!(size < 2 * before)) return {};
+    const bool near_1 = std::fabs(log_eps) < flat;
+    if (size < (near_1 ? exactly : std::fmin(tolerance, 1e-3)) || (size < 1e-9 && !(size < 0.5 * before)))
+      return Place{s, std::exp(log_eps), x, points};
+    if (nearby && !(size < before)) return solve(start, direction, s, tolerance, nullptr);
+    if (!(size < enough * before) && i > 0) nearby = nullptr;
     before = size;
-    MatrixXd bordered(n + 1, n + 1);
-    bordered.topLeftCorner(n, n) = identity_less(map_.jacobian(), eps);
-    bordered.topRightCorner(n, 1) = -map_.rise();
-    bordered.bottomRows(1).setZero();
-    bordered(n, n - 1) = 1;
-    VectorXd right(n + 1);
-    right.head(n) = residual;
-    right[n] = tau - theta[n - 1];
-    const VectorXd step = bordered.partialPivLu().solve(right);
-    if (!step.allFinite()) return {};
-    theta = (theta + step.head(n)).cwiseMax(0.0);
-    eps += step[n];
-    if (!(eps > 0)) return {};
+    VectorXd step = bordered(nearby ? *nearby : slopes(x), direction).partialPivLu().solve(residual);
+    // by their own length, as a residual may rise where the curve bends
+    const double way = length_of(step.head(n));
+    if (!(way < way_before)) return {};
+    way_before = way;
+    step *= std::fmin(1, farthest / step.head(n).lpNorm<Eigen::Infinity>());
+    x += step.head(n);
+    log_eps += step[n];
   }
   return {};
 }

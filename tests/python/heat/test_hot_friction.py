@@ -281,6 +281,45 @@ def test_states_that_are_near_each_other_or_at_a_thin_front(point):
         assert found.branches == 3
 
 
+# terms, rms height, lines by row and factor, q1, velocity, temperature, correction, states
+LINES = [
+    (7, 5.7e-5, {10: 1e3}, 1e5, 1.0, 261.0, None, 1),
+    (7, 5.6e-5, {12: 1e2}, 1e6, 3.0, 249.0, None, 5),
+    (5, 2.2e-5, {3: 1e2, 27: 1e3}, 1e6, 3.0, 255.0, None, 3),
+    (6, 7.6e-5, {7: 1e3}, 1e5, 1.0, 239.0, asperity.PartialContact(), 3),
+]
+
+
+@each("line", LINES)
+def test_a_line_that_runs_away_by_itself(line):
+    """The rise at q1 turns about along the states; PartialContact's rule has three roots there."""
+    terms, height, lines, q1, v, temperature, correction, states = line
+    q = np.geomspace(1e3, q1, 40)
+    road = asperity.SelfAffineSpectrum(rms_height=height, hurst=0.8, q0=1e3, q1=q1)
+    density = road.at(q)
+    for row, times in lines.items():
+        density[row] *= times
+    at = {
+        "rubber": asperity.PronySeries(
+            equilibrium_modulus=3e6,
+            moduli=np.geomspace(1e9, 1e6, terms),
+            relaxation_times=np.geomspace(1e-9, 1e-1, terms),
+        ),
+        "pressure": 1e5,
+        "velocity": v,
+        "temperature": temperature,
+        "shift": asperity.WLF(c1=12.0, c2=80.0, reference_temperature=293.15),
+        "correction": correction,
+    }
+    table = asperity.TabulatedSpectrum(wavenumber=q, density=density)
+    found, finer = (hot(table, **at, rtol=rtol) for rtol in (1e-5, 1e-8))
+    assert found.branches == finer.branches == states
+    assert abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate
+    if correction is None:
+        by_gsl = hot(table, **at, rtol=1e-5, method="qag")
+        assert abs(found.mu - by_gsl.mu) <= found.error_estimate + by_gsl.error_estimate
+
+
 @each("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
 def test_states_about_a_gain_of_one(temperature):
     """Two of three states meet at 275.71 K, from where on the rise is 47 instead of 38 K."""

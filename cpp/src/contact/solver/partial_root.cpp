@@ -52,7 +52,8 @@ PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, doubl
     if (!std::isfinite(found.value)) break;
     (found.value < 0 ? below : above) = x;
     double step = -found.value / found.at.slope;
-    if (!(std::fabs(step) <= longest_step)) step = std::copysign(longest_step, -found.value);
+    // between three roots, as heat may make them, Newton's steps lead away from all
+    if (!(found.at.slope > 0 && std::fabs(step) <= longest_step)) step = std::copysign(longest_step, -found.value);
     if (std::fabs(step) <= good) {
       // the step's own error is its square, and so is what is left out here
       found.at.missed = step * step;
