@@ -158,7 +158,8 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
                 problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
                 refuse(path, f"[rubber] {key}", problem)
         return _without_errors(rubber, values)
-    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: shift holds a_T of several")
+    known = "shift holds a_T of several" if "shift" in values else "the law gives a_T at any"
+    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: {known}")
     shifted = rubber.shifted(shift_factor(path, shifts, values))
     return replace(
         _without_errors(shifted, values),

@@ -149,6 +149,11 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
             scene(law=""),
             "[conditions] temperature: needs shift, a file of shift factors, or wlf_c1",
         ),
+        (
+            scene(""),
+            "[rubber] temperature_k: missing; add temperature_k or temperature_c, at which the "
+            "rubber is wanted: the law gives a_T at any",
+        ),
         (scene("temperature_k = 20"), "[conditions] temperature_k = 20"),
         (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
         (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
