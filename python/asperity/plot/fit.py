@@ -17,7 +17,7 @@ from asperity.plot.curves import (
     shaded,
 )
 from asperity.plot.labels import legend_where_room_is
-from asperity.plot.style import colours, grey, narrow, paper
+from asperity.plot.style import colours, grey, narrow
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 
 if TYPE_CHECKING:
@@ -37,7 +37,10 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
     )
     for axes, fit, title in zip(panels, reversed(fits), titles, strict=True):
         _draw(axes, fit, experiment)
-        axes.set_title(title, fontsize="medium")
+        told = "no adhesion fits: see the notes"
+        if fit.adhesion is not None:
+            told = _parameters(fit.adhesion)
+        axes.set_title(f"{title}\n{told}", fontsize="small")
         axes.set_ylim(0, highest)
         axes.set_xscale("log")
         axes.set_xlabel("Sliding velocity $v$ [m/s]")
@@ -56,9 +59,6 @@ def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
     aside = np.zeros(y.shape, bool)
     if fit.adhesion is not None:
         aside = fit.adhesion.outliers
-        _write(axes, _parameters(fit.adhesion))
-    else:
-        _write(axes, "no adhesion fits:\nsee the notes")
     nearest = nearest_pressure(scene, experiment.pressure)
     order = np.argsort(scene.velocity)
     v = scene.velocity[order]
@@ -89,17 +89,14 @@ def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
         axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
 
 
-def _write(axes: "Axes", text: str) -> None:
-    box = {"facecolor": paper(), "alpha": 0.8, "edgecolor": "none", "pad": 1.5}
-    axes.text(0.03, 0.97, text, transform=axes.transAxes, va="top", fontsize="small", bbox=box)
-
-
 def _parameters(fit: AdhesionFit) -> str:
+    """The adhesion found, for a title: inside of the panel it would lie on points and curves."""
     errors = fit.standard_errors
     stress = _with_error(fit.shear_stress / 1e6, errors["shear_stress"] / 1e6)
     velocity = _with_error(1e3 * fit.reference_velocity, 1e3 * errors["reference_velocity"])
     width = _with_error(fit.width, errors["width"])
-    return f"$\\tau_{{f0}}$ = {stress} MPa\n$v_0$ = {velocity} mm/s\n$c$ = {width}"
+    gap = "\n" if narrow() else ", "
+    return f"$\\tau_{{f0}}$ = {stress} MPa\n$v_0$ = {velocity} mm/s{gap}$c$ = {width}"
 
 
 def _with_error(value: float, error: float) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.io.fields import without_unit
-from asperity.plot.curves import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture
+from asperity.plot.curves import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture, pressure_text
 from asperity.plot.style import colours, grey, narrow, shades
 
 if TYPE_CHECKING:
@@ -144,9 +144,11 @@ def _key(
         return
     handles = [Line2D([], [], color=tint) for tint in tints]
     where: Any = "outside lower center" if narrow() else "outside right upper"
-    names = [_text(one) for one in values]
+    pascal = _in_pascal(dataset[lines])
+    names = [pressure_text(float(one)) if pascal else _text(one) for one in values]
+    title = _short(lines) if pascal else _title(dataset, lines)
     small = {"fontsize": "small", "title_fontsize": "small"}
-    figure.legend(handles, names, loc=where, title=_title(dataset, lines), **small)
+    figure.legend(handles, names, loc=where, title=title, **small)
 
 
 def _title(dataset: Any, axis: str) -> str:
@@ -170,8 +172,14 @@ def _short(axis: object) -> str:
 
 def _value(coordinate: Any) -> str:
     """One value of an axis, with its name and unit."""
+    if _in_pascal(coordinate):
+        return f"{_short(coordinate.name)} {pressure_text(float(coordinate.values))}"
     unit = _unit(coordinate.attrs) if coordinate.dtype.kind in "fiu" else "-"
     return f"{_short(coordinate.name)} {_text(coordinate.values)}" + f" {unit}" * (unit != "-")
+
+
+def _in_pascal(coordinate: Any) -> bool:
+    return coordinate.dtype.kind in "fiu" and _unit(coordinate.attrs) == "Pa"
 
 
 def _text(value: Any) -> str:

@@ -157,7 +157,8 @@ def _coordinates(axis: Axis) -> dict[str, Coordinate]:
 
 
 def _coordinate(dimension: str, key: str, entries: Sequence[Any]) -> Coordinate:
-    if {*map(type, entries)} <= {int, float}:
+    # a number of a file may be one that knows how it was typed
+    if all(isinstance(one, int | float) and not isinstance(one, bool) for one in entries):
         _, unit = without_unit(key)
         return dimension, np.array(entries, float), {"units": unit or "1"}
     return dimension, np.array([label(entry) for entry in entries], dtype=str), {}

@@ -302,3 +302,24 @@ def test_where_the_original_theory_leaves_no_adhesion_the_picture_says_so(scene,
     assert status == 0, captured.err
     assert "note: without the correction: " in captured.err
     assert "no adhesion fits" in picture.read_text()
+
+
+@pytest.mark.parametrize("style", ["print", "single"])
+def test_nothing_is_written_over_the_points_of_a_picture(scene, tmp_path, monkeypatch, style):
+    figure_of = pytest.importorskip("matplotlib.figure").Figure
+    drawn = []
+    monkeypatch.setattr(figure_of, "savefig", lambda self, *_, **__: drawn.append(self))
+    path = scene('[correction]\nkind = "s-factor"')
+    velocity = np.geomspace(1e-4, 1, 25)
+    rows = np.column_stack([np.full(25, 81e3), velocity, theory(path, 81e3, velocity)])
+    measured = table(tmp_path / "measured.csv", rows)
+    arguments = ["--plot", str(tmp_path / "fit.png"), "--output", str(tmp_path / "fit.csv")]
+    assert main(["fit", str(path), str(measured), *arguments, "--style", style]) == 0
+    (figure,) = drawn
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert not axes.texts
+        assert "MPa" in axes.get_title()
+        box = axes.title.get_window_extent()
+        assert box.x0 >= 0
+        assert box.x1 <= figure.bbox.x1

@@ -166,16 +166,16 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
     figure = drawn(part, tmp_path / "p.png", monkeypatch)
     assert [len(axes.lines) for axes in figure.axes] == [3] * 6
     titles = [axes.get_title() for axes in figure.axes]
-    assert titles[0] == "hurst 0.7, rubbers 2e+06 Pa"
-    assert titles[-1] == "hurst 0.9, rubbers 5e+06 Pa"
+    assert titles[0] == "hurst 0.7, rubbers 2 MPa"
+    assert titles[-1] == "hurst 0.9, rubbers 5 MPa"
     line = figure.axes[3].lines[1]
     where = {"surface.hurst": 1, "rubbers": 1, "conditions.pressure_pa": 1}
     assert np.array_equal(line.get_ydata(), part.mu.isel(where))
     assert np.array_equal(line.get_xdata(), part["conditions.velocity_m_s"])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [
-        "1e+05",
-        "2e+05",
-        "4e+05",
+        "100 kPa",
+        "200 kPa",
+        "400 kPa",
     ]
     assert "correction partial-contact" in figure.get_suptitle()
     area = drawn(part, tmp_path / "p.png", monkeypatch, name="contact_area")
@@ -184,7 +184,7 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
         choose(part, {"surface.hurst": "0.8", "rubbers": "2e6"}), tmp_path / "p.png", monkeypatch
     )
     assert len(one.axes) == 1
-    assert "rubbers 2e+06 Pa" in one.get_suptitle()
+    assert "rubbers 2 MPa" in one.get_suptitle()
 
 
 def test_a_band_is_filled(tmp_path, monkeypatch):

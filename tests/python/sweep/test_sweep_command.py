@@ -72,6 +72,17 @@ def test_it_writes_what_python_computes(capsys):
         assert "contact_area" not in found
 
 
+def test_numbers_of_a_file_are_numbers_of_any_key(folder):
+    """Also of a key that a scene takes one of; their axis is read and drawn as such."""
+    sweep = 'scene = "scene.toml"\n[over]\nadhesion.shear_stress_pa = [4e6, 8.3e6]\n'
+    (folder / "sweep.toml").write_text(sweep)
+    assert main(["sweep", "sweep.toml", "--output", "r.zarr"]) == 0
+    with xarray.open_zarr("r.zarr") as stored:
+        stress = stored["adhesion.shear_stress_pa"]
+        np.testing.assert_array_equal(stress, [4e6, 8.3e6])
+        assert stress.attrs["units"] == "Pa"
+
+
 def test_notes_that_differ_in_their_numbers_are_told_once(capsys):
     many = [f"note {kind} of a scan" for kind in "abcdefghijklmnopqrstuv"]
     sweep_command._tell_notes(["rms 1", "other", "rms 2.5", "rms 1e-3", *many], Path("r.zarr"))
