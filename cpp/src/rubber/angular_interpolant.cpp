@@ -120,8 +120,8 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
     const double pieces = std::clamp(std::ceil(std::pow(tail, 1 / gain)), 2.0, 8.0), step = (t1 - t0) / pieces;
     for (double i = 0; i < pieces; ++i) append(panel, t0 + i * step, i + 1 < pieces ? t0 + (i + 1) * step : t1, parts);
   } else {
-    throw NotConverged("angular integrals between w = " + show(low) + " and " + show(high) + " rad/s: " + show(tail) +
-                       " times the tolerance");
+    throw NotConverged("angular integrals between w = " + show(low, 6) + " and " + show(high, 6) +
+                       " rad/s: " + show(tail, 3) + " times the tolerance");
   }
 }
 

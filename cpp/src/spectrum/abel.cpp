@@ -128,7 +128,7 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
     const bool flagged = !old.flag.empty() && old.flag[i] != 0;
     if (!(all[i] >= 0) && flagged) continue;
     if (!(all[i] >= 0))
-      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i]) +
+      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i], 6) +
                          " 1/m that no isotropic surface has such profiles; rows that scatter must be averaged over "
                          "wider bins (per_decade)");
     q.push_back(spectrum.wavenumber()[i]);

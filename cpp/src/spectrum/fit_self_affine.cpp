@@ -226,8 +226,8 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
     broken = found && convincing(rows, fit, *found);
     if (broken) fit = *found;
     if (!broken && options.rolloff == Rolloff::require)
-      throw InvalidInput("spectrum: has no roll-off between " + show(q[chosen.front()]) + " and " +
-                         show(q[chosen.back()]) +
+      throw InvalidInput("spectrum: has no roll-off between " + show(q[chosen.front()], 6) + " and " +
+                         show(q[chosen.back()], 6) +
                          " 1/m (rolloff = \"require\"): a scan smaller than lambda_0 does not reach it");
   }
   const std::size_t parameters = broken ? 3 : 2;
@@ -240,7 +240,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   }
   if (!(hurst > 0 && hurst <= 1))
     throw InvalidInput("spectrum: falls as q^" + show(fit.slope, 4) + " between " +
-                       show(std::exp(broken ? fit.x_r : x0)) + " and " + show(q[chosen.back()]) +
+                       show(std::exp(broken ? fit.x_r : x0), 6) + " and " + show(q[chosen.back()], 6) +
                        " 1/m, hurst = " + show(hurst, 4) + ": must be in (0, 1]");
 
   const auto log_rms = [&](double level, double slope, double x_r) {

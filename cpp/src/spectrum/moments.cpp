@@ -192,7 +192,7 @@ double cutoff_for_contamination(const Spectrum& spectrum, double size) {
   require_positive("size", size);
   const auto [q0, q1] = band(spectrum);
   const double q = 2 * pi / size;
-  if (!(q > q0)) refuse("size", size, "below the longest wavelength of the spectrum, " + show(2 * pi / q0) + " m");
+  if (!(q > q0)) refuse("size", size, "below the longest wavelength of the spectrum, " + show(2 * pi / q0, 6) + " m");
   return std::min(q, q1);
 }
 

@@ -68,10 +68,10 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
     }
   }
   if (!any)
-    throw InvalidInput("spectrum: its band [" + show(q0) + ", " + show(q1) +
+    throw InvalidInput("spectrum: its band [" + show(q0, 6) + ", " + show(q1, 6) +
                        "] 1/m holds no mode of this grid, whose wavenumbers run from " +
-                       show(2 * pi / std::max(lx, ly)) + " to " +
-                       show(std::hypot(pi / pixel_size[0], pi / pixel_size[1])) + " 1/m");
+                       show(2 * pi / std::max(lx, ly), 6) + " to " +
+                       show(std::hypot(pi / pixel_size[0], pi / pixel_size[1]), 6) + " 1/m");
   return result;
 }
 
