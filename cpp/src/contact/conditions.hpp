@@ -93,12 +93,12 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, st
                      " 1/m ask for the modulus from " + range.value(told * q0) + " to " + range.value(told * q1) +
                      " rad/s, known in " + range.text() + " rad/s";
   const auto cut = [&](double end) { return ".truncated(q1=" + ShownRange(q0, end / fastest).highest() + ")"; };
-  if (!below && fastest * q0 < highest) text += "; " + cut(highest) + " ends the spectrum where it is known";
   const std::string way = way_beyond(rubber);
   text += way;
   const double decade = 10 * highest;
   if (!way.empty() && std::holds_alternative<MasterCurve>(rubber) && fastest * q0 < decade && decade < fastest * q1)
-    text += ", and " + cut(decade) + " ends it there";
+    text += ", and " + cut(decade) + " ends the spectrum there";
+  if (!below && fastest * q0 < highest) text += "; " + cut(highest) + " ends the spectrum where it is known";
   throw OutOfRange(text + where);
 }
 

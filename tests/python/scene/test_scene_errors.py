@@ -274,14 +274,14 @@ def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder: P
     message = refusal(folder, swept)
     assert message.startswith("[conditions] velocity_m_s = 200: ")
     both = re.search(
-        r"q1_per_m = (\S+) ends the spectrum where it is known; "
         r'\[rubber\] extrapolation = "power-law" or "clamp" adds a decade at each end, '
-        r"and \[surface\] q1_per_m = (\S+) ends it there; velocities from",
+        r"and \[surface\] q1_per_m = (\S+) ends the spectrum there; "
+        r"\[surface\] q1_per_m = (\S+) ends the spectrum where it is known; velocities from",
         message,
     )
     assert both is not None, message
-    plain = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[1]}", swept)
-    further = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[2]}", swept)
+    further = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[1]}", swept)
+    plain = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[2]}", swept)
     further = further.replace("[rubber]", '[rubber]\nextrapolation = "power-law"')
     for followed in (plain, further):
         (folder / "scene.toml").write_text(followed)

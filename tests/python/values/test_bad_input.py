@@ -129,7 +129,7 @@ CORRECTION = (
 FEW_PEAKS = ([[], [1, 2]], r"\b[02]\b.*3 or more")
 NAN_PEAKS = ([[1e-4, 2e-4, NAN], [1e-4, 2e-4, INF]], r"(\[2\])? = (nan|inf): .*finite")
 OUTSIDE_BAND = ([1, 1e9], r" = {}: .*\[1000, 100000\]")
-LONG = ([1.0], r" = {}: .*below .*0\.00628318530718 m")
+LONG = ([1.0], r" = {}: .*below .*0\.00628319 m")
 NO_MAP = ([HEIGHTS * 1j, [["a"]], [[1, 2], [3]], None, "x"], "array of real numbers")
 NO_PEAKS = (["x", [1, 2, 3j]], "number")
 BELOW_A_PEAK = ([0, 1e-4], r" = {}: .*highest peak, 0\.0003")
