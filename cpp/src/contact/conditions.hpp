@@ -94,10 +94,10 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, st
                      " rad/s, known in " + range.text() + " rad/s";
   const auto cut = [&](double end) { return ".truncated(q1=" + ShownRange(q0, end / fastest).highest() + ")"; };
   const std::string way = way_beyond(rubber);
-  text += way;
-  const double decade = 10 * highest;
-  if (!way.empty() && std::holds_alternative<MasterCurve>(rubber) && fastest * q0 < decade && decade < fastest * q1)
-    text += ", and " + cut(decade) + " ends the spectrum there";
+  if (const double decade = 10 * highest; !std::holds_alternative<MasterCurve>(rubber))
+    text += way;
+  else if (!way.empty() && fastest * q0 < decade && slowest * q0 >= lowest / 10)  // else a decade does not serve
+    text += way + (decade < fastest * q1 ? ", and " + cut(decade) + " ends the spectrum there" : "");
   if (!below && fastest * q0 < highest) text += "; " + cut(highest) + " ends the spectrum where it is known";
   throw OutOfRange(text + where);
 }

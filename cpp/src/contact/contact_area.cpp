@@ -142,7 +142,7 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction)) {
-    for (const double v : velocity) notes.add({}, v, 0, {});
+    for (const double v : velocity) notes.add({}, v, {});
     return notes.texts();
   }
   const std::vector<Segment> surface = segments(spectrum);
@@ -155,7 +155,7 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
             ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
             if (velocity[i] != last) model_error.start(last = velocity[i]);
             if (!std::isnan(model_error(g))) flags.regime = model_error.regime();
-            notes.add(shift, velocity[i], 0, flags);
+            notes.add(shift, velocity[i], flags);
           });
   return notes.texts();
 }

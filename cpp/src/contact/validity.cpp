@@ -21,7 +21,6 @@ constexpr double slope_limit = 1.3;
 constexpr double flash_velocity = 0.01;  // [m/s]
 // Beyond it the contact area of the Greenwood-Williamson shift stops falling with the load.
 constexpr double separation_limit = 3;  // d~ / h_rms
-constexpr double share_limit = 0.05;
 
 template <class C>
 bool lacks_q0(const Correction& correction) {
@@ -41,6 +40,15 @@ std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
     if ((flag[i] & near_nyquist) != 0) ends[1] = std::min(ends[1], table->wavenumber()[i]);
   }
   return ends;
+}
+
+/// Whether more than half of the mean square slope is of waves up to `q`.
+bool mostly_below(const Spectrum& spectrum, double q) {
+  const auto [q0, q1] = band(spectrum);
+  if (q <= q0) return false;
+  if (q >= q1) return true;
+  const double below = rms_slope(truncated(spectrum, {}, q)), whole = rms_slope(spectrum);
+  return below * below > 0.5 * whole * whole;
 }
 
 std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correction& correction) {
@@ -80,18 +88,17 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       corrected_(!std::holds_alternative<NoCorrection>(correction)),
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
+      slope_of_few_periods_(mostly_below(spectrum, flagged_ends_[0])),
       fitted_(fitted_velocities(spectrum, rubber)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
-void Notes::add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags) {
+void Notes::add(const Shift& shift, double velocity, const ValidityFlags& flags) {
   fast_ |= velocity > flash_velocity;
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
-  extrapolated_ |= extrapolated_share > share_limit;
-  mostly_extrapolated_ |= extrapolated_share > 0.5;
   constexpr double rounding = 1e-12;
   beyond_fit_ |=
       fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
@@ -107,8 +114,7 @@ void Notes::add(const Shift& shift, double velocity, double extrapolated_share, 
 void Notes::add(const Notes& others) {
   for (bool Notes::*const flag :
        {&Notes::beyond_fit_, &Notes::lowest_bin_, &Notes::fast_, &Notes::full_, &Notes::no_contact_, &Notes::far_,
-        &Notes::extrapolated_, &Notes::mostly_extrapolated_, &Notes::worse_, &Notes::light_, &Notes::slow_,
-        &Notes::constant_, &Notes::fast_regime_, &Notes::unmeasured_})
+        &Notes::worse_, &Notes::light_, &Notes::slow_, &Notes::constant_, &Notes::fast_regime_, &Notes::unmeasured_})
     this->*flag |= others.*flag;
 }
 
@@ -119,6 +125,9 @@ std::vector<std::string> Notes::texts(bool heated) const {
   if (rms_slope_ > slope_limit * (1 + 1e-9))
     result.push_back("the rms slope is " + show(rms_slope_, 4) + ", above " + show(slope_limit) +
                      ", where the cut-off rule ends a spectrum: mu rests on the choice of q1");
+  if (slope_of_few_periods_)
+    result.push_back("fatal: more than half of the mean square slope is of waves up to " + show(flagged_ends_[0], 4) +
+                     " 1/m, and mu with it, but the scan is too small to know their heights");
   if (flagged_ends_[0] > 0)
     result.push_back("the measured spectrum is uncertain up to " + show(flagged_ends_[0], 4) +
                      " 1/m, where the scan holds too few periods");
@@ -130,11 +139,6 @@ std::vector<std::string> Notes::texts(bool heated) const {
         "above " + show(flash_velocity) +
         " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. Phys.: Condens. "
         "Matter 18, 7789)");
-  if (extrapolated_)
-    result.push_back("more than " + show(100 * share_limit) +
-                     " % of the hysteresis comes from frequencies outside of the measured ones at some points");
-  if (mostly_extrapolated_)
-    result.emplace_back("fatal: most of the hysteresis is that of an extrapolated modulus at some points");
   if (beyond_fit_)
     result.emplace_back(
         "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "

@@ -42,7 +42,7 @@ class ValidityRange {
 class Notes {
  public:
   Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction);
-  void add(const Shift& shift, double velocity, double extrapolated_share, const ValidityFlags& flags);
+  void add(const Shift& shift, double velocity, const ValidityFlags& flags);
   /// What others found on other points of the same scene.
   void add(const Notes& others);
   /// `heated`: the heat of sliding is taken into account.
@@ -53,12 +53,13 @@ class Notes {
   bool corrected_;
   std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
   std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
+  bool slope_of_few_periods_;               // most of the slope is of waves up to the first
   std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
   bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
-  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, extrapolated_ = false,
-       mostly_extrapolated_ = false, worse_ = false, light_ = false;
+  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, mostly_, worse_ = false,
+       light_ = false;
 };
 
 }  // namespace asperity

@@ -13,6 +13,7 @@
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "friction/before_heating.hpp"
+#include "friction/extrapolated_modulus.hpp"
 #include "friction/large_friction.hpp"
 #include "heat/flash_solver.hpp"
 #include "heat/heat_check.hpp"
@@ -178,6 +179,7 @@ void heat_to_one_temperature(const HeatScene& scene, const std::optional<Adhesio
   f.hot.model_error.assign(n, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < n; ++i) f.hot.error_estimate[i] += std::fabs(found[i].slope_of_mu) * found[i].error;
   std::ranges::move(texts(notes, scene.heating, scene.spectrum), std::back_inserter(f.hot.notes));
+  note_extrapolated_modulus(f.hot);
   note_large_friction(f.hot);
   if (!contributions) return;
   const std::size_t columns = f.hot.contributions->wavenumber.size();
@@ -247,6 +249,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
   });
   for (const HeatNotes& others : std::span(notes).subspan(1)) notes.front().add(others);
   std::ranges::move(texts(notes.front(), heating, spectrum), std::back_inserter(f.hot.notes));
+  note_extrapolated_modulus(f.hot);
   note_large_friction(f.hot);
   return f;
 }

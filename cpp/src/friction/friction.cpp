@@ -20,6 +20,7 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "friction/before_heating.hpp"
+#include "friction/extrapolated_modulus.hpp"
 #include "friction/large_friction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
@@ -222,7 +223,7 @@ void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::s
       at_point(p, v, [&] { at = solve(p, v, shift); });
       if (f.contributions) solve.add_contributions(*f.contributions, i, v);
     }
-    notes.add(shift, v, at.extrapolated_share, at.validity);
+    notes.add(shift, v, at.validity);
     // all at once, as in a grid each of them waits for memory
     f.mu[i] = at.hysteresis + at.adhesion;
     f.hysteresis[i] = at.hysteresis;
@@ -272,7 +273,9 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   }
   for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
   f.notes = notes.front().texts(heated);
-  if (!heated) note_large_friction(f);
+  if (heated) return f;  // notes on what is computed then are not of this
+  note_extrapolated_modulus(f);
+  note_large_friction(f);
   return f;
 }
 

@@ -8,7 +8,7 @@ _SAID = (
     (r"[:,;] see (?:extrapolated_share|model_error)", ""),
     (r" is not known where model_error is NaN", " is not known at some points"),
     (r"\bslope_cutoff = (\S+) is not reached", r"the wanted rms slope of \1 is not reached"),
-    (r": give macro_wavenumber or macro_area", ""),
+    (r": give macro_wavenumber(_per_m)? or macro_area", ""),
 )
 _ALLOWED = re.compile(r"velocities from (\S+) to (\S+) m/s are allowed")
 

@@ -93,7 +93,7 @@ def friction_map_of(args: Namespace) -> None:
         files[FilePath(args.output)] = made.to_bytes()
     if args.plot is not None:
         path = FilePath(args.plot)
-        with drawn_in(args.style):
+        with drawn_in(args.style, made.notes):
             files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
     write_files(files)
     _tell(args, made)

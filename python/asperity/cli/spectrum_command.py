@@ -108,6 +108,8 @@ def _serves(band: Sequence[float] | None, floor: float | None) -> str:
     if band is None:
         return "this scan does not serve: no row of its spectrum is reliable, take a larger one"
     first, last = band[0], min(band[1], floor or math.inf)
+    if last <= first:
+        return "this scan does not serve: where its spectrum is reliable noise is all that it shows"
     decades = math.log10(last / first)
     where = f"from {first:.3g} to {last:.3g} 1/m, {decades:.2g} decades"
     upper, better = "half of pi / pixel", "finer pixels"

@@ -22,6 +22,9 @@ _PARTS = {
 _Axes = Mapping[str, NDArray[np.float64]]
 
 
+_FATAL = "note: fatal: "  # such lines of a map's text stand before the others
+
+
 def check_export(path: Path) -> None:
     """Refuse, before any work, a file of another kind, and one for which SciPy is missing."""
     if path.suffix not in (".mat", ".csv"):
@@ -100,7 +103,8 @@ def _csv(friction_map: FrictionMap, axes: _Axes, facts: Mapping[str, float]) -> 
     pressure, velocity = axes.values()
     lines = [f"# asperity {__version__} map --export: mu, a row a pressure, a column a velocity"]
     lines += [f"# {name} = {value:.6g}" for name, value in facts.items()]
-    lines += [f"# {line}" for line in friction_map.text.splitlines()]
+    text = sorted(friction_map.text.splitlines(), key=lambda one: not one.startswith(_FATAL))
+    lines += [f"# {line}" for line in text]
     lines.append(",".join(["pressure_pa / velocity_m_s", *map(repr, velocity.tolist())]))
     for p, row in zip(pressure.tolist(), mu.tolist(), strict=True):
         lines.append(",".join(map(repr, [p, *row])))

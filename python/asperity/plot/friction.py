@@ -1,7 +1,7 @@
 """Friction over velocity, pressure or temperature; beside it what heat makes of it."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,6 +34,7 @@ _TEMPERATURE = "Temperature $T_0$"
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
 _WIDTH = 1.8  # points, of the line of mu
+_SAME = 0.01  # relative, of two curves that lie on one another
 _FAR_APART = 30  # times; curves whose largest mu are so far apart share no linear axis
 
 
@@ -70,9 +71,12 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Pa
     for curve, colour in zip(curves, tints, strict=True):
         _draw(axes, curve, colour, kinds, labelled=not many, hatched=hatched)
     if beside:
-        axes.plot([], [], linestyle=_COLD, color=grey(0.3), linewidth=1.2, label="without heat")
+        same = all(np.allclose(c.heat[0], c.kinds[0], rtol=_SAME) for c in curves if c.heat)
+        if not same:
+            axes.plot([], [], linestyle=_COLD, color=grey(0.3), linewidth=1.2, label="without heat")
         if len(kinds) == 1:
-            axes.plot([], [], color=grey(0.3), linewidth=_WIDTH, label="with heat")
+            name = "with and without heat" if same else "with heat"
+            axes.plot([], [], color=grey(0.3), linewidth=_WIDTH, label=name)
         _draw_rises(beside[0], curves, tints)
     if len(kinds) > 1:
         for kind, dashes in kinds.items():
@@ -191,30 +195,14 @@ def _draw(
 
 
 def _mark_guesses(axes: "Axes", curves: Sequence[_Curve]) -> None:
-    """Grey behind what no measured modulus carries."""
+    """Grey around what no measured modulus carries."""
     label: str | None = "most of the hysteresis from\nan extrapolated modulus"
-    for start, end in _joined(run for curve in curves for run in _runs(curve)):
-        axes.axvspan(start, end, color=grey(0.5), alpha=0.15, linewidth=0, zorder=0, label=label)
-        label = None  # one entry for all
-
-
-def _runs(curve: _Curve) -> Iterator[tuple[float, float]]:
-    """Where a curve is guessed, half of the way to the points that are not."""
-    middle = np.sqrt(curve.x[1:] * curve.x[:-1])
-    ends = np.concatenate([curve.x[:1], middle, curve.x[-1:]])
-    for i in np.flatnonzero(curve.guessed):
-        yield float(ends[i]), float(ends[i + 1])
-
-
-def _joined(runs: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Intervals that touch as one."""
-    joined: list[tuple[float, float]] = []
-    for start, end in sorted(runs):
-        if joined and start <= joined[-1][1]:
-            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
-        else:
-            joined.append((start, end))
-    return joined
+    for curve in curves:
+        if curve.guessed.any():
+            y = np.where(curve.guessed, curve.kinds[0], np.nan)
+            look: dict[str, Any] = {"color": grey(0.5), "alpha": 0.3, "linewidth": 12, "zorder": 0}
+            axes.plot(curve.x, y, marker="s", markersize=8, markeredgewidth=0, label=label, **look)
+            label = None  # one entry for all
 
 
 def _draw_rises(axes: "Axes", curves: Sequence[_Curve], tints: Sequence[Any]) -> None:

@@ -47,7 +47,7 @@ def rubber_figure(
 
 def temperature_text(kelvin: float, *, celsius: bool) -> str:
     """A temperature in the unit that a reader gave."""
-    return f"{kelvin - _ZERO:.1f} °C" if celsius else f"{kelvin:.1f} K"
+    return f"{kelvin - _ZERO:.4g} °C" if celsius else f"{kelvin:.5g} K"
 
 
 def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm], *, celsius: bool) -> None:

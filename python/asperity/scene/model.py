@@ -38,6 +38,10 @@ COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "erro
 _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
+_OF_FREQUENCIES = "ask for the modulus from"  # in the core's words on a range
+# a note of the core in the keys of a scene
+_IN_KEYS = "give macro_wavenumber or macro_area", "give macro_wavenumber_per_m or macro_area"
+
 Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 
 
@@ -140,6 +144,7 @@ class Scene:
         found = dict.fromkeys(note for part in parts for note in part.notes)
         share = np.concatenate([part.extrapolated_share for part in parts])
         told = with_velocities([*found], self.points[1], share)
+        told = [note.replace(*_IN_KEYS) for note in told]
         notes = fatal_first([*self.notes, *self._with_size_of_heat(told)])
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
@@ -274,7 +279,9 @@ class Scene:
             try:
                 with progress(chunks) as shown:
                     return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
-            except OutOfRange:  # of a chunk: it is to offer what serves all velocities
+            except OutOfRange as error:  # of a chunk: it is to offer what serves all velocities
+                if _OF_FREQUENCIES not in str(error):
+                    raise
                 ends = np.array([self.velocity.min(), self.velocity.max()])
                 self._at(compute, pressure[[0, 0]], ends)
                 raise
@@ -286,7 +293,9 @@ class Scene:
         try:
             yield
         except OutOfRange as error:
-            said = [str(error)]
+            if _OF_FREQUENCIES not in str(error):
+                raise
+            said = [f"{error} (these differ in mu, see 'Choose where the spectrum ends')"]
             if self.temperature is not None:
                 said.append(f"this is at {self.temperature_text}")
             said += [n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)]

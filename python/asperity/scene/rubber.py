@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asperity._core import InvalidInput, OutOfRange
+from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.base.notes import FATAL
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
@@ -271,6 +271,8 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
         return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
 
+    if not fitted:
+        notes = _contradictions(build)
     made = BuiltRubber(
         rubber,
         values,
@@ -290,6 +292,14 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
 
 
+def _contradictions(build: MasterCurveBuild) -> list[str]:
+    """What a Prony series would say of E' and E'' that are not of one material."""
+    try:
+        return [note for note in quiet_prony(build).notes if note.startswith(FATAL)]
+    except Error:  # nobody asked for the series
+        return []
+
+
 def _at_reference(values: Values) -> Values:
     return {**values, "temperature_k": values["reference_temperature_k"]}
 
@@ -302,7 +312,7 @@ def _at_temperature(
     if values.get("vertical_shift") == "T/T_ref":
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
-        return curve, [note for note in quiet_prony(curve).notes if note.startswith(FATAL)]
+        return curve, ()
     with rename_in_errors(path, {"residual": "[rubber] prony"}):
         series = quiet_prony(curve, "prony" if beyond == "prony" else None)
     return series, series.notes

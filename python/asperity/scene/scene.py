@@ -183,7 +183,10 @@ def _list_isotherms(path: Path, rubber: Any) -> None:
     for name in rubber["isotherms"]:
         if not _is_pattern(path, name):
             names.append(name)
-        elif found := sorted(glob(name, root_dir=path.parent)):
+        elif "temperatures" in rubber:
+            problem = "must name its files one by one, as temperatures gives one to each"
+            refuse(path, f"[rubber] isotherms = {name!r}", problem)
+        elif found := sorted(glob(name.replace("[", "[[]"), root_dir=path.parent)):
             names += found
         else:
             refuse(path, f"[rubber] isotherms = {name!r}", "no file has such a name")

@@ -25,6 +25,7 @@ from asperity.io.fields import (
 from asperity.scene.scan import (
     Scan,
     lay,
+    noise_floor,
     nyquist,
     read_filled,
     scan_notes,
@@ -87,7 +88,7 @@ def build_surface(path: Path, table: object) -> Surface:
     """The surface of a scene's table."""
     values = read_table(path, "surface", table, SURFACE)
     derived: Values = {}
-    scan = fit = None
+    scan = fit = floor = None
     if "file" in values:
         for key in _SELF_AFFINE:
             if key in values:
@@ -100,7 +101,7 @@ def build_surface(path: Path, table: object) -> Surface:
             **values,
         }
         scan = _read_scan(path, values, derived)
-        measured, fit = _measure(path, scan, values)
+        measured, fit, floor = _measure(path, scan, values)
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
     else:
         for key in (*_READ, *_TRANSFORM, *_FIT):
@@ -122,6 +123,7 @@ def build_surface(path: Path, table: object) -> Surface:
     notes = _slope_notes(spectrum, values, table)
     if scan is not None:
         notes += scan_notes(scan, lay(scan, **_transform(values)))
+        notes += _noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
@@ -149,8 +151,9 @@ def _transform(values: Values) -> dict[str, Any]:
 
 def _measure(
     path: Path, scan: Scan, values: Values
-) -> tuple[TabulatedSpectrum, SelfAffineFit | None]:
-    """The scan's spectrum, or the self-affine fit to it where the scene asks for one."""
+) -> tuple[TabulatedSpectrum, SelfAffineFit | None, float | None]:
+    """The scan's spectrum, the self-affine fit to it where the scene asks for one, and where the
+    noise of the instrument begins in it, if it shows."""
     settings = _transform(values)
     band = arguments(values, _BAND)
     wanted = values.get("fit")
@@ -159,10 +162,11 @@ def _measure(
     with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
         spectrum = surface_spectrum(scan, **settings)
         if wanted is not None:
-            return spectrum, _fitted(spectrum)
+            return spectrum, _fitted(spectrum), None
         band.setdefault("q1", min(nyquist(scan), spectrum.q1))  # beyond it rings are incomplete
         try:
-            return spectrum.truncated(**band), None
+            floor = noise_floor(spectrum, nyquist(scan)) if isinstance(scan, HeightMap) else None
+            return spectrum.truncated(**band), None, floor
         except OutOfRange as error:
             raise OutOfRange(f'{error}; fit = "self-affine" goes on beyond it') from error
 
@@ -199,6 +203,15 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
         return []
     where = " and ".join(beyond)
     return [f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"]
+
+
+def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[str]:
+    if floor is None or spectrum.q1 <= floor:
+        return []
+    return [
+        f"from {floor:.3g} 1/m on noise of the instrument, or roughness finer than the pixels, is "
+        f"half of C(q) or more: q1 is {spectrum.q1:.3g}"
+    ]
 
 
 def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[str]:

@@ -220,7 +220,7 @@ def test_temperatures_of_a_picture_are_in_the_unit_of_the_files(folder, monkeypa
     options = [one.replace("temperature=K", f"temperature={unit}") for one in SYNTHETIC]
     assert main(["rubber", "dma.csv", *options, "--output", "a.csv", "--plot", "a.png"]) == 0
     first, second, third, fourth = drawn[0].axes[:4]
-    ends = [f"{t - zero:.1f} {shown}" for t in (TEMPERATURES.min(), TEMPERATURES.max())]
+    ends = [f"{t - zero:.5g} {shown}" for t in (TEMPERATURES.min(), TEMPERATURES.max())]
     assert [text.get_text() for text in first.get_legend().get_texts()][:2] == ends
     assert second.get_title().endswith(f" {shown}")
     assert third.get_xlabel() == f"Temperature $T$ [{shown}]"

@@ -75,10 +75,16 @@ def test_a_pattern_stands_for_files(dma: Path) -> None:
     names = [f"dma/T{celsius:02d}.csv" for celsius in CELSIUS]
     by_pattern = loaded(dma, SCENE)
     assert by_pattern.inputs["rubber"]["isotherms"] == names
+    mu = by_pattern.friction().mu
     one_by_one = loaded(dma, SCENE.replace('["dma/T*.csv"]', str(names)))
-    np.testing.assert_array_equal(by_pattern.friction().mu, one_by_one.friction().mu)
+    np.testing.assert_array_equal(mu, one_by_one.friction().mu)
     with pytest.raises(InvalidInput, match=r"isotherms = 'dma/X\*': no file has such a name"):
         loaded(dma, SCENE.replace("T*.csv", "X*"))
+    with pytest.raises(InvalidInput, match="must name its files one by one, as temperatures gives"):
+        loaded(dma, SCENE.replace("[conditions]", "temperatures = [1, 2]\n[conditions]"))
+    (dma / "dma").rename(dma / "[2026] dma")
+    in_brackets = loaded(dma, SCENE.replace("dma/T", "[2026] dma/T"))
+    np.testing.assert_array_equal(mu, in_brackets.friction().mu)
 
 
 def test_swapped_columns_are_fatal(dma: Path) -> None:
@@ -123,10 +129,14 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
     beyond_figure, within = figures
     labels = beyond_figure.axes[0].get_legend_handles_labels()[1]
     assert "most of the hysteresis from\nan extrapolated modulus" in labels
-    (span,) = [p for p in beyond_figure.axes[0].patches if p.get_label().startswith("most of the")]
-    assert span.get_x() > fastest
+    (halo,) = [x for x in beyond_figure.axes[0].lines if x.get_label().startswith("most of the")]
+    around = np.isfinite(halo.get_ydata())
+    assert (halo.get_xdata()[around] > fastest).all()
+    assert around.any()
+    assert not around.all()
     assert beyond_figure.get_supxlabel().startswith("fatal: most of the hysteresis")
-    assert not within.axes[0].patches
+    told = [line.get_label() for line in within.axes[0].lines]
+    assert not any(label.startswith("most of the") for label in told)
     assert within.get_supxlabel() == ""
     assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$ [-]\nof hysteresis alone"
 
@@ -212,4 +222,61 @@ def test_what_is_said_of_one_temperature_names_it(
     assert "note: 30 °C: more than 5 %" not in notes  # warmer, so all of it was measured
     loaded(dma, swept(text, fastest, 9 * fastest) + "temperature_c = [0, 20]\n", for_friction=True)
     assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 2
-    assert capsys.readouterr().err.endswith("m/s are allowed; this is at 0 °C\n")
+    assert capsys.readouterr().err.endswith("spectrum ends'); this is at 0 °C\n")
+
+
+def test_a_scan_too_small_for_its_spectrum_is_fatal(dma: Path) -> None:
+    """Most of the slope is then of waves of which it holds fewer than 16."""
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=500, q1=1e5)
+    scan = asperity.synthesize(road, shape=(256, 256), pixel_size=5e-5, seed=2)
+    np.save(dma / "scan.npy", scan.heights)
+    surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 5e-5\nunit = "m"\nq1_per_m = {}\n'
+    slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
+
+    def fatal(q1: float) -> list[str]:
+        notes = loaded(dma, slow, surface.format(q1)).friction().notes
+        return [
+            note for note in notes if note.startswith("fatal: more than half of the mean square")
+        ]
+
+    few = 16 * 2 * np.pi / (256 * 5e-5)
+    assert len(fatal(1.2 * few)) == 1
+    assert fatal(4 * few) == []
+
+
+def test_noise_that_the_spectrum_reaches_into_is_noted(dma: Path) -> None:
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=500, q1=6e4)
+    scan = asperity.synthesize(road, shape=(256, 256), pixel_size=5e-5, seed=2)
+    noise = 1e-5 * np.random.default_rng(2).normal(size=(256, 256))
+    np.save(dma / "scan.npy", scan.heights + noise)
+    surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 5e-5\nunit = "m"\n'
+    slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
+    (note,) = [one for one in loaded(dma, slow, surface).notes if "noise of the instrument" in one]
+    begins = float(note.split()[1])
+    cut = surface + f"q1_per_m = {0.99 * begins}\n"
+    assert not any("noise of the instrument" in one for one in loaded(dma, slow, cut).notes)
+
+
+def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma: Path) -> None:
+    """Heat takes v q a_T to where the modulus was measured."""
+    _, fastest = known(dma)
+    text = SCENE.replace("temperature_c = 20", 'extrapolation = "power-law"\ntemperature_c = 20')
+    for factor in np.geomspace(1, 9, 7):
+        scene = text.replace("{ from = 1e-4, to = 1e-3, points = 9 }", f"{factor * fastest}")
+        found = loaded(dma, scene + HEATING, for_friction=True).friction()
+        told = [note for note in found.notes if "outside of the measured ones" in note]
+        assert len(told) == (found.extrapolated_share.max() > 0.05)
+
+
+def test_a_decade_is_offered_where_it_serves(dma: Path) -> None:
+    _, fastest = known(dma)
+
+    def refused(slowest: float, to: float) -> str:
+        with pytest.raises(OutOfRange) as caught:
+            loaded(dma, swept(SCENE, slowest, to)).friction()
+        return str(caught.value)
+
+    decade = '[rubber] extrapolation = "power-law" or "clamp" adds a decade at each end'
+    assert decade in refused(0.1 * fastest, 9 * fastest)
+    assert decade not in refused(0.1 * fastest, 1e3)
+    assert decade not in refused(1e-9, 0.1 * fastest)

@@ -292,7 +292,10 @@ def test_a_range_error_says_that_the_slope_is_not_reached(folder: Path) -> None:
     """The spectrum then ends with the pixels, which is why it asks for so much."""
     scene = SCAN + "slope_cutoff = 90\n" + MASTER[MASTER.index("[rubber]") :]
     message = refusal(folder, scene.replace("to = 1,", "to = 60,"))
-    assert re.search(r" are allowed; slope_cutoff = 90 is not reached: the rms slope up", message)
+    assert re.search(
+        r"'Choose where the spectrum ends'\); slope_cutoff = 90 is not reached: the rms slope up",
+        message,
+    )
 
 
 def test_endless_scene() -> None:

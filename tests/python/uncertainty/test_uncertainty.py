@@ -329,7 +329,7 @@ def test_the_band_is_drawn_where_errors_are_known_and_only_there(scene, tmp_path
     pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
     picture = tmp_path / "mu.svg"
     assert main(["friction", str(scene()), "--plot", str(picture)]) == 0
-    assert "95 % of draws" in picture.read_text()
+    assert "95 % band of the" in picture.read_text()
     text = scene().read_text()
     start, end = text.index("[surface]"), text.index("[rubber]")
     plain = "[surface]\nrms_height_m = 2e-5\nhurst = 0.8\nq0_per_m = 2e4\nq1_per_m = 3e5\n"
