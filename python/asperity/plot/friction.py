@@ -34,6 +34,7 @@ _TEMPERATURE = "Temperature $T_0$"
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
 _WIDTH = 1.8  # points, of the line of mu
+_HALO = 0.03  # of mu, to either side of a part that is guessed
 _SAME = 0.01  # relative, of two curves that lie on one another
 _FAR_APART = 30  # times; curves whose largest mu are so far apart share no linear axis
 
@@ -195,14 +196,19 @@ def _draw(
 
 
 def _mark_guesses(axes: "Axes", curves: Sequence[_Curve]) -> None:
-    """Grey around what no measured modulus carries."""
+    """Grey around what no measured modulus carries, half of the way to points that one does."""
     label: str | None = "most of the hysteresis from\nan extrapolated modulus"
     for curve in curves:
-        if curve.guessed.any():
-            y = np.where(curve.guessed, curve.kinds[0], np.nan)
-            look: dict[str, Any] = {"color": grey(0.5), "alpha": 0.3, "linewidth": 12, "zorder": 0}
-            axes.plot(curve.x, y, marker="s", markersize=8, markeredgewidth=0, label=label, **look)
-            label = None  # one entry for all
+        if not curve.guessed.any():
+            continue
+        at = np.arange(curve.x.size)
+        halves = np.arange(0, curve.x.size - 0.5, 0.5)
+        x, mu = np.interp(halves, at, curve.x), np.interp(halves, at, curve.kinds[0])
+        guessed = np.interp(halves, at, curve.guessed) > 0
+        around = (1 - _HALO) * mu, (1 + _HALO) * mu
+        look: dict[str, Any] = {"color": grey(0.4), "alpha": 0.45, "linewidth": 0, "zorder": 0.5}
+        axes.fill_between(x, *around, where=guessed, label=label, **look)
+        label = None  # one entry for all
 
 
 def _draw_rises(axes: "Axes", curves: Sequence[_Curve], tints: Sequence[Any]) -> None:
