@@ -58,7 +58,7 @@ class Notes {
   bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
-  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, mostly_, worse_ = false,
+  bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, worse_ = false,
        light_ = false;
 };
 
