@@ -279,3 +279,9 @@ def test_a_decade_is_offered_where_it_serves(dma: Path) -> None:
     assert decade in refused(0.1 * fastest, 9 * fastest)
     assert decade not in refused(0.1 * fastest, 1e3)
     assert decade not in refused(1e-9, 0.1 * fastest)
+
+
+def test_the_note_on_a_clipped_wavenumber_names_the_key_of_a_scene(dma: Path) -> None:
+    wide = SCENE + HEATING.replace("1e-3", "1e-2")  # 2 pi / 1 cm lies below q0
+    notes = loaded(dma, wide, for_friction=True).friction().notes
+    assert any(note.endswith("give macro_wavenumber_per_m or macro_area") for note in notes)
