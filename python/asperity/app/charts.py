@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.app.state import Variant
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.plot.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve
@@ -134,7 +135,7 @@ def shifts_chart(scene: Scene) -> Options | None:
     build = scene.built_rubber.build
     if build is None:
         return None
-    celsius = build.temperature - 273.15
+    celsius = build.temperature - ZERO_CELSIUS
     points = {"symbolSize": 7, "itemStyle": {"color": COLOURS[0]}}
     data = _points(celsius, build.log10_a_T)
     series: list[Options] = [{"type": "scatter", "name": "measured", "data": data} | points]

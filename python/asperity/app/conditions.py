@@ -9,8 +9,8 @@ from asperity.app.correction_part import CorrectionFields
 from asperity.app.parts import Quantity, part
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker
+from asperity.base.celsius import ZERO_CELSIUS
 
-_CELSIUS = 273.15
 _UNFIT = (
     "Adhesion was switched off: its shear stress was fitted to the shipped scan and rubber. "
     "Fit yours to tests by asperity fit, or give one."
@@ -50,7 +50,7 @@ class ConditionsPart:
     def _temperature(self) -> None:
         conditions = self._state.conditions
         if "temperature_k" in conditions:
-            celsius = conditions["temperature_k"] - _CELSIUS
+            celsius = conditions["temperature_k"] - ZERO_CELSIUS
         elif "temperature_c" in conditions:
             celsius = conditions["temperature_c"]
         else:

@@ -10,6 +10,7 @@ from asperity.app.guess import QUANTITIES, UNITS
 from asperity.app.parts import chart, part, redraw, upload
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker, in_thread
+from asperity.base.celsius import temperature_text
 
 _SAID = {
     "frequency": "Frequency is column",
@@ -143,7 +144,7 @@ class RubberPart:
             return
         self._drawn = built
         at = built.temperature
-        facts = "as it was given" if at is None else f"at {at - 273.15:.4g} °C"
+        facts = "as it was given" if at is None else f"at {temperature_text(at, celsius=True)}"
         if built.build is not None:
             n, residual = len(built.isotherms), built.build.residual
             facts += f", of {n} isotherms that overlap to {100 * residual:.2g} %"

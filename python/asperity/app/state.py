@@ -19,6 +19,7 @@ from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, u
 from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.words import in_words
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible
 from asperity.scene.model import Curves, Scene
@@ -218,14 +219,14 @@ class State:
         them. To take them returns what there is to say of the files."""
         with plausible.collected():  # notes are those of the scene
             table, said = rubber_of(self.folder, names, settings)
-        middle = round(table.get("reference_temperature_k", 293.15) - 273.15, 2)
+        middle = round(table.get("reference_temperature_k", 293.15) - ZERO_CELSIUS, 2)
 
         def warmed(conditions: dict[str, Any]) -> dict[str, Any]:
             stated = {"temperature_k", "temperature_c"} & conditions.keys()
             return conditions if stated else {**conditions, "temperature_c": middle}
 
         conditions = warmed(self.conditions)
-        kelvin = conditions.get("temperature_k") or conditions["temperature_c"] + 273.15
+        kelvin = conditions.get("temperature_k") or conditions["temperature_c"] + ZERO_CELSIUS
         self._builders.rubber(self._path, table, kelvin if "isotherms" in table else None)
         name = "your sweeps" if "isotherms" in table else "your master curve"
 

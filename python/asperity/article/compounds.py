@@ -6,7 +6,6 @@ from asperity.rubber import PronySeries
 
 T_G = {"A": -32.0, "B": -21.7}  # [C], Section 5.1
 ROOM = 20.0  # [C]: the article says "room temperature" of v0
-CELSIUS = 273.15  # K at 0 C
 POISSON_RATIO = 0.5
 # Universal constants about T_g (M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77,
 # 3701 (1955)).

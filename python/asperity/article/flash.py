@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from asperity.article.compounds import C1, C2, CELSIUS, ROOM, T_G, compound
+from asperity.article.compounds import C1, C2, ROOM, T_G, compound
 from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE
 from asperity.article.readings import Array
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
 from asperity.heating import Heating
@@ -31,7 +32,7 @@ def heated(
 ) -> Mapping[str, Friction]:
     """Friction with the heat of sliding, by cut-off; `.cold` is without it. The original theory
     unless there is a correction."""
-    law = WLF(c1=C1, c2=C2, reference_temperature=T_G["B"] + CELSIUS)
+    law = WLF(c1=C1, c2=C2, reference_temperature=T_G["B"] + ZERO_CELSIUS)
     return {
         name: friction(
             surface,
@@ -40,7 +41,7 @@ def heated(
             velocity=velocity,
             correction=correction,
             adhesion=ADHESION,
-            temperature=ROOM + CELSIUS,
+            temperature=ROOM + ZERO_CELSIUS,
             shift=law,
             heating=TREAD,
         )

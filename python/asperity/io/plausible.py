@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.io.typed import as_typed
 
 
@@ -58,7 +59,7 @@ _WAVENUMBER = _factors(per_m=1.0, per_mm=1e3, per_um=1e6, per_nm=1e9)
 _SPEED = {"m/s": (1.0, 0.0), "km/h": (1 / 3.6, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)}
 _PRESSURE = _factors(Pa=1.0, MPa=1e6, bar=1e5, kPa=1e3, GPa=1e9)
 _MODULUS = _factors(Pa=1.0, MPa=1e6, GPa=1e9, kPa=1e3)
-_TEMPERATURE = {"K": (1.0, 0.0), "C": (1.0, 273.15)}
+_TEMPERATURE = {"K": (1.0, 0.0), "C": (1.0, ZERO_CELSIUS)}
 _FREQUENCY = {"rad/s": (1.0, 0.0), "Hz": (2 * math.pi, 0.0)}
 _STRAIN = {"1": (1.0, 0.0), "%": (0.01, 0.0)}
 _NUMBER = {"": (1.0, 0.0)}
@@ -389,7 +390,8 @@ def _guess(value: float, quantity: Quantity, unit: str) -> str:
     factor, offset = quantity.units[unit]
     for other, (scale, shift) in quantity.units.items():
         si = scale * value + shift
-        if other != unit and quantity.likely[0] <= abs(si) <= quantity.likely[1]:
+        size = si if quantity.units is _TEMPERATURE else abs(si)
+        if other != unit and quantity.likely[0] <= size <= quantity.likely[1]:
             here = (si - offset) / factor
             return f"; in {other}? {value:.6g} {other} is {here:.6g} {unit}"
     return ""

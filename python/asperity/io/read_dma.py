@@ -12,6 +12,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.io import plausible
 from asperity.io.column_names import Lines, cells_of, find_header, numbered_lines, separator_of
 from asperity.io.instrument import brief
@@ -28,7 +29,6 @@ _UNITS = {
     "strain": {"1": 1.0, "%": 0.01},
 }
 _KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
-_CELSIUS = 273.15
 _STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
 _MOST_UNIT_LINES = 2  # between the names of the columns and the first numbers
 
@@ -242,7 +242,7 @@ def _tables(
             table[name] = table[name] * _UNITS[kind][units[kind]]
         _check_units(file, table, units, factor)
         if units["temperature"] == "C":
-            table["temperature"] = table["temperature"] + _CELSIUS
+            table["temperature"] = table["temperature"] + ZERO_CELSIUS
         result.append((file, table))
     return result
 

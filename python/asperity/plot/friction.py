@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.plot.curves import (
     MOST_ENTRIES,
     PRESSURE,
@@ -318,7 +319,7 @@ def _hatch(colour: Any) -> dict[str, Any]:
 
 def _zero(scenes: Sequence[Scene]) -> float:
     """What a picture calls zero [K]: of degrees Celsius where all scenes have them."""
-    return 273.15 if all(scene.in_celsius for scene in scenes) else 0.0
+    return ZERO_CELSIUS if all(scene.in_celsius for scene in scenes) else 0.0
 
 
 def _names(scenes: Sequence[Scene]) -> list[str]:

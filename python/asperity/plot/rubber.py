@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.base.celsius import ZERO_CELSIUS, temperature_text
 from asperity.dma import MasterCurveBuild
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_with_room
@@ -17,7 +18,6 @@ from asperity.sweeps import Isotherm
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_ZERO = 273.15  # [K] of 0 C
 _STORAGE, _LOSS, _TAN = 0, 1, 2  # of the palette
 
 
@@ -43,11 +43,6 @@ def rubber_figure(
     _draw_residual(fourth, build, prony)
     fourth.set_title("(d) points about the Prony fit", fontsize="medium")
     return picture(figure, path)
-
-
-def temperature_text(kelvin: float, *, celsius: bool) -> str:
-    """A temperature in the unit that a reader gave."""
-    return f"{kelvin - _ZERO:.4g} °C" if celsius else f"{kelvin:.5g} K"
 
 
 def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm], *, celsius: bool) -> None:
@@ -92,7 +87,7 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
 def draw_shifts(
     axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None, *, celsius: bool
 ) -> None:
-    zero = _ZERO if celsius else 0.0
+    zero = ZERO_CELSIUS if celsius else 0.0
     axes.errorbar(
         build.temperature - zero,
         build.log10_a_T,

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base.celsius import temperature_text
 from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_with_room
-from asperity.plot.rubber import draw_isotherms, draw_shifts, temperature_text
+from asperity.plot.rubber import draw_isotherms, draw_shifts
 from asperity.plot.style import grey, palette
 from asperity.plot.surface import draw_line, draw_map, draw_spectrum, without_trend
 from asperity.scene.model import Scene

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.io import plausible
 from asperity.io.fields import Field, refuse, sweep
 from asperity.scene.rubber import BuiltRubber
@@ -22,7 +23,7 @@ def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None
     if not given:
         return [None]
     [(key, values)] = given.items()
-    kelvin = values + (273.15 if key == "temperature_c" else 0)
+    kelvin = values + (ZERO_CELSIUS if key == "temperature_c" else 0)
     if len(kelvin) > MOST_TEMPERATURES:
         problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"
         refuse(path, f"[conditions] {key}", problem)

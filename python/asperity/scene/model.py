@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from asperity._core import OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.celsius import temperature_text
 from asperity.base.notes import FATAL, fatal_first
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
@@ -119,9 +120,7 @@ class Scene:
         """The temperature in the unit that it was given in."""
         if self.temperature is None:
             return ""
-        if self.in_celsius:
-            return f"{self.temperature - 273.15:.4g} °C"
-        return f"{self.temperature:.5g} K"
+        return temperature_text(self.temperature, celsius=self.in_celsius)
 
     @property
     def sources(self) -> list[Path]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from asperity._core import Error, InvalidInput, OutOfRange
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.notes import FATAL
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
@@ -69,7 +70,6 @@ _DMA = {
 }
 _PRONY_FIT = {"prony": Field(truth)}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
-_CELSIUS = 273.15
 RUBBER = {
     **_PRONY,
     "master_curve": Field(file_name),
@@ -118,15 +118,13 @@ def build_rubber(
             given = f"{source} is given" if source else "neither isotherms nor master_curve is"
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
     if temperature is None:
-        with _blaming_celsius(values):
-            kelvin = _in_kelvin(path, values)
-            return replace(
-                _build(path, source, kelvin, measure), temperature=kelvin.get("temperature_k")
-            )
+        kelvin = _in_kelvin(path, values)
+        built = _build(path, source, kelvin, measure)
+        return replace(built, temperature=kelvin.get("temperature_k"))
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
-    with _blaming_celsius(values), _blaming_conditions():
+    with _blaming_conditions():
         kelvin = {**_in_kelvin(path, values), "temperature_k": temperature}
         built = _build(path, source, kelvin, measure)
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
@@ -177,21 +175,8 @@ def _in_kelvin(path: Path, values: Values) -> Values:
             continue
         if f"{name}_k" in values:
             refuse(path, f"[rubber] {name}_c", f"must be left out where {name}_k is given")
-        kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + _CELSIUS
+        kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + ZERO_CELSIUS
     return kelvin
-
-
-@contextmanager
-def _blaming_celsius(values: Values) -> Iterator[None]:
-    """Let errors on a temperature in K name the key that the scene has."""
-    try:
-        yield
-    except (InvalidInput, OutOfRange) as error:
-        message = str(error)
-        for name in ("temperature", "reference_temperature"):
-            if f"{name}_c" in values:
-                message = message.replace(f"[rubber] {name}_k", f"[rubber] {name}_c (in K)")
-        raise type(error)(message) from error
 
 
 @contextmanager
@@ -216,7 +201,7 @@ def _blaming_conditions() -> Iterator[None]:
     try:
         yield
     except (InvalidInput, OutOfRange) as error:
-        message = str(error).replace("[rubber] temperature_k", "[conditions] temperature")
+        message = str(error).replace("[rubber] temperature_k", "[conditions] temperature_k")
         raise type(error)(message) from error
 
 

@@ -21,6 +21,7 @@ from asperity.io.fields import (
 )
 from asperity.io.files import check_file
 from asperity.io.typed import Typed, typed_in
+from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
 from asperity.scene.model import Scene
@@ -77,7 +78,8 @@ def scene_of(
     path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
 ) -> Scene:
     """Build a scene as `build_scene` does, with a note of each number that is unusual."""
-    with plausible.collected(typed_in(tables)) as notes:
+    typed = typed_in(tables)
+    with plausible.collected(typed) as notes, celsius_in_errors(typed):
         scene = build_scene(path, tables, for_friction=for_friction, builders=builders)
     return replace(scene, unusual=tuple(notes))
 

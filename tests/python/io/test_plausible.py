@@ -453,7 +453,7 @@ class TestTemperature:
 
     def test_a_temperature_without_a_shift_is_refused_by_its_own_key(self, tmp_path):
         path = scene(tmp_path, rubber=f"{RUBBER}\ntemperature_c = 25")
-        with pytest.raises(asperity.InvalidInput, match=r"temperature_c \(in K\): needs shift"):
+        with pytest.raises(asperity.InvalidInput, match="temperature_c: needs shift"):
             load_scene(path)
 
     def test_kelvin_given_as_celsius_is_noted(self, tmp_path):
@@ -462,9 +462,14 @@ class TestTemperature:
         with pytest.raises(asperity.Error) as error:  # no isotherm is so hot
             load_scene(scene(tmp_path, rubber=ISOTHERMS + more))
         said = str(error.value)
-        assert "[rubber] temperature_c (in K) = 571.3: " in said
+        assert "[rubber] temperature_c = 298.15: " in said
         assert "temperature_c = 298.15: unusual, above 256.85 C" in said
         assert said.endswith("in K? 298.15 K is 25 C")
+
+    def test_a_unit_is_offered_only_where_the_number_is_likely_in_it(self):
+        with plausible.collected(), pytest.raises(asperity.InvalidInput) as error:
+            plausible.check("temperature", -300, plausible.TEMPERATURE, "C")
+        assert str(error.value).endswith("no DMA cools so far)")
 
 
 def test_every_limit_has_its_reason():

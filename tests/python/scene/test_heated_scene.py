@@ -147,7 +147,7 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
         ),
         (
             scene(law=""),
-            "[conditions] temperature: needs shift, a file of shift factors, or wlf_c1",
+            "[conditions] temperature_k: needs shift, a file of shift factors, or wlf_c1",
         ),
         (
             scene(""),
@@ -155,6 +155,7 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
             "rubber is wanted: the law gives a_T at any",
         ),
         (scene("temperature_k = 20"), "[conditions] temperature_k = 20"),
+        (scene("temperature_k = 3\ntemperature_c = 20"), "[conditions] temperature_k = 3: must be"),
         (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
         (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
         (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out where shift"),

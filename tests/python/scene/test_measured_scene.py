@@ -143,14 +143,17 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
 @each(
     ("text", "named"),
     [
-        (SCENE.replace("= 20", "= 80"), "[rubber] temperature_c (in K) = 353.15: isotherms"),
+        (
+            SCENE.replace("= 20", "= 80"),
+            "[rubber] temperature_c = 80: isotherms were measured in [0, 50] C",
+        ),
         (
             SCENE.replace("= 20", "= 80\nreference_temperature_c = 20"),
-            "[rubber] temperature_c (in K) = 353.15: shift factors are known in",
+            "[rubber] temperature_c = 80: shift factors are known in [",
         ),
         (
             SCENE.replace("temperature_c = 20\n", "") + "temperature_c = 80\n",
-            "[conditions] temperature = 353.15: isotherms",
+            "[conditions] temperature_c = 80: isotherms were measured in [0, 50] C",
         ),
     ],
 )
