@@ -20,7 +20,7 @@ printed() { # COMPILER BUILD RUNNER...: what tests/stability/bits.cpp prints
     "$build/cpp/libasperity.a" -lm -o "$build/bits"
   "$@" "$build/bits"
 }
-printed aarch64-linux-gnu-g++ $there qemu-aarch64 -L /usr/aarch64-linux-gnu >$there/bits.txt
+printed aarch64-linux-gnu-g++ $there qemu-aarch64 >$there/bits.txt
 printed "${CXX:-c++}" $here env >$here/bits.txt
 python3 - $there/bits.txt $here/bits.txt <<'END'
 import sys
