@@ -70,6 +70,8 @@ py::tuple fit(const Spectrum& spectrum, const Rubber& rubber, const ContactModel
 }  // namespace
 
 void bind_friction(py::module_& m) {
+  m.attr("NOTED_EXTRAPOLATION") = asperity::noted_extrapolation;
+  m.attr("FATAL_EXTRAPOLATION") = asperity::fatal_extrapolation;
   py::classh<Heating>(m, "Heating")
       .def(py::init([](double density, double heat_capacity, double conductivity, double diameter,
                        std::optional<double> macro_wavenumber, std::optional<double> macro_area, int residence,

@@ -47,6 +47,9 @@ struct Friction {
   std::optional<Contributions> contributions;
 };
 
+/// Values of `extrapolated_share` from which on a note tells of it, and from which on that note is fatal.
+inline constexpr double noted_extrapolation = 0.05, fatal_extrapolation = 0.5;
+
 /// The columns of Friction, in the order in which they are shown.
 inline constexpr std::vector<double> Friction::*friction_columns[] = {
     &Friction::mu,           &Friction::hysteresis,     &Friction::adhesion,

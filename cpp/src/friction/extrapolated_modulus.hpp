@@ -5,7 +5,7 @@
 
 namespace asperity {
 
-/// Adds a note where more than 5 % of the hysteresis comes from there, and before all others where most of it does.
+/// Adds a note where more than a part of the hysteresis comes from there, and before all others where most of it does.
 void note_extrapolated_modulus(Friction& friction);
 
 }  // namespace asperity

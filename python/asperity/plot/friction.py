@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity._core import FATAL_EXTRAPOLATION
 from asperity.base.celsius import ZERO_CELSIUS
 from asperity.plot.curves import (
     MOST_ENTRIES,
@@ -23,7 +24,6 @@ from asperity.plot.curves import (
 )
 from asperity.plot.labels import legend_beside, legend_with_room
 from asperity.plot.style import colours, grey, shades
-from asperity.results.extrapolation_notes import MOSTLY
 from asperity.scene.model import Curves, Scene
 
 if TYPE_CHECKING:
@@ -163,7 +163,8 @@ def _curve(
     order = np.argsort(x)
     mu, hysteresis, adhesion, share, off, *rest = (line[order] for line in lines)
     band = [rest.pop(0), rest.pop(0)] if result.band else []
-    return _Curve(label, x[order], (mu, hysteresis, adhesion), band, off, share > MOSTLY, rest)
+    guessed = share > FATAL_EXTRAPOLATION
+    return _Curve(label, x[order], (mu, hysteresis, adhesion), band, off, guessed, rest)
 
 
 def _draw(

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-MOSTLY = 0.5  # share of the hysteresis from which on mu is that of the extrapolation
+from asperity._core import FATAL_EXTRAPOLATION, NOTED_EXTRAPOLATION
+
 _LIMITS = {
-    "more than 5 % of the hysteresis": 0.05,
-    "most of the hysteresis is that of an extrapolated modulus": MOSTLY,
+    "of the hysteresis comes from frequencies outside of the measured ones": NOTED_EXTRAPOLATION,
+    "most of the hysteresis is that of an extrapolated modulus": FATAL_EXTRAPOLATION,
 }
 _SOMEWHERE = " at some points"  # in the core's notes
 
