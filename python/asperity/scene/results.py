@@ -1,13 +1,17 @@
 """Friction of scenes as a table: one set of digits for the shell, the report and the app."""
 
+import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
+from pathlib import Path
 from typing import Any
 
 from asperity.base.notes import fatal_first, note_about
 from asperity.io.table import Table
 from asperity.scene.model import COLUMNS, Curves, Progress, Scene
 
+_NUMBER = re.compile(r"-?\d[\d.e+-]*")
 Bar = Callable[[str], Progress]  # shows how far the work of that title is
 
 
@@ -55,18 +59,29 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
 
 
 def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
-    """Every note once, fatal ones first; of several scenes with the names of those it is about."""
+    """Every note once, fatal ones first; of several scenes with the names of those it is about.
+
+    What there is to say of a file's inputs is said at every temperature, with other numbers. It is
+    told with those of the first.
+    """
     about: dict[str, list[Scene]] = {}
+    first: dict[tuple[Path, str], str] = {}
+    alike: Counter[str] = Counter()
     for scene, result in zip(scenes, curves, strict=True):
+        of_inputs = set(scene.notes)
         for note in dict.fromkeys(result.notes):
-            about.setdefault(note, []).append(scene)
-    named = ((_told_of(its, scenes), note) for note, its in about.items())
+            told = first.setdefault((scene.path, _NUMBER.sub("", note)), note)
+            if note != told and note in of_inputs:
+                alike[told] += 1
+            else:
+                about.setdefault(note, []).append(scene)
+    named = ((_told_of(its, scenes, alike[note]), note) for note, its in about.items())
     return fatal_first(note_about(name, note) if name else note for name, note in named)
 
 
-def _told_of(its: Sequence[Scene], scenes: Sequence[Scene]) -> str:
+def _told_of(its: Sequence[Scene], scenes: Sequence[Scene], alike: int) -> str:
     """Which scenes a note is about: their files where there are several, and the temperatures of
-    a file unless it is about all of them."""
+    a file unless it is about all of them, with the number of those that have one alike."""
     files = {scene.path for scene in scenes}
     names = []
     for file in dict.fromkeys(scene.path for scene in its):
@@ -74,7 +89,10 @@ def _told_of(its: Sequence[Scene], scenes: Sequence[Scene]) -> str:
         every = sum(scene.path == file for scene in scenes)
         temperatures = [one.temperature_text for one in at] if len(at) < every else []
         names.append(", ".join(([f"{file}"] if len(files) > 1 else []) + temperatures))
-    return ", ".join(filter(None, names))
+    name = ", ".join(filter(None, names))
+    if alike == 0:
+        return name
+    return f"{name} (alike at {alike} {'other' if alike == 1 else 'others'})"
 
 
 def _curves(scene: Scene, *, band: bool, bar: Bar) -> Curves:
