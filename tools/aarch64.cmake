@@ -1,5 +1,6 @@
 # Debian's cross compiler for Linux on aarch64, with tests run by qemu. Packages, after `dpkg --add-architecture arm64`:
-# crossbuild-essential-arm64 qemu-user libgsl-dev:arm64 libfftw3-dev:arm64 libstdc++6:arm64 libeigen3-dev doctest-dev
+# crossbuild-essential-arm64 qemu-user libgsl-dev:arm64 libfftw3-dev:arm64 libstdc++6:arm64 libeigen3-dev doctest-dev;
+# g++ and libfftw3-dev too, to compare bits with this machine's.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

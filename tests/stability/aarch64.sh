@@ -11,7 +11,14 @@ cmake --build $there -j "$jobs"
 # strangers' projects have compilers of their own, and the fuzzer and valgrind's kin know no other processor
 ctest --test-dir $there --output-on-failure --no-tests=error -j "$jobs" --exclude-regex 'consumer|install|header|fuzz|symbols'
 
-cmake --preset release -DASPERITY_TESTS=OFF
+# Debian installs one libgsl-dev at a time: that of this machine's processor is unpacked where only that of arm64 is
+libraries=usr/lib/$(uname -m)-linux-gnu
+if [ ! -e "/$libraries/libgsl.a" ]; then
+  rm -rf build/gsl && mkdir -p build/gsl
+  (cd build/gsl && apt-get download "libgsl-dev:$(dpkg --print-architecture)" && dpkg-deb -x ./*.deb .)
+  set -- -DCMAKE_LIBRARY_PATH="$PWD/build/gsl/$libraries"
+fi
+cmake --preset release -DASPERITY_TESTS=OFF "$@"
 cmake --build --preset release -j "$jobs" --target asperity
 printed() { # COMPILER BUILD RUNNER...: what tests/stability/bits.cpp prints
   compiler=$1 build=$2
