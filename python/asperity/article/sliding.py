@@ -3,7 +3,9 @@
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import Any
+from itertools import groupby
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,9 +24,12 @@ from asperity.article.statement import Finding, Findings
 from asperity.article.surfaces import printed_eq12
 from asperity.correction import Correction, GreenwoodWilliamson, SFactor
 from asperity.friction import Friction, friction
-from asperity.plot.curves import new_figure
-from asperity.plot.style import palette
+from asperity.plot.curves import COLUMN, new_figure
+from asperity.plot.style import narrow, palette
 from asperity.spectrum import SelfAffineSpectrum
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # The article's q1, and that of the rule it cites.
 _CUTOFFS = (f"{MAGNIFICATION:g} q0", "rms slope 1.3")
@@ -32,6 +37,8 @@ _VELOCITY = np.geomspace(1e-6, 10, 57)  # m/s
 _SHARES = (1e-5, 1e-3, 1e-1, 1.0)  # m/s, at which shares of the adhesion are listed
 _LISTED = (1e-3, 1e-2, 1e-1, 1.0)  # m/s, of Table 1's friction
 _VALUES = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor")
+_WIDTHS = (0.42, 0.14, 0.12, 0.08, 0.24)  # shares, of Table 1's columns
+_WIDTHS_NARROW = (0.58, 0.17, 0.16, 0.09)
 _Row = tuple[str, str, float, str, str]  # quantity, symbol, value, unit, source
 
 
@@ -163,23 +170,8 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
 
 def table1(inputs: Inputs) -> dict[str, bytes]:
     """Table 1 as printed, and what follows from it."""
-    from matplotlib.transforms import Bbox
-
     rows = [*_parameters(inputs), *_frictions(compute(inputs)), *_hot_rows(inputs)]
-    figure, (axes,) = new_figure(1)
-    figure.set_size_inches(8.4, 0.27 * len(rows) + 0.6)
-    axes.set_axis_off()
-    drawn = axes.table(
-        [[name, symbol, f"{value:.4g}", *rest] for name, symbol, value, *rest in rows],
-        colLabels=["Quantity", "Symbol", "Value", "Unit", "From"],
-        colWidths=[0.42, 0.14, 0.12, 0.08, 0.24],
-        cellLoc="left",
-        colLoc="left",
-        edges="horizontal",
-        bbox=Bbox.from_bounds(0, 0, 1, 1),
-    )
-    drawn.auto_set_font_size(False)
-    drawn.set_fontsize(9)
+    figure = draw_table(rows)
     titles = ("quantity", "symbol", "value", "unit", "source")
     columns: dict[str, list[Any]] = dict(
         zip(titles, map(list, zip(*rows, strict=True)), strict=True)
@@ -187,6 +179,41 @@ def table1(inputs: Inputs) -> dict[str, bytes]:
     for title in ("symbol", "unit"):
         columns[title] = [re.sub(r"[$\\]", "", cell) for cell in columns[title]]
     return page("table1", figure, _given(inputs), columns)
+
+
+def draw_table(rows: Sequence[_Row]) -> "Figure":
+    """Rows under one another; in a single column their sources are headings between them."""
+    from matplotlib.transforms import Bbox
+
+    figure, (axes,) = new_figure(1)
+    axes.set_axis_off()
+    cells = [[name, symbol, f"{value:.4g}", *rest] for name, symbol, value, *rest in rows]
+    heads = ["Quantity", "Symbol", "Value", "Unit", "From"]
+    size, height = (6, 0.17) if narrow() else (9, 0.27)
+    if narrow():
+        heads.pop()
+        by_source = groupby(cells, key=itemgetter(-1))
+        cells = [row for source, of in by_source for row in _headed(source, list(of))]
+    figure.set_size_inches(COLUMN if narrow() else 8.4, height * len(cells) + 0.6)
+    drawn = axes.table(
+        cells,
+        colLabels=heads,
+        colWidths=_WIDTHS_NARROW if narrow() else _WIDTHS,
+        cellLoc="left",
+        colLoc="left",
+        edges="horizontal",
+        bbox=Bbox.from_bounds(0, 0, 1, 1),
+    )
+    drawn.auto_set_font_size(False)
+    drawn.set_fontsize(size)
+    for cell in drawn.get_celld().values():
+        cell.PAD = 0.02
+    return figure
+
+
+def _headed(source: str, rows: Sequence[Sequence[str]]) -> list[list[str]]:
+    """Rows without their source, below a row that names it."""
+    return [[f"{source}:", "", "", ""], *(list(row[:-1]) for row in rows)]
 
 
 def _given(inputs: Inputs) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
 from asperity.measured_spectrum import power_spectrum
 from asperity.plot.curves import new_figure
-from asperity.plot.style import grey, palette
+from asperity.plot.style import grey, narrow, palette
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
@@ -157,7 +157,9 @@ def fig02(inputs: Inputs) -> dict[str, bytes]:
         limits = {"xlim": (0, mm[-1]), "ylim": (-150, 200)}
         panel(axes, title, **limits, xlabel="$x$ [mm]", ylabel="Height $z$ [µm]")
     named = panels[0].get_legend_handles_labels()
-    figure.legend(*named, loc="outside right center", fontsize="small")
+    beside: dict[str, Any] = {"loc": "outside right center"}
+    below: dict[str, Any] = {"loc": "outside lower center", "ncols": 3}
+    figure.legend(*named, fontsize="small", **(below if narrow() else beside))
     columns = {"x_m": x.tolist(), "height_m": h.tolist(), "transformed_height_m": shifted.tolist()}
     given = {"rms_height_m": inputs.sandpaper.rms_height, "q0_per_m": Q0, "shift_factor": _SHIFT}
     note = "the gap between h and h_T in (b) is where the rubber does not reach"

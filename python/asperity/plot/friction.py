@@ -240,15 +240,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.set_xscale("log")
     q1 = scene.spectrum.q1
     if q[-1] > 1.01 * q1:  # edges of contacts, which PartialContact counts, are finer than the road
-        axes.axvline(q1, color=grey(0.5), linestyle=":", linewidth=1)
-        axes.annotate(
-            "$q_1$",
-            (q1, 0.02),
-            xycoords=axes.get_xaxis_transform(),
-            xytext=(3, 0),
-            textcoords="offset points",
-            color=grey(0.3),
-        )
+        axes.axvline(q1, color=grey(0.5), linestyle=":", linewidth=1, label="$q_1$")
     decades = math.log10(scene.spectrum.q1 / scene.spectrum.q0)
     axes.xaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2 else (1, 2, 5)))
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -114,7 +114,7 @@ def legend_beside(figure: "Figure", *entries: Any) -> None:
     if 0 < len(named) <= MOST_NAMED and (rest or title is None):
         if alone:
             axes.set_title(alone, fontsize="medium")
-        before = _legends(figure)
+        before, size = _legends(figure), tuple(figure.get_size_inches())
         if rest or title:
             shown = [one for one, _ in rest], [name for _, name in rest]
             legend_where_room_is(figure, axes, *shown, title=title)
@@ -123,6 +123,7 @@ def legend_beside(figure: "Figure", *entries: Any) -> None:
         for legend in _legends(figure):
             if legend not in before:
                 legend.remove()
+        figure.set_size_inches(size)
         if alone:
             axes.set_title("")
     legend_where_room_is(figure, axes, *zip(*told, strict=True), title=title)
@@ -140,12 +141,17 @@ def _legends(figure: "Figure") -> list[Any]:
 @_any_letters()
 def legend_inside(axes: "Axes", *entries: Any, **how: Any) -> bool:
     """A legend where it covers nothing. False, and there is none, where it would."""
+    from matplotlib.patches import StepPatch
+
     figure = _settled(axes)
     drawn = []
     for one in (other for other in figure.axes if other.bbox.bounds == axes.bbox.bounds):  # twins
         drawn += [_points(one, line) for line in one.lines if len(line.get_xdata())]  # type: ignore[arg-type]
         for filled in one.collections:
             drawn += [_dense(one.transData.transform(path.vertices)) for path in filled.get_paths()]
+        for steps in one.findobj(StepPatch):
+            outline = steps.get_transform().transform_path(steps.get_path()).vertices
+            drawn.append(_dense(np.asarray(outline, dtype=float)))
     boxes = [text.get_window_extent() for text in axes.texts]
     taken = [np.array([box.x0, box.y0, box.x1, box.y1]) for box in boxes]
     legend = axes.legend(*entries, loc="center", fontsize="small", **how)
@@ -195,13 +201,21 @@ def legend_where_room_is(
         entries = axes.get_legend_handles_labels()
     panels = [one for one in figure.axes if one.get_subplotspec() is not None]
     if narrow():
-        figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small", **how)
+        _legend_above(figure, *entries, loc="outside upper center", ncols=2, **how)
     elif len(panels) > 1:  # above the first, whose curves they are
         if title:
             how["title"] = title.replace("\n", " ")
-        figure.legend(*entries, loc="outside upper left", ncols=4, fontsize="small", **how)
+        _legend_above(figure, *entries, loc="outside upper left", ncols=4, **how)
     else:
         figure.legend(*entries, loc="outside right upper", fontsize="small", **how)
+
+
+def _legend_above(figure: "Figure", *entries: Any, **how: Any) -> None:
+    """A legend above all panels, which keep their size: the figure grows by it."""
+    legend = figure.legend(*entries, fontsize="small", alignment="left", **how)
+    figure.draw_without_rendering()
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + legend.get_window_extent().height / figure.dpi)
 
 
 def _settled(axes: "Axes") -> "Figure":
@@ -214,7 +228,7 @@ def _settled(axes: "Axes") -> "Figure":
 def _points(axes: "Axes", line: "Line2D") -> NDArray[np.float64]:
     """A curve in pixels, from left to right, with a point at each pixel of its width."""
     with np.errstate(all="ignore"):
-        corners = np.asarray(axes.transData.transform(line.get_xydata()), dtype=float)
+        corners = np.asarray(line.get_transform().transform(line.get_xydata()), dtype=float)
     corners = corners[np.isfinite(corners).all(axis=1)]
     if len(corners) < 2 or line.get_linestyle() in ("None", "", " "):
         return corners if len(corners) else np.full((1, 2), -1e9)

@@ -19,6 +19,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 # the same where black was white, bright ones first
 _ON_DARK = ("#56B4E9", "#E69F00", "#2FC7A0", "#E29BC4", "#F0E442", "#E8703A", "#FFFFFF")
 _DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
+_DARK_PAPER = 0.1  # the same as a grey
 _NARROW = {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4}
 _style: ContextVar[str] = ContextVar("style", default="print")
 _fatal: ContextVar[Sequence[str]] = ContextVar("fatal", default=())
@@ -91,8 +92,10 @@ def shades() -> "Colormap":
 
 
 def grey(level: float) -> str:
-    """A grey as it is on paper, 0 is ink; on a dark screen as far from the paper."""
-    return f"{1 - level if _style.get() == 'dark' else level:.3g}"
+    """A grey as it is on paper, 0 is ink; on a dark screen as far from the paper, of its range."""
+    if _style.get() == "dark":
+        level = 1 - level * (1 - _DARK_PAPER)
+    return f"{level:.3g}"
 
 
 def paper() -> str:

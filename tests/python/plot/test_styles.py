@@ -352,3 +352,57 @@ def test_legends_cover_no_curve(folder: Path, figures: list[Any], verb: str, sty
             over = (points > (box.x0, box.y0)) & (points < (box.x1, box.y1))
             assert not over.all(axis=1).any(), (axes.get_ylabel(), line.get_label())
     assert seen or figure.legends  # below all panels
+
+
+@pytest.mark.parametrize(("style", "count"), [("single", 1), ("single", 3), ("print", 3)])
+def test_a_legend_above_the_panels_takes_nothing_from_them(style: str, count: int) -> None:
+    from asperity.plot import style as styles
+    from asperity.plot.curves import new_figure
+    from asperity.plot.labels import legend_where_room_is
+
+    heights = []
+    with styles.drawn_in(style):
+        for legend in (False, True):
+            figure, panels = new_figure(count)
+            for axes in panels:
+                for i in range(8):  # no room between them
+                    curve = 1 + np.sin(np.linspace(0, 40, 99) + i)
+                    axes.plot(curve, label=f"the {i}th of the curves")
+            if legend:
+                legend_where_room_is(figure, panels[0])
+            figure.draw_without_rendering()
+            heights.append(panels[0].get_window_extent().height)
+    (legend_box,) = (one.get_window_extent() for one in figure.legends)
+    assert heights[1] >= 0.95 * heights[0]
+    for axes in panels:
+        assert axes.get_tightbbox().y1 <= legend_box.y0  # type: ignore[union-attr]
+
+
+def test_a_legend_covers_neither_steps_nor_lines_across() -> None:
+    from asperity.plot.curves import new_figure
+    from asperity.plot.labels import legend_inside
+
+    figure, (axes,) = new_figure(1)
+    axes.stairs([1, 9, 9, 1], [0, 1, 2, 3, 4], label="steps")
+    axes.axhline(7, label="across")
+    axes.set(xlim=(0, 12), ylim=(0, 10))
+    assert legend_inside(axes)
+    figure.draw_without_rendering()
+    box = axes.transData.inverted().transform(axes.get_legend().get_window_extent())
+    (x0, y0), (_, y1) = box
+    assert not y0 <= 7 <= y1
+    assert x0 > 4 or y0 > 9
+
+
+def test_greys_on_a_dark_screen_go_from_its_paper_to_white() -> None:
+    from matplotlib.colors import to_rgb
+
+    from asperity.plot import style
+
+    with style.drawn_in("dark"):
+        assert to_rgb(style.grey(0)) == (1, 1, 1)
+        paper = np.mean(to_rgb(style.paper()))
+        assert np.mean(to_rgb(style.grey(1))) == pytest.approx(paper, abs=0.01)
+        for level in (0.2, 0.5, 0.9):
+            away = (np.mean(to_rgb(style.grey(level))) - paper) / (1 - paper)
+            assert away == pytest.approx(1 - level, abs=0.01)
