@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/watch.hpp"
 #include "numerics/least_squares.hpp"
 
 namespace asperity {
@@ -74,6 +75,7 @@ class Fit {
     return p[0] + points_.log_share - p[2] * (points_.x - p[1]).square();
   }
   [[nodiscard]] ArrayXd residual(const Vector3d& p) const {
+    heed();  // every step of the fit comes by here
     const ArrayXd a = log_adhesion(p);
     return points_.log_mu - a.max(points_.log_hysteresis) - (-(points_.log_hysteresis - a).abs()).exp().log1p();
   }

@@ -15,6 +15,10 @@ from helpers.cases import each
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
 
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6, moduli=[1e7, 1e9], relaxation_times=[1e-2, 1e-6]
+)
+
 
 class Enough(Exception):
     """What the handler raises."""
@@ -32,7 +36,16 @@ def synthesize(size: int) -> object:
     return asperity.synthesize(ROAD, shape=(size, 512), pixel_size=1e-5, seed=1, skewness=-0.5)
 
 
-@each(("call", "small", "times"), [(line_density, 10_000, 50), (synthesize, 64, 250)])
+def fit_adhesion(size: int) -> object:
+    v = np.geomspace(1e-4, 1, size)
+    mu = 1.5 * np.exp(-0.1 * np.log10(v / 6e-3) ** 2) * (1 + 0.05 * np.sin(17 * np.arange(size)))
+    return asperity.fit_adhesion(ROAD, RUBBER, velocity=v, mu=mu, pressure=2e5)
+
+
+@each(
+    ("call", "small", "times"),
+    [(line_density, 10_000, 50), (synthesize, 64, 250), (fit_adhesion, 60, 50)],
+)
 def test_a_call_ends_long_before_its_end(
     call: Callable[[int], object], small: int, times: int
 ) -> None:
