@@ -23,18 +23,20 @@ ShiftValue wlf(double c1, double c2, double reference, double temperature) {
   return {-c1 * (temperature - reference) / distance, -c1 * (c2 / distance / distance)};
 }
 
+void require_kelvin(std::string_view name, double temperature) {
+  if (!(temperature >= lowest_temperature) || !std::isfinite(temperature))
+    refuse(name, temperature, "finite and at least " + show(lowest_temperature) + "; its unit is kelvin");
+}
+
 }  // namespace
 
 void validate(const WLF& law) {
   require_positive("c1", law.c1);
   require_positive("c2", law.c2);
-  require_positive("reference_temperature", law.reference);
+  require_kelvin("reference_temperature", law.reference);
 }
 
-void require_temperature(double temperature) {
-  if (!(temperature >= lowest_temperature) || !std::isfinite(temperature))
-    refuse("temperature", temperature, "finite and at least " + show(lowest_temperature) + "; its unit is kelvin");
-}
+void require_temperature(double temperature) { require_kelvin("temperature", temperature); }
 
 ShiftValue shift_at(const TemperatureShift& shift, double temperature) {
   require_temperature(temperature);

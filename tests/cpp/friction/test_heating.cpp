@@ -91,6 +91,9 @@ TEST_CASE("a refusal of heat names the argument, its value and what is allowed")
   Asked unlawful;
   unlawful.shift = WLF{-1, 101.6, 293.15};
   check_refused(unlawful, "c1 = -1: must be positive and finite");
+  Asked celsius;
+  celsius.shift = WLF{8.86, 101.6, 20};
+  check_refused(celsius, "reference_temperature = 20: must be finite and at least 150; its unit is kelvin");
   Asked checked = heated([](Heating& h) { h.model = HeatModel::one_temperature; });
   checked.model.method = Method::qag;
   check_refused(checked,
