@@ -76,7 +76,7 @@ class Heating(Value):
         self._set(_core=_core.Heating(*constants))
 
 
-def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: float, heating: Heating) -> Any:
+def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: ArrayLike, heating: Heating) -> Any:
     """Return g(q, q') [s], by which heat of one roughness warms another at steady sliding.
 
     Heat of density f(q') exp(-2 q' z) dq' per rho c_v [K/s], deposited while a spot is in contact,
@@ -88,15 +88,15 @@ def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: float, heating: H
     Parameters
     ----------
     q, q_prime : array_like
-        Wavenumbers that feel and that heat [1/m]; they broadcast.
-    velocity : float
-        v [m/s].
+        Wavenumbers that feel and that heat [1/m].
+    velocity : array_like
+        v [m/s]; broadcasts with the wavenumbers.
     heating : Heating
 
     Returns
     -------
     float or ndarray
-        In the shape to which the wavenumbers broadcast.
+        In the broadcast shape of wavenumbers and velocity.
 
     Raises
     ------
@@ -111,6 +111,6 @@ def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: float, heating: H
     >>> round(heat_kernel(2e3, 2e4, velocity=1.0, heating=tread) * 1e6, 3)
     38.413
     """
-    shape, columns = broadcast(q=q, q_prime=q_prime)
+    shape, columns = broadcast(q=q, q_prime=q_prime, velocity=velocity)
     core = of_kind(heating, "heating", Heating)._core
-    return shaped(_core.heat_kernel(*columns, number(velocity, "velocity"), core), shape)
+    return shaped(_core.heat_kernel(*columns, core), shape)

@@ -88,8 +88,8 @@ void bind_friction(py::module_& m) {
         validate(heating);
         return heating;
       }));
-  m.def("heat_kernel", [](const Array& q, const Array& q_prime, double velocity, const Heating& heating) {
-    return computed([&] { return heat_kernel(span_of(q), span_of(q_prime), velocity, heating); });
+  m.def("heat_kernel", [](const Array& q, const Array& q_prime, const Array& velocity, const Heating& heating) {
+    return computed([&] { return heat_kernel(span_of(q), span_of(q_prime), span_of(velocity), heating); });
   });
   py::classh<Adhesion>(m, "Adhesion").def(py::init([](double tau, double v0, double c) {
     const Adhesion adhesion{tau, v0, c};

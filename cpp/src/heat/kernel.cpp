@@ -122,20 +122,27 @@ void HeatKernelTable::fill(const Heating& heating, double velocity, Eigen::Matri
   }
 }
 
-std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime, double velocity,
-                                const Heating& heating) {
+std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime,
+                                std::span<const double> velocity, const Heating& heating) {
   validate(heating);
-  require_positive("velocity", velocity);
+  for (const double v : velocity) require_positive("velocity", v);
   require_each_positive("q", q);
   require_each_positive("q_prime", q_prime);
   require_same_size("q_prime", q_prime.size(), "q", q.size());
-  const HeatKernel kernel(heating, velocity);
+  require_same_size("velocity", velocity.size(), "q", q.size());
   std::vector<double> g(q.size());
   for (std::size_t i = 0; i < q.size(); ++i) {
     heed_at(i);
+    const HeatKernel kernel(heating, velocity[i]);
     g[i] = kernel(kernel.at(q[i]), kernel.at(q_prime[i]));
   }
   return g;
+}
+
+std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime, double velocity,
+                                const Heating& heating) {
+  require_positive("velocity", velocity);
+  return heat_kernel(q, q_prime, std::vector<double>(q.size(), velocity), heating);
 }
 
 }  // namespace asperity

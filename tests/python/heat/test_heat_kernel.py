@@ -112,6 +112,20 @@ def test_kernel_is_positive_over_all_scales():
             assert asperity.heat_kernel(q[:, None], q, velocity=v, heating=heating).min() > 0
 
 
+def test_velocities_broadcast_with_wavenumbers():
+    q, v = np.array([1e3, 1e4, 1e6]), np.array([1e-3, 1.0])
+    g = asperity.heat_kernel(q[:, None, None], q[:, None], velocity=v, heating=HEATING)
+    assert g.shape == (3, 3, 2)
+    for j, one in enumerate(v):
+        alone = asperity.heat_kernel(q[:, None], q, velocity=one, heating=HEATING)
+        np.testing.assert_array_equal(g[..., j], alone)
+    for wrong in ([1.0, np.nan], [1.0, -1.0]):
+        with pytest.raises(asperity.InvalidInput, match=r"velocity = .*: must be positive and"):
+            asperity.heat_kernel(1e3, 1e3, velocity=wrong, heating=HEATING)
+    with pytest.raises(asperity.InvalidInput, match=r"velocity \(2,\): must broadcast together"):
+        asperity.heat_kernel(q, 1e3, velocity=v, heating=HEATING)
+
+
 BAD = {
     "density": (1.2, r"in \[100, 10000\] kg/m\^3"),
     "heat_capacity": (1.65, r"in \[100, 10000\] J/\(kg K\)"),
