@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, brief, real_array
+from asperity.base.arguments import Array, brief, broadcast, real_array
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 
@@ -139,6 +139,7 @@ class Friction(Table):
         s = real_array(distance, "distance")
         if not (s >= 0).all():
             raise InvalidInput(f"distance = {brief(distance)}: must be 0 or more")
+        broadcast(distance=s, mu=self.mu)  # refuses shapes that do not
         if self.cold is None:
             mu = self.mu + 0 * s
         elif self.sliding_length is None:

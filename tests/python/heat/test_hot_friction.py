@@ -462,6 +462,9 @@ def test_friction_without_heat_has_no_sliding_length():
         cold.mu_at(-1)
     many = hot(velocity=np.array([0.1, 1.0]))
     assert many.mu_at([[0.0], [1e-4], [1e-2]]).shape == (3, 2)
+    for result in (many, many.cold):
+        with pytest.raises(asperity.InvalidInput, match=r"shapes distance \(3,\), mu \(2,\): must"):
+            result.mu_at([0.0, 1e-4, 1e-2])
 
 
 def test_measured_inputs_are_heated_too():
