@@ -116,6 +116,8 @@ def build_correction(
     values = read_table(path, "correction", table, fields)
     if "z_max_m" in fields:
         values = _with_map(path, kind, values, surface, surface_values)
+    if kind == "affine-shift":
+        require(path, "correction", values, ("p",))
     settings = arguments(values, fields)
     settings.pop("min_distance", None)
     correction: Correction
@@ -129,7 +131,6 @@ def build_correction(
         elif kind == "partial-contact":
             correction = PartialContact()
         elif kind == "affine-shift":
-            require(path, "correction", values, ("p",))
             correction = AffineShift(settings["p"])
         elif kind == "greenwood-williamson":
             correction = GreenwoodWilliamson(peaks=settings.pop("heights_or_map", None), **settings)

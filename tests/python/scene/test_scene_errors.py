@@ -35,6 +35,7 @@ def refusal(folder: Path, text: str) -> str:
         str(caught.value)[len(str(path)) + 2 :],
     )
     assert start == f"{path}: "
+    assert not message.startswith(f"{path}: [")  # once is enough
     assert "\n" not in message
     return message
 
