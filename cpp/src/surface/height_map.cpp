@@ -39,18 +39,18 @@ HeightMap::HeightMap(std::vector<float> heights, Shape shape, PixelSize pixel_si
 
 HeightMap::HeightMap(Data data, Strides strides, std::shared_ptr<const void> owner, Shape shape, PixelSize pixel_size)
     : data_(data), strides_(strides), owner_(std::move(owner)), shape_(shape), pixel_size_(pixel_size) {
+  const bool line = strides_[0] == 0 && shape_[0] == 1;
   if (shape_[0] == 0 || shape_[1] == 0)
-    throw InvalidInput("heights has shape (" + std::to_string(shape_[0]) + ", " + std::to_string(shape_[1]) +
-                       "): must not be empty");
+    throw InvalidInput("heights has shape (" + (line ? "" : std::to_string(shape_[0]) + ", ") +
+                       std::to_string(shape_[1]) + (line ? ",): must not be empty" : "): must not be empty"));
   require_positive("pixel_size", pixel_size_[0]);
   require_positive("pixel_size", pixel_size_[1]);
   for_each_row(*this, [&](std::size_t y, std::span<const double> row) {
     for (std::size_t x = 0; x < row.size(); ++x) {
       if (std::isnan(row[x])) ++dropouts_;
       if (std::isinf(row[x]))
-        refuse(
-            "heights[" + (strides_[0] == 0 && shape_[0] == 1 ? "" : std::to_string(y) + ", ") + std::to_string(x) + "]",
-            row[x], "finite, or NaN for a drop-out");
+        refuse("heights[" + (line ? "" : std::to_string(y) + ", ") + std::to_string(x) + "]", row[x],
+               "finite, or NaN for a drop-out");
     }
   });
   if (dropouts_ == shape_[0] * shape_[1]) throw InvalidInput("heights: every point is a drop-out (NaN)");

@@ -65,6 +65,10 @@ REFUSED = [
         "^equilibrium_modulus = 0: must be positive where there are no moduli$",
     ),
     (
+        [lambda: asperity.LineScan([], spacing=1.0)],
+        r"^heights has shape \(0,\): must not be empty$",
+    ),
+    (
         [lambda: HOLED_MAP.fill_dropouts(max_fraction=0.01)],
         r"1\.389 % .* at most 1 %, max_fraction = 0.01",
     ),
