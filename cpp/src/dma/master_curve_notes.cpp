@@ -115,9 +115,12 @@ void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& 
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     worst = std::max(worst, std::fabs((ratio.log10_a_T[i] - there) - (first.log10_a_T[i] - here)));
   if (!(worst > 0.1)) return;
-  notes.push_back("vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " +
-                  show(worst, 2) + " decades, and the residual be " + show(residual_of(ratio.spline), 2) +
-                  " instead of " + show(residual_of(first.spline), 2));
+  const std::string now = show(residual_of(first.spline), 2);
+  const std::string then = show(residual_of(ratio.spline), 2);
+  notes.push_back(
+      "vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " + show(worst, 2) +
+      " decades, " +
+      (then == now ? "at the same residual of " + now : "with a residual of " + then + " instead of " + now));
 }
 
 }  // namespace asperity

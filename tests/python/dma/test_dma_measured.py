@@ -45,7 +45,7 @@ def test_without_a_vertical_shift_polyisoprene_says_what_it_would_change(source)
     (note,) = [note for note in plain.notes if note.startswith("vertical shift: none")]
     differ = np.abs(plain.log10_a_T - ratio.log10_a_T).max()
     assert differ > {"made": 0.1, "measured": 0.2}[source]
-    said = re.search(r"by up to ([\d.]+) decades, and the residual be ([\d.]+) instead of", note)
+    said = re.search(r"by up to ([\d.]+) decades, with a residual of ([\d.]+) instead of", note)
     assert said is not None
     # the comparison is made with the knots of the first fit
     assert float(said[1]) == pytest.approx(differ, rel=0.1)
