@@ -14,6 +14,11 @@ SITE = Path(__file__).parents[3] / "build" / "docs" / "html"
 CHROMIUM = Path("/usr/bin/chromium")
 WIDTHS = {"desktop": 1366, "phone": 390}
 PAGES = ("index", "tutorial", "gallery/index", "glossary", "sliding", "reference/command_line")
+EQUATIONS = ("explanation/theory", "explanation/heat")
+OVER_ITS_NUMBER = """[...document.querySelectorAll("div.math:has(.eqno)")].filter(one => {
+    const drawn = one.querySelector("mjx-math, mjx-container svg").getBoundingClientRect();
+    return drawn.right > one.querySelector(".eqno").getBoundingClientRect().left;
+}).map(one => one.id)"""
 FOUND = {
     "master curve": ("Isotherms become a master curve", "asperity.build_master_curve"),
     "tau_f0": ("Set the adhesion", "Glossary"),
@@ -79,3 +84,14 @@ def test_pages_fit(page: Any) -> None:
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
         broken = "[...document.images].filter(one => !one.complete || !one.naturalWidth).length"
         assert page.evaluate(broken) == 0, name
+
+
+def test_equations_end_before_their_numbers(page: Any) -> None:
+    seen = 0
+    for name in EQUATIONS:
+        page.goto((SITE / f"{name}.html").as_uri())
+        page.locator("div.math:has(.eqno) :is(mjx-math, svg)").first.wait_for()
+        page.evaluate("MathJax.startup.promise.then(() => null)")
+        seen += page.locator("div.math:has(.eqno)").count()
+        assert page.evaluate(OVER_ITS_NUMBER) == [], name
+    assert seen > 10
