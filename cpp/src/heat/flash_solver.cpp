@@ -21,6 +21,8 @@ namespace {
 
 constexpr int first_digits = 4, digits_a_level = 2;
 constexpr std::size_t levels = 7;  // up to 16 digits
+/// Between scattered rows of a measured modulus nothing is smooth but what lies between two: panels are halved further.
+constexpr std::size_t levels_with_rows = 10;
 /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
 constexpr std::size_t pieces_rows = 16;
 constexpr double pieces_rtol = 1e-7;
@@ -100,7 +102,11 @@ double macro_wavenumber(const Heating& heating, const Spectrum& spectrum) {
 }
 
 FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
-    : scene_(scene), branch_(branch), known_(known_range(scene.rubber)), levels_(levels), uniform_(scene) {
+    : scene_(scene),
+      branch_(branch),
+      known_(known_range(scene.rubber)),
+      levels_(has_rows() ? levels_with_rows : levels),
+      uniform_(scene) {
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
   while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;
@@ -116,8 +122,7 @@ void FlashSolver::forget() {
 void FlashSolver::set_stops(std::vector<double> stops) {
   if (stops == stops_) return;
   stops_ = std::move(stops);
-  levels_.clear();
-  levels_.resize(levels);
+  levels_ = std::vector<Level>(levels_.size());
   forget();
 }
 
@@ -126,7 +131,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
   if (!made.map) {
     HeatGridOptions options{.poisson_ratio = scene_.model.poisson_ratio,
                             .level = level,
-                            .tabulated = std::holds_alternative<MasterCurve>(scene_.rubber),
+                            .tabulated = has_rows(),
                             .macro_wavenumber = scene_.macro_wavenumber,
                             .stops = stops_,
                             .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
@@ -161,6 +166,19 @@ VectorXd FlashSolver::guess(double velocity) const {
   return result;
 }
 
+/// Lets the next point try a grid coarser by one, which costs little beside the two that this one needed: a point that
+/// is hard shall not make all after it dear.
+void FlashSolver::begin_next_below() {
+  const MatrixXd& down = levels_[level_].down;
+  if (level_ == first_level_ || down.size() == 0) return;
+  for (Solved& solved : before_) {
+    if (solved.level != level_) continue;
+    solved.theta = (down * solved.theta).cwiseMax(0.0);
+    --solved.level;
+  }
+  --level_;
+}
+
 /// Beyond the end of the roughness the modulus is held where it is not known any more, at which panels shall end, as
 /// it has a kink there. True where that place has moved with this point or its temperatures.
 bool FlashSolver::end_panel_where_held(const HeatPoint& point, const VectorXd& theta) {
@@ -181,13 +199,11 @@ bool FlashSolver::end_panel_where_held(const HeatPoint& point, const VectorXd& t
   if (found && held_from_ && std::fabs(std::log(*found / *held_from_)) < near) return false;
   held_from_ = found;
   uniform_.forget();
-  levels_.clear();
-  levels_.resize(levels);
+  levels_ = std::vector<Level>(levels_.size());
   return true;
 }
 
 HotPoint FlashSolver::operator()(const HeatPoint& point) {
-  const bool rows = std::holds_alternative<MasterCurve>(scene_.rubber);
   const double rtol = scene_.model.rtol, tolerance = std::clamp(0.02 * rtol, 1e-13, 1e-5);
   VectorXd start = guess(point.velocity);
   (void)end_panel_where_held(point, start);
@@ -207,7 +223,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
   before_.push_back({point.velocity, level_, found.theta});
   const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
   for (std::size_t level = level_ + 1;; ++level) {
-    if (level == levels) {
+    if (level == levels_.size()) {
       check_temperatures(*map, found, point);
       throw NotConverged("mu = " + show(map->hysteresis() + map->adhesion()) +
                          " with the heat it makes, on a grid of " + std::to_string(map->grid().size()) +
@@ -229,7 +245,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
     // the residual's effect is taken to first order
-    const double times = rows ? differences_with_rows : differences;
+    const double times = has_rows() ? differences_with_rows : differences;
     const double least = std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error;
     const double error = times * std::fmax(std::fabs(mu - coarse), apart) +
                          2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
@@ -240,6 +256,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       continue;
     }
     level_ = level - 1;
+    begin_next_below();
     check_temperatures(*map, found, point);
     theta_ = found.theta;
     point_ = point;
@@ -249,11 +266,11 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     const double off_area = times * of_area + 2 * std::fmax(found.area_error, on_coarse.area_error);
     double parts_error = area > 0 ? off_area / area : 0;
     if (hysteresis > 0) parts_error = std::fmax(parts_error, of_hysteresis / hysteresis);
-    parts_error = std::fmax(parts_error + least, rows ? rtol : 0);
+    parts_error = std::fmax(parts_error + least, has_rows() ? rtol : 0);
     return {map->hysteresis(),
             map->adhesion(),
             map->contact_area(),
-            rows ? rtol * mu : error,
+            has_rows() ? rtol * mu : error,
             parts_error,
             map->outside_share(),
             point.temperature + map->grid().row_at(band(scene_.spectrum)[1]).dot(found.theta),

@@ -54,7 +54,10 @@ class FlashSolver {
     std::unique_ptr<FlashMap> map;
     Eigen::MatrixXd up, down;  // between the level below and this one
   };
+  /// Whether the modulus is one of measured rows.
+  [[nodiscard]] bool has_rows() const { return std::holds_alternative<MasterCurve>(scene_.rubber); }
   [[nodiscard]] Eigen::VectorXd guess(double velocity) const;
+  void begin_next_below();
   bool end_panel_where_held(const HeatPoint& point, const Eigen::VectorXd& theta);
   void check_temperatures(const FlashMap& map, const FixedPoint& found, const HeatPoint& point,
                           double in_doubt = 1e-12) const;

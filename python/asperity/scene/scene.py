@@ -106,7 +106,7 @@ def build_scene(
     if not for_friction:
         if len(temperatures) > 1:
             problem = "several are for asperity friction and map alone: must be one"
-            refuse(path, "[conditions] temperature", problem)
+            refuse(path, "[conditions] temperature_k", problem)
         if "heating" in tables:
             refuse(
                 path, "[heating]", "is known to asperity friction and map alone: must be left out"
