@@ -21,8 +21,9 @@ namespace {
 
 constexpr int first_digits = 4, digits_a_level = 2;
 constexpr std::size_t levels = 7;  // up to 16 digits
-/// Between scattered rows of a measured modulus nothing is smooth but what lies between two: panels are halved further.
-constexpr std::size_t levels_with_rows = 10;
+/// Rows of a measured modulus lie anywhere in panels, and levels tell what they miss of these only where they differ:
+/// so panels are halved from level to level, and where rows scatter more often.
+constexpr std::size_t levels_with_rows = 11;
 /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
 constexpr std::size_t pieces_rows = 16;
 constexpr double pieces_rtol = 1e-7;
@@ -138,9 +139,12 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                             .held_from = held_from_,
                             .also_felt = asperity_wavenumber(scene_.model.correction, scene_.spectrum)};
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
-    if (table && stops_.empty() && scene_.model.rtol >= pieces_rtol && level - 1 < RoughnessPieces::levels &&
-        table->wavenumber().size() >= pieces_rows)
+    const bool by_pieces =
+        table && stops_.empty() && scene_.model.rtol >= pieces_rtol && table->wavenumber().size() >= pieces_rows;
+    if (by_pieces && level <= RoughnessPieces::levels)
       options.pieces = &table->surface().pieces(*table, level - 1);
+    else if (has_rows())
+      options.halvings = level - (by_pieces ? RoughnessPieces::levels : 1);
     made.grid = std::make_unique<HeatGrid>(scene_.surface, options);
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);
     if (level > 0 && levels_[level - 1].grid) {

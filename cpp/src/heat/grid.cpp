@@ -54,7 +54,9 @@ void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOption
     ends.push_back(segment.b);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double lower = std::fmax(std::log(ends[i]) - start_, 0), upper = std::log(ends[i + 1]) - start_;
-      const double pieces = pieces_for(upper - lower, longest, options.level, options.tabulated);
+      const double pieces =
+          pieces_for(upper - lower, longest, options.tabulated ? 0 : options.level, options.tabulated) *
+          std::exp2(options.halvings);
       for (double k = 1; k <= pieces; ++k) {
         const double from = lower + (upper - lower) * (k - 1) / pieces, to = lower + (upper - lower) * k / pieces;
         const double end = k == pieces ? ends[i + 1] : std::exp(start_ + to);
@@ -98,9 +100,9 @@ void HeatGrid::add_after(std::span<const Segment> surface, const Segment& segmen
   std::vector<double> ends{to};
   while (ends.size() < options.level && roughness_to(from + cut * (ends.back() - from)) > far * before)
     ends.push_back(from + cut * (ends.back() - from));
-  std::size_t n = nodes_for(to - from, options.level, ends.size() > 1, options.tabulated);
-  // rows of a measured modulus lie anywhere in panels, and levels tell what they miss of these only where they differ
-  if (!options.tabulated && ends.size() == 1) {
+  const bool cut_up = ends.size() > 1;
+  std::size_t n = nodes_for(to - from, options.tabulated && !cut_up ? 0 : options.level, cut_up, options.tabulated);
+  if (!options.tabulated && !cut_up) {
     const auto unit = std::ranges::partition_point(cells_, [&](const Cell& c) { return c.upper * c.upper < from - 1; });
     const double whole_before = roughness_before_[static_cast<std::size_t>(unit - cells_.begin())];
     const PanelPlace place{segment, start_ + from, start_ + to, (before - whole_before) / g_factor_};

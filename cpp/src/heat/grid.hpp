@@ -17,6 +17,7 @@ namespace asperity {
 struct HeatGridOptions {
   double poisson_ratio = 0.5;
   std::size_t level = 0;                           // a level more is two digits more
+  std::size_t halvings = 0;                        // of panels, in which rows of a measured modulus lie anywhere
   bool tabulated = false;                          // the rubber has knots: panels are shorter
   double macro_wavenumber = 0;                     // at which G is asked for [1/m]
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]

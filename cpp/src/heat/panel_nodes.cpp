@@ -28,17 +28,12 @@ std::size_t most_for(double length, double distance) {
 
 double pieces_for(double length, double longest, std::size_t level, bool tabulated) {
   constexpr double shortest = 0.05;
-  const auto too_few = [&](double pieces, std::size_t of_level) {
-    return nodes_for(length / pieces, of_level, false, tabulated) > LegendreRule::most;
+  const auto too_few = [&](double pieces) {
+    return nodes_for(length / pieces, level, false, tabulated) > LegendreRule::most;
   };
   double pieces = std::ceil(length / longest);
-  if (!too_few(std::ceil(length / shortest), level)) {
-    while (too_few(pieces, level)) ++pieces;
-    return pieces;
-  }
-  std::size_t served = level;
-  while (served > 0 && too_few(pieces, served)) --served;
-  return pieces * std::exp2(level - served);
+  while (too_few(pieces) && length / pieces > shortest) ++pieces;
+  return too_few(pieces) ? 2 * pieces : pieces;
 }
 
 /// The modulus may rise by orders of magnitude over the band, so only the roughness of a unit before counts for G.

@@ -17,8 +17,8 @@ std::size_t nodes_for(double length, std::size_t level, bool front, bool tabulat
 /// With so many nodes the rule has all digits by the distance of the nearest singularity, both in ln q.
 std::size_t most_for(double length, double distance);
 
-/// Into how many pieces a length is to be cut so that a rule has the nodes for one. Where the shortest would still ask
-/// for more than any rule has, each level beyond the last that a rule serves halves them.
+/// Into how many pieces a length is to be cut so that a rule has the nodes for one; in two where the highest level asks
+/// the shortest panel for more than any rule has.
 double pieces_for(double length, double longest, std::size_t level, bool tabulated);
 
 /// A panel inside of a segment.

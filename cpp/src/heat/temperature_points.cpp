@@ -13,7 +13,8 @@ using std::numbers::pi;
 void HeatGrid::add_temperature_points(const HeatGridOptions& options) {
   const double length = highest_ - lowest_, off = 2 * pi / length;
   const double falling = std::log(off + std::sqrt(1 + off * off));
-  const auto digits = static_cast<double>(first_digits + 2 * options.level);
+  constexpr double most_digits = 16;  // of a double
+  const double digits = std::fmin(first_digits + 2 * static_cast<double>(options.level), most_digits);
   const auto n = static_cast<std::size_t>(std::ceil(digits * std::numbers::ln10 / falling)) + 4;
   constexpr double rounding = 1e-12;
   const std::optional<double>& also = options.also_felt;
