@@ -20,12 +20,17 @@ struct Kind {
   bool nested = false;      // a grid of its own in the corner of each band's
   std::string text = {};
   std::uint32_t temperatures = 0;  // at which cells of a map with heat have polynomials
+  bool slanted = false;            // over ln p, ln v a_T and the share of the way at a constant v a_T
 };
 
 inline std::vector<Kind> kinds() {
-  return {{true, true, 1, 0, false, ""},           {true, false, 1, 0, true, "{\"made\": \"by hand\"}"},
-          {false, true, 2, 2, false, "9 letters"}, {true, true, 3, 5, true, "8 are one"},
-          {true, true, 1, 0, true, "hot", 1},      {true, true, 1, 0, false, "from cold to hot", 4}};
+  return {{true, true, 1, 0, false, ""},
+          {true, false, 1, 0, true, "{\"made\": \"by hand\"}"},
+          {false, true, 2, 2, false, "9 letters"},
+          {true, true, 3, 5, true, "8 are one"},
+          {true, true, 1, 0, true, "hot", 1},
+          {true, true, 1, 0, false, "from cold to hot", 4},
+          {true, true, 3, 0, true, "slanted", 3, true}};
 }
 
 constexpr double pressure[] = {1e4, 1e6}, velocity[] = {1e-3, 10}, max_error = 2e-4;
@@ -54,20 +59,36 @@ inline double range(const Kind& kind) { return kind.temperatures == 1 ? 0 : hott
 
 /// ln s0 of x and the temperature from the lowest, linear in both, and ln a_T of the map without heat.
 inline double log_length(double x, double warmer) { return -8 - 0.2 * x + 0.01 * warmer; }
-inline double log_shift(double warmer) { return -0.02 * warmer; }
+constexpr double law_a = -0.05, law_b = 0.004;
+inline double log_shift(const Kind& kind, double warmer) {
+  return kind.slanted ? law_a * warmer / (1 + law_b * warmer) : -0.02 * warmer;
+}
 
 inline double value(int k, double x, double z) { return taylor(in_x[k], 0, x) * taylor(in_z[k], 0, z); }
 
-/// At a temperature above the lowest, of a map with heat.
+/// The share of the way along a line of constant v a_T.
+inline double share_of_way(const Kind& kind, double v, double warmer) {
+  const double log_a_T = log_shift(kind, warmer), lowest = log_shift(kind, range(kind));
+  const double above = std::fmin(log_a_T - lowest, std::log(velocity[1] / v));
+  const double below = std::fmin(-log_a_T, std::log(v / velocity[0]));
+  return above / (above + below);
+}
+
+/// ln mu_H or ln A/A0, at a temperature above the lowest of a map with heat.
+inline double logarithm(const Kind& kind, int k, double p, double v, double warmer) {
+  const double x = std::log(v), y = std::log(p);
+  if (kind.slanted)
+    return taylor(in_T, 0, share_of_way(kind, v, warmer) * range(kind)) * value(k, x + log_shift(kind, warmer), y);
+  return (kind.temperatures > 0 ? taylor(in_T, 0, warmer) : 1) * value(k, x, y - shear(kind, x));
+}
+
 inline double contact_area(const Kind& kind, double p, double v, double warmer = 0) {
-  const double x = std::log(v), heat = kind.temperatures > 0 ? taylor(in_T, 0, warmer) : 1;
-  return std::exp(heat * value(1, x, std::log(p) - shear(kind, x)));
+  return std::exp(logarithm(kind, 1, p, v, warmer));
 }
 
 inline double mu(const Kind& kind, double p, double v, double warmer = 0) {
-  const double x = std::log(v), decades = std::log10(v / reference_velocity);
-  const double heat = kind.temperatures > 0 ? taylor(in_T, 0, warmer) : 1;
-  const double hysteresis = kind.hysteresis ? std::exp(heat * value(0, x, std::log(p) - shear(kind, x))) : 0;
+  const double decades = std::log10(v / reference_velocity);
+  const double hysteresis = kind.hysteresis ? std::exp(logarithm(kind, 0, p, v, warmer)) : 0;
   const double pull = kind.adhesion ? shear_stress / p * std::exp(-width * decades * decades) : 0;
   return hysteresis + pull * contact_area(kind, p, v, warmer);
 }
@@ -113,14 +134,23 @@ inline Bytes make(const Kind& kind) {
   const std::uint32_t bands = kind.bands, columns = 2, rows = 2;
   const std::uint32_t grids = kind.nested ? 2 * bands : bands, entries = columns * rows * grids;
   const std::uint32_t cells = kind.nested ? 7 * bands : 4 * bands;
-  const double x[] = {std::log(velocity[0]), std::log(velocity[1])};
-  const double bottom = std::log(pressure[0]) - shear(kind, x[1]), top = std::log(pressure[1]) - shear(kind, x[0]);
-  const double wide = (x[1] - x[0]) / columns, high = (top - bottom) / bands / rows;
+  const double ln_v[] = {std::log(velocity[0]), std::log(velocity[1])};
+  const double ln_p[] = {std::log(pressure[0]), std::log(pressure[1])};
+  const double x[] = {kind.slanted ? ln_p[0] : ln_v[0], kind.slanted ? ln_p[1] : ln_v[1]};
+  const double bottom = kind.slanted ? ln_v[0] + log_shift(kind, range(kind)) : ln_p[0] - shear(kind, ln_v[1]);
+  const double top = kind.slanted ? ln_v[1] : ln_p[1] - shear(kind, ln_v[0]);
+  const double wide = (x[1] - x[0]) / columns;
+  std::vector<double> edge(bands + 1);  // of bands
+  for (std::uint32_t k = 0; k <= bands; ++k) edge[k] = bottom + k * rows * ((top - bottom) / bands / rows);
+  if (kind.slanted) {
+    edge[1] = ln_v[0];
+    edge[2] = ln_v[1] + log_shift(kind, range(kind));
+  }
 
   Bytes out;
   for (const char letter : std::string("ASPERMAP")) out.push_back(static_cast<unsigned char>(letter));
   put(out, 0x01020304, 4);
-  put(out, kind.temperatures > 0 ? 2 : 1, 4);
+  put(out, kind.slanted ? 3 : kind.temperatures > 0 ? 2 : 1, 4);
   put(out, 0, 8);
   for (const double side : {pressure[0], pressure[1], velocity[0], velocity[1]}) put(out, side);
   for (const double error : {1e-4, max_error, 1e-4}) put(out, error);
@@ -139,17 +169,19 @@ inline Bytes make(const Kind& kind) {
     put(out, cold.size(), 8);
     const std::uint32_t lengths = 3, warm = nodes == 1 ? 1 : 2;
     for (const std::uint32_t n : {nodes, lengths, warm, 0u}) put(out, n, 4);
-    for (std::uint32_t i = 0; i < nodes; ++i) {
-      put(out, log_shift(i * step));
+    for (std::uint32_t i = 0; i < nodes && !kind.slanted; ++i) {
+      put(out, log_shift(kind, i * step));
       put(out, -0.02);
     }
+    if (kind.slanted)
+      for (const double number : {law_a, law_b}) put(out, number);
     for (std::uint32_t j = 0; j < warm; ++j)
       for (std::uint32_t i = 0; i < lengths; ++i) {
-        put(out, log_length(x[0] + i * (x[1] - x[0]) / (lengths - 1), j * range(kind)));
+        put(out, log_length(ln_v[0] + i * (ln_v[1] - ln_v[0]) / (lengths - 1), j * range(kind)));
         put(out, -0.2);
       }
   }
-  for (std::uint32_t k = 0; k <= bands; ++k) put(out, bottom + k * rows * high);
+  for (const double one : edge) put(out, one);
   for (std::uint32_t i = 0; i < kind.nodes; ++i) {
     put(out, shear(kind, x[0] + i * (x[1] - x[0]) / (kind.nodes - 1)));
     put(out, 0.1);
@@ -172,18 +204,26 @@ inline Bytes make(const Kind& kind) {
       const auto block = [&](double factor) {
         for (int j = 0; j < 4; ++j)
           for (int power = 0; power < 4; ++power)
-            for (int k = 0; k < 2; ++k) put(polynomials, factor * taylor(in_x[k], power, cx) * taylor(in_z[k], j, cz));
+            for (int k = 0; k < 2; ++k)
+              put(polynomials, factor * (kind.slanted ? taylor(in_x[k], j, cz) * taylor(in_z[k], power, cx)
+                                                      : taylor(in_x[k], power, cx) * taylor(in_z[k], j, cz)));
       };
       if (nodes == 0) block(1);
       if (nodes == 1) block(taylor(in_T, 0, 0));
       for (std::uint32_t at = 0; at + 1 < nodes; ++at)
-        for (int power = 0; power < 4; ++power) block(taylor(in_T, power, at * step));
+        for (int power = 0; power < 4; ++power)
+          block(taylor(in_T, power, at * step) * (kind.slanted ? std::pow(range(kind), power) : 1));
     }
   };
-  for (std::uint32_t k = 0; k < bands; ++k)
-    grid(x[0], bottom + k * rows * high, wide, high, columns * rows * k, kind.nested ? std::int64_t{bands} + k : -1);
-  for (std::uint32_t k = bands; k < grids; ++k)
-    grid(x[0], bottom + (k - bands) * rows * high, wide / columns, high / rows, columns * rows * k, -1);
+  for (std::uint32_t k = 0; k < grids; ++k) {
+    const bool inner = k >= bands;
+    const std::uint32_t band = inner ? k - bands : k, first = columns * rows * k;
+    const double high = (edge[band + 1] - edge[band]) / rows;
+    if (inner)
+      grid(x[0], edge[band], wide / columns, high / rows, first, -1);
+    else
+      grid(x[0], edge[band], wide, high, first, kind.nested ? std::int64_t{bands} + k : -1);
+  }
   out.insert(out.end(), table.begin(), table.end());
   out.resize((out.size() + 7) / 8 * 8);
   out.insert(out.end(), polynomials.begin(), polynomials.end());

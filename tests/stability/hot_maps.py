@@ -3,7 +3,7 @@
     python tests/stability/hot_maps.py [--points 1000000] [--curve]
 
 ASPERITY_DATA names the folder of the scans. The rubber is the series that fits its measured master
-curve, to 1e-3; with --curve the curve itself, to 1e-2. Tells what each took of the processor. Exit
+curve; with --curve the curve itself. Tells what each took of the processor. Exit
 status 1 where a map is off by more than its certified error, or that by more than its tolerance.
 """
 
@@ -43,7 +43,7 @@ def scene(name: str, curve: bool) -> dict[str, Any]:
             contact_diameter=1e-3,
             macro_area=0.1,
         ),
-        "rtol": 1e-2 if curve else 1e-3,
+        "rtol": 1e-3,
     }
 
 

@@ -39,9 +39,11 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
 /// The same with the heat that friction makes, for backgrounds of one temperature (both ends equal) or of all between
 /// [K]; `rubber` is the one at the reference of `shift`. Beside it the file holds the map without heat, to the same
 /// rtol, and the distance over which sliding that begins heats up. Over the temperature cells are cubics between as
-/// many nodes as rtol asks for. InvalidInput where the heat has several steady states in the box, with the temperature
-/// and the velocity, and for corrections of Greenwood and Williamson. A point of the solver takes some 0.2 ms, a
-/// million for the check some minutes: 5,000 pressures and temperatures with 200 velocities each.
+/// many nodes as rtol asks for; over a range of it and with a measured master curve they are cubics along lines of
+/// constant v a_T instead, as mu is rough across them, where `shift` is a law: shift factors have kinks at temperatures
+/// of their own, so that such a map takes minutes at 1e-2. InvalidInput where the heat has several steady states in the
+/// box, with the temperature and the velocity, and for corrections of Greenwood and Williamson. A point of the solver
+/// takes some 0.2 ms, a million for the check some minutes: 5,000 pressures and temperatures with 200 velocities each.
 ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
                                                               const TemperatureShift& shift, const Heating& heating,
                                                               const ContactModel& model,

@@ -17,8 +17,9 @@
 //   double mu = map.mu(2e5, 0.3);                               // pressure [Pa], velocity [m/s]
 //
 // A map holds ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
-// cell, with continuous first derivatives (C1) but where a correction changes its state, at a constant z. s is zero,
-// or ln E* of the Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
+// cell, with continuous first derivatives (C1) but between bands of z: where a correction changes its state, or, of
+// version 3 below, lines of constant v a_T the sides of the box that they end at. s is zero, or ln E* of the
+// Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
 //   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
 // The temperature shifts the velocity of mu_H and A/A0 by a_T; the adhesion takes the true velocity.
 //
@@ -40,7 +41,7 @@
 // The file, little-endian, doubles as IEEE 754, offsets in bytes:
 //     0  8   "ASPERMAP"
 //     8  u32 0x01020304, which a file of the other byte order has reversed
-//    12  u32 version of this layout, 1, or 2 with heat
+//    12  u32 version of this layout, 1, or 2 or 3 with heat
 //    16  u64 size of the file
 //    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s]: the box
 //    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
@@ -74,6 +75,15 @@
 //            steps of T0, linear between them
 // then as above, a cell being 2 + 32 k doubles, k = 1 for one T0, else 4 (m - 1): 32 coefficients for each power 0 to 3
 // of T0 - T_i on each step i of T0. Before the text the map without heat, a whole file of version 1.
+//
+// Version 3 is for a range of T0 and rubber that was measured, whose mu is smooth over T0 along lines of constant v a_T
+// alone. ln a_T = a t / (1 + b t), t = T0 - lo, is between 0 and its value at T0 hi, the lesser of which is l and the
+// larger h. It differs from version 2 so: instead of the table of ln a_T
+//   200  f64 a, b [1/K]
+// and cells have the first coordinate ln p, the second z = ln v + ln a_T, and instead of T0 the share of the way along
+// the line of constant z in the box,
+//   above / (above + below), above = min(ln a_T - l, ln(v hi / v)), below = min(h - ln a_T, ln(v / v lo)),
+// in m - 1 equal steps from 0 to 1. Where the smaller of two numbers becomes the other one a band of z ends: n = 3.
 #ifndef ASPERITY_FRICTION_MAP_HPP
 #define ASPERITY_FRICTION_MAP_HPP
 
@@ -323,7 +333,7 @@ struct FrictionMapInfo {
   std::string text;  // lines: what the map was made of
   bool heat = false;
   std::array<double, 2> temperature{};  // T0 of a map with heat [K], equal ends where it is for one
-  std::size_t temperatures = 0;         // at which its cells have polynomials
+  std::size_t temperatures = 0;         // at which, or shares of the way along a line, its cells have polynomials
   double memory_error = 0;              // relative, that s0 makes in mu while the rubber heats up, at 99 % of points
 };
 
@@ -354,10 +364,13 @@ class FrictionMap {
     const double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     const double shifted = speed * temperature.a_T;
     if (is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
+      if (steps_ > 0 && !is_slanted_)
+        return has_memory ? warm_mu<Axis::temperature, true>(pressure, speed, temperature)
+                          : warm_mu<Axis::temperature, false>(pressure, speed, temperature);
       if (steps_ > 0)
-        return has_memory ? warm_mu<true, true>(pressure, speed, temperature)
-                          : warm_mu<true, false>(pressure, speed, temperature);
-      if (has_memory) return warm_mu<false, true>(pressure, speed, temperature);
+        return has_memory ? warm_mu<Axis::slanted, true>(pressure, speed, temperature)
+                          : warm_mu<Axis::slanted, false>(pressure, speed, temperature);
+      if (has_memory) return warm_mu<Axis::none, true>(pressure, speed, temperature);
       const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
       const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
       double slope = 0;
@@ -371,10 +384,12 @@ class FrictionMap {
 
   /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
   /// a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
-  /// range of T0 take 36 kB of the stack.
+  /// range of T0 take 36 kB of the stack. Those of version 3 are looked up one by one.
   void mu_at_points(std::size_t n, const double* pressure, const double* velocity, double* result,
                     Outside outside = Outside::nan, const MapTemperature& temperature = {}) const noexcept {
-    if (steps_ == 0) {
+    if (is_slanted_) {
+      for (std::size_t i = 0; i < n; ++i) result[i] = mu(pressure[i], velocity[i], outside, temperature);
+    } else if (steps_ == 0) {
       mu_of_blocks(n, pressure, velocity, result, outside, temperature, nullptr);
     } else {
       CellsAtT0 cells;
@@ -439,11 +454,14 @@ class FrictionMap {
     const double* cell = nullptr;
     double x = 0, dx = 0, dz = 0, slope = 0;  // s'(x)
     double ln_p = 0, ln_v = 0;                // as the adhesion takes them
-    double background = 0, dT = 0;            // T0, and from the node below it
-    std::int64_t step = 0;                    // of T0
+    double background = 0, dT = 0;            // T0, and from the node below it; of a slanted map its share
+    std::int64_t step = 0;                    // of T0 or of the share
+    double log_a_T = 0;                       // of a slanted map
     Status status = Status::ok;
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
+
+  enum class Axis { none, temperature, slanted };  // of polynomials over T0
 
   struct Memory {
     double share, slope;  // of what was without heat, and d ln of it / d ln v
@@ -465,15 +483,21 @@ class FrictionMap {
   }
 
   /// `mu` in the box of a map with heat.
-  template <bool has_axis, bool has_memory>
+  template <Axis axis, bool has_memory>
   [[nodiscard]] double warm_mu(double pressure, double speed, const MapTemperature& temperature) const noexcept {
-    ASPERITY_MAP_KNOWN(has_axis == (steps_ > 0));
+    ASPERITY_MAP_KNOWN((axis != Axis::none) == (steps_ > 0));
+    ASPERITY_MAP_KNOWN((axis == Axis::slanted) == is_slanted_);
     const map_detail::Pair logarithms_of_both = map_detail::ln(map_detail::Pair{speed, pressure});
     Where at;
     at.x = at.ln_v = logarithms_of_both[0];
     at.ln_p = logarithms_of_both[1];
-    if (has_axis) set_step(temperature.background, at);
-    at.cell = cell_at(at.x, at.ln_p, at.dx, at.dz);
+    if (axis == Axis::slanted) {
+      at.background = temperature.background;
+      slant(at);
+    } else {
+      if (axis == Axis::temperature) set_step(temperature.background, at);
+      at.cell = cell_at(at.x, at.ln_p, at.dx, at.dz);
+    }
     return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
   }
 
@@ -645,6 +669,7 @@ class FrictionMap {
         if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
       }
     for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
+    if (is_slanted_) to_velocity(at, fx, fz);
     MapPoint point{};
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
     point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
@@ -654,6 +679,26 @@ class FrictionMap {
     point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
     point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
     return point;
+  }
+
+  /// Of a slanted map: from slopes over ln p and over ln v a_T to those over ln v, at a constant T0, and ln p.
+  void to_velocity(const Where& at, double* fx, double* fz) const noexcept {
+    const double by_v = slope_of_share(at);
+    const double *const c = at.cell + 128 * at.step, t = at.dT, z = at.dz, x = at.dx;
+    for (int k = 0; k < 2; ++k) {
+      double by_share = 0;
+      for (int j = 4; j-- > 0;) {
+        double row = 0;
+        for (int i = 4; i-- > 0;) {
+          const double* const a = c + 8 * j + 2 * i + k;
+          row = row * x + (a[32] + t * (2 * a[64] + t * 3 * a[96]));
+        }
+        by_share = by_share * z + row;
+      }
+      const double by_p = fx[k];
+      fx[k] = fz[k] + by_share * by_v;
+      fz[k] = by_p;
+    }
   }
 
   /// Two coefficients, of ln mu_H and ln A/A0, at dT from a node of T0.
@@ -751,6 +796,7 @@ class FrictionMap {
 
   /// ln of a_T v on the map without heat.
   [[nodiscard]] ASPERITY_MAP_INLINE double cold_x(const Where& at) const noexcept {
+    if (is_slanted_) return held_cold_x(at.x + at.log_a_T);
     return steps_ == 0 ? at.x : held_cold_x(at.x + log_a_T(at));
   }
 
@@ -810,8 +856,12 @@ class FrictionMap {
     at.x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
-    const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
-    at.cell = cell_at(at.x, z, at.dx, at.dz);
+    if (is_slanted_) {
+      slant(at);
+    } else {
+      const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
+      at.cell = cell_at(at.x, z, at.dx, at.dz);
+    }
     return at;
   }
 
@@ -869,6 +919,44 @@ class FrictionMap {
     const double scaled = (background - info_.temperature[0]) * steps_per_T_;
     at.step = index(scaled, last_step_);
     at.dT = background - info_.temperature[0] - static_cast<double>(at.step) * step_of_T_;
+  }
+
+  /// How far it is along the line of constant v a_T from its lower end and from its upper one.
+  struct Way {
+    double above, below;
+    [[nodiscard]] double length() const noexcept { return above + below; }
+  };
+  [[nodiscard]] ASPERITY_MAP_INLINE Way way_of(const Where& at) const noexcept {
+    return {least(last_x_ - at.x, at.log_a_T - log_a_T_[0]), least(at.x - offset_x_, log_a_T_[1] - at.log_a_T)};
+  }
+  /// The smaller one, but not below 0 by rounding.
+  static double least(double a, double b) noexcept {
+    const double smaller = a < b ? a : b;
+    return smaller < 0 ? 0 : smaller;
+  }
+
+  /// d of the share of the way / d ln v at a constant T0, whichever sides lines in the point's band begin and end on.
+  [[nodiscard]] double slope_of_share(const Where& at) const noexcept {
+    std::size_t band = 0;
+    while (at.x + at.log_a_T >= ends_[band]) ++band;
+    const bool is_wide = last_x_ - offset_x_ > log_a_T_[1] - log_a_T_[0];
+    const bool from_v = band >= (is_wide ? 2 : 1), to_v = band < (is_wide ? 1 : 2);
+    const Way way = way_of(at);
+    constexpr double rounding = 1e-14;  // at the two ends of z there is no way, and nothing changes along it
+    return -((from_v ? way.below : 0) + (to_v ? way.above : 0)) / (way.length() * way.length() + rounding);
+  }
+
+  /// Finds the cell of a slanted map from ln v, ln p and T0.
+  ASPERITY_MAP_INLINE void slant(Where& at) const noexcept {
+    const double t = at.background - info_.temperature[0];
+    at.log_a_T = shift_[0] * t / (1 + shift_[1] * t);
+    const Way way = way_of(at);
+    // where there is no way, that side of it on which the point's T0 is
+    const double nothing = 1e-300, is_last = at.log_a_T >= log_a_T_[1] ? nothing : 0;
+    const double share = (way.above + is_last) / (way.length() + nothing);
+    at.step = index(share * steps_, last_step_);
+    at.dT = share - static_cast<double>(at.step) * step_of_share_;
+    at.cell = cell_at(at.ln_p, at.x + at.log_a_T, at.dx, at.dz);
   }
 
   /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
@@ -947,10 +1035,13 @@ class FrictionMap {
   double offset_x_ = 0, last_x_ = 0;                           // ln of the box's velocities
   double offset_per_x_ = 0, offset_step_ = 0;
   std::size_t cell_size_ = map_detail::block_size;  // numbers from one to the next
-  std::uint32_t steps_ = 0;                         // of T0 in cells, 0 for one T0
+  std::uint32_t steps_ = 0;                         // of T0 in cells, or of a slanted map's share, 0 for one T0
+  bool is_slanted_ = false;                         // version 3
   std::int64_t last_step_ = 0;
   std::int64_t last_row_ = 0, last_column_ = 0, row_size_ = 0;
   double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
+  std::array<double, 2> log_a_T_{};        // its sides, of a slanted map
+  double step_of_share_ = 0;               // of a slanted map
   std::vector<double> shift_;              // coefficients of ln a_T over T0
   std::vector<map_detail::Line> sliding_;  // of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_;
@@ -1028,6 +1119,7 @@ inline bool is_box(const std::array<double, 2>& sides) noexcept {
 
 /// What the head of a map with heat has more.
 struct HeatHead {
+  bool is_slanted = false;      // version 3
   unsigned long long cold = 0;  // bytes of the map without heat
   std::uint32_t nodes = 0, columns = 0, rows = 0;
 
@@ -1046,11 +1138,13 @@ struct HeatHead {
     const bool range = !is_nan(lo) && !is_nan(hi) && lo >= 1 && hi <= 1e6 && (one ? lo == hi : lo + 1e-3 <= hi);
     return in.u32() == 0 && range && !is_nan(info.memory_error) && info.memory_error >= 0 &&
            info.memory_error <= 1e300 && nodes > 0 && nodes < 10000 && columns > 1 && columns < 10000 && rows < 10000 &&
-           (one ? rows == 1 : rows > 1) && cold % 8 == 0 && cold < size;
+           (one ? rows == 1 && !is_slanted : rows > 1) && cold % 8 == 0 && cold < size;
   }
   [[nodiscard]] std::size_t blocks() const noexcept { return nodes < 2 ? 1 : 4 * (std::size_t{nodes} - 1); }
+  /// Numbers of ln a_T: of a law, or at nodes.
+  [[nodiscard]] std::size_t shifts() const noexcept { return is_slanted ? 2 : 2 * std::size_t{nodes}; }
   [[nodiscard]] std::uint64_t bytes() const noexcept {
-    return nodes == 0 ? 0 : heat_head_size + 16ull * nodes + 16ull * columns * rows + cold;
+    return nodes == 0 ? 0 : heat_head_size + 8ull * shifts() + 16ull * columns * rows + cold;
   }
 };
 
@@ -1110,8 +1204,9 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   if (order == 0x04030201) return refuse("was written in the other byte order: must be little-endian");
   if (order != 0x01020304) return refuse("is damaged: bytes 8 to 11");
   const std::uint32_t version = in.u32();
-  if (version != 1 && version != 2) return refuse("has layout version " + std::to_string(version) + ": must be 1 or 2");
-  const bool heat = version == 2;
+  if (version < 1 || version > 3)
+    return refuse("has layout version " + std::to_string(version) + ": must be 1, 2 or 3");
+  const bool heat = version != 1;
   if (heat && size < map_detail::head_size + map_detail::heat_head_size + 8)
     return refuse("is truncated: " + std::to_string(size) + " bytes");
   const std::uint64_t stated = in.u64();
@@ -1146,16 +1241,25 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
   const auto padded = [](std::uint64_t n) { return (n + 7) / 8 * 8; };
   good = good && in.u32() == 0;
   map_detail::HeatHead warm;
+  warm.is_slanted = version == 3;
   if (heat) good = warm.read(in, info, size) && good && nodes == 0;
   map.cell_size_ = map_detail::block_size * warm.blocks();
   const std::uint64_t needed = map_detail::head_size + warm.bytes() + 8 * (bands + 1ull) + 16ull * nodes +
                                48ull * grids + padded(4ull * entries) +
                                8ull * (map_detail::corner_size + map.cell_size_) * cells + padded(text) + 8;
   good = good && flags < 2 && bands > 0 && bands <= map_detail::most_bands && nodes != 1 && grids >= bands &&
-         entries > 0 && cells > 0 && needed == size;
+         entries > 0 && cells > 0 && needed == size && (!warm.is_slanted || bands == 3);
   if (!good) return refuse("is damaged: its head contradicts itself");
 
-  if (heat) good = in.numbers(map.shift_, 2 * std::size_t{warm.nodes}, 1e3);
+  if (heat) good = in.numbers(map.shift_, warm.shifts(), 1e3);
+  if (warm.is_slanted) {
+    const double kelvin = info.temperature[1] - info.temperature[0], end = 1 + map.shift_[1] * kelvin;
+    good = good && end >= 1e-9;  // there is no pole
+    const double whole = good ? map.shift_[0] * kelvin / end : 0;
+    good = good && whole >= -1e3 && whole <= 1e3;
+    map.log_a_T_ = {whole < 0 ? whole : 0, whole < 0 ? 0 : whole};
+    map.is_slanted_ = true;
+  }
   std::vector<double> sliding;
   if (heat) good = in.numbers(sliding, 2 * std::size_t{warm.columns} * warm.rows, 1e3) && good;
   if (!good) return refuse("is damaged: its tables contradict each other");
@@ -1212,7 +1316,8 @@ inline bool FrictionMap::read(const void* data, std::size_t size, std::string& w
     if (map.steps_ > 0) {
       map.steps_per_T_ = map.steps_ / kelvin;
       map.step_of_T_ = 1 / map.steps_per_T_;
-      map.shift_ = map_detail::cubics(map.shift_, warm.nodes, map.step_of_T_);
+      map.step_of_share_ = 1.0 / map.steps_;
+      if (!map.is_slanted_) map.shift_ = map_detail::cubics(map.shift_, warm.nodes, map.step_of_T_);
       map.rows_per_T_ = (warm.rows - 1) / kelvin;
     }
     map.last_step_ = std::int64_t{map.steps_} - 1;

@@ -104,7 +104,7 @@ unsigned threads_of(const MapRequest& request) {
 /// heat.
 constexpr double sampling_share = 0.2;
 
-/// What goes with the heat of a map of these temperatures, telling how far it is.
+/// What goes with the heat of a map of these heights, telling how far it is.
 using WithHeat = std::function<MapHeatTables(const std::vector<double>&, const std::function<void(double)>&)>;
 
 /// Refines a map, adds to it what goes with its heat, and checks the finished file.
@@ -115,7 +115,7 @@ std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhes
   const double refining = with_heat ? sampled / 2 : sampled;
   const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, refining));
   std::optional<MapHeatTables> heat;
-  if (with_heat) heat = with_heat(refined.temperatures, part_of(request.progress, refining, sampled));
+  if (with_heat) heat = with_heat(refined.heights, part_of(request.progress, refining, sampled));
   MapCertificate certificate{.max_error = refined.max_error};
   const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, heat ? &*heat : nullptr); };
   if (request.checked == 0) return file();
@@ -182,19 +182,26 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   whole.text = text;
 
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
-  const auto tables = [&](const std::vector<double>& temperatures, const std::function<void(double)>& progress) {
+  const MapFrame frame(spectrum, rubber, model, request, heat);
+  const auto tables = [&](const std::vector<double>& heights, const std::function<void(double)>& progress) {
     MapHeatTables result;
-    result.shift = shifts(shift, temperatures, temperature[0]);
-    const double step = (temperature[1] - temperature[0]) / std::max(1.0, static_cast<double>(temperatures.size() - 1));
     MapRequest cold = request;
-    cold.velocity = shifted_box(request.velocity, result.shift, step);
+    if (frame.slant()) {
+      const auto [a, b] = frame.slant()->coefficients();
+      result.shift = {a, b};
+      for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.slant()->log_a_T()[i]);
+    } else {
+      result.shift = shifts(shift, heights, temperature[0]);
+      const double step = (temperature[1] - temperature[0]) / std::max(1.0, static_cast<double>(heights.size() - 1));
+      cold.velocity = shifted_box(request.velocity, result.shift, step);
+    }
     cold.progress = {};  // a second or two
     const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
     result.cold = build_friction_map(spectrum, at_lowest, model, adhesion, cold);
     result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
     return result;
   };
-  return made(MapFrame(spectrum, rubber, model, request, heat), adhesion, whole, tables);
+  return made(frame, adhesion, whole, tables);
 }
 
 }  // namespace asperity

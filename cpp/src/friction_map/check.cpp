@@ -30,7 +30,7 @@ class Check {
     std::vector<double> errors(n);
     map_.info().heat ? draw_with_heat() : draw();
     if (map_.info().heat) {
-      compare(frame_.sample_at(places_, temperature_, threads), 0, errors);
+      compare(frame_.sample_points(places_, temperature_, threads), 0, errors);
       return errors;
     }
     in_parts(threads, n, [&](unsigned, std::size_t begin, std::size_t end) {
@@ -51,7 +51,7 @@ class Check {
   }
 
   void draw_with_heat() {
-    const auto [x_lo, x_hi] = frame_.x();
+    const auto [x_lo, x_hi] = frame_.ln_velocity();
     const auto [coldest, hottest] = frame_.temperature();
     const double y_lo = frame_.ln_pressure(0), y_hi = frame_.ln_pressure(1);
     double y = 0, temperature = 0;

@@ -106,13 +106,13 @@ class Index {
 
 namespace {
 
-/// The polynomials of a leaf as the file has them: those of its only plane; or of each step between temperatures, on
-/// which planes hold values and slopes over T at the ends, the powers of T from the step's lower end.
-std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std::vector<double>& temperatures) {
-  if (temperatures.size() == 1) return leaf.polynomial;
+/// The polynomials of a leaf as the file has them: those of its only plane; or of each step between heights, on
+/// which planes hold values and slopes over them at the ends, their powers from the step's lower end.
+std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std::vector<double>& heights) {
+  if (heights.size() == 1) return leaf.polynomial;
   std::vector<std::array<double, 32>> result;
-  const double h = (temperatures.back() - temperatures.front()) / static_cast<double>(temperatures.size() - 1);
-  for (std::size_t i = 0; i + 1 < temperatures.size(); ++i) {
+  const double h = (heights.back() - heights.front()) / static_cast<double>(heights.size() - 1);
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
     const std::array<double, 32>* const p = &leaf.polynomial[2 * i];
     std::array<std::array<double, 32>, 4> power;
     for (std::size_t c = 0; c < 32; ++c) {
@@ -138,7 +138,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   Writer out;
   out.text("ASPERMAP");
   out.u32(0x01020304);
-  out.u32(heat == nullptr ? 1 : 2);
+  out.u32(heat == nullptr ? 1 : frame.slant() ? 3 : 2);
   out.u64(0);  // the size, when it is known
   for (const auto& box : {request.pressure, request.velocity})
     for (const double side : box) out.f64(side);
@@ -158,7 +158,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
     for (const double side : frame.temperature()) out.f64(side);
     out.f64(heat->sliding.error);
     out.u64(heat->cold.size());
-    for (const std::size_t n : {refined.temperatures.size(), heat->sliding.columns, heat->sliding.rows, std::size_t{0}})
+    for (const std::size_t n : {refined.heights.size(), heat->sliding.columns, heat->sliding.rows, std::size_t{0}})
       out.u32(n);
     for (const std::vector<double>* const table : {&heat->shift, &heat->sliding.values})
       for (const double x : *table) out.f64(x);
@@ -179,7 +179,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
     if (leaf.child >= 0 || !leaf.needed) continue;
     out.f64(tree.x(leaf.x));
     out.f64(tree.z(leaf.z));
-    for (const std::array<double, 32>& block : blocks(leaf, refined.temperatures))
+    for (const std::array<double, 32>& block : blocks(leaf, refined.heights))
       for (const double c : block) out.f64(c);
   }
   if (heat != nullptr) out.bytes.insert(out.bytes.end(), heat->cold.begin(), heat->cold.end());

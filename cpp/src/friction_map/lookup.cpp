@@ -33,6 +33,11 @@ struct ColdVelocities {
   double steps_per_T0, lowest, highest;
 };
 
+/// ln a_T = a t / (1 + b t), and the sides of ln v and of it.
+struct SlantedBox {
+  double a, b, first_T0, first_x, last_x, least_shift, most_shift, last_step, step;
+};
+
 /// ln mu_A = ln A/A0 + ln_shear_stress - ln p - fall (ln v - ln_reference)^2
 struct MapAdhesion {
   double ln_shear_stress, ln_reference, fall;
@@ -55,6 +60,8 @@ struct MapLoops {
                       double* h, double* a);
   bool (*all_within)(const double* x, double lowest, double highest, std::size_t n);
   void (*steps)(const double* temperature, double first, double per_kelvin, double last, std::size_t n,
+                std::int32_t* step, double* t);
+  void (*slant)(const SlantedBox& box, const double* x, const double* temperature, std::size_t n, double* slanted_x,
                 std::int32_t* step, double* t);
   void (*warm_polynomials)(const Cells& of, const std::int32_t* cell, const std::int32_t* step, const double* x,
                            const double* z, const double* t, std::size_t n, double* h, double* a);
@@ -109,7 +116,11 @@ class FrictionMapBatch {
   void share_temperature(const MapColumns& points, std::size_t n) {
     if (!map_.info_.heat || points.background.size() > 1) return;
     FrictionMap::Where at;
-    if (map_.steps_ > 0) {
+    if (map_.is_slanted_) {
+      at.background = points.background.empty() ? 0 : points.background[0];
+      const auto [lowest, highest] = map_.info_.temperature;
+      if (!(at.background >= lowest && at.background <= highest)) return;
+    } else if (map_.steps_ > 0) {
       const auto [lowest, highest] = map_.info_.temperature;
       const double background = points.background.empty() ? 0 : points.background[0];
       if (!(background >= lowest && background <= highest)) return;
@@ -122,7 +133,7 @@ class FrictionMapBatch {
         for (std::int64_t k = i; k < i + 4; ++k)
           sliding_at_shared_T0_.push_back(rows.cubics[k] + rows.cubics[k + 4] * rows.share);
     }
-    if (map_.steps_ == 0 || n < map_.info_.cells) return;
+    if (map_.steps_ == 0 || map_.is_slanted_ || n < map_.info_.cells) return;
     const Cells of = cells_of(map_);
     at_shared_T0_.resize(map_.info_.cells * map_detail::block_size / std::size(map_detail::Line{}.number));
     loops_.at_temperature(of, static_cast<std::size_t>(at.step), at.dT, map_.info_.cells,
@@ -136,7 +147,10 @@ class FrictionMapBatch {
       return one_by_one(at, n, [&](std::size_t i, const MapTemperature& temperature) {
         return result[i] = value(quantity, at.pressure[i], at.velocity[i], temperature);
       });
-    find_all(quantity, map_, x_, at.ln_v, n, result);
+    if (map_.is_slanted_)
+      find_slanted(quantity, at, n, result);
+    else
+      find_all(quantity, map_, x_, at.ln_v, n, result);
     if (map_.info_.heat && !points.distance.empty()) blend_cold(quantity, at, n, result);
     if (quantity == MapQuantity::traction)
       for (std::size_t i = 0; i < n; ++i) result[i] *= std::copysign(at.pressure[i], at.velocity[i]);
@@ -146,7 +160,7 @@ class FrictionMapBatch {
   /// d mu / d ln p and d mu / d ln v likewise.
   std::size_t find_slopes(const MapColumns& points, std::size_t begin, std::size_t n, double* by_p, double* by_v) {
     const Block at = take(points, begin, n);
-    if (!at.within || (map_.info_.heat && !points.distance.empty()))
+    if (!at.within || map_.is_slanted_ || (map_.info_.heat && !points.distance.empty()))
       return one_by_one(at, n, [&](std::size_t i, const MapTemperature& temperature) {
         MapPoint found;
         map_.at(at.pressure[i], at.velocity[i], found, outside_, temperature);
@@ -222,7 +236,7 @@ class FrictionMapBatch {
     const bool only = map_.steps_ == 0 && points.background.empty();
     const auto [lowest, highest] = map_.info_.temperature;
     if (!only && !loops_.all_within(background, lowest, highest, entries(points.background))) return false;
-    if (map_.steps_ > 0 && at_shared_T0_.empty())
+    if (map_.steps_ > 0 && !map_.is_slanted_ && at_shared_T0_.empty())
       loops_.steps(background, lowest, map_.steps_per_T_, map_.steps_ - 1.0, n, step_, dT_);
     return true;
   }
@@ -236,6 +250,17 @@ class FrictionMapBatch {
     else
       loops_.warm_polynomials(cells_of(map), cell_, step_, x, z, dT_, n, h_, a_);
     exponentials(quantity, map, ln_v, n, result);
+  }
+
+  /// A number of a slanted map; leaves ln v a_T in slanted_x_.
+  void find_slanted(MapQuantity quantity, const Block& at, std::size_t n, double* result) {
+    const SlantedBox box{map_.shift_[0],   map_.shift_[1],    map_.info_.temperature[0],
+                         map_.offset_x_,   map_.last_x_,      map_.log_a_T_[0],
+                         map_.log_a_T_[1], map_.steps_ - 1.0, map_.step_of_share_};
+    loops_.slant(box, x_, at.background, n, slanted_x_, step_, dT_);
+    for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map_.entry_at(ln_p_[i], slanted_x_[i]));
+    loops_.warm_polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, h_, a_);
+    exponentials(quantity, map_, at.ln_v, n, result);
   }
 
   /// From ln mu_H and ln A/A0, h_ and a_; mu for the traction. `result` may be h_.
@@ -288,7 +313,10 @@ class FrictionMapBatch {
     else
       loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
     const double* x = x_;
-    if (map_.steps_ > 0) {
+    if (map_.is_slanted_) {
+      x = speed_;
+      loops_.held_sums(slanted_x_, 0, map_.cold_->offset_x_, map_.cold_->last_x_, n, speed_);
+    } else if (map_.steps_ > 0) {
       x = speed_;
       const ColdVelocities shift{map_.shift_.data(), map_.steps_per_T_, map_.cold_->offset_x_, map_.cold_->last_x_};
       if (at_shared_T0_.empty())
@@ -320,7 +348,7 @@ class FrictionMapBatch {
   double shared_log_a_T_ = 0;
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
-  double dT_[block], ln_s0_[block], cold_[block];
+  double dT_[block], ln_s0_[block], cold_[block], slanted_x_[block];
   double offset_slope_[block], h_x_[block], a_x_[block], h_z_[block], a_z_[block];
   std::int32_t cell_[block], step_[block];
 };

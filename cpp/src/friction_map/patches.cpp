@@ -21,38 +21,49 @@ constexpr std::size_t test_z = 2;     // random z at a random x between every tw
 MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
                        const std::function<void(double)>& progress)
     : frame_(frame), tolerance_(std::fmax(share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
-  const auto [x_lo, x_hi] = frame.x();
-  const auto pieces = [](double length) { return std::clamp(std::ceil(length / longest), 1.0, most_in_a_row); };
-  // loads of the box, and of cells that stand out of it
-  double bottom = frame.cuts().front(), top = frame.cuts().back();
-  if (frame.load_shift().any()) {
+  if (frame.slant()) {
+    for (std::size_t k = 0; k + 1 < frame.cuts().size(); ++k) add_strip({frame.cuts()[k], frame.cuts()[k + 1]});
+  } else if (frame.load_shift().any()) {  // loads of the box, and of cells that stand out of it
     const auto [smallest, largest] = frame.load_shift().range();
     const auto [lowest, highest] = frame.offsets();
-    bottom = smallest + lowest;
-    top = largest + highest;
+    add_strip({smallest + lowest, largest + highest});
+  } else {
+    add_strip({frame.cuts().front(), frame.cuts().back()});
   }
+  make(in_box(), progress);
+}
+
+void MapPatches::add_strip(std::array<double, 2> z) {
+  const auto [x_lo, x_hi] = frame_.x();
+  const auto [bottom, top] = z;
+  const auto pieces = [](double length) { return std::clamp(std::ceil(length / longest), 1.0, most_in_a_row); };
   const double columns = pieces(x_hi - x_lo), rows = pieces(top - bottom);
-  strip_ = {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), MapPlace{x_lo, bottom},
-            MapPlace{(x_hi - x_lo) / columns, (top - bottom) / rows}};
-  const MapPlace half{strip_.size.x / 2, strip_.size.z / 2};
-  for (std::size_t i = 0; i < strip_.columns; ++i)
-    for (std::size_t j = 0; j < strip_.rows; ++j)
+  const Strip strip{patches_.size(), static_cast<std::size_t>(columns), static_cast<std::size_t>(rows),
+                    MapPlace{x_lo, bottom}, MapPlace{(x_hi - x_lo) / columns, (top - bottom) / rows}};
+  const MapPlace half{strip.size.x / 2, strip.size.z / 2};
+  for (std::size_t i = 0; i < strip.columns; ++i)
+    for (std::size_t j = 0; j < strip.rows; ++j)
       patches_.push_back({.middle = {x_lo + (2 * static_cast<double>(i) + 1) * half.x,
                                      bottom + (2 * static_cast<double>(j) + 1) * half.z},
                           .half = half});
-  // of those that the box touches, all that is worth a look ahead
+  strips_.push_back(strip);
+}
+
+/// The patches that the box touches, all that is worth a look ahead.
+std::vector<std::size_t> MapPatches::in_box() const {
+  const auto [x_lo, x_hi] = frame_.x();
+  std::vector<bool> touched(patches_.size(), frame_.slant().has_value());
   constexpr int steps = 256;
-  std::vector<bool> touched(patches_.size());
-  for (int i = 0; i <= steps; ++i)
+  for (int i = 0; i <= steps && !frame_.slant(); ++i)
     for (int j = 0; j <= steps; ++j) {
       const double x = x_lo + (x_hi - x_lo) * i / steps;
-      const double y = frame.ln_pressure(0) + (frame.ln_pressure(1) - frame.ln_pressure(0)) * j / steps;
-      touched[first_at({x, y + frame.load_shift()(y - frame.log_modulus_offset(x)).value})] = true;
+      const double y = frame_.ln_pressure(0) + (frame_.ln_pressure(1) - frame_.ln_pressure(0)) * j / steps;
+      touched[first_at(strips_[0], {x, y + frame_.load_shift()(y - frame_.log_modulus_offset(x)).value})] = true;
     }
-  std::vector<std::size_t> in_box;
+  std::vector<std::size_t> result;
   for (std::size_t i = 0; i < patches_.size(); ++i)
-    if (touched[i]) in_box.push_back(i);
-  make(std::move(in_box), progress);
+    if (touched[i]) result.push_back(i);
+  return result;
 }
 
 /// Level by level, so that all points of a level are solved at once.
@@ -171,17 +182,17 @@ std::array<double, 2> MapPatches::last_coefficients(const Patch& patch) {
   return last;
 }
 
-/// The patch of the first ones that holds a place.
-std::size_t MapPatches::first_at(const MapPlace& place) const {
+/// The patch of a strip's first ones that holds a place.
+std::size_t MapPatches::first_at(const Strip& strip, const MapPlace& place) {
   const auto piece = [](double at, std::size_t pieces) {
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(pieces - 1)));
   };
-  return piece((place.x - strip_.corner.x) / strip_.size.x, strip_.columns) * strip_.rows +
-         piece((place.z - strip_.corner.z) / strip_.size.z, strip_.rows);
+  return strip.first + piece((place.x - strip.corner.x) / strip.size.x, strip.columns) * strip.rows +
+         piece((place.z - strip.corner.z) / strip.size.z, strip.rows);
 }
 
-const MapPatches::Patch& MapPatches::find(const MapPlace& place) {
-  std::size_t at = first_at(place);
+const MapPatches::Patch& MapPatches::find(std::uint32_t band, const MapPlace& place) {
+  std::size_t at = first_at(strips_[frame_.slant() ? band : 0], place);
   if (!patches_[at].made) make({at}, {});
   while (patches_[at].child >= 0) {
     const Patch& patch = patches_[at];
@@ -222,7 +233,7 @@ MapSample MapPatches::at(const MapPlace& place) {
   const double y = place.z + frame_.log_modulus_offset(place.x);
   const double tau = shift.any() ? shift(y - frame_.log_modulus(place.x)).value : 0;
   const MapPlace load{place.x, y + tau};
-  const Patch& patch = find(load);
+  const Patch& patch = find(frame_.band(load.z), load);
   std::array<double, 2> f = value(patch, load);
   if (frame_.hysteresis()) f[0] -= tau;
   return {f, patch.error + 2 * shift.error()};
@@ -231,7 +242,7 @@ MapSample MapPatches::at(const MapPlace& place) {
 MapSlopes MapPatches::slopes(std::uint32_t band, const MapPlace& place) {
   const ValueAndSlope offset = frame_.spline(place.x), tau = frame_.load_shift()(place.z, band);
   const MapPlace load{place.x, place.z + offset.value + tau.value};
-  const Patch& patch = find(load);
+  const Patch& patch = find(band, load);
   const double x = (place.x - patch.middle.x) / patch.half.x, z = (load.z - patch.middle.z) / patch.half.z;
   const Row in_x = chebyshev<n>(x), in_z = chebyshev<n>(z);
   const auto [slope_x, bend_x] = chebyshev_slopes<n>(x);

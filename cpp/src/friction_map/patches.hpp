@@ -50,8 +50,8 @@ class MapPatches {
     double error = 0;
     std::array<std::array<Row, n>, 2> coefficient{};  // of T_i(x) T_j(z), of each function
   };
-  struct Strip {  // the patches that all begins with, by columns
-    std::size_t columns, rows;
+  struct Strip {  // patches that all begins with, by columns; one a band of slanted coordinates, else one in all
+    std::size_t first, columns, rows;
     MapPlace corner, size;  // of a patch
   };
 
@@ -60,14 +60,16 @@ class MapPatches {
   [[nodiscard]] std::vector<double> test(std::span<const std::size_t> wanted);
   void halve(std::size_t index, bool in_x);
   [[nodiscard]] static std::array<double, 2> last_coefficients(const Patch& patch);
-  [[nodiscard]] std::size_t first_at(const MapPlace& place) const;
-  [[nodiscard]] const Patch& find(const MapPlace& place);
+  void add_strip(std::array<double, 2> z);
+  [[nodiscard]] std::vector<std::size_t> in_box() const;
+  [[nodiscard]] static std::size_t first_at(const Strip& strip, const MapPlace& place);
+  [[nodiscard]] const Patch& find(std::uint32_t band, const MapPlace& place);
   [[nodiscard]] static std::array<double, 2> value(const Patch& patch, const MapPlace& place);
 
   const MapFrame& frame_;
   double tolerance_;
   unsigned threads_;
-  Strip strip_;
+  std::vector<Strip> strips_;
   std::vector<Patch> patches_;
   Random random_{20261122};
 };

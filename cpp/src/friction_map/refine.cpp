@@ -1,5 +1,6 @@
 // Refinement of a map: cells are halved until ln mu_H and ln A/A0 keep the tolerance on lattices of 5 x 5 points and on
-// random points unseen before, with heat at the nodes of temperature, between them, and at random. The numbers that
+// random points unseen before, with heat at the nodes of height (T0, or the share of a slanted line, slant.hpp),
+// between them, and at random. The numbers that
 // they are held against, and the derivatives at corners, are those of polynomials through points of the solver
 // (patches.hpp, slices.hpp), whose error is added to the cell's.
 #include "friction_map/refine.hpp"
@@ -45,7 +46,7 @@ class Builder {
     }
   }
   MapTree tree() && { return std::move(tree_); }
-  [[nodiscard]] const std::vector<double>& temperatures() const { return slices_.nodes(); }
+  [[nodiscard]] const std::vector<double>& heights() const { return slices_.nodes(); }
 
  private:
   /// What was found of the polynomial that a cell has.
@@ -88,7 +89,18 @@ class Builder {
         corner.xz[side] = found[plane].xz;
       }
     }
+    if (frame_.slant() && (z == 0 || z == tree_.bands() * MapTree::unit)) end_line(at->second);
     return at->second;
+  }
+
+  /// At the ends of z slanted lines are as short as a point: nothing changes along them, not by rounding either, as
+  /// slopes over the velocity are those along a line over its length.
+  static void end_line(std::vector<MapCorner>& planes) {
+    for (std::size_t plane = 1; plane < planes.size(); ++plane) {
+      const bool is_slope = plane % 2 == 1;
+      planes[plane].f = is_slope ? std::array<double, 2>{} : planes[0].f;
+      planes[plane].x = is_slope ? std::array<double, 2>{} : planes[0].x;
+    }
   }
 
   /// Halves the leaves that are off by more than `allowed`, in the way in which their lattice bends more; whether there
@@ -144,7 +156,7 @@ class Builder {
         visit(i, j, MapPlace{tree_.x(leaf.x + leaf.wide / 4 * i), tree_.z(leaf.z + leaf.high / 4 * j)});
   }
 
-  /// Largest fourth difference of the functions on the lattice, in x and in z, at any temperature.
+  /// Largest fourth difference of the functions on the lattice, in x and in z, at any height.
   [[nodiscard]] std::array<double, 2> bending(const MapTree::Leaf& leaf) {
     std::array<std::array<std::vector<MapSample>, 5>, 5> f;
     each_lattice_place(
@@ -160,14 +172,13 @@ class Builder {
     return most;
   }
 
-  /// The functions of a leaf at a temperature, by the cubic between two nodes.
-  [[nodiscard]] std::array<double, 2> value(const MapTree::Leaf& leaf, const MapPlace& place,
-                                            double temperature) const {
+  /// The functions of a leaf at a height, by the cubic between two nodes.
+  [[nodiscard]] std::array<double, 2> value(const MapTree::Leaf& leaf, const MapPlace& place, double height) const {
     const double dx = place.x - tree_.x(leaf.x), dz = place.z - tree_.z(leaf.z);
     if (tree_.planes() == 1) return MapTree::value(leaf, 0, dx, dz);
     const std::vector<double>& nodes = slices_.nodes();
     const double step = (nodes.back() - nodes.front()) / static_cast<double>(nodes.size() - 1);
-    const double at = (temperature - nodes.front()) / step, last = static_cast<double>(nodes.size() - 2);
+    const double at = (height - nodes.front()) / step, last = static_cast<double>(nodes.size() - 2);
     const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, last));
     std::array<std::array<double, 2>, 4> f;
     for (std::size_t k = 0; k < 4; ++k) f[k] = MapTree::value(leaf, 2 * i + k, dx, dz);
@@ -177,12 +188,12 @@ class Builder {
     return result;
   }
 
-  double error_at(const MapTree::Leaf& leaf, const MapPlace& place, double temperature, const MapSample& truth) {
+  double error_at(const MapTree::Leaf& leaf, const MapPlace& place, double height, const MapSample& truth) {
     if (truth.error > lattice_share * rtol_)  // no number of cells would help
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * truth.error, 3) +
                          " was reached, twice the error of what the solver and " + std::to_string(MapPatches::most) +
                          " polynomials through its points tell");
-    const auto found = value(leaf, place, temperature);
+    const auto found = value(leaf, place, height);
     double error = 0;
     for (std::size_t k = 0; k < 2; ++k) error = std::fmax(error, std::fabs(std::expm1(found[k] - truth.f[k])));
     return error + truth.error;
@@ -194,8 +205,7 @@ class Builder {
     const MapTree::Leaf& leaf = tree_.nodes()[node];
     double largest = 0;
     const auto visit = [&](const MapPlace& place) {
-      const double y = place.z + frame_.log_modulus_offset(place.x);
-      if (!(y >= frame_.ln_pressure(0) && y <= frame_.ln_pressure(1))) return;
+      if (!frame_.in_box(place)) return;
       const std::vector<MapSample> truth = slices_.column(place);
       for (std::size_t t = 0; t < truth.size(); ++t)
         largest = std::fmax(largest, error_at(leaf, place, slices_.checked()[t], truth[t]));
@@ -216,14 +226,14 @@ class Builder {
     std::size_t taken = 0;
     for (std::size_t tried = 0; taken < unseen && tried < 50 * unseen; ++tried) {
       const auto column = static_cast<double>(tried % 4), row = static_cast<double>(taken % 3);
-      const double at_x = x + (column + random_()) / 4 * wide, s = frame_.log_modulus_offset(at_x);
-      const double from = std::fmax(z, frame_.ln_pressure(0) - s);
-      const double to = std::fmin(z + high, frame_.ln_pressure(1) - s);
+      const double at_x = x + (column + random_()) / 4 * wide;
+      const auto [bottom, top] = frame_.z(at_x);
+      const double from = std::fmax(z, bottom), to = std::fmin(z + high, top);
       if (!(from < to)) continue;
       const MapPlace place{at_x, from + (row + random_()) / 3 * (to - from)};
-      const auto [coldest, hottest] = frame_.temperature();
-      const double temperature = coldest == hottest ? coldest : coldest + random_() * (hottest - coldest);
-      largest = std::fmax(largest, error_at(leaf, place, temperature, slices_.at(place, temperature)));
+      const auto [lowest, highest] = frame_.heights();
+      const double height = lowest == highest ? lowest : lowest + random_() * (highest - lowest);
+      largest = std::fmax(largest, error_at(leaf, place, height, slices_.at(place, height)));
       ++taken;
     }
     return largest;
@@ -243,8 +253,8 @@ class Builder {
 RefinedMap refine(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress) {
   Builder builder(frame, rtol, threads, progress);
   const double max_error = builder.refine();
-  std::vector<double> temperatures = builder.temperatures();
-  return {std::move(builder).tree(), std::move(temperatures), max_error};
+  std::vector<double> heights = builder.heights();
+  return {std::move(builder).tree(), std::move(heights), max_error};
 }
 
 }  // namespace asperity

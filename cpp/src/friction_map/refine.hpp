@@ -11,8 +11,8 @@ namespace asperity {
 
 struct RefinedMap {
   MapTree tree;
-  std::vector<double> temperatures;  // at which the tree has planes, of a value and a slope each; or one
-  double max_error;                  // twice the largest relative error on lattices and unseen points
+  std::vector<double> heights;  // at which the tree has planes, of a value and a slope each; or one
+  double max_error;             // twice the largest relative error on lattices and unseen points
 };
 
 /// NotConverged, with what was reached, where too many cells would be needed. `progress` hears of the share of the

@@ -28,6 +28,10 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   y_lo_ = std::log(request.pressure[0]);
   y_hi_ = std::log(request.pressure[1]);
   unshifted_ = model_;
+  // a series is smooth whichever way; a table's a_T has kinks of its own, and these lie at a constant T0
+  if (heat_ && heat_->range[0] < heat_->range[1] && std::holds_alternative<MasterCurve>(rubber_) &&
+      !std::holds_alternative<ShiftTable>(*heat_->shift))
+    slant_.emplace(std::array{x_lo_, x_hi_}, heat_->range, *heat_->shift);
   if (macro_modulus(model_.correction, spectrum_, rubber_, velocity_[0], model_.poisson_ratio)) {
     make_log_modulus_offset();
     cut_bands();
@@ -40,7 +44,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
     };
     load_shift_ = LoadShift(exact, cuts_, model_.rtol / 10);
   } else {
-    cuts_ = {y_lo_, y_hi_};
+    cuts_ = slant_ ? slant_->cuts() : std::vector{y_lo_, y_hi_};
   }
   const auto* prony = std::get_if<PronySeries>(&rubber_);
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
@@ -73,6 +77,7 @@ std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsign
 }
 
 std::vector<MapSample> MapFrame::sample_unshifted(std::span<const MapPlace> places, unsigned threads) const {
+  if (heat_) return sample_at(places, std::vector<double>(places.size(), heat_->height), threads);
   std::vector<double> pressure;
   for (const MapPlace& place : places) pressure.push_back(std::exp(place.z));
   return sample(unshifted_, pressure, places, threads);
@@ -82,16 +87,29 @@ std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::ve
                                         std::span<const MapPlace> places, unsigned threads) const {
   if (places.empty()) return {};
   const std::vector<double> velocity = velocities_of(places);
-  if (heat_) return with_heat(pressure, velocity, std::vector<double>(places.size(), heat_->temperature), threads);
   return samples_of(
       solved(rtol_, [&] { return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads); }), {});
 }
 
-std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> temperature,
+std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> height,
                                            unsigned threads) const {
+  if (!slant_) return sample_points(places, height, threads);
+  std::vector<MapPlace> points;
+  std::vector<double> temperature;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Slant::Point found = slant_->at(places[i].z, height[i]);
+    points.push_back({found.ln_velocity, places[i].x});
+    temperature.push_back(found.temperature);
+  }
+  return sample_points(points, temperature, threads);
+}
+
+std::vector<MapSample> MapFrame::sample_points(std::span<const MapPlace> points, std::span<const double> temperature,
+                                               unsigned threads) const {
+  if (points.empty()) return {};
   std::vector<double> pressure;
-  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z));
-  return with_heat(pressure, velocities_of(places), temperature, threads);
+  for (const MapPlace& point : points) pressure.push_back(std::exp(point.z));
+  return with_heat(pressure, velocities_of(points), temperature, threads);
 }
 
 void refuse_folds(const FlashFriction& f) {
@@ -130,7 +148,25 @@ std::vector<MapSample> MapFrame::samples_of(const Friction& f, std::span<const d
   return result;
 }
 
-std::vector<double> MapFrame::temperature_cuts() const {
+std::array<double, 2> MapFrame::z(double x) const {
+  if (slant_) return {cuts_.front(), cuts_.back()};
+  const double s = log_modulus_offset(x);
+  return {y_lo_ - s, y_hi_ - s};
+}
+
+bool MapFrame::in_box(const MapPlace& place) const {
+  if (slant_) return true;
+  const double y = place.z + log_modulus_offset(place.x);
+  return y >= y_lo_ && y <= y_hi_;
+}
+
+std::uint32_t MapFrame::band(double z) const {
+  const auto inner = std::span(cuts_).subspan(1, cuts_.size() - 2);
+  return static_cast<std::uint32_t>(std::ranges::upper_bound(inner, z) - inner.begin());
+}
+
+std::vector<double> MapFrame::height_cuts() const {
+  if (slant_) return {0, 1};
   const auto [lowest, highest] = heat_->range;
   std::vector<double> cuts{lowest};
   if (const auto* const table = std::get_if<ShiftTable>(heat_->shift))
@@ -141,6 +177,7 @@ std::vector<double> MapFrame::temperature_cuts() const {
 }
 
 double MapFrame::error_of_shift(std::span<const double> nodes) const {
+  if (slant_) return 0;
   const auto at = [&](double temperature) {
     const ShiftValue found = shift_at(*heat_->shift, temperature);
     return ValueAndSlope{std::numbers::ln10 * found.log10_a_T, std::numbers::ln10 * found.slope};
@@ -154,9 +191,9 @@ double MapFrame::error_of_shift(std::span<const double> nodes) const {
   return largest;
 }
 
-MapFrame MapFrame::at_temperature(double temperature) const {
+MapFrame MapFrame::at_height(double height) const {
   MapFrame other = *this;
-  other.heat_->temperature = temperature;
+  other.heat_->height = height;
   return other;
 }
 

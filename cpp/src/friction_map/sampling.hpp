@@ -1,4 +1,5 @@
-// The coordinates of a friction map, x = ln v and z = ln p - s(x), and what is sampled in them.
+// The coordinates of a friction map, x = ln v and z = ln p - s(x), or slanted ones (slant.hpp), and what is sampled in
+// them.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "asperity/build_friction_map.hpp"
 #include "friction_map/load_shift.hpp"
+#include "friction_map/slant.hpp"
 #include "numerics/interpolation.hpp"
 
 namespace asperity {
@@ -27,7 +29,7 @@ struct MapHeat {
   const Heating* heating;
   std::optional<Adhesion> adhesion;
   std::array<double, 2> range;  // temperatures of the background that the map holds [K]
-  double temperature;           // the one of this frame
+  double height;                // the one of this frame: a temperature, or the share of the way of a slanted line
 };
 
 /// InvalidInput, with the temperature and the velocity, where the heat has more than one steady state at a point.
@@ -41,13 +43,24 @@ class MapFrame {
 
   /// The temperatures of the background that the map holds [K]; 0 without heat.
   [[nodiscard]] std::array<double, 2> temperature() const { return heat_ ? heat_->range : std::array<double, 2>{0, 0}; }
+  /// The third coordinate, T0; or the share of the way along lines of constant v a_T, x being ln p and z ln(v a_T).
+  [[nodiscard]] std::array<double, 2> heights() const { return slant_ ? std::array<double, 2>{0, 1} : temperature(); }
+  [[nodiscard]] const std::optional<Slant>& slant() const { return slant_; }
   /// Those between which a_T is smooth: with the ends the rows of a table of shift factors.
-  [[nodiscard]] std::vector<double> temperature_cuts() const;
-  /// By how much ln a_T is off in the middles between nodes, over which cubics with its slopes go.
+  [[nodiscard]] std::vector<double> height_cuts() const;
+  /// By how much ln a_T is off in the middles between nodes, over which cubics with its slopes go; exact along slanted
+  /// lines.
   [[nodiscard]] double error_of_shift(std::span<const double> nodes) const;
   /// The same at another one.
-  [[nodiscard]] MapFrame at_temperature(double temperature) const;
-  [[nodiscard]] std::array<double, 2> x() const { return {x_lo_, x_hi_}; }
+  [[nodiscard]] MapFrame at_height(double height) const;
+  [[nodiscard]] std::array<double, 2> x() const {
+    return slant_ ? std::array<double, 2>{y_lo_, y_hi_} : std::array<double, 2>{x_lo_, x_hi_};
+  }
+  /// z of the box's sides at an x.
+  [[nodiscard]] std::array<double, 2> z(double x) const;
+  [[nodiscard]] bool in_box(const MapPlace& place) const;
+  [[nodiscard]] std::uint32_t band(double z) const;
+  [[nodiscard]] std::array<double, 2> ln_velocity() const { return {x_lo_, x_hi_}; }
   [[nodiscard]] double ln_pressure(int side) const { return side == 0 ? y_lo_ : y_hi_; }
   /// Where bands of one state begin and end, in z, rising: all of the box lies between the first and the last.
   [[nodiscard]] const std::vector<double>& cuts() const { return cuts_; }
@@ -73,9 +86,12 @@ class MapFrame {
   [[nodiscard]] MapFrame with_solver_rtol(double rtol) const;
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
-  /// With heat, at a temperature [K] for each.
-  [[nodiscard]] std::vector<MapSample> sample_at(std::span<const MapPlace> places, std::span<const double> temperature,
+  /// With heat, at a height for each.
+  [[nodiscard]] std::vector<MapSample> sample_at(std::span<const MapPlace> places, std::span<const double> height,
                                                  unsigned threads) const;
+  /// With heat, at ln v, ln p and a temperature [K] for each, whatever the coordinates are.
+  [[nodiscard]] std::vector<MapSample> sample_points(std::span<const MapPlace> points,
+                                                     std::span<const double> temperature, unsigned threads) const;
   /// At a place (ln v, ln p) without the shift of a Greenwood-Williamson correction. With it mu_H and A are those at
   /// p p_T, and mu_H is divided by p_T.
   [[nodiscard]] std::vector<MapSample> sample_unshifted(std::span<const MapPlace> places, unsigned threads) const;
@@ -99,6 +115,7 @@ class MapFrame {
   std::vector<double> offset_, cuts_;
   LoadShift load_shift_;
   std::optional<MapHeat> heat_;
+  std::optional<Slant> slant_;
   bool hysteresis_ = true;
 };
 

@@ -1,4 +1,5 @@
-// Polynomials over the background's temperature through patches of pressure and velocity at Chebyshev's points of it.
+// Polynomials over the background's temperature, or along slanted lines, through patches of pressure and velocity at
+// Chebyshev's points of it.
 #include "friction_map/slices.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double share = 1.0 / 20;       // of rtol, for the polynomials over T
+constexpr double share = 1.0 / 20;       // of rtol, for the polynomials over heights
 constexpr double node_share = 1.0 / 10;  // for the cubics between nodes
 constexpr int deepest = 6;               // of 64 intervals between two rows of a table of shift factors
 constexpr std::size_t most_steps = 256;
@@ -23,14 +24,14 @@ constexpr std::size_t places = 100;  // random places at which nodes are chosen
 }  // namespace
 
 MapSlices::MapSlices(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress)
-    : frame_(frame), rtol_(rtol), threads_(threads), progress_(progress), range_(frame.temperature()) {
+    : frame_(frame), rtol_(rtol), threads_(threads), progress_(progress), range_(frame.heights()) {
   if (range_[0] == range_[1]) {
     Interval& only = intervals_.emplace_back(Interval{range_[0], range_[1], 0, {}, {}});
     only.patches.push_back(std::make_unique<MapPatches>(frame, rtol, threads, progress));
     nodes_ = checked_ = {range_[0]};
     return;
   }
-  std::vector<double> ends = frame.temperature_cuts();
+  std::vector<double> ends = frame.height_cuts();
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) add(ends[i], ends[i + 1], 0);
   choose_nodes();
 }
@@ -38,25 +39,27 @@ MapSlices::MapSlices(const MapFrame& frame, double rtol, unsigned threads, const
 MapPlace MapSlices::random_place() {
   const auto [x_lo, x_hi] = frame_.x();
   const double x = x_lo + random_() * (x_hi - x_lo);
-  return {x, frame_.ln_pressure(0) + random_() * (frame_.ln_pressure(1) - frame_.ln_pressure(0))};
+  const auto [bottom, top] = frame_.z(x);
+  return {x, bottom + random_() * (top - bottom)};
 }
 
-/// Before patches are made at 12 temperatures, 25 places tell whether as many will do.
+/// Before patches are made at 12 heights, 25 places tell whether as many will do.
 bool MapSlices::is_smooth(double lower, double upper) const {
   const ChebyshevPoints<n>& points = chebyshev_points<n>();
   constexpr std::size_t a_side = 5;
   std::vector<MapPlace> at;
-  std::vector<double> temperature;
+  std::vector<double> height;
   for (std::size_t i = 0; i < a_side; ++i)
     for (std::size_t j = 0; j < a_side; ++j)
       for (const double t : points.point) {
         const double share_x = static_cast<double>(i) / (a_side - 1), share_z = static_cast<double>(j) / (a_side - 1);
         const auto [x_lo, x_hi] = frame_.x();
-        at.push_back({x_lo + share_x * (x_hi - x_lo),
-                      frame_.ln_pressure(0) + share_z * (frame_.ln_pressure(1) - frame_.ln_pressure(0))});
-        temperature.push_back(std::clamp((lower + upper) / 2 + (upper - lower) / 2 * t, lower, upper));
+        const double x = x_lo + share_x * (x_hi - x_lo);
+        const auto [bottom, top] = frame_.z(x);
+        at.push_back({x, bottom + share_z * (top - bottom)});
+        height.push_back(std::clamp((lower + upper) / 2 + (upper - lower) / 2 * t, lower, upper));
       }
-  const std::vector<MapSample> found = frame_.sample_at(at, temperature, threads_);
+  const std::vector<MapSample> found = frame_.sample_at(at, height, threads_);
   for (std::size_t k = 0; k < a_side * a_side; ++k)
     for (std::size_t f = 0; f < 2; ++f)
       for (const std::size_t m : {n - 2, n - 1}) {
@@ -81,17 +84,17 @@ void MapSlices::add(double lower, double upper, int depth) {
   tell(upper);
 }
 
-/// Progress up to a temperature; it stays where an interval that was halved is made anew.
-void MapSlices::tell(double temperature) {
-  told_ = std::fmax(told_, (temperature - range_[0]) / (range_[1] - range_[0]));
+/// Progress up to a height; it stays where an interval that was halved is made anew.
+void MapSlices::tell(double height) {
+  told_ = std::fmax(told_, (height - range_[0]) / (range_[1] - range_[0]));
   if (progress_) progress_(told_);
 }
 
 void MapSlices::make(Interval& interval) {
   for (const double t : chebyshev_points<n>().point) {
     const double middle = (interval.lower + interval.upper) / 2, half = (interval.upper - interval.lower) / 2;
-    const double temperature = std::clamp(middle + half * t, interval.lower, interval.upper);
-    interval.frames.push_back(std::make_unique<MapFrame>(frame_.at_temperature(temperature)));
+    const double height = std::clamp(middle + half * t, interval.lower, interval.upper);
+    interval.frames.push_back(std::make_unique<MapFrame>(frame_.at_height(height)));
     interval.patches.push_back(
         std::make_unique<MapPatches>(*interval.frames.back(), rtol_, threads_, std::function<void(double)>{}));
     const double made = static_cast<double>(interval.patches.size()) / n;
@@ -102,16 +105,16 @@ void MapSlices::make(Interval& interval) {
 /// The largest error at random points of the interval.
 double MapSlices::test(Interval& interval) {
   std::vector<MapPlace> at;
-  std::vector<double> temperature;
+  std::vector<double> height;
   for (std::size_t i = 0; i < tested; ++i) {
     at.push_back(random_place());
-    temperature.push_back(interval.lower + random_() * (interval.upper - interval.lower));
+    height.push_back(interval.lower + random_() * (interval.upper - interval.lower));
   }
-  const std::vector<MapSample> truth = frame_.sample_at(at, temperature, threads_);
+  const std::vector<MapSample> truth = frame_.sample_at(at, height, threads_);
   intervals_.push_back(std::move(interval));
   double largest = 0;
   for (std::size_t i = 0; i < tested; ++i) {
-    const MapSample found = this->at(at[i], temperature[i]);
+    const MapSample found = this->at(at[i], height[i]);
     for (std::size_t f = 0; f < 2; ++f) largest = std::fmax(largest, std::fabs(found.f[f] - truth[i].f[f]));
   }
   interval = std::move(intervals_.back());
@@ -119,11 +122,11 @@ double MapSlices::test(Interval& interval) {
   return largest;
 }
 
-MapSlices::Combination MapSlices::combination(double temperature) const {
-  const auto above = std::ranges::upper_bound(intervals_, temperature, {}, &Interval::lower);
+MapSlices::Combination MapSlices::combination(double height) const {
+  const auto above = std::ranges::upper_bound(intervals_, height, {}, &Interval::lower);
   const std::size_t k = above == intervals_.begin() ? 0 : static_cast<std::size_t>(above - intervals_.begin()) - 1;
   const double half = (intervals_[k].upper - intervals_[k].lower) / 2;
-  const double t = (temperature - intervals_[k].lower) / half - 1;
+  const double t = (height - intervals_[k].lower) / half - 1;
   const Weights value = chebyshev<n>(t), slope = chebyshev_slopes<n>(t)[0];
   Combination sum{k, {}, {}};
   const ChebyshevPoints<n>& points = chebyshev_points<n>();
@@ -144,9 +147,9 @@ MapSample MapSlices::combined(const Combination& sum, std::span<const MapSample>
   return result;
 }
 
-MapSample MapSlices::at(const MapPlace& place, double temperature) {
+MapSample MapSlices::at(const MapPlace& place, double height) {
   if (planes() == 1 && range_[0] == range_[1]) return intervals_[0].patches[0]->at(place);
-  const Combination sum = combination(temperature);
+  const Combination sum = combination(height);
   std::array<MapSample, n> samples;
   for (std::size_t i = 0; i < n; ++i) samples[i] = intervals_[sum.interval].patches[i]->at(place);
   return combined(sum, samples);
@@ -209,7 +212,7 @@ double MapSlices::error_between_nodes() {
   for (std::size_t k = 0; k < places; ++k) {
     heed();
     const MapPlace place = random_place();
-    const std::vector<MapSlopes> planes = slopes(0, place);
+    const std::vector<MapSlopes> planes = slopes(frame_.band(place.z), place);
     const std::vector<MapSample> truth = column(place);
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)
       for (std::size_t f = 0; f < 2; ++f) {
@@ -231,8 +234,8 @@ void MapSlices::choose_nodes() {
     const auto more = static_cast<std::size_t>(std::ceil(static_cast<double>(steps) * factor));
     if (more > most_steps)
       throw NotConverged("rtol = " + show(rtol_) + ": " + show(error, 3) + " was reached between " +
-                         std::to_string(steps + 1) + " temperatures from " + show(range_[0], 6) + " to " +
-                         show(range_[1], 6) + " K");
+                         std::to_string(steps + 1) + " temperatures from " + show(frame_.temperature()[0], 6) + " to " +
+                         show(frame_.temperature()[1], 6) + " K");
     steps = more;
   }
 }

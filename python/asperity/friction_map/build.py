@@ -77,8 +77,9 @@ def friction_map(
     shift, heating
         As for `friction`. With heating a point of the solver takes some 0.2 ms, the check of a
         million some minutes. Corrections by Greenwood-Williamson's model are refused, and
-        so are GSL's methods. A measured master curve over a range takes
-        many minutes: `progress` tells how far it is.
+        so are GSL's methods. A measured master curve over a range takes minutes where `shift` is a
+        law (`WLF`, or of `fit_wlf()` or `fit_arrhenius()`), and far more with shift factors:
+        `progress` tells how far it is.
     progress : callable, optional
         Called with the share of the work that is done, from 0 to 1, now and then.
 

@@ -125,6 +125,32 @@ TEST_CASE("a map without heat inside of one with it must be one") {
   CHECK(says(altered(head + 48, std::bit_cast<std::uint64_t>(probe::nan()), 8), "its tables contradict each other"));
 }
 
+TEST_CASE("a slanted map without a_T, with a pole in it or of one temperature is refused") {
+  const Bytes good = small_map::make({.bands = 3, .temperatures = 4, .slanted = true});
+  CHECK(refusal(good).empty());
+  constexpr std::size_t law = 152 + 48;
+  const auto altered = [&](std::size_t at, std::uint64_t value, int size) {
+    Bytes bytes = good;
+    small_map::overwrite(bytes, at, value, size);
+    small_map::repair(bytes);
+    return bytes;
+  };
+  const auto number = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  for (const double a : {probe::nan(), probe::infinity(), 1e3, -1e3})  // the last would be e^10000
+    CHECK(says(altered(law, number(a), 8), "its tables contradict each other"));
+  for (const double b : {probe::nan(), -1 / 60.0, -1.0, 1e4})
+    CHECK(says(altered(law + 8, number(b), 8), "its tables contradict each other"));
+  CHECK(says(small_map::make({.bands = 2, .temperatures = 4, .slanted = true}), "its head contradicts itself"));
+  CHECK(says(altered(12, 2, 4), "its head contradicts itself"));  // as one of version 2 it would have more numbers
+  CHECK(says(altered(152 + 32, 1, 4), "its head contradicts itself"));
+  CHECK(says(altered(152 + 8, number(small_map::coldest), 8), "its head contradicts itself"));
+  for (std::size_t n = 8; n < 64; n += 8) {  // cut within the head and the law
+    Bytes bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(law - 24 + n));
+    small_map::repair(bytes);
+    CHECK_FALSE(refusal(bytes).empty());
+  }
+}
+
 TEST_CASE("what is wrong with a file is named") {
   const Bytes good = small_map::make({});
   CHECK(refusal(good).empty());
@@ -133,8 +159,8 @@ TEST_CASE("what is wrong with a file is named") {
   small_map::overwrite(bytes, 8, 0x04030201, 4);
   CHECK(says(bytes, "the other byte order"));
   bytes = good;
-  small_map::overwrite(bytes, 12, 3, 4);
-  CHECK(says(bytes, "has layout version 3: must be 1 or 2"));
+  small_map::overwrite(bytes, 12, 4, 4);
+  CHECK(says(bytes, "has layout version 4: must be 1, 2 or 3"));
   bytes = good;
   bytes.resize(good.size() - 100);
   CHECK(says(bytes, "is truncated: "));

@@ -173,8 +173,8 @@ def test_every_altered_byte_is_refused(found):
 
 def test_other_versions_and_byte_orders_are_named(found):
     content = found.to_bytes()
-    other = content[:12] + struct.pack("<I", 3) + content[16:]
-    with pytest.raises(InvalidInput, match="has layout version 3: must be 1 or 2"):
+    other = content[:12] + struct.pack("<I", 4) + content[16:]
+    with pytest.raises(InvalidInput, match="has layout version 4: must be 1, 2 or 3"):
         FrictionMap.from_bytes(other)
     other = content[:8] + struct.pack(">I", 0x01020304) + content[12:]
     with pytest.raises(InvalidInput, match="was written in the other byte order"):

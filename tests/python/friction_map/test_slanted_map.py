@@ -1,0 +1,207 @@
+"""Friction maps with heat over a range of temperatures of measured rubber: version 3."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import WLF, Adhesion, Heating, MasterCurve, friction, friction_map
+from helpers.cases import long
+
+ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+SERIES = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
+    relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
+)
+LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+RANGE = (288.15, 298.15)
+# ln a_T goes over 2.0: the first box is longer than that in ln v, the second shorter
+BOXES = {
+    "wide": {"pressure": (1e5, 3e5), "velocity": (0.3, 4.0)},
+    "narrow": {"pressure": (1e5, 3e5), "velocity": (1.5, 4.0)},
+}
+GIVEN = {
+    "shift": LAW,
+    "heating": Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3),
+    "adhesion": Adhesion(shear_stress=8.3e6),
+}
+TABLE = asperity.ShiftFactors(  # whose a_T has kinks of its own
+    reference_temperature=293.15, temperature=[280, 294, 310, 400], log10_a_T=[1.0, -0.1, -1, -4]
+)
+PARTS = ("mu", "hysteresis", "adhesion", "contact_area")
+
+
+def curve():
+    """Four rows a decade: the modulus has a kink at each."""
+    w = np.geomspace(1e-3, 1e11, 57)
+    e = SERIES.modulus(w)
+    return MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
+
+
+CURVE = curve()
+
+
+@pytest.fixture(scope="module", params=BOXES)
+def found(request):
+    return friction_map(
+        ROAD, CURVE, temperature=RANGE, **BOXES[request.param], **GIVEN, rtol=1e-3, checked=1000
+    )
+
+
+def points(found, count, seed=1):
+    """The corners of the box, points on its sides, and random ones."""
+    sides = (found.pressure, found.velocity, found.temperature)
+    corners = [a.ravel() for a in np.meshgrid(*sides, indexing="ij")]
+    draws = np.random.default_rng(seed)
+    drawn = []
+    for side, corner in zip(sides, corners, strict=True):
+        column = np.exp(draws.uniform(*np.log(side), count))
+        edge = draws.random(count)
+        column[edge < 0.1], column[edge > 0.9] = side
+        drawn.append(np.concatenate((corner, column.clip(*side))))
+    return dict(zip(("pressure", "velocity", "temperature"), drawn, strict=True))
+
+
+def test_it_is_as_good_as_it_says_to_the_corners_of_the_box(found):
+    assert 0 < found.max_error <= found.rtol
+    assert (found.checked, found.exceeded) == (1000, 0)
+    assert found.to_bytes()[12] == 3
+    assert asperity.FrictionMap.from_bytes(found.to_bytes()) == found
+    at = points(found, 200)
+    truth = friction(ROAD, CURVE, **at, **GIVEN, rtol=1e-7)
+    assert np.ptp(np.log(truth.mu / truth.cold.mu)) > 0.5  # heat has its say
+    for part in PARTS:
+        exact = getattr(truth, part)
+        np.testing.assert_array_less(
+            np.abs(getattr(found, part)(**at) - exact), found.max_error * exact, err_msg=part
+        )
+        begun = getattr(found, part)(**at, distance=0.0)
+        cold = getattr(truth.cold, part)
+        np.testing.assert_array_less(
+            np.abs(begun - cold), found.cold.max_error * cold + 1e-6 * cold, err_msg=part
+        )
+
+
+def test_arrays_numbers_and_one_temperature_for_all_give_the_same(found):
+    at = points(found, 600, seed=2)
+    for distance in (None, 1e-4):
+        together = found.mu(**at, distance=distance)
+        alone = [
+            found.mu(float(p), float(v), temperature=float(t), distance=distance)
+            for p, v, t in zip(*at.values(), strict=True)
+        ]
+        np.testing.assert_allclose(together, alone, rtol=2e-13)
+        shared = at | {"temperature": 290.0}
+        alone = [
+            found.mu(float(p), float(v), temperature=290.0, distance=distance)
+            for p, v in zip(at["pressure"], at["velocity"], strict=True)
+        ]
+        np.testing.assert_allclose(found.mu(**shared, distance=distance), alone, rtol=2e-13)
+
+
+def test_slopes_are_those_of_mu_to_the_corners_of_the_box(found):
+    at = points(found, 200, seed=3)
+    slopes, h = found.derivatives(**at), 1e-5
+    for column, slope in (("velocity", slopes.dmu_dlnv), ("pressure", slopes.dmu_dlnp)):
+        side = getattr(found, column)
+        higher, lower = ((at[column] * np.exp(sign * h)).clip(*side) for sign in (1, -1))
+        rise = found.mu(**at | {column: higher}) - found.mu(**at | {column: lower})
+        # on a side of the box the difference is one of first order
+        np.testing.assert_allclose(
+            slope, rise / np.log(higher / lower), rtol=1e-4, atol=1e-4, err_msg=column
+        )
+
+
+def test_on_the_way_from_cold_to_hot(found):
+    at = points(found, 100, seed=4)
+    s0 = found.sliding_length(at["velocity"], temperature=at["temperature"])
+    begun, long_ago = found.mu(**at, distance=0.0), found.mu(**at)
+    expected = long_ago + (begun - long_ago) / np.e
+    np.testing.assert_allclose(found.mu(**at, distance=s0), expected, rtol=1e-12)
+
+
+def test_outside_is_held_at_the_box(found):
+    v = found.velocity[1]
+    beyond = found.mu(2e5, 2 * v, temperature=400.0, outside="clamp")
+    assert beyond == pytest.approx(found.mu(2e5, v, temperature=RANGE[1]), rel=1e-14)
+    with pytest.raises(asperity.OutOfRange, match=r"velocity = .*the map covers"):
+        found.mu(2e5, 2 * v, temperature=290.0)
+
+
+@pytest.mark.parametrize(
+    ("rubber", "shift", "version"), [(SERIES, LAW, 2), long(CURVE, TABLE, 2), long(CURVE, LAW, 3)]
+)
+def test_which_maps_are_of_which_version(rubber, shift, version):
+    box = {"pressure": (1e5, 1.2e5), "velocity": (0.98, 1.0), "temperature": (290.0, 290.2)}
+    made = friction_map(ROAD, rubber, **box, **GIVEN | {"shift": shift}, rtol=0.1, checked=0)
+    assert made.to_bytes()[12] == version
+
+
+def test_one_temperature_of_a_box_that_is_rough_throughout():
+    """The polynomials that it begins with are all halved before one is held against points."""
+    box = {"pressure": (1e5, 1.2e5), "velocity": (0.6, 4.0)}
+    made = friction_map(ROAD, CURVE, temperature=293.15, **box, **GIVEN, rtol=1e-3, checked=400)
+    assert (made.to_bytes()[12], made.exceeded) == (2, 0)
+
+
+class ByDocumentation:
+    """The look-up of long ago, as friction_map.hpp states the layout of version 3."""
+
+    def __init__(self, content):
+        def take(kind, count):
+            nonlocal at
+            numbers = np.frombuffer(content, kind, count, at)
+            at += numbers.nbytes
+            return numbers
+
+        at = 24
+        self.p, self.v = take("<f8", 4).reshape(2, 2)
+        at = 120
+        has_hysteresis, bands, nodes, grids, entries, cells, _, _ = take("<u4", 8)
+        assert (has_hysteresis, bands, nodes) == (1, 3, 0)
+        self.T0 = take("<f8", 2)
+        at = 184
+        self.m, columns, rows, _ = (int(n) for n in take("<u4", 4))
+        self.a, self.b = take("<f8", 2)
+        take("<f8", 2 * columns * rows)
+        self.ends = take("<f8", bands + 1)
+        self.grids = []
+        for _ in range(grids):
+            place, (i, j, first, _) = take("<f8", 4), take("<u4", 4)
+            self.grids.append((*place, int(i), int(j), int(first)))
+        self.entries = take("<i4", entries)
+        at = -(-at // 8) * 8
+        size = 2 + 128 * (self.m - 1)
+        self.cells = take("<f8", size * cells).reshape(cells, size)
+
+    def hysteresis_and_area(self, p, v, temperature):
+        def law(t):
+            return self.a * t / (1 + self.b * t)
+
+        y, g = np.log(p), law(temperature - self.T0[0])
+        least, most = sorted((0.0, law(self.T0[1] - self.T0[0])))
+        above = min(g - least, np.log(self.v[1] / v))
+        below = min(most - g, np.log(v / self.v[0]))
+        share, z = above / max(above + below, 1e-300), np.log(v) + g
+        k = int(np.searchsorted(self.ends[1:-1], z, side="right"))
+        while True:
+            first_y, first_z, per_y, per_z, columns, rows, first = self.grids[k]
+            i = min(max(int((y - first_y) * per_y), 0), columns - 1)
+            j = min(max(int((z - first_z) * per_z), 0), rows - 1)
+            k = self.entries[first + i * rows + j]
+            if k >= 0:
+                break
+            k = -1 - int(k)
+        y0, z0, *numbers = self.cells[k]
+        step = min(int(share * (self.m - 1)), self.m - 2)
+        power = np.array(numbers).reshape(self.m - 1, 4, 4, 4, 2)[step]  # of share, z, y
+        d = share - step / (self.m - 1)
+        by = (np.power(x, range(4)) for x in (d, z - z0, y - y0))
+        return np.exp(np.einsum("tjik,t,j,i->k", power, *by))
+
+
+def test_the_documentation_is_enough_to_read_a_file(found):
+    read, at = ByDocumentation(found.to_bytes()), points(found, 100, seed=5)
+    exact = np.array([read.hysteresis_and_area(*point) for point in zip(*at.values(), strict=True)])
+    np.testing.assert_allclose(found.hysteresis(**at), exact[:, 0], rtol=1e-11)
+    np.testing.assert_allclose(found.contact_area(**at), exact[:, 1], rtol=1e-11)
