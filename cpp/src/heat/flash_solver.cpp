@@ -24,6 +24,8 @@ constexpr std::size_t levels = 7;  // up to 16 digits
 /// Rows of a measured modulus lie anywhere in panels, and levels tell what they miss of these only where they differ:
 /// so panels are halved from level to level, and where rows scatter more often.
 constexpr std::size_t levels_with_rows = 11;
+/// From which on panels are not halved once more: matrices of twice as many nodes take a quarter of a gigabyte.
+constexpr std::size_t most_nodes = 30'000;
 /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
 constexpr std::size_t pieces_rows = 16;
 constexpr double pieces_rtol = 1e-7;
@@ -141,10 +143,10 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
     const bool by_pieces =
         table && stops_.empty() && scene_.model.rtol >= pieces_rtol && table->wavenumber().size() >= pieces_rows;
-    if (by_pieces && level <= RoughnessPieces::levels)
+    if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels))
       options.pieces = &table->surface().pieces(*table, level - 1);
     else if (has_rows())
-      options.halvings = level - (by_pieces ? RoughnessPieces::levels : 1);
+      options.halvings = level - (by_pieces ? 3 : 1);  // of some twice as many nodes as the last pieces
     made.grid = std::make_unique<HeatGrid>(scene_.surface, options);
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);
     if (level > 0 && levels_[level - 1].grid) {
@@ -227,7 +229,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
   before_.push_back({point.velocity, level_, found.theta});
   const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
   for (std::size_t level = level_ + 1;; ++level) {
-    if (level == levels_.size()) {
+    const bool too_fine = has_rows() && level > level_ + 1 && map->grid().size() > most_nodes;
+    if (level == levels_.size() || too_fine) {
       check_temperatures(*map, found, point);
       throw NotConverged("mu = " + show(map->hysteresis() + map->adhesion()) +
                          " with the heat it makes, on a grid of " + std::to_string(map->grid().size()) +

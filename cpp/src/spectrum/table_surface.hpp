@@ -31,12 +31,12 @@ class TableSurface {
  private:
   std::once_flag segments_made_, slope_made_, nayak_made_, rows_made_;
   std::array<std::once_flag, grids> rings_made_;
-  std::array<std::once_flag, RoughnessPieces::levels> pieces_made_;
+  std::array<std::once_flag, RoughnessPieces::levels_with_rows> pieces_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
   std::unique_ptr<const RingRows> rows_;
   std::array<std::unique_ptr<const RingSurface>, grids> rings_;
-  std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels> pieces_;
+  std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels_with_rows> pieces_;
 };
 
 /// The segments of a spectrum for as long as it is there: a table's own, or made here.
