@@ -40,6 +40,8 @@ constexpr double least_error = 1.0 / 30;
 /// measured modulus lie anywhere between nodes levels do not get better by two digits each, and twice was exceeded at
 /// one of 400 random points. Of these the tolerance itself is told, as chance is more frequent.
 constexpr double differences = 2, differences_with_rows = 4;
+/// What a grid of half the distances keeps of an error, at least: pieces of two nodes are of fourth order at best.
+constexpr double kept_of_a_kink = 1.0 / 16;
 
 /// The part of mu_H up to each end of a cell, and on from the roughness' end that of the edges of contacts. Places are
 /// wavenumbers, on pieces the G up to them at I2 = 1, which all levels have alike.
@@ -228,6 +230,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
   if (before_.size() == 2) before_.erase(before_.begin());
   before_.push_back({point.velocity, level_, found.theta});
   const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
+  double before = 0;  // how far the two grids before were apart in mu
   for (std::size_t level = level_ + 1;; ++level) {
     const bool too_fine = has_rows() && level > level_ + 1 && map->grid().size() > most_nodes;
     if (level == levels_.size() || too_fine) {
@@ -247,15 +250,21 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       before_.back() = {point.velocity, level - 1, found.theta};
     }
     found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
-    const double apart = most_apart(*map, finer);
+    double apart = most_apart(*map, finer);
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
+    apart = std::fmax(apart, std::fabs(mu - coarse));
+    // Where one row's kink counts for most, two grids may have it alike between their nodes and tell nothing of it;
+    // seldom have three. Of what the two before were apart these keep a part; two alone must agree so much better.
+    if (const double now = apart; has_rows()) {
+      apart = before > 0 ? std::fmax(now, kept_of_a_kink * before) : now / kept_of_a_kink;
+      before = now;
+    }
     // the residual's effect is taken to first order
     const double times = has_rows() ? differences_with_rows : differences;
     const double least = std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error;
-    const double error = times * std::fmax(std::fabs(mu - coarse), apart) +
-                         2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
+    const double error = times * apart + 2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
     // an elastic rubber has an area alone
     const double area = map->contact_area(), of_area = std::fabs(area - coarse_area);
     if (!(error <= rtol * mu && of_area <= rtol * area)) {
