@@ -32,6 +32,8 @@ def _in_celsius(message: str, name: str) -> str:
     value = rf"(?<={re.escape(name)}_k = ){_NUMBER}"
     message = re.sub(value, lambda told: _degrees(told[0]), message)
     message = message.replace(f"{name}_k", f"{name}_c")
+    least = rf"at least ({_NUMBER}); its unit is kelvin"
+    message = re.sub(least, lambda told: f"at least {_degrees(told[1])} C", message)
     known = rf"\[({_NUMBER}), ({_NUMBER})\] K"
     return re.sub(known, lambda told: f"[{_degrees(told[1])}, {_degrees(told[2])}] C", message)
 

@@ -156,6 +156,11 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
         ),
         (scene("temperature_k = 20"), "[conditions] temperature_k = 20"),
         (scene("temperature_k = 3\ntemperature_c = 20"), "[conditions] temperature_k = 3: must be"),
+        (scene("temperature_k = 149.0"), "temperature_k = 149.0: must be finite and at least 150;"),
+        (
+            scene("temperature_c = -130"),
+            "temperature_c = -130: must be finite and at least -123.15 C",
+        ),
         (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
         (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
         (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out where shift"),
