@@ -230,7 +230,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
   if (before_.size() == 2) before_.erase(before_.begin());
   before_.push_back({point.velocity, level_, found.theta});
   const double gain = gain_of(*map, tangent_, std::fmax(1e-9, 0.03 * std::sqrt(rtol)));
-  double before = 0;  // how far the two grids before were apart in mu
+  double apart_before = 0;  // the two grids before, in mu
   for (std::size_t level = level_ + 1;; ++level) {
     const bool too_fine = has_rows() && level > level_ + 1 && map->grid().size() > most_nodes;
     if (level == levels_.size() || too_fine) {
@@ -258,8 +258,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     // Where one row's kink counts for most, two grids may have it alike between their nodes and tell nothing of it;
     // seldom have three. Of what the two before were apart these keep a part; two alone must agree so much better.
     if (const double now = apart; has_rows()) {
-      apart = before > 0 ? std::fmax(now, kept_of_a_kink * before) : now / kept_of_a_kink;
-      before = now;
+      apart = apart_before > 0 ? std::fmax(now, kept_of_a_kink * apart_before) : now / kept_of_a_kink;
+      apart_before = now;
     }
     // the residual's effect is taken to first order
     const double times = has_rows() ? differences_with_rows : differences;
