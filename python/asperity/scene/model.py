@@ -25,6 +25,7 @@ from asperity.io.fields import (
 from asperity.results.extrapolation_notes import with_velocities
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
+from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.keys import NAMES, UNCERTAINTY
 from asperity.scene.parts import (
     HEATING_NAMES,
@@ -274,7 +275,8 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        with self._explaining_range(), rename_in_errors(self.path, self._names, self.typed):
+        renamed = rename_in_errors(self.path, self._names, self.typed)
+        with self._explaining_range(), celsius_in_errors(self.typed), renamed:
             try:
                 with progress(chunks) as shown:
                     return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]

@@ -288,3 +288,17 @@ def test_the_note_on_a_clipped_wavenumber_names_the_key_of_a_scene(dma: Path) ->
     wide = SCENE + HEATING.replace("1e-3", "1e-2")  # 2 pi / 1 cm lies below q0
     notes = loaded(dma, wide, for_friction=True).friction().notes
     assert any(note.endswith("give macro_wavenumber_per_m or macro_area") for note in notes)
+
+
+def test_heat_beyond_the_modulus_tells_the_temperature_as_it_was_given(
+    dma: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _, fastest = known(dma)
+    text = swept(SCENE.replace("temperature_c = 20", ""), fastest, 100 * fastest)
+    text += "temperature_c = 20\n[heating]\ndensity_kg_m3 = 1200\nheat_capacity_j_kg_k = 1650\n"
+    text += "conductivity_w_m_k = 0.23\ncontact_diameter_m = 1e-3\n"
+    loaded(dma, text, for_friction=True)
+    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 2
+    told = capsys.readouterr().err
+    assert "[conditions] temperature_c = 20" in told
+    assert "temperature_k" not in told
