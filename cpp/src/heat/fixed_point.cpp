@@ -92,6 +92,13 @@ void take_effects(const Tangent& tangent, const VectorXd& step, FixedPoint& foun
   found.area_error = tangent.part_slopes.area.cwiseAbs().dot(size);
 }
 
+/// Whether the curve of the march may turn about near a solution, where there are others: theta grows much faster than
+/// eps, d ln theta / d ln eps = (1 - dF)^-1 theta / theta.
+bool turns_near(const VectorXd& theta, const Tangent& tangent) {
+  constexpr double fast = 1.5;
+  return !(tangent.lu.solve(theta).cwiseAbs().array() < fast * theta.array()).all();
+}
+
 FixedPoint finished(const FlashMap& map, const VectorXd& theta, const Tangent& tangent) {
   FixedPoint found;
   found.theta = theta;
@@ -134,21 +141,23 @@ void Tangent::take(FlashMap& map) {
   part_slopes = map.part_slopes();
 }
 
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess, bool alone, Branch branch,
-                             double tolerance, Tangent& tangent) {
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess,
+                             std::optional<double> only_rise, Branch branch, double tolerance, Tangent& tangent) {
   constexpr int passes = 12;
-  if (alone && guess.size() != 0)
-    if (const auto theta = newton(map, guess, tolerance, passes, tangent)) return finished(map, *theta, tangent);
+  if (only_rise) {
+    if (guess.size() != 0)
+      if (const auto theta = newton(map, guess, tolerance, passes, tangent); theta && !turns_near(*theta, tangent))
+        return finished(map, *theta, tangent);
+    map(VectorXd::Constant(map.rise_size(), *only_rise));
+    const VectorXd start = *only_rise / map.rise()[map.rise_size() - 1] * map.rise();
+    if (const auto theta = newton(map, start, tolerance, passes, tangent); theta && !turns_near(*theta, tangent))
+      return finished(map, *theta, tangent);
+  }
   map(VectorXd::Zero(map.rise_size()));
   const VectorXd cold_rise = map.rise();
   if (cold_rise.lpNorm<Eigen::Infinity>() == 0) {
     tangent.take(map);
     return finished(map, cold_rise, tangent);
-  }
-  if (alone) {
-    const double gain = cold_rise.dot(map.along(cold_rise)) / cold_rise.squaredNorm();
-    const VectorXd start = cold_rise / (1 - std::fmin(gain, 0.5));
-    if (const auto theta = newton(map, start, tolerance, passes, tangent)) return finished(map, *theta, tangent);
   }
   return by_march(map, point, cold_rise, branch, tolerance, tangent);
 }

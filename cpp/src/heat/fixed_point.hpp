@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <optional>
 
 #include "heat/march.hpp"
 
@@ -26,11 +27,12 @@ struct Tangent {
   void take(FlashMap& map);
 };
 
-/// A solution of theta = F(theta): where it is `alone`, from `guess` by Newton's method; otherwise, or where that does
-/// not end, the march finds all. Tolerance relative to the largest rise. Leaves the map at the solution. NotConverged,
-/// or OutOfRange where there is none up to the temperature that rubber stands.
-FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess, bool alone,
-                             Branch branch, double tolerance, Tangent& tangent);
+/// A solution of theta = F(theta): where there is one only, whose rise is about `only_rise` [K], by Newton's method
+/// from `guess`, or from the profile of that rise; otherwise, or where that does not end or ends near others, the march
+/// finds all. Tolerance relative to the largest rise. Leaves the map at the solution. NotConverged, or OutOfRange where
+/// there is none up to the temperature that rubber stands.
+FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Eigen::VectorXd& guess,
+                             std::optional<double> only_rise, Branch branch, double tolerance, Tangent& tangent);
 
 /// The same on a finer grid from the solution of a coarser one, whose slopes do: `up` and `down` carry profiles from
 /// the coarser grid to the finer one and back.

@@ -22,7 +22,8 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
       angular_(scene.rubber),
       contact_(heat_contact(scene.model, scene.spectrum, scene.surface, grid)),
       known_(known_range(scene.rubber)),
-      table_(grid.temperature_points(), grid.wavenumber()) {
+      table_(grid.temperature_points(), grid.wavenumber()),
+      at_macro_(grid.row_at(scene.macro_wavenumber)) {
   const auto n = static_cast<Index>(grid.size());
   reduced_.resize(grid.size());
   for (auto* column : {&rate_, &modulus_.i2, &modulus_.ratio}) column->setZero(n);
@@ -77,11 +78,20 @@ FlashMap::ContactHeat FlashMap::contact_heat() const {
   return {contact_->part(), contact_->area(), macro_area_};
 }
 
-double FlashMap::last_rise(const ContactHeat& contact) const {
+double FlashMap::heat_at(const Eigen::Ref<const RowVectorXd, 0, Eigen::InnerStride<>>& kernel, double surface,
+                         const ContactHeat& contact) const {
+  const double by_depth = 2 * mu_factor_ * kernel.dot(contact.part);
+  const double by_surface = scene_.heating.interface_share * point_.adhesion_per_area * contact.area * surface;
+  return per_flux_ * (by_depth + by_surface);
+}
+
+double FlashMap::last_heat(const ContactHeat& contact) const {
   const Index last = kernel_.rows() - 1;
-  const double by_depth = 2 * mu_factor_ * kernel_.row(last).dot(contact.part);
-  const double by_surface = scene_.heating.interface_share * point_.adhesion_per_area * contact.area * surface_[last];
-  return per_flux_ / contact.macro_area * (by_depth + by_surface);
+  return heat_at(kernel_.row(last), surface_[last], contact);
+}
+
+double FlashMap::macro_share(const ContactHeat& contact) const {
+  return heat_at(at_macro_ * kernel_, at_macro_.dot(surface_), contact) / last_heat(contact);
 }
 
 void FlashMap::take_modulus(NodeModulus& modulus) {

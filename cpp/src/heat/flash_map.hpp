@@ -54,13 +54,15 @@ class FlashMap {
 
   /// A pass with one a_T for all roughness.
   void at_one_shift(double log_a_T);
-  /// What the contact was in the last pass, and the rise [K] at the last temperature point that another contact makes.
+  /// What the contact was in the last pass; the heat of another one, which over its macro-asperities is the rise [K] at
+  /// the last temperature point; and the share of that rise that q_m feels.
   struct ContactHeat {
     Eigen::VectorXd part;  // as HeatContact has it
     double area = 0, macro_area = 1;
   };
   [[nodiscard]] ContactHeat contact_heat() const;
-  [[nodiscard]] double last_rise(const ContactHeat& contact) const;
+  [[nodiscard]] double last_heat(const ContactHeat& contact) const;
+  [[nodiscard]] double macro_share(const ContactHeat& contact) const;
 
   [[nodiscard]] const HeatGrid& grid() const { return grid_; }
   [[nodiscard]] const HeatScene& scene() const { return scene_; }
@@ -103,6 +105,8 @@ class FlashMap {
   void pass(const Eigen::VectorXd& theta, std::optional<double> log_kappa);
   void pass(const ShiftValue& also_felt, std::optional<double> log_kappa = {});
   void heat(std::optional<double> log_kappa);
+  [[nodiscard]] double heat_at(const Eigen::Ref<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>& kernel,
+                               double surface, const ContactHeat& contact) const;
   void take_slopes();
   [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, PartSlopes& of_parts,
                                              const std::optional<Eigen::RowVectorXd>& log_kappa = {},
@@ -118,8 +122,9 @@ class FlashMap {
   double mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]
 
   HeatKernelTable table_;
-  Eigen::MatrixXd kernel_;   // q_j g_ij
-  Eigen::VectorXd surface_;  // 2 q t N at the temperature points
+  Eigen::MatrixXd kernel_;       // q_j g_ij
+  Eigen::VectorXd surface_;      // 2 q t N at the temperature points
+  Eigen::RowVectorXd at_macro_;  // from values at the temperature points to that at q_m
   std::vector<double> reduced_;
   Eigen::VectorXd rate_;  // d ln a_T / dT at the nodes, 0 where the frequency is held
   AngularColumns columns_;

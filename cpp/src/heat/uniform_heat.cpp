@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "asperity/watch.hpp"
 #include "heat/march.hpp"
@@ -14,7 +15,10 @@ namespace asperity {
 namespace {
 
 constexpr double step = std::numbers::ln10 / 4;  // of ln(v a_T), over which no term of a rubber comes and goes
-constexpr double most_growth = 0.5;              // of d ln F / d ln tau, which is below 1 where eps rises
+/// What the profile may do: change eps by the factor `off`, and d ln F / d ln tau, which is below 1 where eps rises,
+/// from `most_growth` to that; beyond `most_growth_far`, wherever it is, it may do more. Measured, not derived:
+/// docs/explanation/heat.md.
+constexpr double off = 5, most_growth = 0.3, most_growth_far = 2;
 
 }  // namespace
 
@@ -28,19 +32,18 @@ void UniformHeat::take_steps(double background) {
   constexpr double longest = 40;  // [K]
   for (double tau = 0; tau < highest;) {
     const ShiftValue shift = held_shift(scene_.shift, background + tau);
-    const double rate = std::numbers::ln10 * shift.slope;
-    steps_.push_back({std::numbers::ln10 * shift.log10_a_T, tau * rate});
-    tau += std::fmin(longest, 0.5 * step / std::fabs(rate));
+    steps_.push_back({tau, std::numbers::ln10 * shift.log10_a_T});
+    tau += std::fmin(longest, 0.5 * step / std::fabs(std::numbers::ln10 * shift.slope));
   }
 }
 
-bool UniformHeat::one_state(FlashMap& map, const HeatPoint& point) {
+std::optional<double> UniformHeat::only_rise(FlashMap& map, const HeatPoint& point) {
   if (steps_.empty()) take_steps(point.temperature);
   const auto [least, most] = std::ranges::minmax_element(steps_, {}, &Step::log_a);
   const double log_v = std::log(point.velocity);
   const auto place = [&](double log_a) { return static_cast<long>(std::floor((log_v + log_a) / step)); };
   const long first = place(least->log_a);
-  std::vector<double> log_rise;
+  std::vector<double> log_heat, log_macro;
   for (long k = first; k <= place(most->log_a) + 1; ++k) {
     auto found = contacts_.find(k);
     if (found == contacts_.end()) {
@@ -48,12 +51,33 @@ bool UniformHeat::one_state(FlashMap& map, const HeatPoint& point) {
       map.at_one_shift(static_cast<double>(k) * step - log_v);
       found = contacts_.emplace(k, map.contact_heat()).first;
     }
-    log_rise.push_back(std::log(map.last_rise(found->second)));
+    log_heat.push_back(std::log(map.last_heat(found->second)));
+    log_macro.push_back(std::log(found->second.macro_area));
   }
-  return std::ranges::all_of(steps_, [&](const Step& at) {
-    const auto k = static_cast<std::size_t>(place(at.log_a) - first);
-    return at.growth == 0 || (log_rise[k + 1] - log_rise[k]) / step * at.growth < most_growth;
-  });
+  const auto at = [&](const std::vector<double>& column, double log_a) {
+    const double steps_up = (log_v + log_a) / step - static_cast<double>(first);
+    const auto k = static_cast<std::size_t>(steps_up);
+    return column[k] + (steps_up - static_cast<double>(k)) * (column[k + 1] - column[k]);
+  };
+  const FlashMap::ContactHeat& cold = contacts_.at(place(steps_.front().log_a));
+  if (!(map.last_heat(cold) > 0)) return {};
+  const double share = map.macro_share(cold), highest = steps_.back().rise;
+  // from far below 1 over where it may be 1, and rises, to far above, and never back
+  enum { below, near, above } before = below;
+  std::optional<double> result;
+  std::vector<double> log_eps(steps_.size());
+  for (std::size_t i = 1; i < steps_.size(); ++i) {
+    const double rise = steps_[i].rise;
+    const double macro_rise = std::clamp(share * rise, 0.0, highest);
+    const ShiftValue macro = held_shift(scene_.shift, point.temperature + macro_rise);
+    log_eps[i] = std::log(rise) - at(log_heat, steps_[i].log_a) + at(log_macro, std::numbers::ln10 * macro.log10_a_T);
+    const double growth = i == 1 ? 0 : 1 - (log_eps[i] - log_eps[i - 1]) / std::log(rise / steps_[i - 1].rise);
+    const auto now = log_eps[i] < -std::log(off) ? below : log_eps[i] > std::log(off) ? above : near;
+    if (now < before || !(growth < (now == near ? most_growth : most_growth_far))) return {};
+    before = now;
+    if (!result && log_eps[i] >= 0) result = rise * std::exp(-log_eps[i] / std::fmax(1 - growth, 1 - most_growth));
+  }
+  return result;
 }
 
 }  // namespace asperity

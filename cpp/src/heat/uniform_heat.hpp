@@ -1,7 +1,8 @@
-// Whether heat has one steady state, by what it would do at one temperature of all roughness.
+// The steady state of heat that a model of two temperatures has, where no other may be beside it.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "heat/flash_map.hpp"
@@ -10,18 +11,20 @@ namespace asperity {
 
 /// With one temperature T0 + tau for all roughness the contact depends on v a_T alone: what it is at a few values of
 /// that serves all velocities of a curve. With F(tau) the rise at q1 that it makes, tau / F(tau) is the eps of the
-/// march; where it rises over all tau, and that by a margin for the profile that it leaves out, there is one state.
+/// march, but for the profile. Of that the macro-asperities count for most, as F goes as 1 / P_m: they have their own
+/// temperature, T0 + tau theta(q_m) / theta(q1).
 class UniformHeat {
  public:
   explicit UniformHeat(const HeatScene& scene) : scene_(scene) {}
   /// Another pressure or temperature, or another grid.
   void forget();
-  /// The map has to be at the point.
-  bool one_state(FlashMap& map, const HeatPoint& point);
+  /// The rise at which eps passes 1 [K]; none where it may do so more than once, by a margin for the profile, or does
+  /// not up to twice the highest temperature. The map has to be at the point.
+  std::optional<double> only_rise(FlashMap& map, const HeatPoint& point);
 
  private:
   struct Step {
-    double log_a, growth;  // ln a_T at T0 + tau, its slope over ln tau
+    double rise, log_a;  // tau, ln a_T at T0 + tau
   };
   void take_steps(double background);
 

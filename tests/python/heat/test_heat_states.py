@@ -1,0 +1,133 @@
+"""Rubber that has several steady states of its heat: which is found, and how many."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from helpers.cases import case, each
+from helpers.examples import TREAD
+from helpers.heat import ASPHALT, hot
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+import random_heat
+
+
+@each("scene", [336, 1044, 1584, 1785, 1949])
+def test_of_several_states_all_tolerances_find_the_coldest(scene):
+    """From the velocity before, or where cold heat takes from itself, Newton may miss it."""
+    outcome = random_heat.compute(1, scene, rings=0.1)
+    assert len(outcome.ratios) >= 3
+    assert max(outcome.ratios.values()) <= 1
+
+
+COLDEST = {  # of three states, by a march in strides of 0.08 in ln theta(q1)
+    (493, 1): 0.161656,
+    (508, 3): 0.117812,
+    (558, 2): 0.224594,
+    (634, 1): 0.0732537,
+    (715, 3): 0.0311666,
+    (971, 1): 0.0654848,
+    (1341, 1): 0.0635398,
+    (1740, 2): 0.0880876,
+}
+
+
+@each("point", list(COLDEST))
+def test_states_that_are_near_each_other_or_at_a_thin_front(point):
+    scene, which = point
+    road, compound, at = random_heat.draw_scene(np.random.default_rng([1, scene]), rings=0.1)
+    at["velocity"] = at["velocity"][which]
+    for rtol in (1e-3, 1e-6):
+        found = asperity.friction(road, compound, **at, rtol=rtol)
+        assert found.mu == pytest.approx(COLDEST[point], rel=rtol + 2e-5)
+        assert found.branches == 3
+
+
+# terms, rms height, lines by row and factor, q1, velocity, temperature, correction, states
+LINES = [
+    (7, 5.7e-5, {10: 1e3}, 1e5, 1.0, 261.0, None, 1),
+    (7, 5.6e-5, {12: 1e2}, 1e6, 3.0, 249.0, None, 5),
+    (5, 2.2e-5, {3: 1e2, 27: 1e3}, 1e6, 3.0, 255.0, None, 3),
+    (6, 7.6e-5, {7: 1e3}, 1e5, 1.0, 239.0, asperity.PartialContact(), 3),
+]
+
+
+@each("line", LINES)
+def test_a_line_that_runs_away_by_itself(line):
+    """The rise at q1 turns about along the states; PartialContact's rule has three roots there."""
+    terms, height, lines, q1, v, temperature, correction, states = line
+    q = np.geomspace(1e3, q1, 40)
+    road = asperity.SelfAffineSpectrum(rms_height=height, hurst=0.8, q0=1e3, q1=q1)
+    density = road.at(q)
+    for row, times in lines.items():
+        density[row] *= times
+    at = {
+        "rubber": asperity.PronySeries(
+            equilibrium_modulus=3e6,
+            moduli=np.geomspace(1e9, 1e6, terms),
+            relaxation_times=np.geomspace(1e-9, 1e-1, terms),
+        ),
+        "pressure": 1e5,
+        "velocity": v,
+        "temperature": temperature,
+        "shift": asperity.WLF(c1=12.0, c2=80.0, reference_temperature=293.15),
+        "correction": correction,
+    }
+    table = asperity.TabulatedSpectrum(wavenumber=q, density=density)
+    found, finer = (hot(table, **at, rtol=rtol) for rtol in (1e-5, 1e-8))
+    assert found.branches == finer.branches == states
+    assert abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate
+    if correction is None:
+        by_gsl = hot(table, **at, rtol=1e-5, method="qag")
+        assert abs(found.mu - by_gsl.mu) <= found.error_estimate + by_gsl.error_estimate
+
+
+@each("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
+def test_states_about_a_gain_of_one(temperature):
+    """Two of three states meet at 275.71 K, from where on the rise is 47 instead of 38 K."""
+    compound = asperity.PronySeries(
+        equilibrium_modulus=3e6,
+        moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
+        relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
+    )
+    at = {
+        "velocity": 0.049652395705,
+        "pressure": 12863.8338001,
+        "temperature": temperature,
+        "rubber": compound,
+    }
+    found, truth = (hot(ASPHALT, **at, rtol=rtol) for rtol in (1e-4, 1e-8))
+    assert truth.gain < 1
+    assert found.branches == truth.branches == (3 if temperature < 275.71 else 1)
+    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+
+
+def test_a_curve_stays_on_the_coldest_state():
+    """Macro-asperities that stay colder than q1 make three states where one temperature has one."""
+    at = {
+        "rubber": asperity.PronySeries(
+            equilibrium_modulus=1.04e6,
+            moduli=[1.82e8, 8.34e7, 8.1e7],
+            relaxation_times=[1.67e-9, 1.44e-6, 1.25e-3],
+        ),
+        "heating": asperity.Heating(
+            **TREAD | {"conductivity": 0.49, "contact_diameter": 5e-4, "residence": "box"}
+        ),
+        "adhesion": asperity.Adhesion(shear_stress=3.75e5, reference_velocity=6e-3),
+        "pressure": 5648.0,
+        "temperature": 278.5,
+        "rtol": 1e-3,
+    }
+    road = asperity.SelfAffineSpectrum(rms_height=8e-5, hurst=0.73, q0=2000, q1=2.9e5)
+    velocity = np.geomspace(0.017, 1.6, 12)
+    curve = hot(road, velocity=velocity, **at)
+    assert np.all(curve.gain < 1)
+    assert list(curve.branches) == [1] * 2 + [3] * 10
+    for i, v in enumerate(velocity):
+        alone = hot(road, velocity=v, **at)
+        with case(velocity=v):
+            assert alone.branches == curve.branches[i]
+            assert abs(alone.mu - curve.mu[i]) <= alone.error_estimate + curve.error_estimate[i]
