@@ -22,8 +22,8 @@ struct HotPoint {
   double g = 0;  // at q1
 };
 
-/// Solves each point on two grids, the second finer by two digits; their difference is the error of the first, and the
-/// second is what is returned. Points follow each other from low to high velocity.
+/// Solves each point on two grids, the second finer by two digits, and on finer ones until two agree; their difference
+/// is the error of the coarser, and the finer is what is returned. Points follow each other from low to high velocity.
 class FlashSolver {
  public:
   /// `stops`: wavenumbers [1/m] at which panels shall end too, for contributions.
