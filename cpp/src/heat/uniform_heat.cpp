@@ -32,7 +32,7 @@ void UniformHeat::take_steps(double background) {
   constexpr double longest = 40;  // [K]
   for (double tau = 0; tau < highest;) {
     const ShiftValue shift = held_shift(scene_.shift, background + tau);
-    steps_.push_back({tau, std::numbers::ln10 * shift.log10_a_T});
+    steps_.push_back({tau, std::log(tau), std::numbers::ln10 * shift.log10_a_T});
     tau += std::fmin(longest, 0.5 * step / std::fabs(std::numbers::ln10 * shift.slope));
   }
 }
@@ -67,15 +67,15 @@ std::optional<double> UniformHeat::only_rise(FlashMap& map, const HeatPoint& poi
   std::optional<double> result;
   std::vector<double> log_eps(steps_.size());
   for (std::size_t i = 1; i < steps_.size(); ++i) {
-    const double rise = steps_[i].rise;
-    const double macro_rise = std::clamp(share * rise, 0.0, highest);
-    const ShiftValue macro = held_shift(scene_.shift, point.temperature + macro_rise);
-    log_eps[i] = std::log(rise) - at(log_heat, steps_[i].log_a) + at(log_macro, std::numbers::ln10 * macro.log10_a_T);
-    const double growth = i == 1 ? 0 : 1 - (log_eps[i] - log_eps[i - 1]) / std::log(rise / steps_[i - 1].rise);
+    const Step& here = steps_[i];
+    const double macro_rise = std::clamp(share * here.rise, 0.0, highest);
+    const double log_a_macro = std::numbers::ln10 * held_shift(scene_.shift, point.temperature + macro_rise).log10_a_T;
+    log_eps[i] = here.log_rise - at(log_heat, here.log_a) + at(log_macro, log_a_macro);
+    const double growth = i == 1 ? 0 : 1 - (log_eps[i] - log_eps[i - 1]) / (here.log_rise - steps_[i - 1].log_rise);
     const auto now = log_eps[i] < -std::log(off) ? below : log_eps[i] > std::log(off) ? above : near;
     if (now < before || !(growth < (now == near ? most_growth : most_growth_far))) return {};
     before = now;
-    if (!result && log_eps[i] >= 0) result = rise * std::exp(-log_eps[i] / std::fmax(1 - growth, 1 - most_growth));
+    if (!result && log_eps[i] >= 0) result = here.rise * std::exp(-log_eps[i] / std::fmax(1 - growth, 1 - most_growth));
   }
   return result;
 }

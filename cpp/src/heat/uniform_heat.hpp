@@ -24,7 +24,7 @@ class UniformHeat {
 
  private:
   struct Step {
-    double rise, log_a;  // tau, ln a_T at T0 + tau
+    double rise, log_rise, log_a;  // tau, ln tau, ln a_T at T0 + tau
   };
   void take_steps(double background);
 
