@@ -20,6 +20,11 @@ struct MapSlopes {
   double *h, *a, *h_x, *a_x, *h_z, *a_z;
 };
 
+/// ln mu_H and ln A/A0, a column each.
+struct LogarithmsOfBoth {
+  double *h, *a;
+};
+
 /// Cubics of ln s0 over steps of x, each beside by how much that of the next row of T0 differs; or a row's alone.
 struct SlidingTable {
   const double* cubics;
@@ -74,6 +79,9 @@ struct MapLoops {
                           std::size_t n, double* shifted);
   void (*held_sums)(const double* x, double more, double lowest, double highest, std::size_t n, double* sum);
   void (*blend)(const double* ln_s0, const double* distance, const double* cold, std::size_t n, double* hot);
+  void (*blend_both_parts)(const LogarithmsOfBoth& hot, const LogarithmsOfBoth& cold, const double* ln_s0,
+                           const double* distance, const double* ln_p, const double* ln_v, const MapAdhesion& law,
+                           std::size_t n, double* mu);
   void (*exponentials)(const double* x, double* e, std::size_t n);
   void (*adhesions)(const double* ln_area, const double* ln_p, const double* ln_v, const MapAdhesion& law,
                     std::size_t n, double* mu);
@@ -148,10 +156,13 @@ class FrictionMapBatch {
         return result[i] = value(quantity, at.pressure[i], at.velocity[i], temperature);
       });
     if (map_.is_slanted_)
-      find_slanted(quantity, at, n, result);
+      find_slanted(at, n);
     else
-      find_all(quantity, map_, x_, at.ln_v, n, result);
-    if (map_.info_.heat && !points.distance.empty()) blend_cold(quantity, at, n, result);
+      find_logarithms(map_, x_, n, hot_);
+    if (map_.info_.heat && !points.distance.empty())
+      blend_cold(quantity, at, n, result);
+    else
+      exponentials(quantity, map_, hot_, at.ln_v, n, result);
     if (quantity == MapQuantity::traction)
       for (std::size_t i = 0; i < n; ++i) result[i] *= std::copysign(at.pressure[i], at.velocity[i]);
     return n;
@@ -170,12 +181,12 @@ class FrictionMapBatch {
       });
     if (map_.offset_.empty()) std::fill_n(offset_slope_, n, 0.0);
     const double* const z = find_cells(map_, x_, n);
-    const MapSlopes found{h_, a_, h_x_, a_x_, h_z_, a_z_};
+    const MapSlopes found{hot_.h, hot_.a, h_x_, a_x_, h_z_, a_z_};
     const bool has_steps = map_.steps_ > 0 && at_shared_T0_.empty();
     loops_.slopes(cells_of(map_), cell_, has_steps ? step_ : nullptr, x_, z, dT_, n, found);
-    exponentials(MapQuantity::hysteresis, map_, at.ln_v, n, h_);
-    exponentials(MapQuantity::adhesion, map_, at.ln_v, n, cold_);
-    loops_.chain_rule(h_, cold_, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
+    exponentials(MapQuantity::hysteresis, map_, hot_, at.ln_v, n, hot_.h);
+    exponentials(MapQuantity::adhesion, map_, hot_, at.ln_v, n, hot_.a);
+    loops_.chain_rule(hot_.h, hot_.a, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
     return n;
   }
 
@@ -241,40 +252,41 @@ class FrictionMapBatch {
     return true;
   }
 
-  /// A number of a map at ln p and these ln v; ln_v is that which the adhesion takes.
-  void find_all(MapQuantity quantity, const FrictionMap& map, const double* x, const double* ln_v, std::size_t n,
-                double* result) {
+  /// Of a map at ln p and these ln v.
+  void find_logarithms(const FrictionMap& map, const double* x, std::size_t n, const LogarithmsOfBoth& to) {
     const double* const z = find_cells(map, x, n);
     if (map.steps_ == 0 || !at_shared_T0_.empty())
-      loops_.polynomials(cells_of(map), cell_, x, z, n, h_, a_);
+      loops_.polynomials(cells_of(map), cell_, x, z, n, to.h, to.a);
     else
-      loops_.warm_polynomials(cells_of(map), cell_, step_, x, z, dT_, n, h_, a_);
-    exponentials(quantity, map, ln_v, n, result);
+      loops_.warm_polynomials(cells_of(map), cell_, step_, x, z, dT_, n, to.h, to.a);
   }
 
-  /// A number of a slanted map; leaves ln v a_T in slanted_x_.
-  void find_slanted(MapQuantity quantity, const Block& at, std::size_t n, double* result) {
+  /// Of a slanted map; leaves ln v a_T in slanted_x_.
+  void find_slanted(const Block& at, std::size_t n) {
     const SlantedBox box{map_.shift_[0],   map_.shift_[1],    map_.info_.temperature[0],
                          map_.offset_x_,   map_.last_x_,      map_.log_a_T_[0],
                          map_.log_a_T_[1], map_.steps_ - 1.0, map_.step_of_share_};
     loops_.slant(box, x_, at.background, n, slanted_x_, step_, dT_);
     for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map_.entry_at(ln_p_[i], slanted_x_[i]));
-    loops_.warm_polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, h_, a_);
-    exponentials(quantity, map_, at.ln_v, n, result);
+    loops_.warm_polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, hot_.h, hot_.a);
   }
 
-  /// From ln mu_H and ln A/A0, h_ and a_; mu for the traction. `result` may be h_.
-  void exponentials(MapQuantity quantity, const FrictionMap& map, const double* ln_v, std::size_t n, double* result) {
-    if (quantity == MapQuantity::contact_area) return loops_.exponentials(a_, result, n);
+  static MapAdhesion adhesion_of(const FrictionMap& map) {
+    return {map.ln_shear_stress_, map.ln_reference_, map.width_};
+  }
+
+  /// mu for the traction; ln_v is that which the adhesion takes. `result` may be a column of `of`.
+  void exponentials(MapQuantity quantity, const FrictionMap& map, const LogarithmsOfBoth& of, const double* ln_v,
+                    std::size_t n, double* result) {
+    if (quantity == MapQuantity::contact_area) return loops_.exponentials(of.a, result, n);
     const bool has_hysteresis = quantity != MapQuantity::adhesion && map.info_.hysteresis;
     const bool has_adhesion = quantity != MapQuantity::hysteresis && map.info_.shear_stress > 0;
-    const MapAdhesion law{map.ln_shear_stress_, map.ln_reference_, map.width_};
     if (has_hysteresis && has_adhesion)
-      loops_.both_parts(h_, a_, ln_p_, ln_v, law, n, result);
+      loops_.both_parts(of.h, of.a, ln_p_, ln_v, adhesion_of(map), n, result);
     else if (has_hysteresis)
-      loops_.exponentials(h_, result, n);
+      loops_.exponentials(of.h, result, n);
     else if (has_adhesion)
-      loops_.adhesions(a_, ln_p_, ln_v, law, n, result);
+      loops_.adhesions(of.a, ln_p_, ln_v, adhesion_of(map), n, result);
     else
       std::fill_n(result, n, 0.0);
   }
@@ -297,8 +309,8 @@ class FrictionMapBatch {
             shared ? map_detail::block_size : map.cell_size_};
   }
 
-  /// Adds to the hot number at x_ the share of the cold one that is left after a distance.
-  void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* hot) {
+  /// A number at x_ between that of hot_ and the cold one, of which a share is left after a distance.
+  void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* result) {
     const bool has_row = !sliding_at_shared_T0_.empty();
     const SlidingTable lengths{has_row ? sliding_at_shared_T0_.data() : map_detail::numbers(map_.sliding_),
                                map_.offset_x_,
@@ -324,8 +336,13 @@ class FrictionMapBatch {
       else
         loops_.held_sums(x_, shared_log_a_T_, shift.lowest, shift.highest, n, speed_);
     }
-    find_all(quantity, *map_.cold_, x, x_, n, cold_);
-    loops_.blend(ln_s0_, place.distance, cold_, n, hot);
+    find_logarithms(*map_.cold_, x, n, cold_);
+    const bool is_mu = quantity == MapQuantity::mu || quantity == MapQuantity::traction;
+    if (is_mu && map_.info_.hysteresis && map_.info_.shear_stress > 0)
+      return loops_.blend_both_parts(hot_, cold_, ln_s0_, place.distance, ln_p_, x_, adhesion_of(map_), n, result);
+    exponentials(quantity, map_, hot_, x_, n, result);
+    exponentials(quantity, *map_.cold_, cold_, x_, n, cold_.h);
+    loops_.blend(ln_s0_, place.distance, cold_.h, n, result);
   }
 
   /// A column's part, or its only entry as often as the first block, none of which is longer, needs it.
@@ -347,8 +364,10 @@ class FrictionMapBatch {
   std::vector<double> sliding_at_shared_T0_;    // the cubics of ln s0 over x at it, or none
   double shared_log_a_T_ = 0;
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
-  double x_[block], speed_[block], ln_p_[block], z_[block], h_[block], a_[block];
-  double dT_[block], ln_s0_[block], cold_[block], slanted_x_[block];
+  double x_[block], speed_[block], ln_p_[block], z_[block];
+  double hot_h_[block], hot_a_[block], cold_h_[block], cold_a_[block];
+  LogarithmsOfBoth hot_{hot_h_, hot_a_}, cold_{cold_h_, cold_a_};
+  double dT_[block], ln_s0_[block], slanted_x_[block];
   double offset_slope_[block], h_x_[block], a_x_[block], h_z_[block], a_z_[block];
   std::int32_t cell_[block], step_[block];
 };
