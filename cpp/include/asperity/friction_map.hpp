@@ -156,7 +156,7 @@ inline constexpr Tables tables;
 
 /// ln of a positive normal number, to 5e-16 of the larger of it and 1, the same digits on every host:
 /// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
-inline double ln(double x) noexcept {
+ASPERITY_MAP_INLINE inline double ln(double x) noexcept {
   const std::uint64_t u = bits(x);
   const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
   const std::uint32_t i = static_cast<std::uint32_t>(u >> 45) & 127;
@@ -188,8 +188,7 @@ inline double exp(double x) noexcept {
   const std::uint64_t u = bits(x * steps_per_unit + whole);
   const double steps = integer(u), r = (x - steps * step_high) - steps * step_low, r2 = r * r;
   const double tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  const double scale = from_bits(((u >> 7) << 52) + (std::uint64_t{1023} << 52));
-  return (1 + (r + r2 * tail)) * (tables.power[u & 127] * scale);
+  return (1 + (r + r2 * tail)) * from_bits(bits(tables.power[u & 127]) + ((u >> 7) << 52));  // times 2^n
 }
 
 /// Two numbers, which a vector unit takes at once where there is one.
@@ -206,11 +205,12 @@ inline Pair pair(const double* x) noexcept { return *static_cast<const Pair*>(st
 #endif
 #endif
 
-// Four of them, where the processor that a program finds has AVX. A host of MSVC's libraries lacks the function that
+// Four of them, where the processor that a program finds has AVX2. A host of MSVC's libraries lacks the function that
 // asks.
 #if defined(ASPERITY_MAP_SHUFFLES) && defined(__x86_64__) && !defined(_MSC_VER)
-#define ASPERITY_MAP_FOURS __attribute__((target("avx")))
+#define ASPERITY_MAP_FOURS __attribute__((target("avx2")))
 using Four = double __attribute__((vector_size(32)));
+using FourOfBits = std::uint64_t __attribute__((vector_size(32)));
 struct __attribute__((packed, may_alias)) AnyFour {  // wherever they are
   Four four;
 };
@@ -287,12 +287,34 @@ ASPERITY_MAP_INLINE inline Pair exp(Pair x) noexcept {
   const Pair power{tables.power[u[0] & 127], tables.power[u[1] & 127]};
   const Pair r = (x - steps * step_high) - steps * step_low, r2 = r * r;
   const Pair tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  const Pair scale = from_bits(((u >> 7) << 52) + (std::uint64_t{1023} << 52));
-  return (1 + (r + r2 * tail)) * (power * scale);
+  return (1 + (r + r2 * tail)) * from_bits(bits(power) + ((u >> 7) << 52));
 #else
   return {{exp(x[0]), exp(x[1])}};
 #endif
 }
+
+#ifdef ASPERITY_MAP_FOURS
+/// The same of four numbers.
+ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE inline Four exp(Four x) noexcept {
+  using Halves = std::int32_t __attribute__((vector_size(32)));
+  const Four most{700, 700, 700, 700};
+  x = __builtin_ia32_minpd256(most, __builtin_ia32_maxpd256(-most, x));
+  const Four rounded = x * steps_per_unit + whole;
+  FourOfBits u{};
+  Halves halves{};
+  std::memcpy(&u, &rounded, sizeof u);
+  std::memcpy(&halves, &rounded, sizeof halves);
+  const Four steps = __builtin_convertvector(__builtin_shufflevector(halves, halves, 0, 2, 4, 6), Four);
+  const Four r = (x - steps * step_high) - steps * step_low, r2 = r * r;
+  const Four tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
+  FourOfBits power{};
+  for (int i = 0; i < 4; ++i) power[i] = bits(tables.power[u[i] & 127]);
+  power += (u >> 7) << 52;
+  Four factor{};
+  std::memcpy(&factor, &power, sizeof factor);
+  return (1 + (r + r2 * tail)) * factor;
+}
+#endif
 
 inline bool is_nan(double x) noexcept { return (bits(x) & 0x7fffffffffffffff) > 0x7ff0000000000000; }
 
@@ -384,12 +406,10 @@ class FrictionMap {
 
   /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
   /// a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
-  /// range of T0 take 36 kB of the stack. Those of version 3 are looked up one by one.
+  /// range of T0 take 36 kB of the stack, but for those of version 3.
   void mu_at_points(std::size_t n, const double* pressure, const double* velocity, double* result,
                     Outside outside = Outside::nan, const MapTemperature& temperature = {}) const noexcept {
-    if (is_slanted_) {
-      for (std::size_t i = 0; i < n; ++i) result[i] = mu(pressure[i], velocity[i], outside, temperature);
-    } else if (steps_ == 0) {
+    if (steps_ == 0 || is_slanted_) {
       mu_of_blocks(n, pressure, velocity, result, outside, temperature, nullptr);
     } else {
       CellsAtT0 cells;
@@ -428,7 +448,7 @@ class FrictionMap {
                                       Outside outside = Outside::nan) const noexcept {
     const Where at = where(info_.pressure[0], velocity, outside, {1, false, background, map_detail::long_slid});
     if (at.cell == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
-    return map_detail::exp(log_sliding_length(sliding_rows(at), at.x));
+    return map_detail::exp(log_sliding_length(at));
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
@@ -468,11 +488,7 @@ class FrictionMap {
   };
 
   [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair logarithms(const Where& at) const noexcept {
-    if (steps_ == 0) return bicubic(at.cell, at.dx, at.dz);
-#ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) return tricubic_of_fours(at.cell + 128 * at.step, at.dx, at.dz, at.dT);
-#endif
-    return tricubic(at);
+    return steps_ == 0 ? bicubic(at.cell, at.dx, at.dz) : tricubic(at);
   }
 
   /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
@@ -485,6 +501,15 @@ class FrictionMap {
   /// `mu` in the box of a map with heat.
   template <Axis axis, bool has_memory>
   [[nodiscard]] double warm_mu(double pressure, double speed, const MapTemperature& temperature) const noexcept {
+#ifdef ASPERITY_MAP_FOURS
+    if (has_fours_) return warm_mu_of_fours<axis, has_memory>(pressure, speed, temperature);
+#endif
+    const Where at = warm_place<axis>(pressure, speed, temperature.background);
+    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+  }
+
+  template <Axis axis>
+  [[nodiscard]] ASPERITY_MAP_INLINE Where warm_place(double pressure, double speed, double background) const noexcept {
     ASPERITY_MAP_KNOWN((axis != Axis::none) == (steps_ > 0));
     ASPERITY_MAP_KNOWN((axis == Axis::slanted) == is_slanted_);
     const map_detail::Pair logarithms_of_both = map_detail::ln(map_detail::Pair{speed, pressure});
@@ -492,14 +517,40 @@ class FrictionMap {
     at.x = at.ln_v = logarithms_of_both[0];
     at.ln_p = logarithms_of_both[1];
     if (axis == Axis::slanted) {
-      at.background = temperature.background;
-      slant(at);
+      shift_velocity(background, at);
+      slant(at.x, at.ln_p, at);
     } else {
-      if (axis == Axis::temperature) set_step(temperature.background, at);
+      if (axis == Axis::temperature) set_step(background, at);
       at.cell = cell_at(at.x, at.ln_p, at.dx, at.dz);
     }
-    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+    return at;
   }
+
+#ifdef ASPERITY_MAP_FOURS
+  [[nodiscard]] ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE map_detail::Pair logarithms_of_fours(
+      const Where& at) const noexcept {
+    return steps_ == 0 ? bicubic(at.cell, at.dx, at.dz)
+                       : tricubic_of_fours(at.cell + 128 * at.step, at.dx, at.dz, at.dT);
+  }
+
+  /// The digits of `mu_after` and `mu_of` in fewer steps.
+  template <Axis axis, bool has_memory>
+  [[nodiscard]] ASPERITY_MAP_FOURS double warm_mu_of_fours(double pressure, double speed,
+                                                           const MapTemperature& temperature) const noexcept {
+    using map_detail::Four;
+    using map_detail::Pair;
+    const Where at = warm_place<axis>(pressure, speed, temperature.background);
+    const double adhesion = log_adhesion(at);
+    if (!has_memory) return mu_of(logarithms_of_fours(at), adhesion);
+    const double length = log_sliding_length(at);
+    const Pair cold = cold_logarithms(at), hot = logarithms_of_fours(at);
+    const Pair first = map_detail::exp(Pair{-length, cold[0]});
+    const Four last =
+        map_detail::exp(Four{-(temperature.distance * first[0]), cold[1] + adhesion, hot[0], hot[1] + adhesion});
+    const double begun = sum_of_parts(first[1], last[1]), long_ago = sum_of_parts(last[2], last[3]);
+    return long_ago + last[0] * (begun - long_ago);
+  }
+#endif
 
   /// `mu` of all other points: outside of the box, or at a temperature that the map has not.
   [[nodiscard]] ASPERITY_MAP_APART double settled_mu(double pressure, double velocity, Outside outside,
@@ -510,20 +561,24 @@ class FrictionMap {
     return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
   }
 
-  /// Six exponentials, two at a time: s0 first, for which the memory waits, beside one of the cold map, as the hot
-  /// map's polynomials take longest.
+  /// Six exponentials, two at a time. What waits for the memory longest comes first: s0, then the cold map, so that the
+  /// processor has the hot map's polynomials to sum meanwhile.
   [[nodiscard]] ASPERITY_MAP_INLINE double mu_after(const Where& at, double distance) const noexcept {
     using map_detail::Pair;
-    double slope = 0;
-    const double length = log_sliding_length(sliding_rows(at), at.x), adhesion = log_adhesion(at);
-    const double x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
-    double dx = 0, dz = 0;
-    const double* const cell = cold_->cell_at(x, z, dx, dz);
-    const Pair of_cold = bicubic(cell, dx, dz), of_hot = logarithms(at);
+    const double length = log_sliding_length(at), adhesion = log_adhesion(at);
+    const Pair of_cold = cold_logarithms(at), of_hot = logarithms(at);
     const Pair first = map_detail::exp(Pair{-length, of_cold[0]});
     const Pair last = map_detail::exp(Pair{-(distance * first[0]), of_cold[1] + adhesion});
     const double cold = sum_of_parts(first[1], last[1]), hot = mu_of(of_hot, adhesion);
     return hot + last[0] * (cold - hot);
+  }
+
+  /// ln mu_H and ln A/A0 of the map without heat.
+  [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair cold_logarithms(const Where& at) const noexcept {
+    double slope = 0, dx = 0, dz = 0;
+    const double x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
+    const double* const cell = cold_->cell_at(x, z, dx, dz);
+    return bicubic(cell, dx, dz);
   }
 
   /// mu of its hysteresis and its adhesion, of which a map may be without either.
@@ -550,8 +605,14 @@ class FrictionMap {
                     const MapTemperature& temperature, CellsAtT0* cells) const noexcept {
     Where at;
     const bool plain = !cells_.empty() && is_usual(temperature);
-    if (plain && steps_ > 0) set_step(temperature.background, at);
-    const double shift = plain && steps_ > 0 ? log_a_T(at) : 0;
+    double shift = 0;
+    if (plain && is_slanted_) {
+      shift_velocity(temperature.background, at);
+      shift = at.log_a_T;
+    } else if (plain && steps_ > 0) {
+      set_step(temperature.background, at);
+      shift = log_a_T(at);
+    }
     Block block;
     for (std::size_t i = 0; i < n; i += together) {
       const double *const p = pressure + i, *const v = velocity + i;
@@ -596,9 +657,14 @@ class FrictionMap {
       for (std::size_t k = 0; k < n; ++k) law[k] = log_adhesion(ln_p[k], v[k]);
     }
     double slope = 0;
-    for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
     alignas(16) double hot[together];
-    mu_of_polynomials(n, x, z, law, at, cells, hot);
+    if (is_slanted_) {
+      slanted_logarithms(n, x, ln_p, at, hot, cold);
+      mu_of_logarithms(n, law, hot, cold);
+    } else {
+      for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
+      mu_of_polynomials(n, x, z, law, at, cells, hot);
+    }
     if (info_.heat && temperature.distance < map_detail::long_slid) {
       double* const share = ln_v;
       const SlidingRows rows = sliding_rows(at);
@@ -614,8 +680,11 @@ class FrictionMap {
     for (std::size_t k = 0; k < n; ++k) result[point[k]] = hot[k];
   }
 
-  static void exps(std::size_t n, double* x) noexcept {
+  void exps(std::size_t n, double* x) const noexcept {
     std::size_t k = 0;
+#ifdef ASPERITY_MAP_FOURS
+    if (has_fours_) k = exps_of_fours(n, x);
+#endif
     for (; k + 2 <= n; k += 2) {
       const map_detail::Pair e = map_detail::exp(map_detail::pair(&x[k]));
       x[k] = e[0];
@@ -623,6 +692,18 @@ class FrictionMap {
     }
     for (; k < n; ++k) x[k] = map_detail::exp(x[k]);
   }
+
+#ifdef ASPERITY_MAP_FOURS
+  /// How many it has done.
+  ASPERITY_MAP_FOURS static std::size_t exps_of_fours(std::size_t n, double* x) noexcept {
+    std::size_t k = 0;
+    for (; k + 4 <= n; k += 4) {
+      auto* const at = static_cast<map_detail::AnyFour*>(static_cast<void*>(x + k));
+      at->four = map_detail::exp(at->four);
+    }
+    return k;
+  }
+#endif
 
   /// mu at x and z and `law`, ln of mu_A over A/A0.
   void mu_of_polynomials(std::size_t n, const double* x, const double* z, const double* law, const Where& at,
@@ -647,6 +728,11 @@ class FrictionMap {
       mu[k] = f[0];
       area[k] = f[1];
     }
+    mu_of_logarithms(n, law, mu, area);
+  }
+
+  /// mu, where ln mu_H was, from it, ln A/A0 and `law`.
+  void mu_of_logarithms(std::size_t n, const double* law, double* mu, double* area) const noexcept {
     if (info_.hysteresis)
       exps(n, mu);
     else
@@ -656,6 +742,32 @@ class FrictionMap {
     exps(n, area);
     for (std::size_t k = 0; k < n; ++k) mu[k] += area[k];
   }
+
+  /// ln mu_H and ln A/A0 of a slanted map at x and ln p, at the temperature of `at`.
+  void slanted_logarithms(std::size_t n, const double* x, const double* ln_p, Where at, double* h,
+                          double* a) const noexcept {
+#ifdef ASPERITY_MAP_FOURS
+    if (has_fours_) return slanted_logarithms_of_fours(n, x, ln_p, at, h, a);
+#endif
+    for (std::size_t k = 0; k < n; ++k) {
+      slant(x[k], ln_p[k], at);
+      const map_detail::Pair f = tricubic(at);
+      h[k] = f[0];
+      a[k] = f[1];
+    }
+  }
+
+#ifdef ASPERITY_MAP_FOURS
+  ASPERITY_MAP_FOURS void slanted_logarithms_of_fours(std::size_t n, const double* x, const double* ln_p, Where at,
+                                                      double* h, double* a) const noexcept {
+    for (std::size_t k = 0; k < n; ++k) {
+      slant(x[k], ln_p[k], at);
+      const map_detail::Pair f = logarithms_of_fours(at);
+      h[k] = f[0];
+      a[k] = f[1];
+    }
+  }
+#endif
 
   [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
     double fx[2] = {0, 0}, fz[2] = {0, 0};
@@ -708,8 +820,9 @@ class FrictionMap {
   }
 
 #ifdef ASPERITY_MAP_FOURS
-  /// The same digits in half the steps, where the processor has AVX.
-  ASPERITY_MAP_FOURS static map_detail::Pair tricubic_of_fours(const double* c, double x, double z, double t) noexcept {
+  /// The digits of `tricubic` in half the steps.
+  ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE static map_detail::Pair tricubic_of_fours(const double* c, double x, double z,
+                                                                                   double t) noexcept {
     using map_detail::Four;
     using map_detail::Pair;
     const double x2 = x * x, z2 = z * z, t2 = t * t;
@@ -768,6 +881,9 @@ class FrictionMap {
     return {map_detail::numbers(sliding_) + row_size_ * j, row - static_cast<double>(j)};
   }
 
+  [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const Where& at) const noexcept {
+    return log_sliding_length(sliding_rows(at), at.x);
+  }
   /// ln s0 at an x, and its slope.
   [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const SlidingRows& rows, double x,
                                                               double* slope = nullptr) const noexcept {
@@ -857,7 +973,8 @@ class FrictionMap {
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
     if (is_slanted_) {
-      slant(at);
+      shift_velocity(at.background, at);
+      slant(at.x, at.ln_p, at);
     } else {
       const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
       at.cell = cell_at(at.x, z, at.dx, at.dz);
@@ -946,10 +1063,17 @@ class FrictionMap {
     return -((from_v ? way.below : 0) + (to_v ? way.above : 0)) / (way.length() * way.length() + rounding);
   }
 
-  /// Finds the cell of a slanted map from ln v, ln p and T0.
-  ASPERITY_MAP_INLINE void slant(Where& at) const noexcept {
-    const double t = at.background - info_.temperature[0];
+  /// ln a_T of a slanted map.
+  ASPERITY_MAP_INLINE void shift_velocity(double background, Where& at) const noexcept {
+    at.background = background;
+    const double t = background - info_.temperature[0];
     at.log_a_T = shift_[0] * t / (1 + shift_[1] * t);
+  }
+
+  /// Finds the cell of a slanted map from ln v, ln p and ln a_T.
+  ASPERITY_MAP_INLINE void slant(double x, double ln_p, Where& at) const noexcept {
+    at.x = x;
+    at.ln_p = ln_p;
     const Way way = way_of(at);
     // where there is no way, that side of it on which the point's T0 is
     const double nothing = 1e-300, is_last = at.log_a_T >= log_a_T_[1] ? nothing : 0;
@@ -1050,7 +1174,7 @@ class FrictionMap {
   std::vector<double> corners_;  // of cells: x, z
   std::vector<map_detail::Line> cells_;
 #ifdef ASPERITY_MAP_FOURS
-  bool has_fours_ = __builtin_cpu_supports("avx") != 0;  // the processor
+  bool has_fours_ = __builtin_cpu_supports("avx2") != 0;  // the processor
 #endif
 };
 
