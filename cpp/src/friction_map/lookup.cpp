@@ -59,8 +59,8 @@ struct MapLoops {
                   std::size_t n, double* speed, double* shifted);
   void (*logarithms)(const double* x, double* ln, std::size_t n);
   void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
-  bool (*entries)(const map_detail::Grid& grid, const std::int32_t* all, const double* x, const double* z,
-                  std::size_t n, std::int32_t* entry);
+  bool (*entries)(const map_detail::Grid* grids, const double* ends, std::size_t bands, const std::int32_t* all,
+                  const double* x, const double* z, std::size_t n, std::int32_t* entry);
   void (*polynomials)(const Cells& of, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
                       double* h, double* a);
   bool (*all_within)(const double* x, double lowest, double highest, std::size_t n);
@@ -267,7 +267,7 @@ class FrictionMapBatch {
                          map_.offset_x_,   map_.last_x_,      map_.log_a_T_[0],
                          map_.log_a_T_[1], map_.steps_ - 1.0, map_.step_of_share_};
     loops_.slant(box, x_, at.background, n, slanted_x_, step_, dT_);
-    for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map_.entry_at(ln_p_[i], slanted_x_[i]));
+    find_cells_at(map_, ln_p_, slanted_x_, n);
     loops_.warm_polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, hot_.h, hot_.a);
   }
 
@@ -296,10 +296,16 @@ class FrictionMapBatch {
     const double* const z = map.offset_.empty() ? ln_p_ : z_;
     if (!map.offset_.empty())
       for (std::size_t i = 0; i < n; ++i) z_[i] = ln_p_[i] - map.log_modulus_offset(x[i], offset_slope_[i]);
-    const bool one_band = map.ends_.size() == 1;
-    if (one_band && loops_.entries(map.grids_[0], map.entries_.data(), x, z, n, cell_)) return z;
-    for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map.entry_at(x[i], z[i]));
+    find_cells_at(map, x, z, n);
     return z;
+  }
+
+  /// Of a few bands on vector units, which go through all of them for each point.
+  void find_cells_at(const FrictionMap& map, const double* x, const double* z, std::size_t n) {
+    const std::size_t bands = map.ends_.size();
+    if (bands <= 4 && loops_.entries(map.grids_.data(), map.ends_.data(), bands, map.entries_.data(), x, z, n, cell_))
+      return;
+    for (std::size_t i = 0; i < n; ++i) cell_[i] = static_cast<std::int32_t>(map.entry_at(x[i], z[i]));
   }
 
   /// As its points find them: at the T0 that they share, if there is one.
