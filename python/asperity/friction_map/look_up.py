@@ -347,9 +347,10 @@ class FrictionMap(Table):
             return
         if shifts:
             raise InvalidInput("shift_adhesion = True: must be False on a map with heat")
-        if np.any(real_array(asked["a_T"], "a_T") != 1):
+        a_T = asked["a_T"]  # noqa: N806
+        if not (type(a_T) is float and a_T == 1) and np.any(real_array(a_T, "a_T") != 1):
             allowed = "must be 1 on a map with heat, which no a_T takes to another background"
-            raise InvalidInput(f"a_T = {brief(asked['a_T'])}: {allowed}; give temperature")
+            raise InvalidInput(f"a_T = {brief(a_T)}: {allowed}; give temperature")
         lo, hi = self.temperature
         if "temperature" not in asked and lo != hi:
             raise InvalidInput(
