@@ -668,12 +668,14 @@ class FrictionMap {
     if (info_.heat && temperature.distance < map_detail::long_slid) {
       double* const share = ln_v;
       const SlidingRows rows = sliding_rows(at);
-      for (std::size_t k = 0; k < n; ++k) share[k] = -log_sliding_length(rows, x[k]);
+      for (std::size_t k = 0; k < n; ++k) {
+        share[k] = -log_sliding_length(rows, x[k]);
+        if (steps_ > 0) x[k] = held_cold_x(x[k] + log_a_T);
+        z[k] = ln_p[k] - cold_->log_modulus_offset(x[k], slope);
+      }
       exps(n, share);
       for (std::size_t k = 0; k < n; ++k) share[k] *= -temperature.distance;
       exps(n, share);
-      for (std::size_t k = 0; k < n; ++k) x[k] = steps_ == 0 ? x[k] : held_cold_x(x[k] + log_a_T);
-      for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - cold_->log_modulus_offset(x[k], slope);
       cold_->mu_of_polynomials(n, x, z, law, at, nullptr, cold);
       for (std::size_t k = 0; k < n; ++k) hot[k] += share[k] * (cold[k] - hot[k]);
     }
