@@ -92,10 +92,11 @@ void take_effects(const Tangent& tangent, const VectorXd& step, FixedPoint& foun
   found.area_error = tangent.part_slopes.area.cwiseAbs().dot(size);
 }
 
-/// Whether the curve of the march may turn about near a solution, where there are others: theta grows much faster than
-/// eps, d ln theta / d ln eps = (1 - dF)^-1 theta / theta.
-bool turns_near(const VectorXd& theta, const Tangent& tangent) {
+/// Whether a solution is unstable, or the curve of the march may turn about near it, so that there are others: theta
+/// grows much faster than eps, d ln theta / d ln eps = (1 - dF)^-1 theta / theta. By the slopes of the last passes.
+bool has_others(const VectorXd& theta, const Tangent& tangent) {
   constexpr double fast = 1.5;
+  if (!(tangent.lu.determinant() > 0)) return true;  // an odd number of eigenvalues of dF is above 1
   return !(tangent.lu.solve(theta).cwiseAbs().array() < fast * theta.array()).all();
 }
 
@@ -145,13 +146,14 @@ FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const Vector
                              std::optional<double> only_rise, Branch branch, double tolerance, Tangent& tangent) {
   constexpr int passes = 12;
   if (only_rise) {
-    if (guess.size() != 0)
-      if (const auto theta = newton(map, guess, tolerance, passes, tangent); theta && !turns_near(*theta, tangent))
-        return finished(map, *theta, tangent);
-    map(VectorXd::Constant(map.rise_size(), *only_rise));
-    const VectorXd start = *only_rise / map.rise()[map.rise_size() - 1] * map.rise();
-    if (const auto theta = newton(map, start, tolerance, passes, tangent); theta && !turns_near(*theta, tangent))
-      return finished(map, *theta, tangent);
+    std::optional<VectorXd> theta;
+    if (guess.size() != 0) theta = newton(map, guess, tolerance, passes, tangent);
+    if (!theta) {
+      map(VectorXd::Constant(map.rise_size(), *only_rise));
+      const VectorXd start = *only_rise / map.rise()[map.rise_size() - 1] * map.rise();
+      theta = newton(map, start, tolerance, passes, tangent);
+    }
+    if (theta && !has_others(*theta, tangent)) return finished(map, *theta, tangent);
   }
   map(VectorXd::Zero(map.rise_size()));
   const VectorXd cold_rise = map.rise();

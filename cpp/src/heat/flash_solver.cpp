@@ -223,9 +223,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     map->start(point);
     if (uniform_level_ != level_) uniform_.forget();
     uniform_level_ = level_;
-    const bool coldest = branch_ == Branch::coldest;  // whoever asks for another state has it sought
-    const std::optional<double> only = coldest ? uniform_.only_rise(*map, point) : std::nullopt;
-    found = solve_fixed_point(*map, point, start, only, branch_, tolerance, tangent_);
+    found = solve_fixed_point(*map, point, start, uniform_.only_rise(*map, point), branch_, tolerance, tangent_);
     start = found.theta;
   } while (--moves > 0 && end_panel_where_held(point, found.theta));
   const int branches = found.solutions;

@@ -52,17 +52,27 @@ March::March(FlashMap& map, double background, const VectorXd& cold_rise)
 
 /// The next place, over at most half a decade of a_T.
 std::optional<Place> March::next() {
-  constexpr double longest = 1.2;  // of ln a_T, over which no term of a rubber comes and goes
-  constexpr double bend = 1.2;     // of the way to the next place over its projection
-  const double tau = at_.tau();
-  const double rate = tau * std::numbers::ln10 * std::fabs(held_shift(map_.scene().shift, background_ + tau).slope);
-  const double whole = std::log1p(longest / rate) / direction_.cwiseAbs().maxCoeff();
-  for (double stride = stride_ > 0 ? std::fmin(whole, 2 * stride_) : whole; stride > 1e-4; stride /= 2) {
+  constexpr double longest = 1.2;   // of ln a_T, over which no term of a rubber comes and goes
+  constexpr double bend = 1.2;      // of the way to the next place over its projection
+  constexpr double near_end = 0.5;  // of ln tau
+  const double tau = at_.tau(), left = std::log(2 * highest_ / tau), last = direction_[at_.points - 1];
+  const auto shift_at = [&](double rise) { return held_shift(map_.scene().shift, background_ + rise); };
+  const ShiftValue shift = shift_at(tau);
+  const double rate = tau * std::numbers::ln10 * std::fabs(shift.slope);
+  const double fastest = direction_.cwiseAbs().maxCoeff();
+  const double whole = std::fmin(std::log1p(longest / rate), std::fmax(left, 1)) / fastest;
+  double stride = stride_ > 0 ? std::fmin(whole, 2 * stride_) : whole;
+  if (last * stride > left) {
+    if (left < near_end) return {};
+    stride = left / last;
+  }
+  for (; stride > 1e-4; stride /= 2) {
     heed();
-    if (std::log(tau) + stride * direction_[at_.points - 1] > std::log(2 * highest_)) return {};
     const auto found =
         solve(at_.x + stride * direction_, direction_, at_.s + stride, 0.01 * stride, stride_ > 0 ? &slopes_ : nullptr);
     if (!found || length_of(found->x - at_.x) > bend * stride) continue;
+    // where rows of a table have the slope 0 only the next values tell
+    if (std::numbers::ln10 * std::fabs(shift_at(found->tau()).log10_a_T - shift.log10_a_T) > 2 * longest) continue;
     at_ = *found;
     stride_ = stride;
     turn();
@@ -71,12 +81,17 @@ std::optional<Place> March::next() {
   throw NotConverged("the flash temperature is not found beyond a rise of " + show(tau, 6) + " K at q1");
 }
 
-/// Takes the direction of the curve at the place that was found last.
+/// Takes the direction of the curve at the place that was found last. Past a sharp turn it may lead against that of the
+/// place before: along a curve the determinant keeps its sign, by which it is told apart from the way back.
 void March::turn() {
   const Index n = direction_.size();
   slopes_ = slopes(at_.x);
-  const VectorXd way = bordered(slopes_, direction_).partialPivLu().solve(VectorXd::Unit(n + 1, n));
-  if (way.allFinite()) direction_ = way.head(n) / length_of(way.head(n));
+  const auto lu = bordered(slopes_, direction_).partialPivLu();
+  const VectorXd way = lu.solve(VectorXd::Unit(n + 1, n));
+  if (!way.allFinite()) return;
+  const bool negative = lu.determinant() < 0;
+  if (!negative_) negative_ = negative;
+  direction_ = (negative == *negative_ ? 1 : -1) * way.head(n) / length_of(way.head(n));
 }
 
 void March::pass(const VectorXd& x) {
@@ -157,9 +172,13 @@ void March::divide_flat(std::vector<Place>& places) {
 }
 
 std::vector<std::pair<Place, Place>> March::crossings() {
+  constexpr std::size_t most = 2000;
   if (at_.eps >= 1) throw NotConverged("the flash temperature: no start of the search");
   std::vector<Place> places{at_};
-  while (const std::optional<Place> here = next()) places.push_back(*here);
+  while (const std::optional<Place> here = next()) {
+    places.push_back(*here);
+    if (places.size() > most) throw NotConverged("the flash temperature: the search for all states does not end");
+  }
   divide_flat(places);
   for (std::size_t i = 1; i + 1 < places.size(); ++i) {
     const bool below = places[i].eps < 1;

@@ -55,7 +55,8 @@ class March {
   Place at_;
   Eigen::MatrixXd slopes_;  // at that place, and the direction of the way there, of the length 1
   Eigen::VectorXd direction_;
-  double stride_ = 0;  // the last one
+  double stride_ = 0;             // the last one
+  std::optional<bool> negative_;  // the determinant of the bordered slopes along the curve
 };
 
 /// 1 - factor dF/dtheta.

@@ -1,4 +1,4 @@
-// The steady state of heat that a model of two temperatures has, where no other may be beside it.
+// The steady state of heat by a model of two temperatures, where it seems to be the only one.
 #pragma once
 
 #include <map>
@@ -18,8 +18,8 @@ class UniformHeat {
   explicit UniformHeat(const HeatScene& scene) : scene_(scene) {}
   /// Another pressure or temperature, or another grid.
   void forget();
-  /// The rise at which eps passes 1 [K]; none where it may do so more than once, by a margin for the profile, or does
-  /// not up to twice the highest temperature. The map has to be at the point.
+  /// The rise at which eps passes 1 [K]; none where it may do so more than once, by a margin for the profile, or not up
+  /// to twice the highest rise. The map has to be at the point.
   std::optional<double> only_rise(FlashMap& map, const HeatPoint& point);
 
  private:

@@ -9,7 +9,7 @@ import pytest
 import asperity
 from helpers.cases import case, each
 from helpers.examples import TREAD
-from helpers.heat import ASPHALT, hot
+from helpers.heat import ASPHALT, LAW, hot
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -131,3 +131,38 @@ def test_a_curve_stays_on_the_coldest_state():
         with case(velocity=v):
             assert alone.branches == curve.branches[i]
             assert abs(alone.mu - curve.mu[i]) <= alone.error_estimate + curve.error_estimate[i]
+
+
+def test_past_a_sharp_turn_the_curve_of_states_leads_on():
+    """Five states; followed back from the turn the search did not end."""
+    road, compound, at = random_heat.draw_scene(np.random.default_rng([901, 975]), 0.1)
+    at |= {"velocity": max(at["velocity"]), "temperature": 256.3946583}
+    assert asperity.friction(road, compound, **at, rtol=1e-3).branches == 5
+
+
+@each("temperature", [685.0, 690.0, 699.0])
+def test_rubber_near_the_highest_temperature_has_a_state(temperature):
+    """The search ends at twice the rise that is left, which a first stride may be longer than."""
+    for branch in ("cold", "hot"):
+        found = hot(velocity=1.0, temperature=temperature, rtol=1e-3, branch=branch)
+        assert found.branches == 1
+        assert temperature < found.temperature < temperature + 0.1
+
+
+@each("bump", [0.0, 1.2])
+def test_a_row_of_a_table_where_the_shift_is_flat(bump):
+    """The slope there is 0; a few kelvin further on the rubber is another one."""
+    temperature = np.arange(233.15, 354, 5.0)
+    factors = LAW.log10_a_T(temperature)
+    if bump:
+        factors[2] = factors[1] + 0.05
+    table = asperity.ShiftFactors(
+        reference_temperature=293.15, temperature=temperature, log10_a_T=factors
+    )
+    cold, heated = (
+        hot(shift=table, velocity=[1.0, 10.0], temperature=243.15, rtol=1e-3, branch=branch)
+        for branch in ("cold", "hot")
+    )
+    assert np.all(cold.branches == 3)
+    assert np.all(cold.temperature < 243.4)
+    assert np.all(heated.temperature > 280)
