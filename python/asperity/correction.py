@@ -10,6 +10,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number, number_or_none, vector
 from asperity.base.value import Value, value
+from asperity.scan_contact import ScanContact
 from asperity.surface import HeightMap
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "PartialContact",
     "PeaksThenGreenwoodWilliamson",
     "SFactor",
+    "ScanContact",
 ]
 
 AppliesTo = Literal["friction", "area", "both"]
@@ -329,6 +331,7 @@ Correction = (
     | LocalPeaks
     | GreenwoodWilliamson
     | PeaksThenGreenwoodWilliamson
+    | ScanContact
 )
 CORRECTIONS: tuple[type, ...] = Correction.__args__
 

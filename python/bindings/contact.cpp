@@ -1,6 +1,8 @@
 // Asperities, corrections for partial contact, and the contact area at every magnification.
 #include "asperity/contact.hpp"
 
+#include <cstdint>
+
 #include "arrays.hpp"
 #include "topics.hpp"
 #include "variants.hpp"
@@ -39,6 +41,45 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   return py::make_tuple(array_of(std::move(effective)), array_of(std::move(rigid)), array_of(std::move(state)));
 }
 
+constexpr py::ssize_t solved_columns = 18;
+
+/// A row a contact, in the order of `COLUMNS` in scan_contact.py.
+py::array contact_rows(const ScanContact& scan) {
+  const std::vector<SolvedContact> contacts = scan.contacts();
+  std::vector<double> rows;
+  for (const SolvedContact& c : contacts)
+    rows.insert(rows.end(), {static_cast<double>(c.rubber), static_cast<double>(c.heat), c.poisson_ratio, c.q0, c.q1,
+                             static_cast<double>(c.part), c.coarse ? 1.0 : 0.0, c.pressure, c.velocity, c.contact_area,
+                             c.hysteresis, c.rule_area, c.rule_hysteresis, c.error, c.seconds,
+                             static_cast<double>(c.points_y), static_cast<double>(c.points_x), c.contact_points});
+  return array_of(std::move(rows), {static_cast<py::ssize_t>(contacts.size()), solved_columns});
+}
+
+void add_contacts(ScanContact& scan, const Array& rows) {
+  const double* r = rows.data();
+  for (py::ssize_t i = 0; i < rows.size() / solved_columns; ++i, r += solved_columns) {
+    const SolvedContact c{.rubber = static_cast<std::uint64_t>(r[0]),
+                          .heat = static_cast<std::uint64_t>(r[1]),
+                          .poisson_ratio = r[2],
+                          .q0 = r[3],
+                          .q1 = r[4],
+                          .part = static_cast<int>(r[5]),
+                          .coarse = r[6] != 0,
+                          .pressure = r[7],
+                          .velocity = r[8],
+                          .contact_area = r[9],
+                          .hysteresis = r[10],
+                          .rule_area = r[11],
+                          .rule_hysteresis = r[12],
+                          .error = r[13],
+                          .seconds = r[14],
+                          .points_y = static_cast<std::size_t>(r[15]),
+                          .points_x = static_cast<std::size_t>(r[16]),
+                          .contact_points = r[17]};
+    scan.add({&c, 1});
+  }
+}
+
 /// A correction whose numbers are in their ranges.
 template <class C>
 C valid(C correction) {
@@ -48,6 +89,12 @@ C valid(C correction) {
 
 void bind_corrections(py::module_& m) {
   using Optional = std::optional<double>;
+  py::classh<ScanContact>(m, "ScanContact")
+      .def(py::init([](const HeightMap& map, int continuation, double tolerance) {
+        return released([&] { return ScanContact(map, static_cast<Continuation>(continuation), tolerance); });
+      }))
+      .def("contacts", &contact_rows)
+      .def("add", &add_contacts);
   py::classh<SFactor>(m, "SFactor").def(py::init([](double gamma, int applies_to) {
     return valid(SFactor{gamma, static_cast<SFactor::AppliesTo>(applies_to)});
   }));

@@ -8,6 +8,7 @@
 #include "asperity/asperities.hpp"
 #include "asperity/export.hpp"
 #include "asperity/rubber.hpp"
+#include "asperity/scan_contact.hpp"
 #include "asperity/spectrum.hpp"
 #include "asperity/surface.hpp"
 
@@ -84,7 +85,7 @@ struct PeaksThenGreenwoodWilliamson {
 };
 
 using Correction = std::variant<NoCorrection, SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson,
-                                PeaksThenGreenwoodWilliamson, PartialContact>;
+                                PeaksThenGreenwoodWilliamson, PartialContact, ScanContact>;
 
 ASPERITY_EXPORT void validate(const Correction& correction);
 

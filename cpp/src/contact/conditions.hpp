@@ -18,8 +18,12 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   require_poisson("poisson_ratio", model.poisson_ratio);
   require_rtol(model.rtol);
   validate(model.correction);
-  if (model.form != Form::exact && std::holds_alternative<PartialContact>(model.correction))
-    throw InvalidInput("form = interpolated: must be exact with PartialContact, whose rule has the exact A / A0 in it");
+  const bool by_rule =
+      std::holds_alternative<PartialContact>(model.correction) || std::holds_alternative<ScanContact>(model.correction);
+  if (model.form != Form::exact && by_rule)
+    throw InvalidInput(
+        "form = interpolated: must be exact with PartialContact and ScanContact, whose rule has the exact A / A0 in "
+        "it");
   require_same_size("velocity", velocity.size(), "pressure", pressure.size());
   if (velocity.empty()) throw InvalidInput("pressure, velocity: have 0 entries, must have 1 or more");
   for (const double p : pressure) require_positive("pressure", p);

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "asperity/contact.hpp"
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/model_error.hpp"
+#include "contact/scan_ratio.hpp"
 #include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
@@ -114,6 +117,36 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   }
 }
 
+/// By the contacts of a scan, filtered at each wavenumber.
+std::vector<double> scan_area(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber,
+                              ContactModel model, std::span<const double> pressure, std::span<const double> velocity,
+                              std::span<const double> wavenumber) {
+  check_contact(model, pressure, velocity);
+  model.correction = PartialContact{};
+  const double q0 = band(spectrum)[0], longest = std::max(q0, known_band(scan.map()).q0);
+  std::vector<double> result(pressure.size() * wavenumber.size(), 1.0);
+  for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+    if (wavenumber[j] <= q0) continue;
+    const Spectrum cut = truncated(spectrum, std::nullopt, wavenumber[j]);
+    std::optional<ScanRatios> ratios;
+    if (wavenumber[j] > longest) ratios.emplace(scan, cut, rubber, model.poisson_ratio);
+    const std::vector<double> area =
+        contact_area(ratios ? ratios->spectrum() : cut, rubber, model, pressure, velocity, {});
+    const std::vector<ScanRatio> ratio =
+        ratios ? (*ratios)(pressure, velocity, 1) : std::vector<ScanRatio>(pressure.size());
+    for (std::size_t i = 0; i < pressure.size(); ++i) result[i * wavenumber.size() + j] = ratio[i].area * area[i];
+  }
+  return result;
+}
+
+const ScanContact* scan_of(const ContactModel& model) { return std::get_if<ScanContact>(&model.correction); }
+
+void refuse_scan(const ContactModel& model, const char* what) {
+  if (scan_of(model))
+    throw InvalidInput(std::string("correction = ScanContact: knows no ") + what +
+                       ", must be another one; validation.slide gives the pressure at every point");
+}
+
 bool by_partial_contact(const ContactModel& model) { return std::holds_alternative<PartialContact>(model.correction); }
 
 }  // namespace
@@ -122,6 +155,7 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> wavenumber) {
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
+  if (const auto* const scan = scan_of(model)) return scan_area(*scan, spectrum, rubber, model, pressure, velocity, q);
   std::vector<double> result(pressure.size() * q.size());
   if (by_partial_contact(model)) {
     visit_partial(spectrum, rubber, model, pressure, velocity, q,
@@ -141,7 +175,7 @@ std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& r
                                        std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, rubber, model.correction);
-  if (std::holds_alternative<NoCorrection>(model.correction)) {
+  if (std::holds_alternative<NoCorrection>(model.correction) || scan_of(model)) {
     for (const double v : velocity) notes.add({}, v, {});
     return notes.texts();
   }
@@ -173,6 +207,7 @@ std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber
 std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                                       std::span<const double> pressure, std::span<const double> velocity,
                                       std::span<const double> wavenumber) {
+  refuse_scan(model, "correction factor");
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
@@ -211,6 +246,7 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
                                           std::span<const double> stress, std::span<const double> pressure,
                                           std::span<const double> velocity, double wavenumber) {
   require_same_size("stress", stress.size(), "pressure", pressure.size());
+  refuse_scan(model, "distribution of pressure");
   if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
   for (const double sigma : stress) require_not_negative("stress", sigma);
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));

@@ -103,6 +103,7 @@ void validate(const Correction& correction) {
               refuse("friction_gamma", s.friction_gamma, "in [0, 1]");
           },
           [](const PartialContact&) {},
+          [](const ScanContact&) {},
           [](const AffineShift& s) {
             if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
           },
@@ -149,6 +150,7 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
                         [](const SFactor&) { return Shift{}; },
                         [](const NayakSFactor&) { return Shift{}; },
                         [](const PartialContact&) { return Shift{}; },
+                        [](const ScanContact&) { return Shift{}; },
                         [](const AffineShift& s) { return Shift{.p = s.p}; },
                         [](const LocalPeaks& s) { return Shift{.p = shift_factor(s)}; },
                         [&](const GreenwoodWilliamson& s) { return gw(s, 1, s.peaks); },

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/unlimited_rubber.hpp"
+#include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
 

@@ -85,7 +85,7 @@ ValidityFlags ValidityRange::operator()(double g, double p) {
 
 Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& correction)
     : rms_slope_(rms_slope(spectrum)),
-      corrected_(!std::holds_alternative<NoCorrection>(correction)),
+      corrected_(!std::holds_alternative<NoCorrection>(correction) && !std::holds_alternative<ScanContact>(correction)),
       unmeasured_nayak_(unmeasured_nayak(spectrum, correction)),
       flagged_ends_(flagged_ends(spectrum)),
       slope_of_few_periods_(mostly_below(spectrum, flagged_ends_[0])),

@@ -22,6 +22,7 @@
 #include "friction/before_heating.hpp"
 #include "friction/extrapolated_modulus.hpp"
 #include "friction/large_friction.hpp"
+#include "friction/scan_friction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/roughness_window.hpp"
@@ -249,10 +250,11 @@ Friction columns_for(std::span<const double> pressure, std::span<const double> v
   return f;
 }
 
-/// The points of all groups, whose arguments have been checked.
-Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const std::optional<Adhesion>& adhesion,
-                      std::span<const RubberPoints> groups, std::span<const double> pressure,
-                      std::span<const double> velocity, bool contributions, unsigned threads, bool heated = false) {
+/// The points of all groups, whose arguments have been checked. `correction` is the one that notes are of.
+Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const Correction& correction,
+                      const std::optional<Adhesion>& adhesion, std::span<const RubberPoints> groups,
+                      std::span<const double> pressure, std::span<const double> velocity, bool contributions,
+                      unsigned threads, bool heated = false) {
   const SurfaceSegments kept(spectrum);
   Friction f = columns_for(pressure, velocity);
   if (contributions) f.contributions = empty_contributions(spectrum, kept.get(), model, groups, pressure, velocity);
@@ -264,7 +266,7 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
     constexpr std::size_t block = 100;  // points that are worth a thread of their own
     const std::size_t n = order.size(), first = notes.size();
     const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
-    notes.resize(first + workers, Notes(spectrum, rubber, model.correction));
+    notes.resize(first + workers, Notes(spectrum, rubber, correction));
     std::vector<std::optional<PointSolver>> solvers(workers);
     in_blocks(workers, n, workers == 1 ? n : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
       if (!solvers[worker]) solvers[worker].emplace(scene);
@@ -313,7 +315,11 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   check_points(model, adhesion, pressure, velocity, threads);
   check_frequencies(spectrum, rubber, velocity);
   const RubberPoints all{rubber, by_velocity(velocity)};
-  return solve_groups(spectrum, model, adhesion, {&all, 1}, pressure, velocity, contributions, threads);
+  ScanFriction scan(spectrum, rubber, model);
+  Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, {&all, 1}, pressure, velocity,
+                            contributions, threads);
+  scan.apply(f, {}, threads);
+  return f;
 }
 
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
@@ -342,7 +348,12 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
     at_temperature(at, [&] { check_frequencies(spectrum, rubbers.back(), ends); });
     groups.push_back({rubbers.back(), std::move(order)});
   }
-  Friction f = solve_groups(spectrum, model, adhesion, groups, pressure, velocity, contributions, threads, heated);
+  ScanFriction scan(spectrum, rubber, model);
+  Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, groups, pressure, velocity,
+                            contributions, threads, heated);
+  std::vector<double> a_T;
+  for (const double one : temperature) a_T.push_back(std::pow(10, shift_at(shift, one).log10_a_T));
+  scan.apply(f, a_T, threads);
   f.temperature.assign(temperature.begin(), temperature.end());
   return f;
 }

@@ -151,9 +151,12 @@ std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vec
 
 }  // namespace
 
-std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& given,
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   check_request(request, adhesion);
+  ContactModel model = given;
+  if (const auto* const scan = std::get_if<ScanContact>(&given.correction))
+    model.correction = scan->with_pressure_lattice();  // a map asks at many pressures, a few at a time
   const Places at = places_of(request);
   const std::string text =
       text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);

@@ -58,21 +58,42 @@ void subtract_mean(float* v, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) v[i] -= mean;
 }
 
+/// |q| of every mode.
+std::vector<double> wavenumbers(const ContactProblem& problem) {
+  const auto [ny, nx] = problem.shape;
+  const auto wave = [](std::size_t k, std::size_t n) {
+    return 2 * std::numbers::pi * static_cast<double>(std::min(k, n - k)) / static_cast<double>(n);
+  };
+  std::vector<double> q;
+  for (std::size_t y = 0; y < ny; ++y)
+    for (std::size_t x = 0; x <= nx / 2; ++x) q.push_back(std::hypot(problem.aspect * wave(y, ny), wave(x, nx)));
+  return q;
+}
+
+/// A factor f(c, |q|) of every mode but q = 0, which has none.
+template <class T, class F>
+void fill(Factor<T>& factor, const ContactProblem& problem, const std::vector<double>& q, F f) {
+  std::size_t i = 0;
+  for (std::size_t y = 0; y < problem.shape[0]; ++y)
+    for (std::size_t x = 0; x <= problem.shape[1] / 2; ++x, ++i)
+      if (i > 0) factor.set(y, x, std::complex<T>(f(problem.modes[i], q[i])));
+}
+
 class ContactSolver {
  public:
   explicit ContactSolver(const ContactProblem& problem)
       : problem_(problem),
         size_(problem.shape[0] * problem.shape[1]),
-        coarse_(problem.shape, problem.aspect),
-        fine_(problem.shape, problem.aspect),
-        compliance_{problem.column, -1},
-        compliance_on_set_{std::vector<std::complex<float>>(problem.column.size()), -1},
-        stiffness_on_set_{std::vector<std::complex<float>>(problem.column.size()), 1} {
+        coarse_(problem.shape),
+        fine_(problem.shape),
+        wavenumber_(wavenumbers(problem)),
+        compliance_(problem.shape),
+        compliance_on_set_(problem.shape),
+        stiffness_on_set_(problem.shape) {
+    fill(compliance_, problem, wavenumber_, [](std::complex<double> c, double q) { return c / q; });
     // the stiffness of the shortest waves, over 8: the weight of a gap beside a pressure in the residual
-    const double qy = std::numbers::pi * problem.aspect,
-                 step = std::numbers::pi / static_cast<double>(problem.shape[1] / 2);
-    for (std::size_t k = 0; k < problem.column.size(); ++k)
-      weight_ = std::max(weight_, std::hypot(qy, step * static_cast<double>(k)) / std::abs(problem.column[k]) / 8);
+    for (std::size_t i = 1; i < problem.modes.size(); ++i)
+      weight_ = std::max(weight_, wavenumber_[i] / std::abs(problem.modes[i]) / 8);
   }
 
   ContactSolution solve(std::vector<double> start, double rtol, const Course& course) {
@@ -164,11 +185,13 @@ class ContactSolver {
   }
 
   void set_beta(double beta) {
-    for (std::size_t k = 0; k < problem_.column.size(); ++k) {
-      const std::complex<double> c = problem_.column[k], held(c.real() + beta * std::fabs(c.imag()), c.imag());
-      compliance_on_set_.column[k] = std::complex<float>(held);
-      stiffness_on_set_.column[k] = std::complex<float>(1.0 / held);
-    }
+    if (beta == beta_) return;
+    beta_ = beta;
+    const auto held = [beta](std::complex<double> c) {
+      return std::complex(c.real() + beta * std::fabs(c.imag()), c.imag());
+    };
+    fill(compliance_on_set_, problem_, wavenumber_, [&](std::complex<double> c, double q) { return held(c) / q; });
+    fill(stiffness_on_set_, problem_, wavenumber_, [&](std::complex<double> c, double q) { return q / held(c); });
   }
 
   /// Onto the set, from the set, without the mean.
@@ -238,9 +261,10 @@ class ContactSolver {
   std::size_t size_;
   Convolution<float> coarse_;
   Convolution<double> fine_;
+  std::vector<double> wavenumber_;  // of the modes
   Factor<double> compliance_;
   Factor<float> compliance_on_set_, stiffness_on_set_;
-  double weight_ = 0;
+  double weight_ = 0, beta_ = -1;
   Gmres gmres_;
   PointSet set_;
   std::vector<double> state_, gap_, next_, next_gap_;
@@ -255,9 +279,9 @@ ContactSolution solve_contact(const ContactProblem& problem, std::vector<double>
 }
 
 std::vector<double> complete_contact(const ContactProblem& problem) {
-  Convolution<double> convolution(problem.shape, problem.aspect);
-  Factor<double> stiffness{problem.column, 1};
-  for (std::complex<double>& c : stiffness.column) c = 1.0 / c;
+  Convolution<double> convolution(problem.shape);
+  Factor<double> stiffness(problem.shape);
+  fill(stiffness, problem, wavenumbers(problem), [](std::complex<double> c, double q) { return q / c; });
   const std::size_t nx = problem.shape[1];
   std::vector<double> pressure(problem.shape[0] * nx);
   convolution(

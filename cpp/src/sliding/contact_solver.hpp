@@ -12,13 +12,13 @@
 
 namespace asperity {
 
-/// p >= 0, gap = K p - h - delta >= 0, p gap = 0, <p> = load, with K_q = column(q_x) / |q|, K_0 = 0, and q in radians a
+/// p >= 0, gap = K p - h - delta >= 0, p gap = 0, <p> = load, with K_q = modes(q) / |q|, K_0 = 0, and q in radians a
 /// pixel along x.
 struct ContactProblem {
   Grid shape;
-  double aspect;                             // dx / dy
-  std::vector<double> heights;               // h, of mean 0 and rms 1
-  std::vector<std::complex<double>> column;  // |.| <= 1
+  double aspect;                            // dx / dy
+  std::vector<double> heights;              // h, of mean 0 and rms 1
+  std::vector<std::complex<double>> modes;  // ny x (nx / 2 + 1), |.| <= 1
   double load;
 };
 

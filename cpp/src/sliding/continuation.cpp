@@ -1,5 +1,7 @@
-// A measured map made periodic: by its mirror images, or with its end faded into its beginning. Weights are a sine and
-// a cosine, whose squares add up to 1: waves that do not know of each other keep their variance.
+// A measured map made periodic: by its mirror images, or with its end joined to its beginning. Faded, over an eighth,
+// weights are a sine and a cosine, whose squares add up to 1: waves that do not know of each other keep their variance,
+// but skewed heights become Gaussian, and worn surfaces get peaks. Blended, over two of the shortest waves, weights add
+// up to 1: heights stay between those that were measured.
 #include "sliding/continuation.hpp"
 
 #include <algorithm>
@@ -8,8 +10,11 @@
 #include <string>
 #include <utility>
 
+#include "asperity/spectrum.hpp"
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "spectrum/roughness_window.hpp"
+#include "spectrum/segments.hpp"
 
 namespace asperity {
 
@@ -28,9 +33,31 @@ void centre(std::vector<double>& heights) {
   }
 }
 
-/// One axis faded: `lines` of n numbers `step` apart become lines of n - n / 8.
-std::vector<double> faded(const std::vector<double>& heights, HeightMap::Shape shape, bool along_x) {
-  const std::size_t n = shape[along_x ? 1 : 0], margin = n / 8, kept = n - margin;
+/// The rms height, which must be there.
+double require_roughness(const std::vector<double>& heights) {
+  double square = 0;
+  for (const double h : heights) square += h * h;
+  const double rms = std::sqrt(square / static_cast<double>(heights.size()));
+  if (!(rms > 0) || !std::isfinite(rms))
+    throw InvalidInput("height_map has an rms height of " + show(rms, 3) + " m: must have roughness");
+  return rms;
+}
+
+struct Weights {
+  double beginning, end;
+};
+
+/// At a share of the margin, from 0 to 1.
+Weights weights(Continuation continuation, double share) {
+  const double s = std::sin(std::numbers::pi / 2 * share), c = std::cos(std::numbers::pi / 2 * share);
+  if (continuation == Continuation::fade) return {s, c};
+  return {s * s, c * c};
+}
+
+/// One axis joined: its last `margin` points over its first ones.
+std::vector<double> joined(const std::vector<double>& heights, HeightMap::Shape shape, bool along_x,
+                           Continuation continuation, std::size_t margin) {
+  const std::size_t kept = shape[along_x ? 1 : 0] - margin;
   const std::size_t ny = along_x ? shape[0] : kept, nx = along_x ? kept : shape[1];
   std::vector<double> result(ny * nx);
   for (std::size_t y = 0; y < ny; ++y) {
@@ -39,9 +66,10 @@ std::vector<double> faded(const std::vector<double>& heights, HeightMap::Shape s
       const std::size_t i = along_x ? x : y;
       double h = heights[y * shape[1] + x];
       if (i < margin) {
-        const double angle = std::numbers::pi / 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(margin);
+        const auto [beginning, end] =
+            weights(continuation, (static_cast<double>(i) + 0.5) / static_cast<double>(margin));
         const std::size_t other = along_x ? y * shape[1] + x + kept : (y + kept) * shape[1] + x;
-        h = std::sin(angle) * h + std::cos(angle) * heights[other];
+        h = beginning * h + end * heights[other];
       }
       result[y * nx + x] = h;
     }
@@ -60,9 +88,25 @@ std::vector<double> mirrored(const std::vector<double>& heights, HeightMap::Shap
   return result;
 }
 
+/// Where the roughness of a map ends [1/m].
+double roughness_end(const HeightMap& map) { return RoughnessWindow(segments(power_spectrum(map))).end(); }
+
+/// Points of both axes over which the map is joined.
+HeightMap::Shape margins(const HeightMap& map, Continuation continuation, double shortest) {
+  const auto [ny, nx] = map.shape();
+  if (continuation == Continuation::fade) return {ny / 8, nx / 8};
+  constexpr double waves = 2;
+  const double length = waves * 2 * std::numbers::pi / std::min(shortest, roughness_end(map));
+  const auto points = [&](std::size_t n, double pixel) {
+    return std::clamp(static_cast<std::size_t>(std::ceil(std::min(length / pixel, static_cast<double>(n)))),
+                      std::size_t{2}, n / 4);
+  };
+  return {points(ny, map.pixel_size()[0]), points(nx, map.pixel_size()[1])};
+}
+
 }  // namespace
 
-Period one_period(const HeightMap& map, Continuation continuation) {
+Period one_period(const HeightMap& map, Continuation continuation, double shortest) {
   Period period{map.shape(), std::vector<double>(map.shape()[0] * map.shape()[1]), 0};
   auto& [shape, heights, rms] = period;
   if (shape[0] < fewest || shape[1] < fewest)
@@ -76,21 +120,20 @@ Period one_period(const HeightMap& map, Continuation continuation) {
     map.read_row(y, heights.data() + y * shape[1]);
   }
   centre(heights);
-  if (continuation == Continuation::fade)
-    for (const bool along_x : {true, false}) {
-      heights = faded(heights, shape, along_x);
-      shape[along_x ? 1 : 0] -= shape[along_x ? 1 : 0] / 8;
+  if (continuation == Continuation::fade || continuation == Continuation::blend) {
+    require_roughness(heights);
+    const HeightMap::Shape margin = margins(map, continuation, shortest);
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
+      heights = joined(heights, shape, axis == 1, continuation, margin[axis]);
+      shape[axis] -= margin[axis];
     }
+  }
   if (continuation == Continuation::mirror) {
     heights = mirrored(heights, shape);
     shape = {2 * shape[0], 2 * shape[1]};
   }
   centre(heights);
-  double square = 0;
-  for (const double h : heights) square += h * h;
-  rms = std::sqrt(square / static_cast<double>(heights.size()));
-  if (!(rms > 0) || !std::isfinite(rms))
-    throw InvalidInput("height_map has an rms height of " + show(rms, 3) + " m: must have roughness");
+  rms = require_roughness(heights);
   return period;
 }
 

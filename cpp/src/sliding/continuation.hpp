@@ -1,6 +1,7 @@
 // A map as one period of a surface.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "asperity/sliding.hpp"
@@ -13,6 +14,8 @@ struct Period {
   double rms_height;            // [m]
 };
 
-Period one_period(const HeightMap& map, Continuation continuation);
+/// `shortest` [1/m]: waves beyond it do not count where the map is blended.
+Period one_period(const HeightMap& map, Continuation continuation,
+                  double shortest = std::numeric_limits<double>::infinity());
 
 }  // namespace asperity

@@ -7,7 +7,6 @@
 #include <complex>
 #include <cstddef>
 #include <cstring>
-#include <numbers>
 #include <vector>
 
 #include "asperity/watch.hpp"
@@ -15,18 +14,28 @@
 
 namespace asperity {
 
-/// c(q_x) |q|^power, power 1 or -1, and 0 at q = 0.
+/// A factor for each mode of a real grid, in the order in which a Convolution takes them: columns in slabs of a cache
+/// line each, row by row.
 template <class T>
-struct Factor {
-  std::vector<std::complex<T>> column;  // by k_x
-  int power;
+class Factor {
+ public:
+  explicit Factor(Grid shape) : rows_(shape[0]), factors_((shape[1] / 2 / width + 1) * width * shape[0]) {}
+  void set(std::size_t y, std::size_t x, std::complex<T> factor) {
+    factors_[(x / width * rows_ + y) * width + x % width] = factor;
+  }
+  /// Of the slab that begins with column `first`.
+  [[nodiscard]] const std::complex<T>* slab(std::size_t first) const { return factors_.data() + first * rows_; }
+
+ private:
+  static constexpr std::size_t width = ColumnsTransform<T>::width;
+  std::size_t rows_;
+  std::vector<std::complex<T>> factors_;
 };
 
-/// Wavenumbers are in radians a pixel along x; `aspect` is dx / dy.
 template <class T>
 class Convolution {
  public:
-  Convolution(Grid shape, double aspect)
+  explicit Convolution(Grid shape)
       : shape_(shape),
         half_(shape[1] / 2 + 1),
         pitch_(Scratch<std::complex<T>>::aligned(half_) + 8),
@@ -34,18 +43,11 @@ class Convolution {
         backward_row_(shape[1]),
         forward_columns_(shape[0], Direction::forward),
         backward_columns_(shape[0], Direction::backward),
-        qx_squared_(pitch_),
-        qy_squared_(shape[0]),
         modes_(shape[0] * pitch_),
         slab_(shape[0] * width),
         row_(shape[1] + 2) {
     // columns beside the last one stay 0
     std::memset(static_cast<void*>(modes_.data()), 0, shape[0] * pitch_ * sizeof(std::complex<T>));
-    const auto [ny, nx] = shape;
-    const double step_x = 2 * std::numbers::pi / static_cast<double>(nx);
-    const double step_y = 2 * std::numbers::pi * aspect / static_cast<double>(ny);
-    for (std::size_t k = 0; k < pitch_; ++k) qx_squared_[k] = squared(step_x * static_cast<double>(k));
-    for (std::size_t k = 0; k < ny; ++k) qy_squared_[k] = squared(step_y * static_cast<double>(std::min(k, ny - k)));
   }
 
   /// fill(y, row) writes row y of a grid into nx numbers, and returns false, without having written, for a row of
@@ -71,7 +73,6 @@ class Convolution {
 
  private:
   static constexpr std::size_t width = ColumnsTransform<T>::width;
-  static T squared(double q) { return static_cast<T>(q * q); }
 
   /// A cache line of columns: there, times the factor, and back.
   void multiply(const Factor<T>& factor, std::size_t first) {
@@ -82,25 +83,12 @@ class Convolution {
       std::memcpy(static_cast<void*>(slab + y * width), modes_.data() + y * pitch_ + first, bytes);
     forward_columns_(slab);
     const T norm = 1 / static_cast<T>(ny * shape_[1]);
-    T real[width] = {}, imaginary[width] = {};
-    for (std::size_t k = 0; k < width && first + k < half_; ++k) {
-      real[k] = norm * factor.column[first + k].real();
-      imaginary[k] = norm * factor.column[first + k].imag();
-    }
-    const T* const qx = qx_squared_.data() + first;
-    for (std::size_t y = 0; y < ny; ++y) {
-      const T qy = qy_squared_[y];
-      T* const m = reinterpret_cast<T*>(slab + y * width);
-      T scale[width];
-      for (std::size_t k = 0; k < width; ++k) scale[k] = std::sqrt(qx[k] + qy);
-      if (factor.power < 0)
-        for (std::size_t k = 0; k < width; ++k) scale[k] = 1 / scale[k];
-      if (first == 0 && y == 0) scale[0] = 0;
-      for (std::size_t k = 0; k < width; ++k) {
-        const T a = m[2 * k] * scale[k], b = m[2 * k + 1] * scale[k];
-        m[2 * k] = real[k] * a - imaginary[k] * b;
-        m[2 * k + 1] = real[k] * b + imaginary[k] * a;
-      }
+    T* const m = reinterpret_cast<T*>(slab);
+    const T* const f = reinterpret_cast<const T*>(factor.slab(first));
+    for (std::size_t i = 0; i < 2 * ny * width; i += 2) {
+      const T a = norm * m[i], b = norm * m[i + 1];
+      m[i] = f[i] * a - f[i + 1] * b;
+      m[i + 1] = f[i] * b + f[i + 1] * a;
     }
     backward_columns_(slab);
     for (std::size_t y = 0; y < ny; ++y)
@@ -112,7 +100,6 @@ class Convolution {
   RealTransform<T> forward_row_;
   RealInverse<T> backward_row_;
   ColumnsTransform<T> forward_columns_, backward_columns_;
-  std::vector<T> qx_squared_, qy_squared_;
   Scratch<std::complex<T>> modes_, slab_;
   Scratch<T> row_;
 };

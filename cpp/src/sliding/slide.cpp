@@ -1,18 +1,13 @@
-// Steady sliding contact and its friction. A rigid periodic map h slides at v along x on a viscoelastic half-space: in
-// the frame of the map u_q = K_q p_q, K_q = 2 (1 - nu^2) / (|q| conj E(v q_x)), and the contact is p >= 0, gap = u - h
-// - delta >= 0, p gap = 0, <p> = sigma0. The rubber dissipates mu_H = sum q_x Im K_q |p_q|^2 / sigma0, as much as the
-// slopes work, -<p dh/dx> / sigma0. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001), for the modes.
+// A map that slides on rubber: what is asked of it, what of the modulus, and what there is to say of the result.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <string>
 
 #include "asperity/sliding.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/fft.hpp"
-#include "sliding/compliance.hpp"
-#include "sliding/contact_solver.hpp"
-#include "sliding/continuation.hpp"
+#include "sliding/slide_period.hpp"
 
 namespace asperity {
 
@@ -20,118 +15,42 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr std::size_t coarsest = 64;  // points along the shorter side that no coarser grid goes below
-constexpr double coarse_tolerance = 1e-3;
-// Points touch in whole pixels; this over the number of their free sides is what they have too much: V. A. Yastrebov,
-// G. Anciaux and J.-F. Molinari, Tribology International 114, 161 (2017).
-constexpr double excess = (pi - 1 + std::numbers::ln2) / 24;
-
 void validate(const SlidingModel& model, double pressure, double velocity) {
   require_positive("pressure", pressure);
   require_not_negative("velocity", velocity);
   require_poisson("poisson_ratio", model.poisson_ratio);
   require_rtol(model.rtol);
+  require_finite("direction", model.direction);
   if (!(model.time_limit > 0)) refuse("time_limit", model.time_limit, "positive (infinite for none)");
 }
 
-/// The nearest points of a coarser or finer grid.
-std::vector<double> resampled(const std::vector<double>& from, Grid shape, Grid wanted) {
-  std::vector<double> result(wanted[0] * wanted[1]);
-  for (std::size_t y = 0; y < wanted[0]; ++y)
-    for (std::size_t x = 0; x < wanted[1]; ++x)
-      result[y * wanted[1] + x] = from[y * shape[0] / wanted[0] * shape[1] + x * shape[1] / wanted[1]];
-  return result;
-}
-
-/// Everything that does not depend on the grid, [m] and [Pa].
-struct Sliding {
-  const Period& period;
-  double length_y, length_x, pressure, velocity;
-  const Rubber& rubber;
-  const SlidingModel& model;
-};
-
-/// The problem on a grid, and the unit of its pressures [Pa].
-std::pair<ContactProblem, double> problem_on(const Sliding& s, Grid grid, const Compliance& c) {
-  const double dx = s.length_x / static_cast<double>(grid[1]), dy = s.length_y / static_cast<double>(grid[0]);
-  double softest = 0;
-  for (const std::complex<double>& one : c.column) softest = std::max(softest, std::abs(one));
-  const double nu = s.model.poisson_ratio;
-  const double unit = s.period.rms_height / (2 * (1 - nu * nu) * dx * softest);
-  ContactProblem problem{grid, dx / dy, {}, c.column, s.pressure / unit};
-  for (std::complex<double>& one : problem.column) one /= softest;
-  problem.heights = grid == s.period.shape ? s.period.heights : resampled(s.period.heights, s.period.shape, grid);
-  for (double& h : problem.heights) h /= s.period.rms_height;
-  return {std::move(problem), unit};
-}
-
-double area(const std::vector<double>& pressure, Grid shape, double& raw) {
-  const auto [ny, nx] = shape;
-  std::size_t touching = 0, sides = 0;
-  for (std::size_t y = 0; y < ny; ++y)
-    for (std::size_t x = 0; x < nx; ++x) {
-      const bool here = pressure[y * nx + x] > 0;
-      touching += here ? 1 : 0;
-      sides += here != (pressure[y * nx + (x + 1) % nx] > 0) ? 1 : 0;
-      sides += here != (pressure[(y + 1) % ny * nx + x] > 0) ? 1 : 0;
-    }
-  const double points = static_cast<double>(pressure.size());
-  raw = static_cast<double>(touching) / points;
-  return raw - excess * static_cast<double>(sides) / points;
-}
-
-/// Friction by dissipation and by the work of the slopes.
-void add_friction(const Sliding& s, const Compliance& c, SlidingContact& contact) {
-  const auto [ny, nx] = contact.shape;
-  const std::size_t half = nx / 2 + 1;
-  const double points = static_cast<double>(ny * nx), nu = s.model.poisson_ratio;
-  const auto p = forward_transform(contact.pressure, contact.shape);
-  const auto h = forward_transform(s.period.heights, contact.shape);
-  double dissipated = 0, work = 0;
-  for (std::size_t y = 0; y < ny; ++y) {
-    const double qy = 2 * pi / s.length_y * static_cast<double>(std::min(y, ny - y));
-    for (std::size_t x = 0; x < half; ++x) {
-      const std::complex<double> mode = p[y * half + x] / points;
-      const double qx = 2 * pi / s.length_x * static_cast<double>(x), q = std::hypot(qx, qy);
-      if (x == 0) {
-        if (y > 0) dissipated += c.band_loss / q * std::norm(mode);
-      } else if (2 * x < nx) {  // and its mirror image
-        dissipated += 2 * qx * c.column[x].imag() / q * std::norm(mode);
-        work += 2 * qx * (std::conj(mode) * h[y * half + x]).imag() / points;
-      }
-    }
-  }
-  contact.hysteresis = 2 * (1 - nu * nu) * dissipated / s.pressure;
-  contact.work_of_slopes = work / s.pressure;
+/// The modulus must be known at the waves along the way, from the longest to that of two pixels.
+void check_range(const Rubber& rubber, double velocity, const Period& period, HeightMap::PixelSize pixel_size,
+                 double direction) {
+  const auto known = known_range(rubber);
+  if (!known) return;
+  const double cosine = std::fabs(std::cos(direction)), sine = direction == 0 ? 0 : std::fabs(std::sin(direction));
+  const auto [dy, dx] = pixel_size;
+  const double first = 2 * pi *
+                       std::min(cosine > 0 ? 1 / (dx * static_cast<double>(period.shape[1])) : 1e300,
+                                sine > 0 ? 1 / (dy * static_cast<double>(period.shape[0])) : 1e300);
+  const double last = pi * (cosine / dx + sine / dy);
+  const double slowest = known->lowest / first, fastest = known->highest / last;
+  if (velocity >= slowest && velocity <= fastest) return;
+  throw OutOfRange("velocity = " + show(velocity, 6) + " m/s: the waves of this map have q_x from " + show(first, 4) +
+                   " to " + show(last, 4) + " 1/m, and the modulus is known from " + show(known->lowest, 4) + " to " +
+                   show(known->highest, 4) + " rad/s; " +
+                   (slowest <= fastest
+                        ? "velocities from " + show(slowest, 4) + " to " + show(fastest, 4) + " m/s are allowed"
+                        : "no velocity has all of them in this range"));
 }
 
 std::string told(Continuation continuation) {
   if (continuation == Continuation::mirror)
     return "the map was continued by its mirror images: it slides over its slopes in both directions";
+  if (continuation == Continuation::blend)
+    return "the map was made periodic by blending about two of its shortest waves at its end into its beginning";
   return "the map was made periodic by fading its last eighth along either axis into its beginning";
-}
-
-SlidingContact figures(const Sliding& s, const Compliance& c, ContactSolution solution, double unit) {
-  SlidingContact contact{};
-  contact.shape = s.period.shape;
-  contact.pixel_size = {s.length_y / static_cast<double>(contact.shape[0]),
-                        s.length_x / static_cast<double>(contact.shape[1])};
-  contact.error = solution.error;
-  contact.pressure = std::move(solution.pressure);
-  contact.gap = std::move(solution.gap);
-  double work = 0, gap = 0;
-  for (std::size_t i = 0; i < contact.pressure.size(); ++i) {
-    contact.pressure[i] *= unit;
-    contact.gap[i] *= s.period.rms_height;
-    work += contact.pressure[i] * s.period.heights[i];
-    gap += contact.gap[i];
-  }
-  const double points = static_cast<double>(contact.pressure.size());
-  contact.contact_area = area(contact.pressure, contact.shape, contact.contact_area_raw);
-  // u is h + gap + delta of mean 0
-  contact.elastic_energy = (work - s.pressure * gap) / points / 2;
-  add_friction(s, c, contact);
-  return contact;
 }
 
 }  // namespace
@@ -145,36 +64,10 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
     course.deadline = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                   std::chrono::duration<double>(model.time_limit));
   const Period period = one_period(map, model.continuation);
-  const auto [dy, dx] = map.pixel_size();
-  const Sliding s{period,
-                  dy * static_cast<double>(period.shape[0]),
-                  dx * static_cast<double>(period.shape[1]),
-                  pressure,
-                  velocity,
-                  rubber,
-                  model};
-  const Compliance c = compliance(rubber, velocity, period.shape[1], s.length_x);
-  const auto [problem, unit] = problem_on(s, period.shape, c);
-
-  ContactSolution solution{complete_contact(problem), {}, 0, 0, true};
-  if (solution.pressure.empty()) {
-    std::vector<Grid> grids{period.shape};
-    while (std::min(grids.back()[0], grids.back()[1]) >= 2 * coarsest)
-      grids.push_back({(grids.back()[0] + 1) / 2, (grids.back()[1] + 1) / 2});
-    std::vector<double> start;
-    for (std::size_t level = grids.size(); level-- > 1;) {
-      const auto [coarse, _] = problem_on(s, grids[level], compliance(rubber, velocity, grids[level][1], s.length_x));
-      start =
-          resampled(solve_contact(coarse, std::move(start), std::max(model.rtol, coarse_tolerance), course).pressure,
-                    grids[level], grids[level - 1]);
-    }
-    solution = solve_contact(problem, std::move(start), model.rtol, course);
-  } else {
-    solution.gap.assign(solution.pressure.size(), 0.0);
-  }
-  const bool converged = solution.converged;
-  const int steps = solution.steps;
-  SlidingContact contact = figures(s, c, std::move(solution), unit);
+  check_range(rubber, velocity, period, map.pixel_size(), model.direction);
+  auto [contact, converged, steps] =
+      slide_period(period, map.pixel_size(), continued_modulus(rubber),
+                   {model.poisson_ratio, pressure, velocity, model.direction}, model.rtol, course);
   if (!converged)
     throw NotConverged("the contact at " + show(pressure, 6) + " Pa and " + show(velocity, 6) +
                        " m/s reached an error of " + show(contact.error, 2) + " in " + std::to_string(steps) +
@@ -182,7 +75,9 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
                        show(contact.contact_area, 4) + " and its hysteresis " + show(contact.hysteresis, 4) +
                        (std::chrono::steady_clock::now() > course.deadline ? " at the end of time_limit" : ""));
   if (model.continuation != Continuation::periodic) contact.notes.push_back(told(model.continuation));
-  return contact;
+  if (std::fabs(model.direction) > 2 * pi)
+    contact.notes.push_back("direction = " + show(model.direction, 6) + " is more than a turn: it is in radians");
+  return std::move(contact);
 }
 
 }  // namespace asperity

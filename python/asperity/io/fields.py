@@ -73,6 +73,10 @@ def text(value: object) -> str:
     return value
 
 
+def text_or_true(value: object) -> str | bool:
+    return True if value is True else text(value)
+
+
 def truth(value: object) -> bool:
     if not isinstance(value, bool):
         raise _WrongValueError("must be true or false")

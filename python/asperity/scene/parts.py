@@ -13,6 +13,7 @@ from asperity.correction import (
     NayakSFactor,
     PartialContact,
     PeaksThenGreenwoodWilliamson,
+    ScanContact,
     SFactor,
 )
 from asperity.heating import Heating
@@ -29,10 +30,11 @@ from asperity.io.fields import (
     rename_in_errors,
     require,
     text,
+    text_or_true,
 )
 from asperity.scene.scan import Scan
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
-from asperity.surface import LineScan
+from asperity.surface import HeightMap, LineScan
 
 Values = dict[str, Any]
 _KIND = {"kind": Field(text)}
@@ -57,6 +59,11 @@ CORRECTIONS = {
     "local-peaks": _PEAKS,
     "greenwood-williamson": _ASPERITIES,
     "peaks-then-greenwood-williamson": _ASPERITIES,
+    "scan-contact": {
+        **_KIND,
+        "tolerance": Field(number, "tolerance"),
+        "periodic": Field(text_or_true, "periodic"),
+    },
 }
 ADHESION = {
     "shear_stress_pa": Field(number, "shear_stress", plausible.SHEAR_STRESS),
@@ -130,6 +137,8 @@ def build_correction(
             correction = NayakSFactor(**settings)
         elif kind == "partial-contact":
             correction = PartialContact()
+        elif kind == "scan-contact":
+            correction = ScanContact(_map_of(path, surface, surface_values), **settings)
         elif kind == "affine-shift":
             correction = AffineShift(settings["p"])
         elif kind == "greenwood-williamson":
@@ -144,6 +153,14 @@ def build_correction(
         q0 = spectrum.q0 if rolloff is None else rolloff
         values = {"rms_height_m": spectrum.rms_height, "q0_per_m": q0, **values}
     return correction, _with_defaults(values, fields, correction)
+
+
+def _map_of(path: Path, surface: Scan | None, surface_values: Mapping[str, Any]) -> HeightMap:
+    """Return the scan of the scene, without the trend that the scene takes off."""
+    if not isinstance(surface, HeightMap):
+        refuse(path, "[correction] kind", "scan-contact needs a [surface] file with a map")
+    detrended = surface_values["detrend"] == "quadratic"
+    return surface.detrend("quadratic") if detrended else surface
 
 
 def _with_map(

@@ -116,9 +116,9 @@ def compare(
     """Solve a map at every pressure and velocity, and predict the same from its own spectrum.
 
     The theory is given the spectrum of the very map that is solved, all its modes, at its rms
-    slope. Arguments and errors as of `slide` and `friction`; `periodic` False fades the map.
+    slope. Arguments and errors as of `slide` and `friction`; `periodic` False blends its sides.
     """
-    solved = surface if periodic else continued(surface, "fade")
+    solved = surface if periodic else continued(surface, "blend")
     loads, speeds = np.array(pressure, dtype=float), np.array(velocity, dtype=float)
     points = [(p, v) for p in loads for v in speeds]
     rows = []
@@ -151,9 +151,7 @@ def compare(
 
     between = np.geomspace(speeds.min(), speeds.max(), _POINTS)
     between = np.clip(between, speeds.min(), speeds.max())  # whatever rounding made of the ends
-    faded = (
-        "the map was made periodic: the last eighth along either axis is faded into its beginning"
-    )
+    faded = "the map was made periodic: its end is blended into its beginning over two short waves"
     notes = [] if periodic else [faded]
     apart = float(np.abs(slopes / mu - 1).max())
     if apart > _COARSE:

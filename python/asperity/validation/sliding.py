@@ -16,7 +16,7 @@ from asperity.surface import HeightMap, around, metric_unit
 
 __all__ = ["SlidingContact", "SlidingStep", "slide"]
 
-Periodic = Literal[True, "mirror", "fade"]
+Periodic = Literal[True, "mirror", "fade", "blend"]
 _CONTINUATIONS = get_args(Periodic)  # in the order of the core's enumeration
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
 
@@ -52,7 +52,11 @@ class SlidingContact(Table):
     hysteresis : float
         mu_H, the energy that the rubber dissipates over load and way [-].
     work_of_slopes : float
-        -<p dh/dx> / sigma0 [-]: mu_H but for the mesh and for what the band of q_x = 0 dissipates.
+        -<p grad h . s> / sigma0 [-], s along the way: mu_H but for the mesh and for what waves
+        across the way dissipate.
+    lateral : float
+        -<p grad h . n> / sigma0 [-], n being s turned by +90 degrees from x towards y: the force on
+        the moving body is -sigma0 (mu s + lateral n).
     elastic_energy : float
         <p u> / 2 [J/m^2], u being the displacement without its mean.
     error : float
@@ -71,6 +75,7 @@ class SlidingContact(Table):
     contact_area_raw: float
     hysteresis: float
     work_of_slopes: float
+    lateral: float
     elastic_energy: float
     error: float
     pressure: Array
@@ -93,7 +98,7 @@ class SlidingContact(Table):
             "pressure": Column(("y", "x"), self.pressure, "Pa", "contact pressure"),
             "gap": Column(("y", "x"), self.gap, "m", "gap between rubber and surface"),
         }
-        told = ("contact_area", "hysteresis", "work_of_slopes", "error", "velocity")
+        told = ("contact_area", "hysteresis", "work_of_slopes", "lateral", "error", "velocity")
         return Columns(
             places, maps, {name: getattr(self, name) for name in told} | {"notes": [*self.notes]}
         )
@@ -122,9 +127,10 @@ def slide(
     pressure: float,
     velocity: float,
     poisson_ratio: float = 0.5,
-    periodic: Periodic = "fade",
+    periodic: Periodic = "blend",
     rtol: float = 1e-6,
     time_limit: float | None = None,
+    direction: float = 0.0,
     progress: Callable[[SlidingStep], object] | None = None,
 ) -> SlidingContact:
     """Return the contact and the friction of a rigid map that slides steadily on rubber.
@@ -147,15 +153,18 @@ def slide(
         v [m/s]; 0 is elastic contact at the relaxed modulus.
     poisson_ratio : float
         In [0, 0.5].
-    periodic : True, "mirror" or "fade"
+    periodic : True, "blend", "mirror" or "fade"
         How the map goes on beyond its sides. True: at its opposite sides, as those of `synthesize`
-        do. "fade": the last eighth along either axis is faded into its beginning, which leaves
-        three quarters of the points. "mirror": by its mirror images, which takes four times the
-        points and slides over the slopes in both directions.
+        do. "blend": about two of its shortest waves at its end are blended into its beginning, with
+        weights that sum to 1. "fade": the last eighth along either axis is, with weights that keep
+        the variance and not the skewness. "mirror": by its mirror images, which takes four times
+        the points and slides over the slopes in both directions.
     rtol : float
         Largest complementarity error, 1e-12 to 0.1.
     time_limit : float, optional
         [s], after which the computation ends with NotConverged.
+    direction : float
+        Of sliding [rad], from the map's second axis (x) towards its first (y, rising row).
     progress : callable, optional
         Called with a `SlidingStep` after every step.
 
@@ -214,9 +223,10 @@ def slide(
         _continuation(periodic),
         number(rtol, "rtol"),
         limit,
+        number(direction, "direction"),
         _told(progress),
     )
-    names = ("contact_area", "contact_area_raw", "hysteresis", "work_of_slopes")
+    names = ("contact_area", "contact_area_raw", "hysteresis", "work_of_slopes", "lateral")
     return SlidingContact._made(
         dict(zip((*names, "elastic_energy", "error"), figures, strict=True)),
         pressure=frozen(p),
@@ -248,4 +258,4 @@ def continued(height_map: HeightMap, periodic: Periodic) -> HeightMap:
 def _continuation(periodic: object) -> int:
     if periodic is True or (isinstance(periodic, str) and periodic in _CONTINUATIONS):
         return _CONTINUATIONS.index(periodic)
-    raise InvalidInput(f'periodic = {brief(periodic)}: must be True, "mirror" or "fade"')
+    raise InvalidInput(f'periodic = {brief(periodic)}: must be True, "blend", "mirror" or "fade"')

@@ -60,6 +60,7 @@ STICKING = {
     "outliers": [[False, True]],
     "notes": ("a note",),
 }
+SCAN = asperity.synthesize(ROAD, shape=(48, 40), pixel_size=2e-4, seed=1)
 LAW = {"c1": 8.86, "c2": 101.6, "reference_temperature": 293.15}
 TREAD = {
     "density": 1200.0,
@@ -140,6 +141,7 @@ MADE = [
     ("AdhesionFit", STICKING, {"residual": 0.06}),
     ("AdhesionFit", STICKING, {"outliers": [[True, False]]}),
     ("PartialContact", {}, None),
+    ("ScanContact", {"height_map": SCAN}, {"tolerance": 0.01}),
     ("WLF", LAW, {"c2": 50.0}),
     ("Heating", TREAD, {"interface_share": 0.5}),
     ("Heating", TREAD | {"macro_area": 0.2}, {"residence": "box"}),

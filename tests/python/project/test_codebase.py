@@ -28,6 +28,7 @@ FOLDER_OF = {
     "asperities": "contact",
     "correction": "contact",
     "heating": "heat",
+    "scan_contact": "sliding",
     "tiles": "spectrum",
     "build_friction_map": "friction_map",
 }

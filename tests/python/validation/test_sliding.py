@@ -227,7 +227,7 @@ def test_ways_to_make_a_map_periodic() -> None:
     assert "mirror" in by_images.notes[0]
     assert as_given.notes == ()
 
-    faded = slide(scan, SOLID, pressure=2e5, velocity=0.3)
+    faded = pressed(scan, periodic="fade")
     h = scan.heights - scan.heights.mean()
     for axis, margin in ((1, 8), (0, 10)):
         h = np.moveaxis(h, axis, 0)
@@ -241,6 +241,87 @@ def test_ways_to_make_a_map_periodic() -> None:
     assert "fading" in faded.notes[0]
     solved = continued(scan, "fade").heights
     assert solved == pytest.approx(h - h.mean(), abs=1e-18)
+
+    blended = slide(scan, SOLID, pressure=2e5, velocity=0.3)
+    assert "blending" in blended.notes[0]
+    same = pressed(continued(scan, "blend"))
+    assert blended.hysteresis == pytest.approx(same.hysteresis, rel=1e-6)
+
+
+def test_a_blended_map_keeps_its_heights() -> None:
+    scan = with_heights(rough(128, 16), rough(128, 16).heights[:80, :64])
+    solved = continued(scan, "blend").heights
+    ny, nx = solved.shape
+    wave = 128 / 16  # the shortest, in points: two of them are blended, about
+    assert 80 - ny == pytest.approx(2 * wave, abs=4)
+    assert 64 - nx == 80 - ny
+    margin = 80 - ny
+    offset = scan.heights[-1, nx - 1] if margin == 0 else scan.heights[margin, margin]
+    inner = solved[margin:, margin:] - solved[margin, margin] + offset
+    assert inner == pytest.approx(scan.heights[margin:ny, margin:nx], abs=1e-12)
+    assert np.ptp(solved) <= np.ptp(scan.heights)  # weights that sum to 1 make no new peaks
+    steps = np.abs(np.diff(scan.heights, axis=0)).max()
+    assert np.abs(solved[0] - solved[-1]).max() <= steps * 1.01
+
+
+DIRECTIONS = (0.0, 0.3, np.pi / 4, 1.2, np.pi / 2, 2.5, -2.0)
+
+
+@pytest.mark.parametrize("direction", DIRECTIONS)
+def test_a_wave_in_complete_contact_knows_its_direction(direction: float) -> None:
+    n, waves, nu, load = 64, np.array([3, 2]), 0.4, 5e6  # along x and y
+    q = 2 * np.pi / LENGTH * waves
+    x = np.arange(n) * LENGTH / n
+    amplitude = 1e-5
+    heights = amplitude * np.cos(q[0] * x + q[1] * x[:, None])
+    surface = asperity.HeightMap(heights, pixel_size=LENGTH / n)
+    v = 2.0
+    s = np.array([np.cos(direction), np.sin(direction)])
+    found = slide(
+        surface,
+        SOLID,
+        pressure=load,
+        velocity=v,
+        poisson_ratio=nu,
+        direction=direction,
+        periodic=True,
+    )
+    assert found.contact_area == 1
+    # p = |q| conj E h / (2 (1 - nu^2)) of the wave, and its work
+    loss = SOLID.modulus(v * abs(q @ s)).imag * np.sign(q @ s)
+    work = amplitude**2 * np.hypot(*q) * loss / (4 * (1 - nu**2) * load)
+    assert found.hysteresis == pytest.approx(work * (q @ s), rel=1e-9)
+    assert found.work_of_slopes == pytest.approx(found.hysteresis, rel=1e-9)
+    assert found.lateral == pytest.approx(work * (q @ [-s[1], s[0]]), rel=1e-9)
+
+
+def test_a_turned_map_is_a_turned_direction() -> None:
+    scan = rough(64, 8)
+    ridged = with_heights(scan, scan.heights + 2 * np.roll(scan.heights, 3, axis=1))
+    first = pressed(ridged, direction=0.4)
+    transposed = pressed(with_heights(scan, ridged.heights.T.copy()), direction=np.pi / 2 - 0.4)
+    # waves of two points have no direction of their own
+    assert transposed.hysteresis == pytest.approx(first.hysteresis, rel=1e-4)
+    assert transposed.lateral == pytest.approx(-first.lateral, rel=1e-3)
+    back = np.roll(ridged.heights[::-1, ::-1], 1, axis=(0, 1))
+    turned = pressed(with_heights(scan, back), direction=0.4 + np.pi)
+    assert turned.hysteresis == pytest.approx(first.hysteresis, rel=1e-5)
+    assert turned.lateral == pytest.approx(first.lateral, rel=1e-4)
+    assert abs(first.lateral) > 1e-3
+
+
+def test_friction_is_smooth_in_the_direction() -> None:
+    # waves across the way have the mean of their cell: without it mu dips where they meet the grid
+    scan = rough(64, 8)
+    angles = np.linspace(-0.2, 0.2, 9)
+    mu = [pressed(scan, velocity=1e3, direction=angle).hysteresis for angle in angles]
+    assert np.abs(np.diff(mu, 2)).max() < 0.02 * np.mean(mu)
+
+
+def test_directions_that_cannot_be() -> None:
+    with pytest.raises(asperity.InvalidInput, match="direction = nan: must be finite"):
+        pressed(rough(64, 8), direction=np.nan)
+    assert "radians" in pressed(rough(64, 8), direction=90.0).notes[0]
 
 
 def test_band_of_waves_across_the_way() -> None:
@@ -280,7 +361,10 @@ HOLED = np.where(np.arange(256).reshape(16, 16) == 7, np.nan, np.arange(256).res
         ({"velocity": -1.0}, "velocity = -1: must be finite and not negative"),
         ({"velocity": float("nan")}, "velocity = nan"),
         ({"poisson_ratio": 0.7}, "poisson_ratio = 0.7"),
-        ({"periodic": "window"}, """periodic = 'window': must be True, "mirror" or "fade\""""),
+        (
+            {"periodic": "window"},
+            """periodic = 'window': must be True, "blend", "mirror" or "fade\"""",
+        ),
         ({"periodic": False}, "periodic = False"),
         ({"periodic": 1}, "periodic = 1"),
         ({"rtol": 0.5}, "rtol = 0.5"),

@@ -46,7 +46,7 @@ def test_a_map_and_a_rubber_of_ones_own(undrawn, tmp_path, capsys):
     command += ["--velocities", "1e-3,0.1", "--output", str(tmp_path / "worth")]
     assert main(command) == 0
     told = capsys.readouterr()
-    assert "note: the map was made periodic: the last eighth" in told.err
+    assert "note: the map was made periodic: its end is blended" in told.err
     assert "| Nayak S |" in told.out
     table = rows(tmp_path / "worth/sliding.csv")
     assert [float(row["velocity_m_s"]) for row in table] == [1e-3, 0.1]

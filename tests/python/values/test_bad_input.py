@@ -91,6 +91,7 @@ CALLS = {
     "SFactor": (asperity.SFactor, {}),
     "NayakSFactor": (asperity.NayakSFactor, {}),
     "PartialContact": (asperity.PartialContact, {}),
+    "ScanContact": (asperity.ScanContact, {"height_map": MAP}),
     "AffineShift": (asperity.AffineShift, {"p": 2}),
     "LocalPeaks": (asperity.LocalPeaks, {"heights_or_map": PEAKS}),
     "GreenwoodWilliamson": (asperity.GreenwoodWilliamson, PROFILE),
@@ -221,6 +222,11 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
     "NayakSFactor": {"friction_gamma": [SHARE]},
     "PartialContact": {},
+    "ScanContact": {
+        "height_map": [([None, SURFACE, 5.0], "must be a HeightMap")],
+        "periodic": [(["fade", False, None, 1], 'must be "blend", "mirror" or True')],
+        "tolerance": [([0, -1, NAN, 0.2], r" = {}: .*\[0\.001, 0\.1\]")],
+    },
     "AffineShift": {"p": [AT_LEAST_ONE]},
     "LocalPeaks": {
         "heights_or_map": [VECTOR, REAL],

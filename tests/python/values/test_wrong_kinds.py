@@ -100,6 +100,8 @@ def readers(tmp_path):
     factors.write_text(FACTORS)
     np.save(scan, ROUGH.heights)
     FMAP.save(fmap)
+    solved = tmp_path / "solved.npz"
+    asperity.ScanContact(ROUGH).save(solved)
     scene = tmp_path / "scene.toml"
     scene.write_text(TOML)
     without = {name: column for name, column in ROWS["columns"].items() if name != "temperature"}
@@ -112,6 +114,8 @@ def readers(tmp_path):
         "read_surface": {"path": scan, "pixel_size": 1e-4, "unit": "m"},
         "FrictionMap.load": {"path": fmap},
         "FrictionMap.save": {"path": fmap},
+        "ScanContact.load": {"path": solved},
+        "ScanContact.save": {"path": solved},
         "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
         "sweep": {"scene": SCENE, "over": {"surface.hurst": [0.7, 0.8]}},
         "report": {"scenes": scene, "path": tmp_path / "report.html"},

@@ -11,7 +11,7 @@
 
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_error.hpp"
-#include "contact/unlimited_rubber.hpp"
+#include "rubber/unlimited_rubber.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {

@@ -1,0 +1,48 @@
+// What the contact of the scan itself makes of PartialContact's rule: factors of its hysteresis and its area.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "sliding/scan.hpp"
+
+namespace asperity {
+
+/// Of one point.
+struct ScanRatio {
+  double hysteresis = 1, area = 1;
+  // relative errors: of what is between contacts, of pixels, of having one scan, of contacts that did not converge
+  double interpolation = 0, pixels = 0, scan = 0, convergence = 0;
+  /// Of mu, all together.
+  [[nodiscard]] double model_error() const;
+};
+
+/// The contacts of a scan for one spectrum, of which the band counts, and one rubber.
+class ScanRatios {
+ public:
+  /// InvalidInput where the map is no sample of the spectrum.
+  ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio);
+
+  /// What the ratios are factors of: the rings of the map, and the spectrum where it goes on beyond the map.
+  [[nodiscard]] const Spectrum& spectrum() const { return spectrum_; }
+  /// At pairs of pressure [Pa] and v a_T [m/s]; `threads` share the contacts that have to be solved.
+  std::vector<ScanRatio> operator()(std::span<const double> pressure, std::span<const double> velocity,
+                                    unsigned threads);
+  /// What there is to say of the map.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  ScanContact contact_;
+  const Rubber& rubber_;
+  double poisson_ratio_;
+  Band band_;
+  Spectrum spectrum_;
+  std::uint64_t fingerprint_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,159 @@
+// Steady sliding contact and its friction. A rigid periodic map h slides at v along x on a viscoelastic half-space: in
+// the frame of the map u_q = K_q p_q, K_q = 2 (1 - nu^2) / (|q| conj E(v q_x)), and the contact is p >= 0, gap = u - h
+// - delta >= 0, p gap = 0, <p> = sigma0. The rubber dissipates mu_H = sum q_x Im K_q |p_q|^2 / sigma0, as much as the
+// slopes work, -<p dh/dx> / sigma0. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001), for the modes.
+#include "sliding/slide_period.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "numerics/fft.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+constexpr std::size_t coarsest = 64;  // points along the shorter side that no coarser grid goes below
+constexpr double coarse_tolerance = 1e-3;
+// Points touch in whole pixels; this over the number of their free sides is what they have too much: V. A. Yastrebov,
+// G. Anciaux and J.-F. Molinari, Tribology International 114, 161 (2017).
+constexpr double excess = (pi - 1 + std::numbers::ln2) / 24;
+
+/// The nearest points of a coarser or finer grid.
+std::vector<double> resampled(const std::vector<double>& from, Grid shape, Grid wanted) {
+  std::vector<double> result(wanted[0] * wanted[1]);
+  for (std::size_t y = 0; y < wanted[0]; ++y)
+    for (std::size_t x = 0; x < wanted[1]; ++x)
+      result[y * wanted[1] + x] = from[y * shape[0] / wanted[0] * shape[1] + x * shape[1] / wanted[1]];
+  return result;
+}
+
+/// Everything that does not depend on the grid, [m] and [Pa].
+struct Sliding {
+  const Period& period;
+  double length_y, length_x;
+  const WaveModulus& modulus;
+  const Way& way;
+};
+
+Compliance compliance_on(const Sliding& s, Grid grid) {
+  return compliance(s.modulus, s.way.velocity, s.way.direction, {grid, s.length_y, s.length_x});
+}
+
+/// The problem on a grid, and the unit of its pressures [Pa].
+std::pair<ContactProblem, double> problem_on(const Sliding& s, Grid grid, const Compliance& c) {
+  const double dx = s.length_x / static_cast<double>(grid[1]), dy = s.length_y / static_cast<double>(grid[0]);
+  double softest = 0;
+  for (const std::complex<double>& one : c.modes) softest = std::max(softest, std::abs(one));
+  const double nu = s.way.poisson_ratio;
+  const double unit = s.period.rms_height / (2 * (1 - nu * nu) * dx * softest);
+  ContactProblem problem{grid, dx / dy, {}, c.modes, s.way.pressure / unit};
+  for (std::complex<double>& one : problem.modes) one /= softest;
+  problem.heights = grid == s.period.shape ? s.period.heights : resampled(s.period.heights, s.period.shape, grid);
+  for (double& h : problem.heights) h /= s.period.rms_height;
+  return {std::move(problem), unit};
+}
+
+double area(const std::vector<double>& pressure, Grid shape, double& raw) {
+  const auto [ny, nx] = shape;
+  std::size_t touching = 0, sides = 0;
+  for (std::size_t y = 0; y < ny; ++y)
+    for (std::size_t x = 0; x < nx; ++x) {
+      const bool here = pressure[y * nx + x] > 0;
+      touching += here ? 1 : 0;
+      sides += here != (pressure[y * nx + (x + 1) % nx] > 0) ? 1 : 0;
+      sides += here != (pressure[(y + 1) % ny * nx + x] > 0) ? 1 : 0;
+    }
+  const double points = static_cast<double>(pressure.size());
+  raw = static_cast<double>(touching) / points;
+  return raw - excess * static_cast<double>(sides) / points;
+}
+
+/// Friction by dissipation and by the work of the slopes, along the way and across it.
+void add_friction(const Sliding& s, const Compliance& c, SlidingContact& contact) {
+  const auto [ny, nx] = contact.shape;
+  const std::size_t half = nx / 2 + 1;
+  const double points = static_cast<double>(ny * nx), nu = s.way.poisson_ratio;
+  const double cosine = std::cos(s.way.direction), sine = s.way.direction == 0 ? 0 : std::sin(s.way.direction);
+  const auto p = forward_transform(contact.pressure, contact.shape);
+  const auto h = forward_transform(s.period.heights, contact.shape);
+  double dissipated = 0, along = 0, across = 0;
+  for (std::size_t y = 0; y < ny; ++y) {
+    const double qy = 2 * pi / s.length_y * (2 * y < ny ? static_cast<double>(y) : -static_cast<double>(ny - y));
+    for (std::size_t x = 0; x < half; ++x) {
+      if (x + y == 0) continue;
+      const std::size_t i = y * half + x;
+      const std::complex<double> mode = p[i] / points;
+      const double qx = 2 * pi / s.length_x * static_cast<double>(x);
+      const double images = x == 0 || 2 * x == nx ? 1 : 2;
+      dissipated += images * c.loss[i] / std::hypot(qx, qy) * std::norm(mode);
+      // shortest waves have no slope at their points
+      const double slope_x = 2 * x == nx ? 0 : qx, slope_y = 2 * y == ny ? 0 : qy;
+      const double work = images * (std::conj(mode) * h[i]).imag() / points;
+      along += (slope_x * cosine + slope_y * sine) * work;
+      across += (slope_y * cosine - slope_x * sine) * work;
+    }
+  }
+  contact.hysteresis = 2 * (1 - nu * nu) * dissipated / s.way.pressure;
+  contact.work_of_slopes = along / s.way.pressure;
+  contact.lateral = across / s.way.pressure;
+}
+
+SlidingContact figures(const Sliding& s, const Compliance& c, ContactSolution solution, double unit) {
+  SlidingContact contact{};
+  contact.shape = s.period.shape;
+  contact.pixel_size = {s.length_y / static_cast<double>(contact.shape[0]),
+                        s.length_x / static_cast<double>(contact.shape[1])};
+  contact.error = solution.error;
+  contact.pressure = std::move(solution.pressure);
+  contact.gap = std::move(solution.gap);
+  double work = 0, gap = 0;
+  for (std::size_t i = 0; i < contact.pressure.size(); ++i) {
+    contact.pressure[i] *= unit;
+    contact.gap[i] *= s.period.rms_height;
+    work += contact.pressure[i] * s.period.heights[i];
+    gap += contact.gap[i];
+  }
+  const double points = static_cast<double>(contact.pressure.size());
+  contact.contact_area = area(contact.pressure, contact.shape, contact.contact_area_raw);
+  // u is h + gap + delta of mean 0
+  contact.elastic_energy = (work - s.way.pressure * gap) / points / 2;
+  add_friction(s, c, contact);
+  return contact;
+}
+
+}  // namespace
+
+PeriodContact slide_period(const Period& period, HeightMap::PixelSize pixel_size, const WaveModulus& modulus,
+                           const Way& way, double rtol, const Course& course) {
+  const auto [dy, dx] = pixel_size;
+  const Sliding s{period, dy * static_cast<double>(period.shape[0]), dx * static_cast<double>(period.shape[1]), modulus,
+                  way};
+  const Compliance c = compliance_on(s, period.shape);
+  const auto [problem, unit] = problem_on(s, period.shape, c);
+
+  ContactSolution solution{complete_contact(problem), {}, 0, 0, true};
+  if (solution.pressure.empty()) {
+    std::vector<Grid> grids{period.shape};
+    while (std::min(grids.back()[0], grids.back()[1]) >= 2 * coarsest)
+      grids.push_back({(grids.back()[0] + 1) / 2, (grids.back()[1] + 1) / 2});
+    std::vector<double> start;
+    for (std::size_t level = grids.size(); level-- > 1;) {
+      const auto [coarse, _] = problem_on(s, grids[level], compliance_on(s, grids[level]));
+      start = resampled(solve_contact(coarse, std::move(start), std::max(rtol, coarse_tolerance), course).pressure,
+                        grids[level], grids[level - 1]);
+    }
+    solution = solve_contact(problem, std::move(start), rtol, course);
+  } else {
+    solution.gap.assign(solution.pressure.size(), 0.0);
+  }
+  const bool converged = solution.converged;
+  const int steps = solution.steps;
+  return {figures(s, c, std::move(solution), unit), converged, steps};
+}
+
+}  // namespace asperity

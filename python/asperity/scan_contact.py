@@ -1,0 +1,216 @@
+"""The contact of a scan itself as a correction of the theory."""
+
+import io
+from collections.abc import Mapping
+from dataclasses import field
+from os import PathLike
+from typing import Any, Literal, Self
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from asperity import _core
+from asperity._core import InvalidInput
+from asperity.base.arguments import Array, brief, frozen, number, of_kind, path_of
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import Value, value
+from asperity.io.files import check_file, write_whole
+from asperity.surface import HeightMap
+
+__all__ = ["ScanContact", "SolvedContacts"]
+
+Closing = Literal["blend", "mirror", True]
+_PLACE = {True: 0, "mirror": 1, "blend": 3}  # in the core's enumeration
+# of the core's rows
+COLUMNS = {
+    "rubber": ("1", "fingerprint of the rubber"),
+    "heat": ("1", "fingerprint of the heat, 0 without"),
+    "poisson_ratio": ("1", "Poisson's ratio"),
+    "q0": ("1/m", "lower end of the band"),
+    "q1": ("1/m", "upper end of the band"),
+    "part": ("1", "of the scan: -1 the whole of it, 0 to 3 its quarters"),
+    "coarse": ("1", "1 on half as many points along a side, for the error of the pixels"),
+    "pressure": ("Pa", "nominal pressure"),
+    "velocity": ("m/s", "v a_T"),
+    "contact_area": ("1", "real over nominal contact area"),
+    "hysteresis": ("1", "hysteresis"),
+    "rule_area": ("1", "the same by PartialContact on the map's own rings"),
+    "rule_hysteresis": ("1", "the same by PartialContact on the map's own rings"),
+    "error": ("1", "complementarity"),
+    "seconds": ("s", "to solve it"),
+    "points_y": ("1", "of the grid along y"),
+    "points_x": ("1", "of the grid along x"),
+    "contact_points": ("1", "points of the grid in contact"),
+}
+
+
+@value
+class SolvedContacts(Table):
+    """The exact contacts that a `ScanContact` has solved, a row each.
+
+    Attributes
+    ----------
+    rows : ndarray, shape (n, 18)
+        In the order of the columns of `to_dataframe()`.
+    """
+
+    rows: Array
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def _summary(self) -> dict[str, Any]:
+        seconds = self.rows[:, [*COLUMNS].index("seconds")]
+        return {"contacts": len(self.rows), "seconds": float(seconds.sum())}
+
+    def _columns(self) -> Columns:
+        columns = {
+            name: Column(("contact",), self.rows[:, i], *COLUMNS[name])
+            for i, name in enumerate(COLUMNS)
+        }
+        return Columns({}, columns)
+
+    def _draw(self, axes: Any) -> None:
+        named = dict(zip(COLUMNS, self.rows.T, strict=True))
+        fine = (named["coarse"] == 0) & (named["part"] == named["part"].min(initial=-1))
+        for load in np.unique(named["pressure"][fine]):
+            here = fine & (named["pressure"] == load)
+            order = np.argsort(named["velocity"][here])
+            v, mu = named["velocity"][here][order], named["hysteresis"][here][order]
+            axes.plot(v, mu, "o-", label=f"{load:.4g} Pa")
+        axes.set(xscale="log", xlabel=r"$v\,a_T$ [m/s]", ylabel="hysteresis")
+        axes.legend()
+
+
+@value
+class ScanContact(Value):
+    """The exact contact of the scan itself, solved at a few velocities and pressures.
+
+    What a spectrum does not know, that tops are worn or peaks are sharp, is worth 20 to 200 % of
+    mu. This solves steady sliding of the scan (`asperity.validation.slide`) at some velocities and
+    pressures and carries the ratio of exact to theory, `PartialContact` on the map's own rings,
+    to all others. At a solved velocity and pressure the result is that of `slide`.
+
+    Parameters
+    ----------
+    height_map : HeightMap
+        The scan. Drop-outs are filled (up to 10 %), a plane is taken off unless periodic=True, and
+        waves outside of the band of the spectrum are left out.
+    periodic : "blend", "mirror" or True
+        How the map goes on beyond its sides: its end blended into its beginning over two of its
+        shortest waves, by its mirror images, or as it stands.
+    tolerance : float
+        Estimated largest relative error of mu between solved contacts [-], 0.001 to 0.1. The grid
+        has 8 points to the shortest wave that carries slope at 0.02, as many more as the root of
+        the tolerance is smaller.
+
+    Attributes
+    ----------
+    contacts : SolvedContacts
+        What has been solved, a table.
+
+    Notes
+    -----
+    Velocities v a_T lie on a lattice of about a decade, from two decades below the rubber's longest
+    relaxation time to two above its shortest, or over the measured frequencies; where the contact
+    in the middle of a step misses the cubic through its neighbours by more than twice `tolerance`
+    the step is halved. One lattice serves all temperatures. Up to 8 pressures are solved as they
+    are, more on a lattice of a quarter of a decade. What is solved is kept in the object, which
+    threads may share.
+
+    Where the scan needs a grid of more than 1024 x 1024 points, the ratio is the mean of four parts
+    of it, each of 512 x 512 points or less. Where the spectrum goes on beyond the scan the theory
+    goes on.
+
+    `model_error` is of interpolation, pixels, one scan (half of the scatter of its quarters) and
+    contacts that did not converge, together.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2513, q1=2e4)
+    >>> scan = asperity.synthesize(road, shape=(128, 128), pixel_size=0.01 / 128, seed=1)
+    >>> rubber = asperity.PronySeries(
+    ...     equilibrium_modulus=1e6, moduli=[9e6], relaxation_times=[1e-3]
+    ... )
+    >>> exact = asperity.ScanContact(scan, periodic=True)
+    >>> result = asperity.friction(road, rubber, pressure=1e5, velocity=0.1, correction=exact)
+    >>> len(exact.contacts) > 4 and result.model_error < 0.2
+    True
+    """
+
+    height_map: HeightMap = field(kw_only=False)
+    periodic: Closing = "blend"
+    tolerance: float = 0.02
+
+    def __post_init__(self) -> None:
+        named = isinstance(self.periodic, str) and self.periodic in _PLACE
+        if not named and self.periodic is not True:
+            allowed = 'must be "blend", "mirror" or True'
+            raise InvalidInput(f"periodic = {brief(self.periodic)}: {allowed}")
+        core = of_kind(self.height_map, "height_map", HeightMap)._core
+        self._set(tolerance=number(self.tolerance, "tolerance"))
+        self._set(_core=_core.ScanContact(core, _PLACE[self.periodic], self.tolerance))
+
+    @property
+    def contacts(self) -> SolvedContacts:
+        """What has been solved."""
+        return SolvedContacts._made(rows=frozen(self._core.contacts()))
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the map and what has been solved to `path`, whole or not at all, as .npz."""
+        content = io.BytesIO()
+        np.savez(
+            content,
+            heights=self.height_map.heights,
+            pixel_size=self.height_map.pixel_size,
+            periodic=str(self.periodic),
+            tolerance=self.tolerance,
+            contacts=self.contacts.rows,
+        )
+        write_whole(path_of(path, "path"), content.getvalue())
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """Return what `save` wrote to `path`. InvalidInput for any other file."""
+        file = path_of(path, "path")
+        try:
+            check_file(file)
+            with np.load(file, allow_pickle=False) as saved:
+                periodic = str(saved["periodic"])
+                arguments = {
+                    "height_map": HeightMap(
+                        saved["heights"], pixel_size=tuple(saved["pixel_size"])
+                    ),
+                    "periodic": True if periodic == "True" else periodic,
+                    "tolerance": float(saved["tolerance"]),
+                }
+                made = cls(**arguments)
+                made._core.add(_rows(saved["contacts"]))
+                return made
+        except OSError as error:
+            raise InvalidInput(f"{file}: cannot be read: {error.strerror or error}") from error
+        except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, EOFError) as error:
+            raise InvalidInput(f"{file}: is no saved ScanContact: {error}") from error
+
+    def _summary(self) -> dict[str, Any]:
+        shape = {"shape": self.height_map.heights.shape, "periodic": self.periodic}
+        return shape | {"tolerance": self.tolerance, "contacts": len(self.contacts)}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _with_contacts, (self._arguments(), np.array(self.contacts.rows))
+
+
+def _with_contacts(arguments: Mapping[str, Any], contacts: ArrayLike) -> ScanContact:
+    """Make an object anew, with what another one has solved."""
+    made = ScanContact(**arguments)
+    made._core.add(_rows(contacts))
+    return made
+
+
+def _rows(contacts: ArrayLike) -> Array:
+    rows = np.asarray(contacts, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
+        raise InvalidInput(f"contacts has the shape {rows.shape}: must be (n, {len(COLUMNS)})")
+    return rows

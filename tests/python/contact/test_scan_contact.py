@@ -1,0 +1,196 @@
+"""The contact of a scan itself: exact where it is solved, near to it between."""
+
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.validation import slide
+
+LENGTH = 0.01
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=1e6,
+    moduli=np.geomspace(3e5, 3e8, 8),
+    relaxation_times=np.geomspace(1e-1, 1e-7, 8),
+)
+ROAD = asperity.SelfAffineSpectrum(
+    rms_height=1e-4, hurst=0.8, q0=8 * np.pi / LENGTH, q1=64 * np.pi / LENGTH
+)
+
+
+def filtered(heights: np.ndarray, lowest: float, highest: float) -> np.ndarray:
+    n = len(heights)
+    k = 2 * np.pi * np.fft.fftfreq(n, LENGTH / n)
+    q = np.hypot(k, k[:, None])
+    modes = np.where(
+        (q > lowest * (1 - 1e-9)) & (q < highest * (1 + 1e-9)), np.fft.fft2(heights), 0
+    )
+    return np.fft.ifft2(modes).real
+
+
+def worn(n: int = 256, seed: int = 1) -> asperity.HeightMap:
+    """A periodic map with flattened tops, of the band of ROAD."""
+    z = asperity.synthesize(ROAD, shape=(n, n), pixel_size=LENGTH / n, seed=seed).heights / 1e-4
+    h = filtered(-np.logaddexp(0, -1.2 * z - 0.5), ROAD.q0, ROAD.q1)
+    return asperity.HeightMap(h * 1e-4 / h.std(), pixel_size=LENGTH / n)
+
+
+def rings(scan: asperity.HeightMap) -> asperity.TabulatedSpectrum:
+    spectrum = asperity.power_spectrum(scan, window="none", detrend=None)
+    return spectrum.truncated(q0=ROAD.q0, q1=ROAD.q1)
+
+
+SCAN = worn()
+SPECTRUM = rings(SCAN)
+EXACT = asperity.ScanContact(SCAN, periodic=True)
+
+
+def friction(velocity: Any, pressure: Any = 2e5, correction: Any = EXACT, **more: Any) -> Any:
+    scene = {"correction": correction, "pressure": pressure, "velocity": velocity} | more
+    return asperity.friction(SPECTRUM, RUBBER, **scene)
+
+
+def truth(velocity: float, pressure: float = 2e5) -> Any:
+    return slide(SCAN, RUBBER, pressure=pressure, velocity=velocity, periodic=True, rtol=1e-5)
+
+
+def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
+    assert SCAN.skewness < -0.7
+    velocity = 1.37 * np.geomspace(1e-6, 1, 16)
+    found = friction(velocity)
+    exact = [truth(v) for v in velocity]
+    mu = np.array([c.hysteresis for c in exact])
+    area = np.array([c.contact_area for c in exact])
+    assert found.mu == pytest.approx(mu, rel=0.02)
+    assert found.contact_area == pytest.approx(area, rel=0.02)
+    assert np.sqrt(np.mean((found.mu / mu - 1) ** 2)) < 0.006
+    theory = friction(velocity, correction=asperity.PartialContact())
+    assert np.abs(theory.mu / mu - 1).max() > 0.5
+    assert (found.model_error > np.abs(found.mu / mu - 1) / 2).all()
+
+    table = EXACT.contacts.to_dataframe()
+    here = table[(table.part == -1) & (table.coarse == 0) & (table.pressure == 2e5)]
+    row = here.iloc[len(here) // 2]
+    at_node = friction(row.velocity)
+    assert at_node.mu == pytest.approx(row.hysteresis, rel=1e-5)
+    assert at_node.contact_area == pytest.approx(row.contact_area, rel=1e-5)
+    assert row.hysteresis == pytest.approx(truth(row.velocity).hysteresis, rel=1e-3)
+
+
+def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
+    velocity = np.geomspace(1e-4, 1, 9)
+    whole = friction(velocity)
+    anew = asperity.ScanContact(SCAN, periodic=True)
+    backward = [friction(v, correction=anew).mu for v in velocity[::-1]]
+    assert backward[::-1] == whole.mu.tolist()
+    threaded = asperity.ScanContact(SCAN, periodic=True)
+    assert friction(velocity, correction=threaded, threads=2).mu.tolist() == whole.mu.tolist()
+    shared = asperity.ScanContact(SCAN, periodic=True)
+    with ThreadPoolExecutor(2) as pool:
+        found = [*pool.map(lambda v: friction(v, correction=shared).mu, velocity)]
+    assert found == whole.mu.tolist()
+
+
+def test_what_was_solved_is_kept_and_carried(tmp_path: Any) -> None:
+    first = friction(0.01)
+    count = len(EXACT.contacts)
+    assert friction(0.01).mu == first.mu
+    assert len(EXACT.contacts) == count
+    EXACT.save(tmp_path / "scan.npz")
+    for again in (
+        pickle.loads(pickle.dumps(EXACT)),
+        asperity.ScanContact.load(tmp_path / "scan.npz"),
+    ):
+        assert again == EXACT
+        assert friction(0.01, correction=again).mu == first.mu
+        assert len(again.contacts) == count
+    (tmp_path / "other.npz").write_bytes(b"PK nothing")
+    with pytest.raises(asperity.InvalidInput, match=r"other\.npz: is no saved ScanContact"):
+        asperity.ScanContact.load(tmp_path / "other.npz")
+
+
+def test_one_lattice_serves_all_temperatures() -> None:
+    law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+    anew = asperity.ScanContact(SCAN, periodic=True)
+    first = friction(0.01, correction=anew)
+    count = len(anew.contacts)
+    a_T = 10 ** law.log10_a_T(283.15)  # noqa: N806
+    cool = friction(0.01 / a_T, correction=anew, temperature=283.15, shift=law)
+    assert cool.mu == pytest.approx(first.mu, rel=1e-9)
+    assert len(anew.contacts) == count
+
+
+def test_a_rubber_without_loss_has_no_friction_and_the_exact_area() -> None:
+    elastic = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[])
+    found = asperity.friction(SPECTRUM, elastic, pressure=2e5, velocity=1.0, correction=EXACT)
+    exact = slide(SCAN, elastic, pressure=2e5, velocity=0.0, periodic=True, rtol=1e-5)
+    assert found.mu == 0
+    assert found.contact_area == pytest.approx(exact.contact_area, rel=1e-3)
+
+
+def test_area_and_contributions() -> None:
+    area = asperity.contact_area(SPECTRUM, RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
+    assert area == friction(0.1).contact_area
+    q = ROAD.q1 / 2
+    half = asperity.HeightMap(filtered(SCAN.heights, ROAD.q0, q), pixel_size=SCAN.pixel_size)
+    exact = slide(half, RUBBER, pressure=2e5, velocity=0.1, periodic=True, rtol=1e-5)
+    scene = {"pressure": 2e5, "velocity": 0.1, "correction": EXACT}
+    found = asperity.contact_area(SPECTRUM, RUBBER, wavenumber=[ROAD.q0, q, ROAD.q1], **scene)
+    assert found[0] == 1
+    assert found[1] == pytest.approx(exact.contact_area, rel=0.03)
+    assert found[2] == area
+
+    parts = friction(0.1, contributions=True)
+    density = np.trapezoid(parts.dmu_dlnq, np.log(parts.wavenumber))
+    assert density == pytest.approx(parts.hysteresis, rel=0.02)
+    with pytest.raises(asperity.InvalidInput, match="knows no distribution of pressure"):
+        asperity.pressure_distribution(1e6, SPECTRUM, RUBBER, **scene)
+
+
+def test_a_map_that_is_no_sample_of_the_spectrum_is_refused() -> None:
+    with pytest.raises(asperity.InvalidInput, match=r"mean square slope .* factor of 2"):
+        asperity.friction(SPECTRUM.scaled(3), RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
+    far = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=1e6, q1=1e7)
+    with pytest.raises(asperity.InvalidInput, match="height_map knows waves from"):
+        asperity.friction(far, RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
+
+
+def test_beyond_the_map_the_theory_goes_on() -> None:
+    longer = asperity.SelfAffineSpectrum(
+        rms_height=SPECTRUM.rms_height, hurst=0.8, q0=ROAD.q0, q1=ROAD.q1 * 20
+    )
+    scene = {"pressure": 2e5, "velocity": 1e-3, "correction": EXACT}
+    # the scan knows waves of two pixels and longer
+    found = asperity.friction(longer, RUBBER, **scene)
+    inside = asperity.friction(longer.truncated(q1=np.pi * 256 / LENGTH), RUBBER, **scene)
+    assert found.contact_area < inside.contact_area
+
+
+def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
+    whole = worn(512, seed=3)
+    spectrum = rings(whole)
+    cut = whole.heights[40:424, 100:484].copy()
+    cut += 2e-6 * np.arange(384)[:, None]
+    cut[5, 7:9] = np.nan
+    part = asperity.HeightMap(cut, pixel_size=whole.pixel_size)
+    scene = {"pressure": 2e5, "velocity": np.geomspace(1e-4, 0.1, 4)}
+    found = asperity.friction(spectrum, RUBBER, correction=asperity.ScanContact(part), **scene)
+    exact = asperity.friction(
+        spectrum, RUBBER, correction=asperity.ScanContact(whole, periodic=True), **scene
+    )
+    assert found.mu == pytest.approx(exact.mu, rel=0.1)
+    assert (np.abs(found.mu / exact.mu - 1) < 3 * found.model_error).all()
+
+
+def test_many_pressures_are_asked_on_a_lattice() -> None:
+    anew = asperity.ScanContact(SCAN, periodic=True)
+    pressure = np.geomspace(1e5, 4e5, 20)
+    found = friction(0.01, pressure=pressure, correction=anew)
+    loads = np.unique(anew.contacts.to_dataframe().pressure)
+    assert len(loads) <= 8
+    for i in (3, 12):
+        exact = truth(0.01, pressure[i])
+        assert found.mu[i] == pytest.approx(exact.hysteresis, rel=0.02)
