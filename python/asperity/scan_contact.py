@@ -179,7 +179,7 @@ class ScanContact(Value):
             check_file(file)
             with np.load(file, allow_pickle=False) as saved:
                 periodic = str(saved["periodic"])
-                arguments = {
+                arguments: dict[str, Any] = {
                     "height_map": HeightMap(
                         saved["heights"], pixel_size=tuple(saved["pixel_size"])
                     ),

@@ -71,6 +71,13 @@ int main() {
   fine &=
       check(contact.error < 1e-6 && contact.hysteresis > 0 && contact.contact_area < 1, "sliding contact is solved");
 
+  const asperity::HeightMap scan = asperity::synthesize(waves, {64, 64}, {1e-4, 1e-4}, 1);
+  const asperity::ScanContact exact(scan, asperity::Continuation::periodic);
+  const asperity::Spectrum rings = asperity::power_spectrum(scan, asperity::Window::none, std::nullopt);
+  const asperity::Friction of_scan = asperity::friction(asperity::truncated(rings, std::nullopt, 16000), rubber,
+                                                        {.pressure = 1e5, .correction = exact}, velocity);
+  fine &= check(of_scan.mu[0] > 0 && exact.contacts().size() > 4, "the contact of the scan itself is solved");
+
   // An integral that cannot converge makes GSL call the handler of this host, and no other.
   gsl_integration_workspace* const workspace = gsl_integration_workspace_alloc(2);
   gsl_function steep{[](double x, void*) { return std::sin(1 / x); }, nullptr};

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -226,10 +227,10 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
     const double p = pressure[i], v = velocity[i];
     const auto value =
         on_lattice ? over_pressure(p, tolerance, [&](double at) { return interpolated(at, v); }) : interpolated(p, v);
-    // once in a decade of pressure and every few of velocity
+    // once in a few decades of velocity, on a lattice of pressures once in a decade of them
     const int steps = scan_steps * VelocityLattice::parts;
     ContactKey at = key;
-    at.pressure = std::pow(10, std::round(std::log10(p)));
+    at.pressure = on_lattice ? std::pow(10, std::round(std::log10(p))) : p;
     at.velocity =
         lattice.velocity(std::min(lattice.last(), static_cast<int>(std::round(lattice.position(v) / steps)) * steps));
     const auto fine = ratios_of_parts(missing, at, parts), of_parts = ratios_of_parts(missing, at, quarters);
@@ -255,8 +256,53 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   return result;
 }
 
+ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule) {
+  Scan& scan = contact_.scan();
+  if (scan.solved_parts(band_).front() != Scan::whole)
+    throw InvalidInput("heating: must be left out with a ScanContact whose scan one grid does not hold");
+  const auto log_a_T = [&rule](double q) {
+    const double place = std::log(q / rule.q0) / std::log(rule.q1 / rule.q0) * static_cast<double>(rule.a_T.size() - 1);
+    const double last = static_cast<double>(rule.a_T.size() - 1), x = std::clamp(place, 0.0, last);
+    const auto i = static_cast<std::size_t>(std::min(x, last - 1));
+    const double t = x - static_cast<double>(i);
+    return (1 - t) * std::log(rule.a_T[i]) + t * std::log(rule.a_T[i + 1]);
+  };
+  const WaveModulus cold = continued_modulus(rubber_);
+  const WaveModulus modulus{
+      [&](double q, double w) { return q > 0 ? cold.at(q, w * std::exp(log_a_T(q))) : cold.at(0, w); }, true};
+  const ContactKey key{fingerprint_, fingerprint(rule.a_T), poisson_ratio_, band_, Scan::whole, false, pressure,
+                       velocity};
+  auto found = scan.contact(key);
+  if (!found) {
+    found = scan.solve(key, modulus);
+    found->rule_area = rule.area;
+    found->rule_hysteresis = rule.hysteresis;
+    scan.add(*found);
+  }
+  const LogRatios ratio = log_ratios(*found);
+  return {.hysteresis = std::exp(ratio.hysteresis), .area = std::exp(ratio.area), .convergence = found->error};
+}
+
 std::vector<std::string> ScanRatios::notes() const {
   std::vector<std::string> result;
+  const Scan& scan = contact_.scan();
+  const HeightMap& map = scan.map();
+  const auto [ny, nx] = map.shape();
+  const auto [dy, dx] = map.pixel_size();
+  const double side = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
+  const double waves = side * band_.q0 / (2 * std::numbers::pi);
+  constexpr double few = 4;
+  if (waves < few * (1 - 1e-9) && contact_.continuation() != Continuation::periodic)
+    result.push_back("the scan holds " + show(waves, 2) + " of its longest waves to a side, where " + show(few) +
+                     " or more are wanted: another scan of the surface may differ by more than model_error says");
+  const auto whole = contact_.scan().solved_parts(band_).front() == Scan::whole;
+  if (!whole)
+    result.emplace_back(
+        "the scan is too large to be solved whole: the ratio of exact to theory is the mean of four parts of it");
+  else if (const auto solved = contact_.scan().part(band_, Scan::whole, false);
+           solved->period.shape[0] > solved->scanned[0] || solved->period.shape[1] > solved->scanned[1])
+    result.push_back("the scan has fewer points than its shortest waves ask for: it was interpolated to " +
+                     std::to_string(solved->period.shape[0]) + " x " + std::to_string(solved->period.shape[1]));
   return result;
 }
 

@@ -22,6 +22,13 @@ struct ScanRatio {
   [[nodiscard]] double model_error() const;
 };
 
+/// What PartialContact says of a point with heat, and the shift factor that each wave has there.
+struct HotRule {
+  double hysteresis, area;
+  double q0, q1;            // [1/m]
+  std::vector<double> a_T;  // at equal steps of ln q from q0 to q1, beyond which it is constant
+};
+
 /// The contacts of a scan for one spectrum, of which the band counts, and one rubber.
 class ScanRatios {
  public:
@@ -33,6 +40,9 @@ class ScanRatios {
   /// At pairs of pressure [Pa] and v a_T [m/s]; `threads` share the contacts that have to be solved.
   std::vector<ScanRatio> operator()(std::span<const double> pressure, std::span<const double> velocity,
                                     unsigned threads);
+  /// At a pressure and a velocity with heat: the contact itself, solved with the modulus of each wave at its own
+  /// temperature.
+  ScanRatio hot(double pressure, double velocity, const HotRule& rule);
   /// What there is to say of the map.
   [[nodiscard]] std::vector<std::string> notes() const;
 

@@ -15,6 +15,7 @@
 #include "friction/before_heating.hpp"
 #include "friction/extrapolated_modulus.hpp"
 #include "friction/large_friction.hpp"
+#include "friction/scan_friction.hpp"
 #include "heat/flash_solver.hpp"
 #include "heat/heat_check.hpp"
 #include "heat/history.hpp"
@@ -115,6 +116,23 @@ void add_contributions(const FlashSolver& solver, FlashFriction& f, std::size_t 
   }
 }
 
+/// The contact of the scan with each wave at its temperature T(q), which is the theory's.
+void take_scan(ScanFriction& scan, const FlashSolver& solver, const TemperatureShift& shift, double pressure,
+               double velocity, HotPoint& at) {
+  const auto [q0, q1] = band(scan.spectrum());
+  constexpr std::size_t steps = 96;
+  HotRule rule{at.hysteresis, at.contact_area, q0, q1, {}};
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double q = i == steps ? q1 : q0 * std::pow(q1 / q0, static_cast<double>(i) / steps);
+    rule.a_T.push_back(std::pow(10, shift_at(shift, solver.temperature_at(q)).log10_a_T));
+  }
+  const ScanRatio ratio = scan.hot(pressure, velocity, rule);
+  at.hysteresis *= ratio.hysteresis;
+  at.adhesion *= ratio.area;
+  at.contact_area *= ratio.area;
+  at.error_estimate *= std::max(ratio.hysteresis, ratio.area);
+}
+
 /// Columns for the hot points, cleared.
 FlashFriction cleared(Friction cold, std::size_t n) {
   FlashFriction f;
@@ -200,9 +218,11 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
   FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
                                                     temperature, contributions, threads, true),
                             n);
-  const SurfaceSegments kept(spectrum);
-  const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, q_m};
+  ScanFriction scan(spectrum, rubber, model);
+  const SurfaceSegments kept(scan.spectrum());
+  const HeatScene scene{scan.spectrum(), kept.get(), rubber, shift, heating, scan.model(), q_m};
   if (heating.model == HeatModel::one_temperature) {
+    if (scan.of_scan()) throw InvalidInput("model = one-temperature: must be profile with ScanContact");
     heat_to_one_temperature(scene, adhesion, branch, threads, f);
     return f;
   }
@@ -230,7 +250,9 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       at_point(p, v, [&] {
         at = solve({p, v, t, per_area});
         if (model.method != Method::gauss) at = GslHeat(scene)({p, v, t, per_area}, at, solve);
+        if (scan.of_scan()) take_scan(scan, solve, shift, p, v, at);
       });
+      if (scan.of_scan()) f.hot.model_error[i] = f.cold.model_error[i];
       f.hot.mu[i] = at.hysteresis + at.adhesion;
       f.hot.hysteresis[i] = at.hysteresis;
       f.hot.adhesion[i] = at.adhesion;

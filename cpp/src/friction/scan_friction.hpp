@@ -16,6 +16,11 @@ class ScanFriction {
   ScanFriction(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model);
   [[nodiscard]] const Spectrum& spectrum() const { return ratios_ ? ratios_->spectrum() : spectrum_; }
   [[nodiscard]] const ContactModel& model() const { return ratios_ ? rule_ : model_; }
+  [[nodiscard]] bool of_scan() const { return ratios_.has_value(); }
+  /// Of one point with heat.
+  ScanRatio hot(double pressure, double velocity, const HotRule& rule) {
+    return ratios_->hot(pressure, velocity, rule);
+  }
   /// Makes the result that of the model: `a_T` of the points, none where the rubber is not shifted.
   void apply(Friction& f, std::span<const double> a_T, unsigned threads);
 

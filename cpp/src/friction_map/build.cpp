@@ -176,6 +176,9 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
     throw InvalidInput(
         "correction: must be none of Greenwood-Williamson's in a map with heat. Without it all kinks of p_T lie along "
         "one curve, E*(velocity), which the map follows; with heat each has a curve of its own. friction takes it");
+  if (std::holds_alternative<ScanContact>(model.correction))
+    throw InvalidInput(
+        "correction = ScanContact: must be another one in a map with heat, of which every point is a contact");
   const Places at = places_of(request, temperature);
   const FlashFriction found =
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);

@@ -66,6 +66,12 @@ std::uint64_t fingerprint(const Rubber& rubber) {
   return result.value();
 }
 
+std::uint64_t fingerprint(std::span<const double> numbers) {
+  Fingerprint result;
+  result.add(numbers);
+  return result.value();
+}
+
 Scan::Scan(HeightMap map, Continuation continuation, double tolerance)
     : map_(std::move(map)),
       prepared_(prepared(map_, continuation)),

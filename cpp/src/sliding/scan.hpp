@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ namespace asperity {
 
 /// Numbers that tell rubbers, and heats, apart.
 std::uint64_t fingerprint(const Rubber& rubber);
+std::uint64_t fingerprint(std::span<const double> numbers);
 
 /// What a contact is kept by.
 struct ContactKey {

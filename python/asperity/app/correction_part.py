@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from asperity.app.corrections import OF_PEAKS, PLAIN, offered
+from asperity.app.corrections import OF_SCAN, PLAIN, offered
 from asperity.app.parts import Quantity
 from asperity.app.state import State
 from asperity.app.worker import Worker
@@ -14,6 +14,7 @@ from asperity.scene.model import Scene
 _NAMES = {
     "none": "none: Persson's theory alone",
     "partial-contact": "partial contact (recommended)",
+    "scan-contact": "exact contact of the scan itself",
     "s-factor": "S-factor",
     "nayak-s-factor": "S-factor after Nayak",
     "affine-shift": "affine shift",
@@ -23,6 +24,7 @@ _NAMES = {
 }
 # of an argument: its name, its unit, the ends of the slider, whether that is logarithmic, default
 _ARGUMENTS: dict[str, tuple[str, float, tuple[float, float], bool, float]] = {
+    "tolerance": ("tolerance", 1.0, (0.001, 0.1), True, 0.02),
     "gamma": ("gamma", 1.0, (0.01, 1), False, 0.5),
     "friction_gamma": ("gamma of friction", 1.0, (0.01, 1), False, 0.4),
     "p": ("p", 1.0, (1, 5), False, 1.5),
@@ -30,6 +32,7 @@ _ARGUMENTS: dict[str, tuple[str, float, tuple[float, float], bool, float]] = {
     "q0_per_m": ("q0 of macro-asperities [1/m]", 1.0, (10, 1e6), True, 1e3),
 }
 _OF = {
+    "scan-contact": ("tolerance",),
     "s-factor": ("gamma",),
     "nayak-s-factor": ("friction_gamma",),
     "affine-shift": ("p",),
@@ -87,4 +90,4 @@ class CorrectionFields:
                 Quantity(name, value, ends, changed, logarithmic=logarithmic)
 
 
-assert {*_NAMES} == {"none", *PLAIN, *OF_PEAKS}
+assert {*_NAMES} == {"none", *PLAIN, *OF_SCAN}

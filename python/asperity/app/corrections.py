@@ -13,11 +13,12 @@ PLAIN: dict[str, dict[str, Any]] = {
     "affine-shift": {"kind": "affine-shift", "p": 1.5},
 }
 OF_PEAKS = ("local-peaks", "greenwood-williamson", "peaks-then-greenwood-williamson")
+OF_SCAN = ("scan-contact", *OF_PEAKS)
 
 
 def offered(scene: Scene) -> tuple[str, ...]:
-    """Kinds that the scene's surface can give all that they need: peaks are seen on maps alone."""
-    return (*PLAIN, *OF_PEAKS) if isinstance(scene.surface.scan, HeightMap) else tuple(PLAIN)
+    """Kinds that the scene's surface can give all that they need: some need a map."""
+    return (*PLAIN, *OF_SCAN) if isinstance(scene.surface.scan, HeightMap) else tuple(PLAIN)
 
 
 def usual(kind: str, scene: Scene | None) -> dict[str, Any]:

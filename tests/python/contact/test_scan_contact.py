@@ -194,3 +194,94 @@ def test_many_pressures_are_asked_on_a_lattice() -> None:
     for i in (3, 12):
         exact = truth(0.01, pressure[i])
         assert found.mu[i] == pytest.approx(exact.hysteresis, rel=0.02)
+
+
+LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+
+
+def heated(conductivity: float, velocity: Any) -> Any:
+    heating = asperity.Heating(
+        density=1200.0, heat_capacity=1650.0, conductivity=conductivity, contact_diameter=2e-3
+    )
+    return friction(velocity, temperature=293.15, shift=LAW, heating=heating)
+
+
+def test_with_heat_each_wave_has_its_temperature() -> None:
+    velocity = np.array([1e-3, 0.1])
+    exact = [truth(v) for v in velocity]
+    faint = heated(100.0, velocity[:1])  # whose heat flows away: the cold contact
+    assert faint.temperature == pytest.approx(293.15, abs=0.2)
+    assert faint.mu == pytest.approx(exact[0].hysteresis, rel=1e-2)
+    assert faint.contact_area == pytest.approx(exact[0].contact_area, rel=1e-2)
+    hot = heated(0.01, velocity)
+    assert (hot.temperature > [293.2, 293.5]).all()
+    # all waves are between the cold rubber and that of the hottest
+    ends = [
+        truth(v * 10 ** LAW.log10_a_T(t)).contact_area
+        for v, t in zip(velocity, hot.temperature, strict=True)
+    ]
+    cold = np.array([c.contact_area for c in exact])
+    assert (cold < hot.contact_area).all()
+    assert (hot.contact_area < ends).all()
+    assert hot.cold.mu == pytest.approx(friction(velocity).mu, rel=1e-9)
+    with pytest.raises(asperity.InvalidInput, match="a map with heat"):
+        asperity.friction_map(
+            SPECTRUM,
+            RUBBER,
+            pressure=(1e5, 2e5),
+            velocity=(1e-3, 1e-1),
+            correction=EXACT,
+            temperature=293.15,
+            shift=LAW,
+            heating=asperity.Heating(
+                density=1200.0, heat_capacity=1650.0, conductivity=0.2, contact_diameter=2e-3
+            ),
+        )
+
+
+def test_a_map_of_it_is_certified_against_friction() -> None:
+    scene = {"pressure": (1e5, 4e5), "velocity": (1e-2, 0.1), "correction": EXACT}
+    fmap = asperity.friction_map(SPECTRUM, RUBBER, rtol=1e-2, checked=1000, **scene)
+    rng = np.random.default_rng(5)
+    p, v = 1e5 * 4 ** rng.random(50), 1e-2 * 10 ** rng.random(50)
+    found = friction(v, pressure=p)
+    assert (np.abs(fmap.mu(p, v) / found.mu - 1) <= fmap.max_error).all()
+
+
+def test_a_scene_takes_its_own_scan(tmp_path: Any) -> None:
+    from asperity.cli import main
+
+    np.save(tmp_path / "scan.npy", SCAN.heights)
+    (tmp_path / "scene.toml").write_text(
+        f"""
+[surface]
+file = "scan.npy"
+pixel_size_m = {LENGTH / 256}
+unit = "m"
+window = "none"
+detrend = "none"
+q0_per_m = {ROAD.q0}
+q1_per_m = {ROAD.q1}
+[rubber]
+equilibrium_modulus_pa = 1e6
+moduli_pa = {RUBBER.moduli.tolist()}
+relaxation_times_s = {RUBBER.relaxation_times.tolist()}
+[conditions]
+pressure_pa = 2e5
+velocity_m_s = [1e-3, 0.1]
+[correction]
+kind = "scan-contact"
+periodic = true
+tolerance = 0.02
+"""
+    )
+    out = tmp_path / "mu.csv"
+    assert main(["friction", str(tmp_path / "scene.toml"), "--output", str(out)]) == 0
+    lines = [line for line in out.read_text().splitlines() if not line.startswith("#")]
+    mu = [float(line.split(",")[lines[0].split(",").index("mu")]) for line in lines[1:]]
+    assert mu == pytest.approx(friction(np.array([1e-3, 0.1])).mu, rel=0.01)
+
+    (tmp_path / "profile.csv").write_text("\n".join(map(str, SCAN.heights[0])))
+    text = (tmp_path / "scene.toml").read_text().replace("scan.npy", "profile.csv")
+    (tmp_path / "line.toml").write_text(text)
+    assert main(["friction", str(tmp_path / "line.toml"), "--output", str(out)]) == 2

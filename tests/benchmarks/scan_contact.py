@@ -1,0 +1,203 @@
+"""ScanContact and the other corrections on surfaces of many kinds, against exact sliding contact.
+
+    python tests/benchmarks/scan_contact.py [docs/benchmarks/scan_contact.png]
+
+Periodic maps of 256 x 256 points, 8 to the shortest wave, q1/q0 = 8, kinds and seeds that nothing
+was fitted to. Truth is `asperity.validation.slide` at velocities and pressures that are no nodes.
+Prints Markdown.
+"""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+import asperity
+from asperity.validation import slide
+
+LENGTH, POINTS, LONGEST, SHORTEST = 0.01, 256, 4, 32
+Array = np.ndarray
+
+
+def gaussian(seed: int, ratio: float = 1.0) -> Array:
+    """Heights of rms 1 with H = 0.8; `ratio` of the axes of C's ellipse, ridges along y."""
+    rng = np.random.default_rng(seed)
+    k = np.fft.fftfreq(POINTS, 1 / POINTS)
+    q = np.hypot(k / np.sqrt(ratio), k[:, None] * np.sqrt(ratio))
+    with np.errstate(divide="ignore"):
+        amplitude = np.where((q >= LONGEST) & (q <= SHORTEST), q**-1.8, 0)
+    return unit(np.fft.ifft2(amplitude * np.fft.fft2(rng.normal(size=(POINTS, POINTS)))).real)
+
+
+def unit(heights: Array) -> Array:
+    return (heights - heights.mean()) / heights.std()
+
+
+def honed(seed: int) -> Array:
+    """A smooth plateau with grooves of another scale."""
+    plateau, deep = 0.25 * gaussian(seed), gaussian(seed + 500)
+    return plateau - 1.5 * np.logaddexp(0, -4 * (deep + 0.8)) / 4
+
+
+KINDS: dict[str, Callable[[int], Array]] = {
+    "Gaussian": gaussian,
+    "worn": lambda seed: -np.logaddexp(0, -1.5 * gaussian(seed)),
+    "polished tops": lambda seed: np.minimum(z := gaussian(seed), 0.3 + 0.15 * np.tanh(z - 0.3)),
+    "honed plateaus": honed,
+    "peaks": lambda seed: np.exp(0.45 * gaussian(seed)),
+    "ridges 3 : 1": lambda seed: gaussian(seed, 3.0),
+}
+
+
+def height_map(kind: str, seed: int) -> asperity.HeightMap:
+    """Filtered to the band after the transform, of rms height 0.1 mm."""
+    k = np.fft.fftfreq(POINTS, 1 / POINTS)
+    q = np.hypot(k, k[:, None])
+    inside = (q >= LONGEST) & (q <= SHORTEST)
+    heights = np.fft.ifft2(np.where(inside, np.fft.fft2(KINDS[kind](seed)), 0)).real
+    return asperity.HeightMap(1e-4 * unit(heights), pixel_size=LENGTH / POINTS)
+
+
+def series(ratio: float, terms: int, shortest: float, longest: float) -> asperity.PronySeries:
+    moduli = np.geomspace(1, 100, terms)
+    return asperity.PronySeries(
+        equilibrium_modulus=1e6,
+        moduli=1e6 * (ratio - 1) * moduli / moduli.sum(),
+        relaxation_times=np.geomspace(longest, shortest, terms) if terms > 1 else [longest],
+    )
+
+
+RUBBERS = {
+    "1 term, 30": series(30, 1, 1e-4, 1e-4),
+    "8 terms, 300": series(300, 8, 1e-7, 1e-1),
+    "20 terms, 1000": series(1000, 20, 1e-9, 1e1),
+}
+PRESSURES = (3.7e4, 6.1e5)
+VELOCITIES = 1.73 * np.geomspace(1e-5, 7, 9)
+
+
+def corrections(surface: asperity.HeightMap, scan: asperity.ScanContact) -> dict[str, Any]:
+    q0 = 2 * np.pi * LONGEST / LENGTH
+    ends = {"z_max": surface.z_max, "z_min": surface.z_min, "q0": q0}
+    peaks = {"heights_or_map": surface.local_peaks(min_distance=np.pi / q0, periodic=True)}
+    return {
+        "none": None,
+        "S on the integrand, 0.50": asperity.SFactor(gamma=0.5),
+        "`NayakSFactor`": asperity.NayakSFactor(),
+        "local peaks, lambda0 / 2": asperity.LocalPeaks(**peaks),
+        "IGW, measured peaks": asperity.GreenwoodWilliamson(peaks=peaks["heights_or_map"], **ends),
+        "peaks, then IGW": asperity.PeaksThenGreenwoodWilliamson(**peaks, **ends),
+        "`PartialContact`": asperity.PartialContact(),
+        "`ScanContact`": scan,
+    }
+
+
+def cases() -> Iterator[tuple[str, str, dict[str, Array], dict[str, float]]]:
+    """(kind, correction, errors of mu and A and what was stated, cost)."""
+    for index, kind in enumerate(KINDS):
+        surface = height_map(kind, 9000 + index)
+        spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
+        spectrum = spectrum.truncated(
+            q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH
+        )
+        for rubber in RUBBERS.values():
+            scan = asperity.ScanContact(surface, periodic=True)
+            for pressure in PRESSURES:
+                exact = [
+                    slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
+                    for v in VELOCITIES
+                ]
+                mu = np.array([c.hysteresis for c in exact])
+                area = np.array([c.contact_area for c in exact])
+                for correction, value in corrections(surface, scan).items():
+                    begin = time.process_time()
+                    found = asperity.friction(
+                        spectrum, rubber, pressure=pressure, velocity=VELOCITIES, correction=value
+                    )
+                    seconds = time.process_time() - begin
+                    errors = {
+                        "mu": found.mu / mu - 1,
+                        "A": found.contact_area / area - 1,
+                        "stated": found.model_error,
+                        "area": area,
+                    }
+                    yield (
+                        kind,
+                        correction,
+                        errors,
+                        {"seconds": seconds, "nodes": len(scan.contacts)},
+                    )
+
+
+def shown(error: Array) -> str:
+    rms = 100 * np.sqrt(np.mean(error**2))
+    digits = 1 if rms < 10 else 0
+    return f"{rms:.{digits}f} ({100 * error.min():+.{digits}f} / {100 * error.max():+.{digits}f})"
+
+
+def main() -> None:
+    found = [*cases()]
+    names = list(dict.fromkeys(correction for _, correction, _, _ in found))
+    for what in ("mu", "A"):
+        print(f"\n{what}, errors in %, rms (lowest / highest):\n")
+        print("| correction | " + " | ".join(KINDS) + " |\n| --- |" + " --- |" * len(KINDS))
+        for name in names:
+            row = [
+                shown(np.concatenate([e[what] for k, c, e, _ in found if (k, c) == (kind, name)]))
+                for kind in KINDS
+            ]
+            print(f"| {name} | " + " | ".join(row) + " |")
+    print(
+        "\nShare of mu within one and two `model_error`, and seconds of processor time a curve:\n"
+    )
+    for name in ("`PartialContact`", "`ScanContact`"):
+        mine = [(e, cost) for _, c, e, cost in found if c == name]
+        error, stated = (np.concatenate([e[key] for e, _ in mine]) for key in ("mu", "stated"))
+        known = ~np.isnan(stated)
+        shares = [np.mean(np.abs(error[known]) <= k * stated[known]) for k in (1, 2)]
+        seconds = np.median([cost["seconds"] for _, cost in mine])
+        print(f"- {name}: {shares[0]:.2f}, {shares[1]:.2f}; median {seconds:.3f} s")
+    if len(sys.argv) > 1:
+        draw(sys.argv[1])
+
+
+def draw(path: str) -> None:
+    """mu(v) of a worn map: exact points and curves of the corrections."""
+    import matplotlib.pyplot as plt
+
+    surface, rubber, pressure = height_map("worn", 9001), RUBBERS["8 terms, 300"], 2e5
+    spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
+    spectrum = spectrum.truncated(q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH)
+    scan = asperity.ScanContact(surface, periodic=True)
+    dense = np.geomspace(1e-5, 10, 91)
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained", sharex=True)
+    exact = [
+        slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
+        for v in VELOCITIES
+    ]
+    for name, value in corrections(surface, scan).items():
+        if name in ("`NayakSFactor`", "peaks, then IGW"):
+            continue
+        curve = asperity.friction(
+            spectrum, rubber, pressure=pressure, velocity=dense, correction=value
+        )
+        style: dict[str, Any] = {"lw": 1}
+        if name == "`ScanContact`":
+            style = {"color": "k", "lw": 2, "zorder": 3}
+        for ax, values in zip(axes, (curve.mu, curve.contact_area), strict=True):
+            ax.plot(dense, values, label=name.strip("`"), **style)
+    for ax, values in zip(
+        axes, ([c.hysteresis for c in exact], [c.contact_area for c in exact]), strict=True
+    ):
+        ax.plot(VELOCITIES, values, "ko", ms=5, zorder=4, label="exact contact")
+        ax.set(xscale="log", xlabel="sliding velocity [m/s]")
+    axes[0].set(ylabel="hysteresis $\\mu$", ylim=(0, None))
+    axes[1].set(ylabel="contact area $A/A_0$", ylim=(0, None))
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    figure.savefig(path, dpi=130)
+
+
+if __name__ == "__main__":
+    main()
