@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.app.corrections import OF_PEAKS
+from asperity.app.corrections import OF_SCAN
 from asperity.app.opened import Tables
 from asperity.scene.model import Scene
 from asperity.scene.scene import Builders, scene_of
@@ -18,9 +18,9 @@ OPTIONAL = ("correction", "adhesion", "heating", "solver", "uncertainty")
 def loaded(path: Path, tables: Tables, builders: Builders) -> Scene:
     """The scene of a file with these tables, as the shell reads it; none is written, which another
     thread could find half written. `path` is whose errors they are."""
-    of_peaks = tables.get("correction", {}).get("kind") in OF_PEAKS
-    if of_peaks and "file" not in tables["surface"]:
-        problem = "this correction takes the peaks of a scan: choose a scan, or another one"
+    of_scan = tables.get("correction", {}).get("kind") in OF_SCAN
+    if of_scan and "file" not in tables["surface"]:
+        problem = "this correction is made from a scan: choose a scan, or another one"
         raise InvalidInput(problem)
     as_read = tomllib.loads(scene_text(tables))
     return scene_of(path, as_read, for_friction=True, builders=builders)

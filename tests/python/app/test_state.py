@@ -15,7 +15,7 @@ import pytest
 import asperity
 from asperity.app import files
 from asperity.app.computed import contributions, without_heat
-from asperity.app.corrections import OF_PEAKS, PLAIN, offered
+from asperity.app.corrections import OF_SCAN, PLAIN, offered
 from asperity.app.downloads import map_of, picture, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
 from asperity.app.state import MOST_VARIANTS, State
@@ -79,14 +79,14 @@ def test_the_downloaded_scene_gives_the_same_bytes_in_the_shell(
     assert (tmp_path / "mu.csv").read_bytes() == table_csv(scene, scene.friction())
 
 
-def test_corrections_of_peaks_are_offered_with_a_map_alone(state: State) -> None:
-    assert offered(state.load()) == (*PLAIN, *OF_PEAKS)
+def test_corrections_of_scans_are_offered_with_a_map_alone(state: State) -> None:
+    assert offered(state.load()) == (*PLAIN, *OF_SCAN)
     state.choose_correction("local-peaks", state.load())
     first = state.load()
     state.conditions = {**state.conditions, "pressure_pa": 2e5}
     assert state.load().correction is first.correction  # the peaks are looked for once
     state.surface = "law"
-    with pytest.raises(asperity.InvalidInput, match="takes the peaks of a scan: choose a scan"):
+    with pytest.raises(asperity.InvalidInput, match="is made from a scan: choose a scan"):
         state.load()
     state.choose_correction("partial-contact")
     assert offered(state.load()) == tuple(PLAIN)
