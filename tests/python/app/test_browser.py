@@ -201,7 +201,7 @@ def test_corrections_of_peaks_have_sliders(tab: Tab) -> None:
     tab.settled()
     tab.page.get_by_role("combobox", name="Surface").click()
     tab.page.get_by_role("option", name="law").click()
-    playwright.expect(tab.problem("Result")).to_contain_text("takes the peaks of a scan")
+    playwright.expect(tab.problem("Result")).to_contain_text("is made from a scan")
 
 
 def test_velocities_that_are_not_known_have_a_remedy(tab: Tab) -> None:
