@@ -57,9 +57,9 @@ struct SlidingContact {
   std::vector<std::string> notes;
 };
 
-/// Contact and friction of a map that slides steadily along `direction` (by default x, the second axis, towards larger x
-/// in the frame of the rubber) at `velocity` [m/s] under the nominal pressure [Pa]. At velocity 0 the rubber is elastic, of its relaxed
-/// modulus. Throws NotConverged with what was reached.
+/// Contact and friction of a map that slides steadily along `direction` (by default x, the second axis, towards larger
+/// x in the frame of the rubber) at `velocity` [m/s] under the nominal pressure [Pa]. At velocity 0 the rubber is
+/// elastic, of its relaxed modulus. Throws NotConverged with what was reached.
 ASPERITY_EXPORT SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure, double velocity,
                                      const SlidingModel& model = {});
 

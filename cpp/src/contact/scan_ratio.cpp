@@ -26,6 +26,9 @@ namespace asperity {
 namespace {
 
 constexpr double rule_rtol = 1e-6;
+// Of mu, where parts miss the longest waves: 8 % rms on 18 contacts of 1280^2 points, worn (13 %), Gaussian (4 %) and
+// peaked (2 %), A/A0 from 0.02 to 0.3.
+constexpr double of_parts_error = 0.1;
 
 /// Velocities beyond which the ratio is constant or the rubber is not known: two decades beyond its relaxation times.
 VelocityLattice lattice_of(const Rubber& rubber, const Band& band) {
@@ -183,7 +186,9 @@ constexpr int scan_steps = 3;  // of the lattice from one contact for the errors
 
 }  // namespace
 
-double ScanRatio::model_error() const { return std::hypot(interpolation, pixels, std::hypot(scan, convergence)); }
+double ScanRatio::model_error() const {
+  return std::hypot(std::hypot(interpolation, pixels, scan), convergence, parts);
+}
 
 ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio)
     : contact_(scan),
@@ -244,7 +249,8 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
                  .interpolation = value->error,
                  .pixels = std::fabs(coarse->mean.hysteresis - same->mean.hysteresis) / 3,
                  .scan = of_parts->scatter / 2,
-                 .convergence = fine->error};
+                 .convergence = fine->error,
+                 .parts = parts.front() == Scan::whole ? 0 : of_parts_error};
   };
   do {
     if (!missing.empty()) missing.solve(threads);

@@ -16,8 +16,9 @@ namespace asperity {
 /// Of one point.
 struct ScanRatio {
   double hysteresis = 1, area = 1;
-  // relative errors: of what is between contacts, of pixels, of having one scan, of contacts that did not converge
-  double interpolation = 0, pixels = 0, scan = 0, convergence = 0;
+  // relative errors: of what is between contacts, of pixels, of having one scan, of contacts that did not converge, and
+  // of parts that stand for the whole
+  double interpolation = 0, pixels = 0, scan = 0, convergence = 0, parts = 0;
   /// Of mu, all together.
   [[nodiscard]] double model_error() const;
 };

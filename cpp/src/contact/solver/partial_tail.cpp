@@ -11,8 +11,8 @@
 
 #include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_error.hpp"
-#include "rubber/unlimited_rubber.hpp"
 #include "numerics/kernels.hpp"
+#include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
 
