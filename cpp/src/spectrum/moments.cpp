@@ -86,10 +86,22 @@ std::vector<Segment> segments(const Spectrum& spectrum) {
   return result;
 }
 
+/// Densities with 0 for rows that products of them cannot hold, of a tail that has faded to nothing beside the rest.
+std::vector<double> without_faded(const TabulatedSpectrum& table) {
+  const auto& q = table.wavenumber();
+  std::vector<double> c = table.density(), roughness;
+  for (std::size_t i = 0; i < c.size(); ++i) roughness.push_back((q[i] * q[i]) * (q[i] * q[i]) * c[i]);
+  constexpr double least = 1e-280, nothing = 1e-20;
+  const double most = std::ranges::max(roughness);
+  for (std::size_t i = 0; i < c.size(); ++i)
+    if (std::fmin(c[i], roughness[i]) < least && roughness[i] < nothing * most) c[i] = 0;
+  return c;
+}
+
 std::vector<Segment> segments_of_rows(const TabulatedSpectrum& table) {
   std::vector<Segment> result;
   const auto& q = table.wavenumber();
-  const auto& c = table.density();
+  const std::vector<double> c = without_faded(table);
   for (std::size_t i = 0; i + 1 < q.size(); ++i) {
     const bool straight = c[i] == 0 || c[i + 1] == 0;
     Segment segment{q[i], q[i + 1], c[i], c[i + 1], 0, straight};
