@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -47,14 +48,20 @@ inline void check_g(double g, double pressure) {
                        ", must be such that G is in [1e-280, 1e180]");
 }
 
-/// work(), with the point added to the message of a NotConverged.
+/// work(), with the point added to the message of a NotConverged; its temperature where heat makes one of its own.
 template <class Work>
-void at_point(double pressure, double velocity, Work work) {
+void at_point(double pressure, double velocity, std::optional<double> temperature, Work work) {
   try {
     work();
   } catch (const NotConverged& error) {
-    throw NotConverged("pressure = " + show(pressure) + ", velocity = " + show(velocity) + ": " + error.what());
+    const std::string also = temperature ? ", temperature = " + show(*temperature) : "";
+    throw NotConverged("pressure = " + show(pressure) + ", velocity = " + show(velocity) + also + ": " + error.what());
   }
+}
+
+template <class Work>
+void at_point(double pressure, double velocity, Work work) {
+  at_point(pressure, velocity, {}, work);
 }
 
 /// work(), with the temperature added to the message of an OutOfRange.

@@ -179,7 +179,8 @@ void heat_to_one_temperature(const HeatScene& scene, const std::optional<Adhesio
       if (k == begin || begins(order, k, cold.pressure, cold.temperature)) solvers[worker]->forget();
       const double p = cold.pressure[i], v = cold.velocity[i];
       const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
-      at_point(p, v, [&] { found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area}); });
+      at_point(p, v, cold.temperature[i],
+               [&] { found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area}); });
     }
   });
   std::vector<double> hot = cold.temperature;
@@ -247,7 +248,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       }
       const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
       HotPoint at;
-      at_point(p, v, [&] {
+      at_point(p, v, t, [&] {
         at = solve({p, v, t, per_area});
         if (model.method != Method::gauss) at = GslHeat(scene)({p, v, t, per_area}, at, solve);
         if (scan.of_scan()) take_scan(scan, solve, shift, p, v, at);
@@ -289,10 +290,9 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
   std::vector<double> result;
   for (std::size_t i = 0; i < velocity.size(); ++i) {
-    const double p = pressure[i], v = velocity[i];
-    at_point(p, v, [&] {
-      result.push_back(
-          sliding_length(scene, {p, v, temperature[i], adhesion ? adhesion_per_share(*adhesion, p, v) : 0}));
+    const double p = pressure[i], v = velocity[i], t = temperature[i];
+    at_point(p, v, t, [&] {
+      result.push_back(sliding_length(scene, {p, v, t, adhesion ? adhesion_per_share(*adhesion, p, v) : 0}));
     });
   }
   return result;

@@ -45,17 +45,24 @@ double size_of(const VectorXd& residual, const VectorXd& theta) {
   return residual.lpNorm<Eigen::Infinity>() / std::fmax(theta.lpNorm<Eigen::Infinity>(), 1e-300);
 }
 
-/// Newton's steps, each of which must lower the residual, with the slopes of an earlier pass as long as they do; the
-/// map is left at the solution.
+/// Newton's steps, each of which must lower the residual, with the slopes of an earlier pass as long as they do, until
+/// the next one is small: near runaway it is the residual magnified by 1 / (1 - gain). The map is left at the solution.
 std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, int passes, Tangent& tangent) {
   constexpr double enough = 0.15;  // of the residual, which slopes of an earlier pass leave at most
   map(theta);
   tangent.take(map);
-  bool fresh = true;
+  bool fresh = true, stale = false;
   VectorXd residual = map.rise() - theta;
   double size = size_of(residual, theta);
-  while (!(size <= tolerance)) {
-    const VectorXd step = tangent.lu.solve(residual);
+  for (;;) {
+    VectorXd step = tangent.lu.solve(residual);
+    if (size_of(step, theta) <= tolerance) return theta;
+    if (stale) {
+      tangent.take(map);
+      step = tangent.lu.solve(residual);
+      fresh = true;
+      stale = false;
+    }
     bool lower = false;
     for (double share = 1; share > (fresh ? 0.05 : 0.9) && !lower; share /= 2) {
       if (--passes < 0) return {};
@@ -69,18 +76,16 @@ std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, 
         theta = tried;
         residual = left;
         if (left_size >= size && left_size < 1e-12) return theta;
-        fresh = left_size > enough * size && left_size > tolerance;
-        if (fresh) tangent.take(map);
+        stale = left_size > enough * size;
+        fresh = false;
         size = left_size;
       }
     }
     if (lower) continue;
     if (fresh || --passes < 0) return {};
     map(theta);
-    tangent.take(map);
-    fresh = true;
+    stale = true;
   }
-  return theta;
 }
 
 /// What a step that is not taken any more would do to mu and its parts, at most: slopes of an earlier pass may cancel
@@ -175,12 +180,13 @@ FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, 
     found.residual = map.rise() - found.theta;
     const VectorXd coarse = down * found.residual, step = tangent.lu.solve(coarse);
     take_effects(tangent, step, found);
-    const double size = size_of(found.residual, found.theta);
+    // what dF adds to a step is smooth, so that the coarser grid knows it
+    const VectorXd whole = found.residual + up * (step - coarse);
+    const double size = size_of(whole, found.theta);
     if (size <= tolerance || (size < 1e-12 && size >= before)) return found;
     if (size > 0.5 * before) break;
     before = size;
-    // what dF adds to a step is smooth, so that the coarser grid knows it
-    found.theta = (found.theta + found.residual + up * (step - coarse)).cwiseMax(0.0);
+    found.theta = (found.theta + whole).cwiseMax(0.0);
   }
   Tangent own;
   const std::optional<VectorXd> again = newton(map, (up * theta).cwiseMax(0.0), tolerance, passes, own);

@@ -166,3 +166,50 @@ def test_a_row_of_a_table_where_the_shift_is_flat(bump):
     assert np.all(cold.branches == 3)
     assert np.all(cold.temperature < 243.4)
     assert np.all(heated.temperature > 280)
+
+
+RUNAWAY = {  # at a gain of 0.94 to 0.98, where a residual counts 15 to 50 times
+    "spectrum": asperity.SelfAffineSpectrum(
+        rms_height=4.45052e-05, hurst=0.925827, q0=1741.46, q1=107879
+    ),
+    "rubber": asperity.PronySeries(
+        equilibrium_modulus=4309089.67,
+        moduli=[
+            6.10205837e7,
+            3.04874174e8,
+            4.34892323e8,
+            1.76497159e8,
+            2.07049882e7,
+            1.10946056e6,
+            4.53718175e5,
+            4.4759352e5,
+        ],
+        relaxation_times=[
+            1.6547379e-10,
+            7.97568323e-9,
+            3.84420537e-7,
+            1.85287134e-5,
+            8.93066808e-4,
+            4.30449921e-2,
+            2.07472871,
+            100,
+        ],
+    ),
+    "velocity": 0.0579061,
+    "pressure": 508796.3,
+    "correction": asperity.NayakSFactor(),
+    "adhesion": asperity.Adhesion(shear_stress=5.18621e6),
+    "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
+    "heating": asperity.Heating(
+        density=1150, heat_capacity=1700, conductivity=0.2, contact_diameter=0.002274326735
+    ),
+}
+
+
+@each("rtol", [3e-4, 1e-4, 3e-5, 1e-5])
+def test_near_runaway_every_tolerance_is_met(rtol):
+    temperature = np.linspace(285.28, 285.30, 200)
+    fine = asperity.friction(**RUNAWAY, temperature=temperature, rtol=1e-7)
+    assert np.all((fine.gain > 0.9) & (fine.gain < 1))
+    coarse = asperity.friction(**RUNAWAY, temperature=temperature, rtol=rtol)
+    assert np.all(np.abs(coarse.mu - fine.mu) <= coarse.error_estimate)
