@@ -139,6 +139,49 @@ def rippled(noise: float, seed: int = 0, *, lift: float = 0.5) -> Sweeps:
     )
 
 
+def gapped(seed: int, number: int) -> tuple[Sweeps, int]:
+    """Rippled moduli and one gap of 0.3 to 1 decades, and the isotherm behind it."""
+    rng = np.random.default_rng([seed, 5, number])
+    kind = str(rng.choice(["terms 1.5", "terms 2"]))
+    count, points = int(rng.integers(4, 9)), int(rng.integers(8, 21))
+    length = rng.uniform(1.5, 3)
+    frequency = 2 * np.pi * np.geomspace(0.1, 0.1 * 10**length, points)
+    gap = rng.uniform(0.3, 1)
+    temperature, shift = draw_law(rng, count, length - 0.4)
+    k = int(rng.integers(1, count))
+    step = shift[k - 1] - shift[k]
+    temperature[k:] += (temperature[k] - temperature[k - 1]) * (length + gap - step) / step
+    shift[k:] -= length + gap - step
+    low, high = np.log10(frequency[0]) + shift[-1], np.log10(frequency[-1]) + shift[0]
+    modulus = draw_rubber(rng, kind, low, high)(frequency * 10 ** shift[:, None])
+    scatter = np.exp(rng.choice([0, 0.005, 0.01, 0.03]) * rng.standard_normal((2, *modulus.shape)))
+    sweeps = Sweeps(
+        temperature, frequency, modulus.real * scatter[0], modulus.imag * scatter[1], shift, kind
+    )
+    return sweeps, k
+
+
+def two_processes(seed: int, number: int) -> Sweeps:
+    """As much again of a process whose shifts are 0.3 to 0.7 of the first one's, with noise."""
+    rng = np.random.default_rng([seed, 6, number])
+    count, points = int(rng.integers(5, 16)), int(rng.integers(8, 21))
+    length = rng.uniform(1.5, 3)
+    frequency = 2 * np.pi * np.geomspace(0.1, 0.1 * 10**length, points)
+    temperature, shift = draw_law(rng, count, length - rng.uniform(0.3, min(2, length - 0.3)))
+    low, high = np.log10(frequency[0]) + shift[-1], np.log10(frequency[-1]) + shift[0]
+    middle = shift[count // 2]
+    slower = middle + rng.uniform(0.3, 0.7) * (shift - middle)
+    modulus = sum(
+        draw_rubber(rng, "smooth", low, high)(frequency * 10 ** by[:, None])
+        for by in (shift, slower)
+    )
+    noise = rng.choice([0.002, 0.005, 0.01, 0.03])
+    scatter = np.exp(noise * rng.standard_normal((2, *modulus.shape)))
+    return Sweeps(
+        temperature, frequency, modulus.real * scatter[0], modulus.imag * scatter[1], shift, "two"
+    )
+
+
 @dataclass
 class Verdict:
     """A set's errors [decades] and stated deviations, the reference isotherm left out."""
@@ -161,7 +204,7 @@ class Verdict:
         return bool((fine | self.flagged).all())
 
 
-def judge(sweeps: Sweeps) -> Verdict:
+def build_of(sweeps: Sweeps) -> Any:
     """The build about the isotherm in the middle."""
     isotherms = [
         asperity.Isotherm(
@@ -173,7 +216,13 @@ def judge(sweeps: Sweeps) -> Verdict:
         for t, storage, loss in zip(sweeps.temperature, sweeps.storage, sweeps.loss, strict=True)
     ]
     middle = sweeps.temperature.size // 2
-    build = asperity.build_master_curve(isotherms, reference_temperature=sweeps.temperature[middle])
+    return asperity.build_master_curve(isotherms, reference_temperature=sweeps.temperature[middle])
+
+
+def judge(sweeps: Sweeps) -> Verdict:
+    """The errors of the build."""
+    build = build_of(sweeps)
+    middle = sweeps.temperature.size // 2
     error = build.log10_a_T - (sweeps.shift - sweeps.shift[middle])
     others = np.arange(error.size) != middle
     return Verdict(error[others], build.standard_deviation[others])

@@ -2,6 +2,7 @@
 // shifts, points off the curve, and the vertical shift that was not taken.
 #include "dma/master_curve_notes.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double least_overlap = 0.3;  // decades that neighbours should share
+constexpr Eigen::Index shape = 3;  // terms of a parabola
 
 }  // namespace
 
@@ -46,10 +47,11 @@ void note_overlaps(const std::vector<Isotherm>& isotherms, const std::vector<dou
 void note_undetermined(const std::vector<Isotherm>& isotherms, const std::vector<double>& deviation, Notes& notes) {
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (deviation[i] > undetermined_shift)
-      notes.push_back("fatal: the shift at " + kelvin(isotherms[i]) +
-                      " is undetermined, moduli between there and the reference are too flat to tell: standard "
-                      "deviation " +
-                      show(deviation[i], 3) + " decades");
+      notes.push_back(
+          "fatal: the shift at " + kelvin(isotherms[i]) +
+          " is undetermined, moduli between there and the reference are too flat or too far apart to tell: standard "
+          "deviation " +
+          show(deviation[i], 3) + " decades");
 }
 
 void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreement& apart, std::size_t fixed,
@@ -100,6 +102,45 @@ void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<dou
     notes.push_back("isotherm at " + kelvin(isotherms[m.isotherm]) + ": row " + std::to_string(m.row) + " at " +
                     show(isotherms[m.isotherm].angular_frequency()[m.row], 4) + " rad/s lies " +
                     show(100 * std::expm1(size(m)), 3) + " % off the master curve");
+}
+
+// Residuals of noise alone have no level, slope or bend of an isotherm in them beyond chance: the ratio of two mean
+// squares (R. A. Fisher's F), that of a parabola through each isotherm's residuals over that of what is left of them.
+void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes) {
+  constexpr double beyond_chance = 2;  // of the ratio, 0.8 on average and 1.8 at most where isotherms superpose
+  constexpr double own_misfit = 1e-3;  // of clean moduli about the spline, and ten times less as a rule
+  std::string each;
+  for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
+    const Eigen::Index n = static_cast<Eigen::Index>(points.isotherms());
+    double common = 0, rest = 0;  // sums of squares
+    Eigen::Index freedom = 0;
+    for (std::size_t k = 0; k < points.isotherms(); ++k) {
+      const auto size = static_cast<Eigen::Index>(points.size(k));
+      if (size <= shape) continue;
+      Eigen::VectorXd left(size);
+      Eigen::MatrixXd polynomials(size, shape);
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t at = points.first[k] + static_cast<std::size_t>(i);
+        left[i] = points.y[modulus][at] -
+                  shifted.spline.at(points.x[at] + shifted.log10_a_T[k])[static_cast<Eigen::Index>(modulus)];
+        const double x = (points.x[at] - points.middle(k)) / points.length(k);
+        polynomials.row(i) << 1, x, x * x;
+      }
+      const Eigen::VectorXd off = left - polynomials * polynomials.colPivHouseholderQr().solve(left);
+      rest += off.squaredNorm();
+      common += left.squaredNorm() - off.squaredNorm();
+      freedom += size - shape;
+    }
+    const double ratio =
+        common / static_cast<double>(shape * n) / (rest / static_cast<double>(std::max<Eigen::Index>(1, freedom)));
+    const double size = std::sqrt(common / static_cast<double>(points.x.size()));
+    if (freedom < 1 || !(ratio > beyond_chance && size > own_misfit)) continue;
+    each += (each.empty() ? "" : ", ") + std::string(modulus == 0 ? "E' by " : "E'' by ") + show(100 * size, 2) + " %";
+  }
+  if (!each.empty())
+    notes.push_back("whole isotherms lie off the master curve by more than their scatter explains, " + each +
+                    " (root mean square): a vertical shift or an error of the instrument between them, or a rubber "
+                    "that is not thermorheologically simple; the standard deviations of a_T take it for chance");
 }
 
 void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,

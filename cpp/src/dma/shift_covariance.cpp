@@ -51,7 +51,8 @@ double reach_of(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vec
 
 }  // namespace
 
-Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, std::size_t fixed) {
+Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vector<bool>& tied,
+                                 std::size_t fixed) {
   const SweepPoints& points = likelihood.points();
   const std::vector<double> shift = likelihood.shifts(fit.unknowns);
   const auto steps = static_cast<Eigen::Index>(shift.size()) - 1;
@@ -68,11 +69,14 @@ Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fi
   for (Eigen::Index i = 0; i < steps; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const double step = shift[at] - shift[at + 1], deviation = step * std::sqrt(inverse(i, i));
-    const double limit = std::max(points.length(at), points.length(at + 1)) + 1;
+    const double gap = points.lower(at) + step - points.upper(at + 1);  // below zero where they overlap
+    const double limit = std::max(points.length(at), points.length(at + 1)) + 1 + std::max(0.0, gap);
     const double start = 2 * deviation;
+    // across a gap the residual tells how smooth the isotherms are, and not what lies between them
     const double reach =
-        std::max(reach_of(likelihood, fit, shift, at, -1, start, limit),
-                 reach_of(likelihood, fit, shift, at, 1, std::min(start, step), std::min(step, limit)));
+        !tied[at] ? limit
+                  : std::max(reach_of(likelihood, fit, shift, at, -1, start, limit),
+                             reach_of(likelihood, fit, shift, at, 1, std::min(start, step), std::min(step, limit)));
     scale[i] = step * std::max(1.0, reach / 2 / deviation);
   }
   const Eigen::MatrixXd of_steps = scale.asDiagonal() * inverse.topLeftCorner(steps, steps) * scale.asDiagonal();

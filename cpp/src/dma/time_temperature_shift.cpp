@@ -88,8 +88,9 @@ Shifted joint_shifts(const SweepPoints& points, std::size_t fixed) {
   const std::vector<double> shift = likelihood.shifts(fit.unknowns);
   MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
   spline.move(-shift[fixed]);
-  Eigen::MatrixXd covariance = shift_covariance(likelihood, fit, fixed);
-  return {std::move(spline), about(shift, fixed), std::move(covariance), fit.unknowns, fit.weight};
+  std::vector<bool> tied = neighbours_tied(points, smoothness, shift);
+  Eigen::MatrixXd covariance = shift_covariance(likelihood, fit, tied, fixed);
+  return {std::move(spline), about(shift, fixed), std::move(covariance), fit.unknowns, fit.weight, std::move(tied)};
 }
 
 Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted& first) {
@@ -97,7 +98,7 @@ Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted
   ShiftLikelihood likelihood(points, smoothness);
   const ShiftFit fit = fit_shifts(likelihood, smoothness, first.unknowns, first.weight);
   MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
-  return {std::move(spline), about(likelihood.shifts(fit.unknowns), fixed), {}, fit.unknowns, fit.weight};
+  return {std::move(spline), about(likelihood.shifts(fit.unknowns), fixed), {}, fit.unknowns, fit.weight, {}};
 }
 
 Disagreement moduli_apart(const SweepPoints& points, std::size_t fixed, const Shifted& both, double least) {
@@ -112,7 +113,7 @@ Disagreement moduli_apart(const SweepPoints& points, std::size_t fixed, const Sh
   for (std::size_t i = 0; i < points.isotherms(); ++i) far = far || distance(i) > least;
   if (!far) return result;
   const Eigen::MatrixXd covariance =
-      shift_covariance(storage, of_storage, fixed) + shift_covariance(loss, of_loss, fixed);
+      shift_covariance(storage, of_storage, both.tied, fixed) + shift_covariance(loss, of_loss, both.tied, fixed);
   for (std::size_t i = 0; i < points.isotherms(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     if (i != fixed) result.deviations[i] = distance(i) / std::sqrt(covariance(at, at));

@@ -9,6 +9,8 @@
 
 namespace asperity {
 
+inline constexpr double least_overlap = 0.3;  // decades that neighbours should share
+
 /// Whether the values of two sweeps meet at all: E' of one lies within that of the other somewhere.
 bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b);
 
@@ -24,9 +26,14 @@ ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness);
 ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness, const Eigen::VectorXd& near,
                     double weight);
 
+/// Whether each isotherm overlaps the next hotter one by what both measured, beyond chance.
+std::vector<bool> neighbours_tied(const SweepPoints& points, const Smoothness& smoothness,
+                                  const std::vector<double>& shift);
+
 /// The covariance of the shifts [decades squared], zero at `fixed`: the curvature of the likelihood, and where a
-/// plateau lets an isotherm slide farther than that says, how far.
-Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, std::size_t fixed);
+/// plateau or a gap lets an isotherm slide farther than that says, how far.
+Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vector<bool>& tied,
+                                 std::size_t fixed);
 
 /// log10 a_T of the isotherms about `fixed`, their covariance and the spline they lie on.
 struct Shifted {
@@ -35,6 +42,7 @@ struct Shifted {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd unknowns;
   double weight;
+  std::vector<bool> tied;  // of neighbours
 };
 Shifted joint_shifts(const SweepPoints& points, std::size_t fixed);
 /// The same with other vertical shifts, from what the first ones gave; no covariance.

@@ -12,7 +12,16 @@ from asperity.dma import draw_master_curve
 from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_modulus, true_shift, worst
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
-from random_isotherms import FAMILIES, draw, judge, rippled, summary
+from random_isotherms import (
+    FAMILIES,
+    build_of,
+    draw,
+    gapped,
+    judge,
+    rippled,
+    summary,
+    two_processes,
+)
 
 
 @pytest.mark.parametrize("lift", [0.5, 0.75])
@@ -38,6 +47,32 @@ def test_random_isotherms(family):
     order, held, words = summary(verdicts)
     assert order >= 38 / 40, words
     assert 0.9 < held < 0.98, words
+
+
+def test_a_step_across_a_gap_has_an_error_that_holds():
+    """Isotherms that do not overlap and meet by noise alone: most are refused."""
+    built = 0
+    for number in range(400):
+        sweeps, k = gapped(1, number)
+        try:
+            build = build_of(sweeps)
+        except InvalidInput:
+            continue
+        built += 1
+        way = np.zeros(sweeps.temperature.size)
+        way[[k, k - 1]] = 1, -1
+        error = way @ (build.log10_a_T - sweeps.shift)
+        assert abs(error) < 3 * np.sqrt(way @ build.covariance @ way), number
+        assert build.undetermined.any()
+    assert 5 < built < 40
+
+
+def test_two_processes_that_do_not_superpose_are_noted():
+    def noted(sweeps):
+        return any("whole isotherms lie off" in note for note in build_of(sweeps).notes)
+
+    assert sum(noted(two_processes(3, number)) for number in range(40)) >= 18
+    assert sum(noted(draw("spectra", 3, number)) for number in range(40)) <= 2
 
 
 def test_worst_shift_of_twenty_noisy_builds():
