@@ -98,8 +98,8 @@ def draw_plateaus(rng: Any, kind: str, low: float, high: float) -> Any:
     return modulus
 
 
-def draw(family: str, seed: int, number: int) -> Sweeps:
-    """Set `number` of a seed."""
+def draw(family: str, seed: int, number: int, *, clean: bool = False) -> Sweeps:
+    """Set `number` of a seed, with noise or clean."""
     rng = np.random.default_rng([seed, FAMILIES.index(family), number])
     kind = str(rng.choice(["smooth", "terms 1.5", "terms 2", "power law"]))
     count, points = int(rng.integers(5, 23)), int(rng.integers(8, 21))
@@ -115,7 +115,7 @@ def draw(family: str, seed: int, number: int) -> Sweeps:
     low, high = np.log10(frequency[0]) + shift[-1], np.log10(frequency[-1]) + shift[0]
     rubber = (draw_plateaus if family == "plateaus" else draw_rubber)(rng, kind, low, high)
     modulus = rubber(frequency * 10 ** shift[:, None])
-    noise = 10 ** rng.uniform(np.log10(0.005), np.log10(0.03))
+    noise = 0 if clean else 10 ** rng.uniform(np.log10(0.005), np.log10(0.03))
     scatter = np.exp(noise * rng.standard_normal((2, *modulus.shape)))
     return Sweeps(
         temperature, frequency, modulus.real * scatter[0], modulus.imag * scatter[1], shift, kind

@@ -65,21 +65,25 @@ Eigen::MatrixXd shift_covariance(ShiftLikelihood& likelihood, const ShiftFit& fi
   const Eigen::MatrixXd inverse = congruence(curvature.vectors, variance.asDiagonal());
 
   // of the steps: d step = step d ln rate; where the data reach farther, as much wider
-  Eigen::VectorXd scale(steps);
+  Eigen::VectorXd scale(steps), beyond = Eigen::VectorXd::Zero(steps);
   for (Eigen::Index i = 0; i < steps; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const double step = shift[at] - shift[at + 1], deviation = step * std::sqrt(inverse(i, i));
     const double gap = points.lower(at) + step - points.upper(at + 1);  // below zero where they overlap
     const double limit = std::max(points.length(at), points.length(at + 1)) + 1 + std::max(0.0, gap);
     const double start = 2 * deviation;
+    const bool open = !tied[at] || gap > 0;
     // across a gap the residual tells how smooth the isotherms are, and not what lies between them
     const double reach =
-        !tied[at] ? limit
-                  : std::max(reach_of(likelihood, fit, shift, at, -1, start, limit),
-                             reach_of(likelihood, fit, shift, at, 1, std::min(start, step), std::min(step, limit)));
-    scale[i] = step * std::max(1.0, reach / 2 / deviation);
+        open ? limit
+             : std::max(reach_of(likelihood, fit, shift, at, -1, start, limit),
+                        reach_of(likelihood, fit, shift, at, 1, std::min(start, step), std::min(step, limit)));
+    if (open)  // whatever the others do
+      beyond[i] = std::max(0.0, reach * reach / 4 - deviation * deviation);
+    scale[i] = open ? step : step * std::max(1.0, reach / 2 / deviation);
   }
-  const Eigen::MatrixXd of_steps = scale.asDiagonal() * inverse.topLeftCorner(steps, steps) * scale.asDiagonal();
+  Eigen::MatrixXd of_steps = scale.asDiagonal() * inverse.topLeftCorner(steps, steps) * scale.asDiagonal();
+  of_steps.diagonal() += beyond;
 
   // shift of isotherm i about the fixed one: the steps between them, down from a colder one and up from a hotter one
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(steps + 1, steps);

@@ -67,6 +67,15 @@ def test_a_step_across_a_gap_has_an_error_that_holds():
     assert 5 < built < 40
 
 
+@pytest.mark.parametrize("number", [88, 100])
+def test_clean_plateaus_that_the_fit_leaves_apart(number):
+    """Steps in a plateau are off by 2 to 5 decades, which their errors hold."""
+    verdict = judge(draw("plateaus", 41, number, clean=True))
+    assert np.abs(verdict.error).max() > 2
+    assert verdict.in_order
+    assert (np.abs(verdict.error) < 4 * verdict.deviation).all()
+
+
 def test_two_processes_that_do_not_superpose_are_noted():
     def noted(sweeps):
         return any("whole isotherms lie off" in note for note in build_of(sweeps).notes)
