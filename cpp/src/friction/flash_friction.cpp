@@ -179,8 +179,9 @@ void heat_to_one_temperature(const HeatScene& scene, const std::optional<Adhesio
       if (k == begin || begins(order, k, cold.pressure, cold.temperature)) solvers[worker]->forget();
       const double p = cold.pressure[i], v = cold.velocity[i];
       const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
-      at_point(p, v, cold.temperature[i],
-               [&] { found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area}); });
+      at_point(p, v, cold.temperature[i], [&] {
+        found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area});
+      });
     }
   });
   std::vector<double> hot = cold.temperature;
