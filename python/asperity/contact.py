@@ -93,7 +93,8 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
     form : {"exact", "interpolated"}
         "interpolated" is Eq. 7, (1 + (pi G)^1.5)^(-1/3), which differs by -2.8 to +2.6 %.
     wavenumber : array_like, shape (n,) or (), optional
-        Where the surface is cut [1/m], within its band: appended as last axis. By default q1.
+        Up to where the surface is seen [1/m], within its band: appended as last axis. By default
+        q1. The area never rises with it.
     rtol : float
         Relative tolerance, 1e-12 to 0.1.
     method : {"gauss", "qag", "qags", "cquad"}

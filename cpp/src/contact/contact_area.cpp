@@ -90,30 +90,40 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   }
 }
 
-/// The same by the rule of PartialContact, on the surface that ends at each wavenumber: visit(index of point, index of
-/// wavenumber, G there times kappa, A / A0).
+/// The same by the rule of PartialContact, with the one kappa of the whole band: visit(index of point, index of
+/// wavenumber, kappa G, A / A0). G grows with q, so the area never rises with magnification; with the kappa of the
+/// surface cut at each wavenumber it did, by up to 6 % from ring to ring (docs/sliding.md compares both with exact
+/// contacts).
 template <class Visit>
 void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                    std::span<const double> pressure, std::span<const double> velocity,
                    std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
   check_frequencies(spectrum, rubber, velocity);
-  const std::vector<std::size_t> order = by_velocity(velocity);
-  const auto [q0, q1] = band(spectrum);
-  for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+  const SurfaceSegments whole(spectrum);
+  const double q1 = band(spectrum)[1];
+  const std::unique_ptr<PartialSolver> solver = partial_solver(whole.get(), rubber, model, spectrum);
+  ContactModel persson = model;
+  persson.correction = NoCorrection{};
+  std::optional<Solver> along;
+  if (std::ranges::any_of(wavenumber, [&](double q) { return q < q1; }))
+    along.emplace(whole.get(), rubber, persson, false, std::nullopt);
+  for (const std::size_t i : by_velocity(velocity)) {
     heed();
-    if (wavenumber[j] <= q0) {
-      for (const std::size_t i : order) visit(i, j, 0.0, 1.0);
-      continue;
-    }
-    const std::vector<Segment> surface = surface_up_to(spectrum, wavenumber.subspan(j, 1));
-    const std::unique_ptr<PartialSolver> solver = wavenumber[j] == q1 ? partial_solver(surface, rubber, model, spectrum)
-                                                                      : partial_profile_solver(surface, rubber, model);
-    for (const std::size_t i : order) {
-      heed();
-      at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
-      visit(i, j, solver->kappa() * solver->g(), solver->area());
-    }
+    at_point(pressure[i], velocity[i], [&] {
+      solver->solve(pressure[i], velocity[i]);
+      const double end = solver->kappa() * solver->g();
+      if (along) along->solve(pressure[i], velocity[i], 1);
+      for (std::size_t j = 0; j < wavenumber.size(); ++j) {
+        if (wavenumber[j] == q1) {
+          visit(i, j, end, solver->area());
+        } else {
+          heed_at(j);
+          const double g = end * (along->g(wavenumber[j]) / along->g(q1));
+          visit(i, j, g, contact_share(g, model.form));
+        }
+      }
+    });
   }
 }
 

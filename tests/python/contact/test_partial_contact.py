@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.special import erfinv
 
 import asperity
 from asperity import InvalidInput, MasterCurve, PartialContact, PronySeries, SelfAffineSpectrum
@@ -107,15 +108,35 @@ def test_stress_is_at_most_that_of_complete_contact(spectrum):
 
 
 @each("spectrum", [ROAD, SCAN])
-def test_area_at_a_wavenumber_is_that_of_the_surface_cut_there(spectrum):
-    scene = {"pressure": 2e5, "velocity": 0.01, "correction": RULE, "rtol": 1e-9}
-    q = [spectrum.q0, 5e3, 4e4, spectrum.q1]
-    found = asperity.contact_area(spectrum, RUBBER, **scene, wavenumber=q)
-    cut = [asperity.contact_area(spectrum.truncated(q1=one), RUBBER, **scene) for one in q[1:]]
+def test_area_at_a_wavenumber_has_the_kappa_of_the_whole_band(spectrum):
+    scene = {"pressure": 2e5, "velocity": 0.01, "rtol": 1e-9}
+    q = np.array([spectrum.q0, 5e3, 4e4, spectrum.q1])
+    found = asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE, wavenumber=q)
+    bare = asperity.contact_area(spectrum, RUBBER, **scene, wavenumber=q)
     assert found[0] == 1
-    np.testing.assert_allclose(found[1:], cut, rtol=1e-9)
-    pressure = asperity.mean_pressure(spectrum, RUBBER, **scene, wavenumber=q)
+    assert found[-1] == asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE)
+    kappa = (erfinv(bare[1:]) / erfinv(found[1:])) ** 2  # A = erf(1 / (2 sqrt(kappa G)))
+    np.testing.assert_allclose(kappa, kappa[-1], rtol=1e-7)
+    pressure = asperity.mean_pressure(spectrum, RUBBER, **scene, correction=RULE, wavenumber=q)
     np.testing.assert_allclose(pressure, 2e5 / found, rtol=1e-14)
+
+
+@each("pressure", [1e4, 1e6])
+@each("slope", [0.3, 1.75, 5.0])
+@each("seed", range(4))
+def test_area_never_rises_with_magnification(seed, slope, pressure):
+    """Rings scatter as a scan's do; with a kappa of its own for each cut, areas rose."""
+    q = np.geomspace(1e3, 1e5, 60)
+    density = q**-3.9 * np.random.default_rng(seed).lognormal(0, 0.5, q.size)
+    rings = asperity.TabulatedSpectrum(wavenumber=q, density=density)
+    scaled = asperity.TabulatedSpectrum(
+        wavenumber=q, density=density * (slope / rings.rms_slope) ** 2
+    )
+    stiffening = PronySeries(equilibrium_modulus=1e6, moduli=[1e7], relaxation_times=[1e-3])
+    area = asperity.contact_area(
+        scaled, stiffening, pressure=pressure, velocity=1e4, correction=RULE, wavenumber=q
+    )
+    assert np.all(np.diff(area) <= 0)
 
 
 def test_pressure_distribution_has_the_area_and_the_load():
