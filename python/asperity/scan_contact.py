@@ -29,7 +29,7 @@ COLUMNS = {
     "poisson_ratio": ("1", "Poisson's ratio"),
     "q0": ("1/m", "lower end of the band"),
     "q1": ("1/m", "upper end of the band"),
-    "part": ("1", "of the scan: -1 the whole of it, 0 to 3 its quarters"),
+    "part": ("1", "of the scan: -1 all, 0 to 3 quarters, 4 to 7 pieces, 8 to 11 these low-passed"),
     "coarse": ("1", "1 on half as many points along a side, for the error of the pixels"),
     "pressure": ("Pa", "nominal pressure"),
     "velocity": ("m/s", "v a_T"),
@@ -119,12 +119,12 @@ class ScanContact(Value):
     are, more on a lattice of a quarter of a decade. What is solved is kept in the object, which
     threads may share.
 
-    Where the scan needs a grid of more than 1024 x 1024 points, the ratio is the mean of four parts
-    of it, each of 512 x 512 points or less. Where the spectrum goes on beyond the scan the theory
-    goes on.
+    Where the scan needs a grid of more than 1024 x 1024 points, its long waves are solved on the
+    whole of it, on 512 x 512 points, and what its short waves change on four pieces of as many
+    points. Where the spectrum goes on beyond the scan the theory goes on.
 
-    `model_error` is of interpolation, pixels, one scan (half of the scatter of its quarters) and
-    contacts that did not converge, together.
+    `model_error` is of interpolation, pixels, one scan (half of the scatter of its quarters),
+    contacts that did not converge and short waves solved on pieces alone, together.
 
     Examples
     --------

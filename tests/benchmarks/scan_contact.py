@@ -1,9 +1,11 @@
 """ScanContact and the other corrections on surfaces of many kinds, against exact sliding contact.
 
     python tests/benchmarks/scan_contact.py [docs/benchmarks/scan_contact.png]
+    python tests/benchmarks/scan_contact.py --large
 
 Periodic maps of 256 x 256 points, 8 to the shortest wave, q1/q0 = 8, kinds and seeds that nothing
-was fitted to. Truth is `asperity.validation.slide` at velocities and pressures that are no nodes.
+was fitted to; --large: of 1280 x 1280, q1/q0 = 40, which are not solved whole, and a third of the
+velocities. Truth is `asperity.validation.slide` at velocities and pressures that are no nodes.
 Prints Markdown.
 """
 
@@ -17,7 +19,10 @@ import numpy as np
 import asperity
 from asperity.validation import slide
 
-LENGTH, POINTS, LONGEST, SHORTEST = 0.01, 256, 4, 32
+LARGE = "--large" in sys.argv
+LENGTH, LONGEST = 0.01, 4
+POINTS = 1280 if LARGE else 256
+SHORTEST = POINTS // 8
 Array = np.ndarray
 
 
@@ -76,6 +81,8 @@ RUBBERS = {
 }
 PRESSURES = (3.7e4, 6.1e5)
 VELOCITIES = 1.73 * np.geomspace(1e-5, 7, 9)
+if LARGE:
+    VELOCITIES = VELOCITIES[1::3]
 
 
 def corrections(surface: asperity.HeightMap, scan: asperity.ScanContact) -> dict[str, Any]:
@@ -97,7 +104,7 @@ def corrections(surface: asperity.HeightMap, scan: asperity.ScanContact) -> dict
 def cases() -> Iterator[tuple[str, str, dict[str, Array], dict[str, float]]]:
     """(kind, correction, errors of mu and A and what was stated, cost)."""
     for index, kind in enumerate(KINDS):
-        surface = height_map(kind, 9000 + index)
+        surface = height_map(kind, (7000 if LARGE else 9000) + index)
         spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
         spectrum = spectrum.truncated(
             q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH
@@ -159,7 +166,7 @@ def main() -> None:
         shares = [np.mean(np.abs(error[known]) <= k * stated[known]) for k in (1, 2)]
         seconds = np.median([cost["seconds"] for _, cost in mine])
         print(f"- {name}: {shares[0]:.2f}, {shares[1]:.2f}; median {seconds:.3f} s")
-    if len(sys.argv) > 1:
+    if len(sys.argv) > 1 and not LARGE:
         draw(sys.argv[1])
 
 

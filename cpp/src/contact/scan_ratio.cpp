@@ -1,34 +1,26 @@
 // The exact contact of a scan over PartialContact's rule on the rings of the same map, at the contacts that were solved
-// and between them (sliding/scan_lattice.cpp). Where the grid of the whole scan would be too large the ratio is the
-// mean, in logarithms, of four parts of it, each over the rule on its own rings. The error of one scan is half of the
+// and between them (sliding/scan_lattice.cpp). Where the grid of the whole scan would be too large its long waves are
+// solved on the whole of it, and what short waves make of the ratio on pieces. The error of one scan is half of the
 // scatter of its quarters, that of the pixels a third of the difference to half as many.
 #include "contact/scan_ratio.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
-#include "contact/solver/partial_solver.hpp"
+#include "contact/scan_parts.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/parallel_for.hpp"
 #include "sliding/scan_lattice.hpp"
 #include "spectrum/segments.hpp"
-#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
 namespace {
-
-constexpr double rule_rtol = 1e-6;
-// Of mu, where parts miss the longest waves: 8 % rms on 18 contacts of 1280^2 points, worn (13 %), Gaussian (4 %) and
-// peaked (2 %), A/A0 from 0.02 to 0.3.
-constexpr double of_parts_error = 0.1;
 
 /// Velocities beyond which the ratio is constant or the rubber is not known: two decades beyond its relaxation times.
 VelocityLattice lattice_of(const Rubber& rubber, const Band& band) {
@@ -38,39 +30,6 @@ VelocityLattice lattice_of(const Rubber& rubber, const Band& band) {
   const auto [shortest, longest] = std::ranges::minmax(times);
   constexpr double decades = 100;
   return {1 / (decades * band.q1 * longest), decades / (band.q0 * shortest)};
-}
-
-/// PartialContact on the rings of the maps that are solved.
-class Rule {
- public:
-  Rule(Scan& scan, const Band& band, const Rubber& rubber, double poisson_ratio)
-      : scan_(scan),
-        band_(band),
-        rubber_(rubber),
-        model_{.poisson_ratio = poisson_ratio, .correction = PartialContact{}, .rtol = rule_rtol} {}
-
-  void operator()(SolvedContact& contact) const {
-    const auto map = scan_.part(band_, contact.part, contact.coarse);
-    const SurfaceSegments surface(map->rings);
-    const auto solver = partial_solver(surface.get(), rubber_, model_, map->rings);
-    at_point(contact.pressure, contact.velocity, [&] { solver->solve(contact.pressure, contact.velocity); });
-    contact.rule_area = solver->area();
-    contact.rule_hysteresis = solver->hysteresis().value;
-  }
-
- private:
-  Scan& scan_;
-  Band band_;
-  const Rubber& rubber_;
-  ContactModel model_;
-};
-
-LogRatios log_ratios(const SolvedContact& c) {
-  // pixels that touch or do not, of the spots' rims
-  constexpr double rim = 0.08;
-  const bool loss = c.hysteresis > 0 && c.rule_hysteresis > 0;
-  return {loss ? std::log(c.hysteresis / c.rule_hysteresis) : 0, std::log(c.contact_area / c.rule_area),
-          rim / std::sqrt(std::max(1.0, c.contact_points))};
 }
 
 /// Slope variance of a spectrum on a band.
@@ -119,75 +78,12 @@ Band common_band(const HeightMap& map, const Spectrum& spectrum) {
   return common;
 }
 
-/// Contacts that were asked for and are not there.
-class Missing {
- public:
-  Missing(Scan& scan, const Rule& rule, WaveModulus modulus) : scan_(scan), rule_(rule), modulus_(std::move(modulus)) {}
-
-  std::optional<SolvedContact> find(const ContactKey& key) {
-    auto found = scan_.contact(key);
-    if (!found) keys_.insert(key);
-    return found;
-  }
-  [[nodiscard]] bool empty() const { return keys_.empty(); }
-  void solve(unsigned threads) {
-    const std::vector<ContactKey> keys(keys_.begin(), keys_.end());
-    keys_.clear();
-    in_blocks(static_cast<unsigned>(std::clamp<std::size_t>(keys.size(), 1, threads)), keys.size(), 1,
-              [&](unsigned, std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                  SolvedContact solved = scan_.solve(keys[i], modulus_);
-                  rule_(solved);
-                  scan_.add(solved);
-                }
-              });
-  }
-
- private:
-  Scan& scan_;
-  const Rule& rule_;
-  WaveModulus modulus_;
-  std::set<ContactKey> keys_;
-};
-
-/// The mean over parts, of logarithms, and their scatter.
-struct PartRatios {
-  LogRatios mean;
-  double scatter = 0, error = 0;
-};
-
-std::optional<PartRatios> ratios_of_parts(Missing& missing, ContactKey key, std::span<const int> parts) {
-  std::vector<LogRatios> all;
-  double error = 0;
-  for (const int part : parts) {
-    key.part = part;
-    if (const auto found = missing.find(key)) {
-      all.push_back(log_ratios(*found));
-      error = std::max(error, found->error);
-    }
-  }
-  if (all.size() < parts.size()) return std::nullopt;
-  PartRatios result{{0, 0, 0}, 0, error};
-  const auto n = static_cast<double>(all.size());
-  for (const LogRatios& one : all) {
-    result.mean.hysteresis += one.hysteresis / n;
-    result.mean.area += one.area / n;
-    result.mean.noise = std::max(result.mean.noise, one.noise);
-  }
-  if (all.size() > 1) {
-    for (const LogRatios& one : all) result.scatter += std::pow(one.hysteresis - result.mean.hysteresis, 2) / (n - 1);
-    result.scatter = std::sqrt(result.scatter);
-  }
-  return result;
-}
-
-constexpr std::array quarters{0, 1, 2, 3};
 constexpr int scan_steps = 3;  // of the lattice from one contact for the errors of the scan to the next
 
 }  // namespace
 
 double ScanRatio::model_error() const {
-  return std::hypot(std::hypot(interpolation, pixels, scan), convergence, parts);
+  return std::hypot(std::hypot(interpolation, pixels, scan), convergence, joining);
 }
 
 ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio)
@@ -211,9 +107,8 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   Scan& scan = contact_.scan();
   const double tolerance = scan.tolerance();
   const VelocityLattice lattice = lattice_of(rubber_, band_);
-  const std::vector<int> parts = scan.solved_parts(band_);
-  const Rule rule(scan, band_, rubber_, poisson_ratio_);
-  Missing missing(scan, rule, continued_modulus(rubber_));
+  const ScanParts parts(scan, band_);
+  MissingContacts missing(scan, rubber_, poisson_ratio_);
   constexpr std::size_t many = 8;
   const bool on_lattice = contact_.pressure_lattice() || std::set(pressure.begin(), pressure.end()).size() > many;
 
@@ -223,8 +118,8 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
       ContactKey at = key;
       at.pressure = p;
       at.velocity = lattice.velocity(position);
-      const auto found = ratios_of_parts(missing, at, parts);
-      return found ? std::optional(found->mean) : std::nullopt;
+      const auto found = parts.ratio(missing, at);
+      return found ? std::optional(found->value) : std::nullopt;
     });
   };
   std::vector<ScanRatio> result(pressure.size());
@@ -238,19 +133,16 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
     at.pressure = on_lattice ? std::pow(10, std::round(std::log10(p))) : p;
     at.velocity =
         lattice.velocity(std::min(lattice.last(), static_cast<int>(std::round(lattice.position(v) / steps)) * steps));
-    const auto fine = ratios_of_parts(missing, at, parts), of_parts = ratios_of_parts(missing, at, quarters);
-    at.coarse = true;
-    const auto coarse = ratios_of_parts(missing, at, std::span(parts).first(1));
-    at.coarse = false;
-    const auto same = ratios_of_parts(missing, at, std::span(parts).first(1));
-    if (!value || !fine || !of_parts || !coarse || !same) return;
+    const auto here = parts.ratio(missing, at);
+    const auto of_scan = parts.scan_error(missing, at), of_pixels = parts.pixel_error(missing, at);
+    if (!value || !here || !of_scan || !of_pixels) return;
     result[i] = {.hysteresis = std::exp(value->hysteresis),
                  .area = std::exp(value->area),
                  .interpolation = value->error,
-                 .pixels = std::fabs(coarse->mean.hysteresis - same->mean.hysteresis) / 3,
-                 .scan = of_parts->scatter / 2,
-                 .convergence = fine->error,
-                 .parts = parts.front() == Scan::whole ? 0 : of_parts_error};
+                 .pixels = *of_pixels,
+                 .scan = *of_scan,
+                 .convergence = here->convergence,
+                 .joining = here->joining};
   };
   do {
     if (!missing.empty()) missing.solve(threads);
@@ -264,7 +156,7 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
 
 ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule) {
   Scan& scan = contact_.scan();
-  if (scan.solved_parts(band_).front() != Scan::whole)
+  if (!scan.one_grid(band_))
     throw InvalidInput("heating: must be left out with a ScanContact whose scan one grid does not hold");
   const auto log_a_T = [&rule](double q) {
     const double place = std::log(q / rule.q0) / std::log(rule.q1 / rule.q0) * static_cast<double>(rule.a_T.size() - 1);
@@ -301,10 +193,9 @@ std::vector<std::string> ScanRatios::notes() const {
   if (waves < few * (1 - 1e-9) && contact_.continuation() != Continuation::periodic)
     result.push_back("the scan holds " + show(waves, 2) + " of its longest waves to a side, where " + show(few) +
                      " or more are wanted: another scan of the surface may differ by more than model_error says");
-  const auto whole = contact_.scan().solved_parts(band_).front() == Scan::whole;
-  if (!whole)
+  if (!contact_.scan().one_grid(band_))
     result.emplace_back(
-        "the scan is too large to be solved whole: the ratio of exact to theory is the mean of four parts of it");
+        "the scan is too large to be solved whole: its short waves are solved on four pieces of it alone");
   else if (const auto solved = contact_.scan().part(band_, Scan::whole, false);
            solved->period.shape[0] > solved->scanned[0] || solved->period.shape[1] > solved->scanned[1])
     result.push_back("the scan has fewer points than its shortest waves ask for: it was interpolated to " +

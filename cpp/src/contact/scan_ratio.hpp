@@ -17,8 +17,8 @@ namespace asperity {
 struct ScanRatio {
   double hysteresis = 1, area = 1;
   // relative errors: of what is between contacts, of pixels, of having one scan, of contacts that did not converge, and
-  // of parts that stand for the whole
-  double interpolation = 0, pixels = 0, scan = 0, convergence = 0, parts = 0;
+  // of short waves that were solved on pieces alone
+  double interpolation = 0, pixels = 0, scan = 0, convergence = 0, joining = 0;
   /// Of mu, all together.
   [[nodiscard]] double model_error() const;
 };

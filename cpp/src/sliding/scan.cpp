@@ -21,7 +21,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr double most_points = 1024.0 * 1024.0;  // of a grid that is solved whole
-constexpr double part_side = 512;                // points along a side of a part of a larger one
+constexpr double side = 512;                     // points along a side of the grids of a scan that is not
 constexpr double rtol = 1e-4;                    // complementarity of a node
 constexpr double most_error = 0.05;              // that a node may end with
 
@@ -83,47 +83,54 @@ Scan::Scan(HeightMap map, Continuation continuation, double tolerance)
 /// By the square root of the tolerance: on worn maps 8 points have mu 0.2 to 1.8 % off at 0.02, 4 points 1.3 to 13 %.
 double Scan::points_a_wave() const { return std::max(4.0, 8 * std::sqrt(0.02 / tolerance_)); }
 
-std::vector<int> Scan::solved_parts(const Band& band) {
+bool Scan::one_grid(const Band& band) {
   const std::lock_guard lock(mutex_);
-  auto [at, fresh] = solved_parts_.try_emplace(band);
+  auto [at, fresh] = one_grid_.try_emplace(band);
   if (fresh) {
     const double images = continuation_ == Continuation::mirror ? 4 : 1;
-    at->second = images * grid_points(prepared_, band, points_a_wave()) <= most_points ? std::vector{whole}
-                                                                                       : std::vector{0, 1, 2, 3};
+    at->second = images * grid_points(prepared_, band, points_a_wave()) <= most_points;
   }
   return at->second;
 }
 
-/// Points of the scan along a side of a part: a quarter of the scan, or as many as the grid of a part resolves.
-std::size_t Scan::part_points(const Band& band) const {
+double Scan::coarse_end() const {
+  const auto [ny, nx] = prepared_.shape();
+  const auto [dy, dx] = prepared_.pixel_size();
+  const double images = continuation_ == Continuation::mirror ? 4 : 1;
+  const double area = images * static_cast<double>(ny) * dy * static_cast<double>(nx) * dx;
+  return 2 * pi / points_a_wave() * side / std::sqrt(area);
+}
+
+/// Points of the scan along a side of a piece, whose grid has `side`.
+std::size_t Scan::piece_points(const Band& band) const {
   const auto [ny, nx] = prepared_.shape();
   const double needed =
       std::sqrt(grid_points(prepared_, band, points_a_wave()) / (static_cast<double>(ny) * static_cast<double>(nx)));
-  return static_cast<std::size_t>(std::max(32.0, part_side / needed));
+  return static_cast<std::size_t>(std::max(32.0, side / needed));
 }
 
 std::shared_ptr<const ScanMap> Scan::part(const Band& band, int part, bool coarse) {
-  const bool large = solved_parts(band).front() != whole;
   const std::lock_guard lock(mutex_);
   auto& kept = maps_[{band, part, coarse}];
-  if (!kept) {
-    const double points = points_a_wave() / (coarse ? 2 : 1);
-    if (part == whole) {
-      kept = std::make_shared<ScanMap>(scan_map(prepared_, continuation_, band, points));
-    } else {
-      const HeightMap cut =
-          scan_part(prepared_, part, large ? part_points(band) : std::numeric_limits<std::size_t>::max());
-      const Continuation joined = continuation_ == Continuation::periodic ? Continuation::blend : continuation_;
-      const Band known = known_band(cut);
-      kept = std::make_shared<ScanMap>(
-          scan_map(cut, joined, {std::max(band.q0, known.q0), std::min(band.q1, known.q1)}, points));
-    }
+  if (kept) return kept;
+  const double points = points_a_wave() / (coarse ? 2 : 1);
+  if (part == whole) {
+    kept = std::make_shared<ScanMap>(scan_map(prepared_, continuation_, band, points, band.q1));
+    return kept;
   }
+  const std::size_t most = part < pieces.front() ? std::numeric_limits<std::size_t>::max() : piece_points(band);
+  const HeightMap cut = scan_part(prepared_, part % 4, most);
+  const Continuation joined = continuation_ == Continuation::periodic ? Continuation::blend : continuation_;
+  const Band known = known_band(cut);
+  // with and without its short waves a piece is closed alike: their ratio does not see how
+  const double end = part < coarse_pieces.front() ? band.q1 : coarse_end();
+  const Band of_cut{std::max(band.q0, known.q0), std::min(end, known.q1)};
+  kept = std::make_shared<ScanMap>(scan_map(cut, joined, of_cut, points, band.q1));
   return kept;
 }
 
 std::shared_ptr<const Spectrum> Scan::rings(const Band& band) {
-  if (solved_parts(band).front() == whole) {
+  if (one_grid(band)) {
     const auto map = part(band, whole, false);
     return {map, &map->rings};
   }

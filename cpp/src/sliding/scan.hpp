@@ -1,6 +1,7 @@
 // What a ScanContact has of its scan: the maps that are solved, and the contacts that were.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -42,9 +43,14 @@ class Scan {
   [[nodiscard]] Continuation continuation() const { return continuation_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
+  /// Maps that are solved: the whole scan, its quarters, and of scans that one grid does not hold pieces from the
+  /// middle of each quarter, on the whole band and up to coarse_end() alone.
   static constexpr int whole = -1;
-  /// What is solved for a band: the whole of the scan, or, where its grid would be too large, four parts of it.
-  std::vector<int> solved_parts(const Band& band);
+  static constexpr std::array quarters{0, 1, 2, 3}, pieces{4, 5, 6, 7}, coarse_pieces{8, 9, 10, 11};
+  /// Whether one grid holds the scan up to the end of the band.
+  bool one_grid(const Band& band);
+  /// Up to where one grid holds a scan of any size [1/m].
+  [[nodiscard]] double coarse_end() const;
   /// A map that is solved, shared with those who asked for it before.
   std::shared_ptr<const ScanMap> part(const Band& band, int part, bool coarse);
   /// C(q) of the whole scan on a band.
@@ -57,7 +63,7 @@ class Scan {
   std::vector<SolvedContact> contacts() const;
 
  private:
-  [[nodiscard]] std::size_t part_points(const Band& band) const;
+  [[nodiscard]] std::size_t piece_points(const Band& band) const;
   [[nodiscard]] double points_a_wave() const;
 
   HeightMap map_, prepared_;
@@ -65,7 +71,7 @@ class Scan {
   double tolerance_;
   mutable std::mutex mutex_;
   std::map<ContactKey, SolvedContact> contacts_;
-  std::map<Band, std::vector<int>> solved_parts_;
+  std::map<Band, bool> one_grid_;
   std::map<std::tuple<Band, int, bool>, std::shared_ptr<const ScanMap>> maps_;
   std::map<Band, std::shared_ptr<const Spectrum>> rings_;
 };

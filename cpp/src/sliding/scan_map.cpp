@@ -97,8 +97,9 @@ Spectrum scan_rings(const HeightMap& map, Continuation continuation, const Band&
   return within(power_spectrum(whole, Window::none, std::nullopt), band);
 }
 
-ScanMap scan_map(const HeightMap& map, Continuation continuation, const Band& band, double points_a_wave) {
-  Period closed = one_period(map, continuation, band.q1);
+ScanMap scan_map(const HeightMap& map, Continuation continuation, const Band& band, double points_a_wave,
+                 double shortest) {
+  Period closed = one_period(map, continuation, shortest);
   const auto [dy, dx] = map.pixel_size();
   const double length_y = dy * static_cast<double>(closed.shape[0]),
                length_x = dx * static_cast<double>(closed.shape[1]);

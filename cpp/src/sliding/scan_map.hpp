@@ -26,9 +26,10 @@ struct ScanMap {
   Grid scanned;                     // points that the period has on the scan's own grid
 };
 
-/// The map closed and filtered; `points_a_wave` to the shortest wave that carries slope. Its heights about their mean,
-/// without drop-outs.
-ScanMap scan_map(const HeightMap& map, Continuation continuation, const Band& band, double points_a_wave);
+/// The map closed over waves of `shortest` [1/m] and filtered; `points_a_wave` to the shortest wave that carries slope.
+/// Its heights about their mean, without drop-outs.
+ScanMap scan_map(const HeightMap& map, Continuation continuation, const Band& band, double points_a_wave,
+                 double shortest);
 
 /// C(q) of the closed map on the band.
 Spectrum scan_rings(const HeightMap& map, Continuation continuation, const Band& band);

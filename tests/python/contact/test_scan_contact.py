@@ -185,6 +185,40 @@ def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
     assert (np.abs(found.mu / exact.mu - 1) < 3 * found.model_error).all()
 
 
+def large(n: int = 1280) -> tuple[asperity.HeightMap, asperity.TabulatedSpectrum]:
+    """A periodic worn map that one grid does not hold, and its rings."""
+    end = np.pi * n / 4 / LENGTH
+    band = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=ROAD.q0, q1=end)
+    z = asperity.synthesize(band, shape=(n, n), pixel_size=LENGTH / n, seed=4).heights / 1e-4
+    h = filtered(-np.logaddexp(0, -1.2 * z - 0.5), ROAD.q0, end)
+    scan = asperity.HeightMap(h * 1e-4 / h.std(), pixel_size=LENGTH / n)
+    rings = asperity.power_spectrum(scan, window="none", detrend=None)
+    return scan, rings.truncated(q0=ROAD.q0, q1=end)
+
+
+def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces() -> None:
+    scan, spectrum = large()
+    elastic = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[])
+    scene = {"pressure": 2e5, "velocity": 1.0}
+    exact = slide(scan, elastic, pressure=2e5, velocity=0.0, periodic=True, rtol=1e-4)
+    split = asperity.ScanContact(scan, periodic=True)
+    found = asperity.friction(spectrum, elastic, correction=split, **scene)
+    assert found.contact_area == pytest.approx(exact.contact_area, rel=0.05)
+    rule = asperity.friction(spectrum, elastic, correction=asperity.PartialContact(), **scene)
+    assert rule.contact_area < 0.8 * exact.contact_area
+    assert any("solved on four pieces" in str(note) for note in found.notes)
+    rows = split.contacts.to_dataframe()
+    assert set(rows.part) == {-1, *range(12)}
+    assert (rows.points_x * rows.points_y).max() <= 520**2
+
+    # pieces that hold the longest waves need no whole scan
+    short = spectrum.truncated(q0=spectrum.q1 / 3)
+    alone = asperity.ScanContact(scan, periodic=True)
+    found = asperity.friction(short, elastic, correction=alone, **scene)
+    assert set(alone.contacts.to_dataframe().part) == {4, 5, 6, 7}
+    assert found.contact_area > 0.1
+
+
 def test_many_pressures_are_asked_on_a_lattice() -> None:
     anew = asperity.ScanContact(SCAN, periodic=True)
     pressure = np.geomspace(1e5, 4e5, 20)

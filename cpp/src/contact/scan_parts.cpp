@@ -1,0 +1,145 @@
+#include "contact/scan_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "contact/conditions.hpp"
+#include "contact/solver/partial_solver.hpp"
+#include "numerics/parallel_for.hpp"
+#include "spectrum/table_surface.hpp"
+
+namespace asperity {
+
+MissingContacts::MissingContacts(Scan& scan, const Rubber& rubber, double poisson_ratio)
+    : scan_(scan),
+      rubber_(rubber),
+      rule_{.poisson_ratio = poisson_ratio, .correction = PartialContact{}, .rtol = 1e-6},
+      modulus_(continued_modulus(rubber)) {}
+
+std::optional<SolvedContact> MissingContacts::find(const ContactKey& key) {
+  auto found = scan_.contact(key);
+  if (!found) keys_.insert(key);
+  return found;
+}
+
+void MissingContacts::solve(unsigned threads) {
+  const std::vector<ContactKey> keys(keys_.begin(), keys_.end());
+  keys_.clear();
+  in_blocks(static_cast<unsigned>(std::clamp<std::size_t>(keys.size(), 1, threads)), keys.size(), 1,
+            [&](unsigned, std::size_t begin, std::size_t end) {
+              for (std::size_t i = begin; i < end; ++i) {
+                SolvedContact solved = scan_.solve(keys[i], modulus_);
+                add_rule(solved);
+                scan_.add(solved);
+              }
+            });
+}
+
+void MissingContacts::add_rule(SolvedContact& contact) const {
+  const auto map = scan_.part({contact.q0, contact.q1}, contact.part, contact.coarse);
+  const SurfaceSegments surface(map->rings);
+  const auto solver = partial_solver(surface.get(), rubber_, rule_, map->rings);
+  at_point(contact.pressure, contact.velocity, [&] { solver->solve(contact.pressure, contact.velocity); });
+  contact.rule_area = solver->area();
+  contact.rule_hysteresis = solver->hysteresis().value;
+}
+
+LogRatios log_ratios(const SolvedContact& c) {
+  // pixels that touch or do not, of the spots' rims
+  constexpr double rim = 0.08;
+  const bool loss = c.hysteresis > 0 && c.rule_hysteresis > 0;
+  return {loss ? std::log(c.hysteresis / c.rule_hysteresis) : 0, std::log(c.contact_area / c.rule_area),
+          rim / std::sqrt(std::max(1.0, c.contact_points))};
+}
+
+namespace {
+
+/// ln of exact over rule of parts of the scan, one each, and how far from converged the worst is.
+struct PartRatios {
+  std::vector<LogRatios> each;
+  double convergence = 0;
+
+  [[nodiscard]] LogRatios mean() const {
+    LogRatios result{};
+    for (const LogRatios& one : each) {
+      result.hysteresis += one.hysteresis / static_cast<double>(each.size());
+      result.area += one.area / static_cast<double>(each.size());
+      result.noise = std::max(result.noise, one.noise);
+    }
+    return result;
+  }
+  /// Half of the standard deviation of ln mu: that of the mean of four.
+  [[nodiscard]] double error_of_mean() const {
+    double square = 0;
+    for (const LogRatios& one : each) square += std::pow(one.hysteresis - mean().hysteresis, 2);
+    return std::sqrt(square / static_cast<double>(each.size() - 1)) / 2;
+  }
+};
+
+std::optional<PartRatios> part_ratios(MissingContacts& missing, ContactKey key, std::span<const int> parts) {
+  PartRatios result;
+  for (const int part : parts) {
+    key.part = part;
+    const auto found = missing.find(key);
+    if (!found) continue;
+    result.each.push_back(log_ratios(*found));
+    result.convergence = std::max(result.convergence, found->error);
+  }
+  return result.each.size() == parts.size() ? std::optional(result) : std::nullopt;
+}
+
+constexpr std::array whole{Scan::whole};
+
+}  // namespace
+
+ScanParts::ScanParts(Scan& scan, const Band& band)
+    : one_grid_(scan.one_grid(band)), coarse_{band.q0, scan.coarse_end()} {
+  constexpr double spread = 2;
+  coarse_needed_ = !one_grid_ && coarse_.q1 > spread * band.q0;
+}
+
+std::optional<Ratio> ScanParts::ratio(MissingContacts& missing, const ContactKey& key) const {
+  const auto fine = part_ratios(missing, key, parts());
+  if (!coarse_needed_) return fine ? std::optional(Ratio{fine->mean(), fine->convergence, 0}) : std::nullopt;
+  const auto coarse_pieces = part_ratios(missing, key, Scan::coarse_pieces),
+             coarse = part_ratios(missing, low_passed(key), whole);
+  if (!fine || !coarse_pieces || !coarse) return std::nullopt;
+  PartRatios gain = *fine;
+  for (std::size_t i = 0; i < gain.each.size(); ++i) {
+    gain.each[i].hysteresis -= coarse_pieces->each[i].hysteresis;
+    gain.each[i].area -= coarse_pieces->each[i].area;
+  }
+  const LogRatios added = gain.mean(), first = coarse->mean();
+  return Ratio{{first.hysteresis + added.hysteresis, first.area + added.area, added.noise},
+               std::max({coarse->convergence, fine->convergence, coarse_pieces->convergence}),
+               std::hypot(added.hysteresis / 2, gain.error_of_mean())};
+}
+
+std::optional<double> ScanParts::scan_error(MissingContacts& missing, const ContactKey& key) const {
+  const auto found = one_grid_        ? part_ratios(missing, key, Scan::quarters)
+                     : coarse_needed_ ? part_ratios(missing, low_passed(key), Scan::quarters)
+                                      : part_ratios(missing, key, Scan::pieces);
+  return found ? std::optional(found->error_of_mean()) : std::nullopt;
+}
+
+std::optional<double> ScanParts::pixel_error(MissingContacts& missing, ContactKey key) const {
+  const auto fine = part_ratios(missing, key, parts().first(1));
+  key.coarse = true;
+  const auto coarse = part_ratios(missing, key, parts().first(1));
+  if (!fine || !coarse) return std::nullopt;
+  return std::fabs(coarse->mean().hysteresis - fine->mean().hysteresis) / 3;
+}
+
+std::span<const int> ScanParts::parts() const {
+  return one_grid_ ? std::span<const int>(whole) : std::span<const int>(Scan::pieces);
+}
+
+ContactKey ScanParts::low_passed(ContactKey key) const {
+  key.band = coarse_;
+  return key;
+}
+
+}  // namespace asperity
