@@ -1,6 +1,7 @@
 """The contact of a scan itself as a correction of the theory."""
 
 import io
+import zlib
 from collections.abc import Mapping
 from dataclasses import field
 from os import PathLike
@@ -15,6 +16,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import Array, brief, frozen, number, of_kind, path_of
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
+from asperity.io.archive import read_arrays
 from asperity.io.files import check_file, write_whole
 from asperity.surface import HeightMap
 
@@ -177,21 +179,19 @@ class ScanContact(Value):
         file = path_of(path, "path")
         try:
             check_file(file)
-            with np.load(file, allow_pickle=False) as saved:
-                periodic = str(saved["periodic"])
-                arguments: dict[str, Any] = {
-                    "height_map": HeightMap(
-                        saved["heights"], pixel_size=tuple(saved["pixel_size"])
-                    ),
-                    "periodic": True if periodic == "True" else periodic,
-                    "tolerance": float(saved["tolerance"]),
-                }
-                made = cls(**arguments)
-                made._core.add(_rows(saved["contacts"]))
-                return made
+            saved = read_arrays(file)
+            periodic = str(saved["periodic"])
+            arguments: dict[str, Any] = {
+                "height_map": HeightMap(saved["heights"], pixel_size=tuple(saved["pixel_size"])),
+                "periodic": True if periodic == "True" else periodic,
+                "tolerance": float(saved["tolerance"]),
+            }
+            made = cls(**arguments)
+            made._core.add(_rows(saved["contacts"]))
+            return made
         except OSError as error:
             raise InvalidInput(f"{file}: cannot be read: {error.strerror or error}") from error
-        except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, EOFError) as error:
+        except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, zlib.error) as error:
             raise InvalidInput(f"{file}: is no saved ScanContact: {error}") from error
 
     def _summary(self) -> dict[str, Any]:

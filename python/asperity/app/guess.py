@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import quoted
 from asperity.io.column_names import cells_of, find_header, numbered_lines
 
 QUANTITIES = ("frequency", "storage", "loss", "temperature")
@@ -78,7 +79,7 @@ def numbers_of(path: Path, name: str) -> list[float]:
     lines = numbered_lines(path)
     header = find_header(lines)
     if header is None or name not in header.names:
-        raise InvalidInput(f"{path}: no column is named {name!r}")
+        raise InvalidInput(f"{path}: no column is named {quoted(name)}")
     rows = [cells_of(line) for number, line in lines if number > header.number]
     return _numbers(rows, header.names.index(name))
 

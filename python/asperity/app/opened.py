@@ -1,14 +1,14 @@
 """Scene files that are dropped, with the files that they name: of these none is looked for."""
 
 import io
-import tomllib
-import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import PurePosixPath
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.app.files import MOST_BYTES, MOST_FILES, Folder, plain
+from asperity.app.files import MOST_FILES, Folder, plain
+from asperity.io.archive import Archive
+from asperity.io.toml import read_toml_text
 from asperity.scene.scene import check_tables
 
 Dropped = Sequence[tuple[str, bytes]]  # names as the client has them, and contents
@@ -55,28 +55,24 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
         return [(name, content)]
     shown = plain(name)
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            inside = [one for one in archive.infolist() if not one.is_dir()]
-            if len(inside) > MOST_FILES or sum(one.file_size for one in inside) > MOST_BYTES:
-                most = f"{MOST_FILES} files and {MOST_BYTES // 2**20} MB"
-                raise InvalidInput(f"{shown}: must unpack to at most {most}")
-            return [(one.filename, archive.read(one)) for one in inside]
-    except InvalidInput:
-        raise
-    except Exception as error:  # each way to compress has errors of its own for bytes it cannot be
-        said = str(error) or "it ends too early"
-        raise InvalidInput(f"{shown}: cannot be unpacked: {said}") from error
+        archive = Archive(io.BytesIO(content))
+        if len(archive.members) > MOST_FILES:
+            raise InvalidInput(f"holds {len(archive.members)} files: must be at most {MOST_FILES}")
+        return [(one.filename, archive.open(one).read_all()) for one in archive.members]
+    except InvalidInput as error:
+        raise InvalidInput(f"{shown}: {error}") from error
+    except Exception as error:  # zlib and zipfile have errors of many kinds
+        problem = str(error) or "it ends too early"
+        raise InvalidInput(f"{shown}: cannot be unpacked: {problem}") from error
 
 
 def _tables(name: str, content: bytes) -> Tables:
     if len(content) > _MOST_TEXT:
         raise InvalidInput(f"{name}: has {len(content)} bytes: must have at most {_MOST_TEXT}")
     try:
-        tables = tomllib.loads(content.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{name}: not a TOML file: {error}") from error
-    except (ValueError, RecursionError):  # Python's limits
-        raise InvalidInput(f"{name}: not a TOML file: nested too deeply") from None
+        tables = read_toml_text(content)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name}: {error}") from error
     check_tables(PurePosixPath(name), tables)  # type: ignore[arg-type]  # it only names it
     for key, table in tables.items():
         if not isinstance(table, dict):

@@ -12,6 +12,7 @@ from asperity.app.charts import spectrum_chart
 from asperity.app.parts import Quantity, chart, part, redraw, upload
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker, in_thread
+from asperity.base.arguments import brief
 from asperity.scene.model import Scene
 from asperity.scene.scan import flat
 from asperity.surface import HeightMap
@@ -133,7 +134,7 @@ class SurfacePart:
         try:
             sizes = [float(one) * 1e-6 for one in str(event.value).split(",") if one.strip()]
         except ValueError:
-            self._say(f"pixel size {event.value!r}: must be a number, or two: dy, dx")
+            self._say(f"pixel size {brief(event.value)}: must be a number, or two: dy, dx")
             return
         sizes = [float(f"{one:.12g}") for one in sizes]
         self._settings["pixel_size_m"] = (
@@ -153,7 +154,7 @@ class SurfacePart:
         try:
             self._settings["q0_per_m"] = float(event.value) if event.value else None
         except ValueError:
-            self._say(f"q0 {event.value!r}: must be a number")
+            self._say(f"q0 {brief(event.value)}: must be a number")
             return
         await self._use()
 
@@ -161,7 +162,7 @@ class SurfacePart:
         try:
             share = float(str(event.value).replace(",", ".")) / 100 if event.value else None
         except ValueError:
-            self._say(f"drop-outs {event.value!r}: must be a number")
+            self._say(f"drop-outs {brief(event.value)}: must be a number")
             return
         self._settings["max_dropouts"] = None if share is None else float(f"{share:.6g}")
         await self._use()

@@ -45,8 +45,13 @@ class FilePath(_Path):
     """A path whose name stays in one line of a message, whatever characters it has."""
 
     def __format__(self, form: str) -> str:
-        name = str(self)
+        name = shortened(str(self))
         return format(name if name.isprintable() else repr(name), form)
+
+
+def shortened(text: str, most: int = 400) -> str:
+    """Return a text, of which the middle is left out where it is too long for a message."""
+    return text if len(text) <= most else f"{text[: most // 2]} ... {text[-most // 4 :]}"
 
 
 def brief(found: object) -> str:

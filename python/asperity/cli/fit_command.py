@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import FilePath
+from asperity.base.arguments import FilePath, brief
 from asperity.base.notes import note_about
 from asperity.cli.friction_commands import (
     band_progress,
@@ -75,7 +75,7 @@ def _held(given: Mapping[str, str]) -> dict[str, float]:
         try:
             held[key] = float(text)
         except ValueError:
-            raise InvalidInput(f"--hold {key} = {text!r}: must be a number") from None
+            raise InvalidInput(f"--hold {key} = {brief(text)}: must be a number") from None
         if key in _HELD:
             plausible.check(f"--hold {key}", held[key], _HELD[key])
     return held

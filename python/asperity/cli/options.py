@@ -7,6 +7,7 @@ from argparse import ArgumentTypeError
 from typing import Any, NoReturn
 
 from asperity._core import __version__
+from asperity.base.arguments import brief
 from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import MOST_POINTS
 from asperity.io.typed import Typed, TypedWhole
@@ -39,17 +40,17 @@ def numbers(text: str) -> list[float]:
     try:
         return [Typed(entry) for entry in text.split(",")]
     except ValueError:
-        raise ArgumentTypeError(f"{text!r}: must be numbers, parted by commas") from None
+        raise ArgumentTypeError(f"{brief(text)}: must be numbers, parted by commas") from None
 
 
 def pairs(text: str) -> dict[str, str]:
     """Names with their values."""
     pairs = [entry.partition("=") for entry in text.split(",")]
     if not all(name and mark and value for name, mark, value in pairs):
-        raise ArgumentTypeError(f"{text!r}: must be NAME=VALUE,NAME=VALUE")
+        raise ArgumentTypeError(f"{brief(text)}: must be NAME=VALUE,NAME=VALUE")
     result = {name.strip(): value.strip() for name, _, value in pairs}
     if len(result) < len(pairs):
-        raise ArgumentTypeError(f"{text!r}: must have each NAME once")
+        raise ArgumentTypeError(f"{brief(text)}: must have each NAME once")
     return result
 
 
@@ -60,7 +61,7 @@ def number(text: str) -> float:
     except ValueError:
         number = Typed("nan")
     if not 0 < number < math.inf:
-        raise ArgumentTypeError(f"{text!r}: must be a positive number")
+        raise ArgumentTypeError(f"{brief(text)}: must be a positive number")
     return number
 
 
@@ -72,7 +73,9 @@ def pixel_size(text: str) -> float | tuple[float, float]:
             return sizes[0]
         dy, dx = sizes
     except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(f"{text!r}: must be a positive number [m], or two: DY,DX") from None
+        raise ArgumentTypeError(
+            f"{brief(text)}: must be a positive number [m], or two: DY,DX"
+        ) from None
     return dy, dx
 
 
@@ -81,7 +84,7 @@ def sides(text: str) -> tuple[float, float]:
     try:
         lo, hi = (number(side) for side in text.split(","))
     except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(f"{text!r}: must be two positive numbers, LO,HI") from None
+        raise ArgumentTypeError(f"{brief(text)}: must be two positive numbers, LO,HI") from None
     return lo, hi
 
 
@@ -90,7 +93,7 @@ def whole(text: str) -> int:
     try:
         return TypedWhole(text)
     except ValueError:
-        raise ArgumentTypeError(f"{text!r}: must be a whole number") from None
+        raise ArgumentTypeError(f"{brief(text)}: must be a whole number") from None
 
 
 def points(text: str) -> int:
@@ -105,7 +108,7 @@ def share(text: str) -> float:
     try:
         return Typed(text) if float(text) == 0 else number(text)
     except ValueError:
-        raise ArgumentTypeError(f"{text!r}: must be a number, 0 or more") from None
+        raise ArgumentTypeError(f"{brief(text)}: must be a number, 0 or more") from None
 
 
 def tile(text: str) -> int | tuple[int, int]:
@@ -116,7 +119,7 @@ def tile(text: str) -> int | tuple[int, int]:
             return sizes[0]
         ny, nx = sizes
     except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(f"{text!r}: must be a whole number, or two: NY,NX") from None
+        raise ArgumentTypeError(f"{brief(text)}: must be a whole number, or two: NY,NX") from None
     return ny, nx
 
 

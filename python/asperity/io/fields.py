@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.base.arguments import shortened
 from asperity.io import plausible
 from asperity.io.typed import Typed, as_typed
 
@@ -134,7 +135,7 @@ def sweep(value: object) -> Any:
 def _logarithmic(value: Mapping[str, object]) -> Any:
     for key in value:
         if key not in _SWEEP:
-            raise _WrongValueError(f"unknown key {key}, {nearest(key, _SWEEP)}")
+            raise _WrongValueError(f"unknown key {shortened(key)}, {nearest(key, _SWEEP)}")
     readers: tuple[Callable[[object], Any], ...] = (number, number, count)
     entries = []
     for key, read in zip(_SWEEP, readers, strict=True):
@@ -153,7 +154,7 @@ def _logarithmic(value: Mapping[str, object]) -> Any:
 
 
 def refuse(path: Path, field: str, problem: str) -> NoReturn:
-    raise InvalidInput(f"{path}: {field}: {problem}")
+    raise InvalidInput(f"{path}: {shortened(field)}: {problem}")
 
 
 def require(

@@ -16,6 +16,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import path_of
 from asperity.io import plausible
+from asperity.io.archive import Archive, read_array
 from asperity.io.files import check_file
 from asperity.io.instrument import (
     METRES,
@@ -154,16 +155,17 @@ def _real(values: object) -> NDArray[Any]:
 
 def _load_npy(path: Path, channel: int) -> NDArray[Any]:
     check_channel(channel, 1)
-    with _sound(".npy"), path.open("rb") as file:
-        return _real(np.lib.format.read_array(file, allow_pickle=False))
+    with _sound(".npy"):
+        return np.array(_real(np.load(path, mmap_mode="r", allow_pickle=False)))
 
 
 def _load_npz(path: Path, channel: int) -> NDArray[Any]:
-    with _sound(".npz"), path.open("rb") as file, np.lib.npyio.NpzFile(file) as archive:
-        if not archive.files:
+    with _sound(".npz"), path.open("rb") as file:
+        archive = Archive(file)
+        if not archive.members:
             raise InvalidInput("holds no arrays")
-        check_channel(channel, len(archive.files))
-        return _real(archive[archive.files[channel]])
+        check_channel(channel, len(archive.members))
+        return _real(read_array(archive, archive.members[channel]))
 
 
 _LOADERS = {".npy": _load_npy, ".npz": _load_npz}

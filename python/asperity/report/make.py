@@ -9,6 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from asperity._core import InvalidInput, __version__
+from asperity.base.arguments import brief
 from asperity.base.table import imported
 from asperity.io.files import check_output, write_whole
 from asperity.report.comparison import compared, differing_inputs
@@ -148,4 +149,6 @@ def _now() -> str:
     try:
         return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
     except (ValueError, OverflowError, OSError):
-        raise InvalidInput(f"SOURCE_DATE_EPOCH = {stated!r}: must be seconds since 1970") from None
+        raise InvalidInput(
+            f"SOURCE_DATE_EPOCH = {brief(stated)}: must be seconds since 1970"
+        ) from None

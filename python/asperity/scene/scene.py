@@ -1,6 +1,5 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from glob import glob
@@ -20,6 +19,7 @@ from asperity.io.fields import (
     require,
 )
 from asperity.io.files import check_file
+from asperity.io.toml import read_toml_text
 from asperity.io.typed import Typed, typed_in
 from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
@@ -208,15 +208,11 @@ def read_toml(path: Path) -> dict[str, Any]:
     """Tables of a TOML file, whatever they are."""
     try:
         check_file(path)
-        return tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Typed)
+        return read_toml_text(path.read_bytes(), parse_float=Typed)
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        refuse(path, "not a TOML file", str(error))
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
-    except (ValueError, RecursionError):  # Python's limits
-        refuse(path, "not a TOML file", "nested too deeply, or a number of thousands of digits")
 
 
 def check_tables(path: Path, tables: Mapping[str, Any]) -> None:

@@ -8,6 +8,7 @@ from importlib.resources import as_file, files
 from pathlib import Path
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import brief
 from asperity.io.files import check_file
 from asperity.io.read_surface import cell
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
@@ -74,7 +75,7 @@ def read_contacts(path: Path) -> list[Contact]:
             ]
             if missing:
                 there = ",".join(reader.fieldnames or ())
-                raise InvalidInput(f"header {there!r} has no column {', '.join(missing)}")
+                raise InvalidInput(f"header {brief(there)} has no column {', '.join(missing)}")
             contacts = [_contact(reader.line_num, row) for row in reader]
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error

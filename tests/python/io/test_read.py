@@ -169,7 +169,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
     ("name", "content", "given", "message"),
     [
         ("a.npy", _npy(HEIGHTS)[:-8], {}, "not a sound .npy file"),
-        ("a.npy", b"", {}, "not a sound .npy file"),
+        ("a.npy", b"", {}, "is empty"),
         ("a.npy", b"1,2\n3,4\n", {}, "not a sound .npy file"),
         ("a.npy", _npy([["a"]]), {}, "must be real numbers"),
         ("a.npy", _npy(HEIGHTS * 1j), {}, "must be real numbers"),
@@ -194,7 +194,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
         ("a.npy", _npy(HEIGHTS), {"unit": "inch"}, "unit = 'inch': must be one of m, mm, um, nm"),
         ("a.npy", _npy(HEIGHTS), {"unit": 1}, "unit = 1: must be one of m, mm, um, nm, pm"),
         ("a.toml", b"[surface]\n", {}, "is a scene, not a surface: must be a scan"),
-        ("a.npz", _zip("note.txt", b"hello"), {}, "must be an array of real numbers"),
+        ("a.npz", _zip("note.txt", b"hello"), {}, "not a sound .npz file"),
         ("a.npz", _zip(None, b""), {}, "holds no arrays"),
         ("a.npz", _zip("a.npy", _npy(HEIGHTS)[:-8]), {}, "not a sound .npz file"),
         ("a.npz", b"PK\x03\x04 and no more", {}, "not a sound .npz file"),

@@ -49,7 +49,7 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
     ("text", "message"),
     [
         ("[surface", "not a TOML file"),
-        ("", "[surface]: missing"),
+        ("\n", "[surface]: missing"),
         (SURFACE + CONDITIONS, "[rubber]: missing"),
         (SURFACE + RUBBER, "[conditions]: missing"),
         (BASE + "[adhesoin]\n", "[adhesoin]: unknown table, did you mean [adhesion]?"),
@@ -238,7 +238,8 @@ def test_foolish_scenes(folder: Path, text: str, message: str) -> None:
 @each(
     ("content", "message"),
     [
-        ("", "header is 'nothing'"),
+        ("", "is empty"),
+        ("#\n", "header is 'nothing'"),
         ("frequency,storage,loss\n1,2,3\n", "header is 'frequency,storage,loss': must be"),
         ("{}\n1,2\n", "line 2 has 2 cells: must be 3"),
         ("{}\n1,2,x\n", "line 2: 'x' is not a number"),

@@ -1,0 +1,69 @@
+"""ZIP archives, of which the sizes that they declare are not believed."""
+
+import os
+import zipfile
+from pathlib import Path
+from typing import IO, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+
+_RATIO = 100  # of inflated to stored bytes: heights have 2 to 20, zeros 1000
+_FREE = 2**24  # bytes that any archive may inflate to
+_PIECE = 2**18
+
+
+class Archive:
+    """An archive of stored and deflated members."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        size = file.seek(0, os.SEEK_END)
+        self._archive = zipfile.ZipFile(file)
+        self._left = _FREE + _RATIO * size
+        self.members = [one for one in self._archive.infolist() if not one.is_dir()]
+
+    def open(self, member: zipfile.ZipInfo) -> "_Member":
+        """Open a member for reading."""
+        if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise InvalidInput("is compressed in an unusual way: must be stored or deflated")
+        return _Member(self, self._archive.open(member))
+
+    def count(self, inflated: int) -> None:
+        """InvalidInput where more has been inflated than an archive of this size should hold."""
+        self._left -= inflated
+        if self._left < 0:
+            allowed = f"must be at most {_RATIO} times as much, beyond {_FREE >> 20} MB"
+            raise InvalidInput(f"inflates to far more than its own size: {allowed}")
+
+
+class _Member:
+    """Inflated piece by piece: one call may return less than it asks for."""
+
+    def __init__(self, archive: Archive, file: IO[bytes]) -> None:
+        self._archive = archive
+        self._file = file
+
+    def read(self, most: int = _PIECE) -> bytes:
+        piece = self._file.read(min(most, _PIECE))
+        self._archive.count(len(piece))
+        return piece
+
+    def read_all(self) -> bytes:
+        return b"".join(iter(self.read, b""))
+
+
+def read_array(archive: Archive, member: zipfile.ZipInfo) -> NDArray[Any]:
+    """An array of an .npz file; errors of several kinds where it is none."""
+    file: Any = archive.open(member)  # NumPy needs no more of a file than what this has
+    return np.lib.format.read_array(file, allow_pickle=False)
+
+
+def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """The arrays of an .npz file by their names; errors of several kinds where it is none."""
+    with path.open("rb") as file:
+        archive = Archive(file)
+        return {
+            one.filename.removesuffix(".npy"): read_array(archive, one) for one in archive.members
+        }

@@ -1,0 +1,50 @@
+"""TOML text, of which the parser takes time and memory as the square of the parts of a key."""
+
+import re
+import tomllib
+from collections.abc import Callable
+from typing import Any
+
+from asperity._core import InvalidInput
+
+_MOST_BYTES = 2**24
+_MOST_PARTS = 32
+# strings of many lines, comments, keys of one part or more; a string may be cut short
+_PART = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"?|'[^'\n]*+'?)"""
+_TOKEN = re.compile(
+    r'"""(?:[^"\\]|\\.|"(?!""))*+(?:"{3,5}|\Z)'
+    r"|'''(?:[^']|'(?!''))*+(?:'{3,5}|\Z)"
+    r"|\#[^\n]*+"
+    rf"|(?P<key>{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+)",
+    re.DOTALL,
+)
+_DOT = re.compile(rf"{_PART}|(?P<dot>\.)")
+
+
+def read_toml_text(content: bytes, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
+    """The tables of a TOML file; InvalidInput says what is wrong with it."""
+    if len(content) > _MOST_BYTES:
+        raise InvalidInput(f"has {len(content)} bytes: must have at most {_MOST_BYTES}")
+    try:
+        text = content.decode("utf-8")
+        line = _long_key(text)
+        if line is None:
+            return tomllib.loads(text, parse_float=parse_float)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"not a TOML file: {error}") from error
+    except (ValueError, RecursionError):  # Python's limits
+        problem = "nested too deeply, or a number of thousands of digits"
+        raise InvalidInput(f"not a TOML file: {problem}") from None
+    problem = f"must have at most {_MOST_PARTS} parts"
+    raise InvalidInput(f"not a TOML file: a key at line {line}: {problem}")
+
+
+def _long_key(text: str) -> int | None:
+    """The line of the first key of too many parts."""
+    for found in _TOKEN.finditer(text):
+        key = found["key"]
+        if key and key.count(".") >= _MOST_PARTS:
+            dots = sum(part["dot"] is not None for part in _DOT.finditer(key))
+            if dots >= _MOST_PARTS:
+                return text.count("\n", 0, found.start()) + 1
+    return None

@@ -1,0 +1,153 @@
+"""Small files that would take gigabytes or minutes: one line, in seconds, within 300 MB."""
+
+import io
+import os
+import struct
+import subprocess
+import sys
+import time
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+SCENE = """
+[surface]
+rms_height_m = 1e-4
+hurst = 0.8
+q0_per_m = 1e3
+q1_per_m = 1e6
+[rubber]
+equilibrium_modulus_pa = 1e6
+moduli_pa = [1e7]
+relaxation_times_s = [1e-3]
+[conditions]
+pressure_pa = 1e5
+velocity_m_s = 1.0
+"""
+SCANNED = SCENE.replace("rms_height_m = 1e-4\nhurst = 0.8\n", "")
+READ = "asperity.read_surface(path, pixel_size=1e-6, unit='m')"
+SHOWN = "from asperity.cli import main; sys.exit(main(['friction', path]))"
+DROPPED = """
+from asperity.app.files import Folder
+from asperity.app.opened import opened
+opened([(path, open(path, "rb").read())], Folder())
+"""
+
+
+def zipped(method: int, *names: str, size: int = 2**31) -> bytes:
+    """Members of zeros, in pieces."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", method, compresslevel=9) as archive:
+        for name in names:
+            with archive.open(name, "w", force_zip64=True) as member:
+                for _ in range(size // 2**24):
+                    member.write(bytes(2**24))
+    return out.getvalue()
+
+
+def understated(archive: bytes) -> bytes:
+    """The same, declared to inflate to 16 bytes."""
+    with zipfile.ZipFile(io.BytesIO(archive)) as whole:
+        size = whole.infolist()[0].file_size
+    for form in ("<Q", "<I"):
+        archive = archive.replace(struct.pack(form, size), struct.pack(form, 16))
+    return archive
+
+
+def header(shape: tuple[int, ...]) -> bytes:
+    out = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        out, {"descr": "<f8", "fortran_order": False, "shape": shape}
+    )
+    return out.getvalue()
+
+
+def array_of_zeros() -> bytes:
+    out = io.BytesIO()
+    archive = zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED)
+    with archive, archive.open("h.npy", "w", force_zip64=True) as member:
+        member.write(header((2**14, 2**14)))
+        for _ in range(2**7):
+            member.write(bytes(2**24))
+    return out.getvalue()
+
+
+def many_parts(form: str) -> Callable[[], bytes]:
+    return lambda: (SCENE + form.format(".".join(["a"] * 40_000))).encode()
+
+
+HOSTILE: dict[str, tuple[str, Callable[[], bytes], str]] = {
+    "bzip2": ("a.zip", lambda: zipped(zipfile.ZIP_BZIP2, "a.toml"), DROPPED),
+    "lzma": ("a.zip", lambda: zipped(zipfile.ZIP_LZMA, "a.toml", size=2**28), DROPPED),
+    "deflate": ("a.zip", lambda: zipped(zipfile.ZIP_DEFLATED, "a.toml"), DROPPED),
+    "sizes": ("a.zip", lambda: understated(zipped(zipfile.ZIP_DEFLATED, "a.toml")), DROPPED),
+    "npz": ("a.npz", array_of_zeros, READ),
+    "npz that is a contact": ("a.npz", array_of_zeros, "asperity.ScanContact.load(path)"),
+    "npy": ("a.npy", lambda: header((2**20, 2**20)), READ),
+    "key": ("a.toml", many_parts("{} = 1\n"), SHOWN),
+    "table": ("a.toml", many_parts("[{}]\n"), SHOWN),
+    "key within": ("a.toml", many_parts('[x]\ny = {{ z = """a"""", {} = 1 }}\n'), SHOWN),
+    "key that is dropped": ("a.toml", many_parts("{} = 1\n"), DROPPED),
+    "name of a table": ("a.toml", lambda: (SCENE + f"[{'a' * 3_000_000}]\n").encode(), SHOWN),
+    "name of a key": ("a.toml", lambda: (SCENE + f"{'a' * 3_000_000} = 1\n").encode(), SHOWN),
+    "word": ("a.toml", lambda: (SCENE + f'method = "{"a" * 3_000_000}"\n').encode(), SHOWN),
+    "number": ("a.toml", lambda: SCENE.replace("1e5", "1" * 4_000).encode(), SHOWN),
+    "name of a file": (
+        "a.toml",
+        lambda: SCANNED.replace("[surface]", f'[surface]\nfile = "{"a" * 3_000_000}"').encode(),
+        SHOWN,
+    ),
+    "cell": ("a.csv", lambda: b"1,2\n3," + b"a" * 3_000_000, READ),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_small_file_cannot_take_much(tmp_path: Path, name: str) -> None:
+    file, content, code = HOSTILE[name]
+    path = tmp_path / file
+    path.write_bytes(content())
+    assert path.stat().st_size < 2**22
+    begin = time.monotonic()
+    said = refused(path, code)
+    assert time.monotonic() - begin < 10  # Python's start and a busy machine included
+    assert len(said) < 1000
+
+
+def refused(path: Path, code: str) -> str:
+    """The line that an interpreter of its own says, in 300 MB beyond what the imports take."""
+    lines = [
+        "import resource, sys",
+        "import asperity, asperity.app.opened, asperity.cli",
+        "path = sys.argv[1]",
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss",
+        "try:",
+        *(f"    {line}" for line in code.strip().splitlines()),
+        "except asperity.InvalidInput as error:",
+        "    print(error, file=sys.stderr)",
+        "finally:",
+        "    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss",
+        "    print((peak - before) // 1024)",
+    ]
+    found = subprocess.run(
+        [sys.executable, "-c", "\n".join(lines), str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert found.stderr.count("\n") == 1, found.stderr[:2000]
+    assert "Traceback" not in found.stderr
+    assert int(found.stdout.splitlines()[-1]) < 300
+    return found.stderr
+
+
+def test_a_file_without_an_end_is_refused(tmp_path: Path) -> None:
+    endless = Path("/proc/kmsg")
+    if not endless.exists() or not os.access(endless, os.R_OK):
+        pytest.skip("there is no /proc/kmsg to read")
+    for name, code in (("a.toml", SHOWN), ("a.csv", READ), ("a.npy", READ)):
+        (tmp_path / name).symlink_to(endless)
+        assert "is empty" in refused(tmp_path / name, code)
