@@ -165,7 +165,7 @@ def test_bad_values_are_named_by_file_and_line(tmp_path, row, column, value, mes
             r"line 12 has 11 cells, the names \d: numbers have a decimal point",
         ),
         (text(rows=[]), "no numbers below the names of the columns"),
-        ("", "no line names the columns 'f', 'T', 'stor', 'loss'"),
+        ("", "is empty"),
         (text(rows=ROWS[:3]), "has 3 different entries .* must have 4 or more for an isotherm$"),
         (text(rows=ROWS[:1] * 5), "has 1 different .*; rows of one frequency are a strain sweep"),
         (text(rows=ROWS[:8]), "isotherm in lines 7 to 9: .*has 3 different entries"),
