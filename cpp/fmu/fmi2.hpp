@@ -11,8 +11,8 @@ inline fmi2Status fmi2(Told told) {
 
 /// `act` on each variable and its point. Parameters belong to point 0.
 template <class Act>
-fmi2Status each_value(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
-  return fmi2(guarded(c, [&](Instance& instance) {
+fmi2Status each_value(fmi2Component c, const Call& call, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
+  return fmi2(guarded(c, call, [&](Instance& instance) {
     Told told = Told::ok;
     for (std::size_t i = 0; i < nvr; ++i) {
       const std::uint32_t variable = vr[i] % stride, point = vr[i] / stride;
@@ -68,22 +68,19 @@ ASPERITY_FMU_EXPORT void fmi2FreeInstance(fmi2Component c) { delete static_cast<
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start,
                                                    fmi2Boolean has_stop, fmi2Real stop) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [&](Instance& instance) { return instance.begin(start, has_stop != 0, stop); }));
+  return fmi2(guarded(c, setting_up, [&](Instance& instance) { return instance.begin(start, has_stop != 0, stop); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [](Instance&) { return Told::ok; }));
+  return fmi2(guarded(c, [](Instance& instance) { return instance.enter(entering, initializing); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [](Instance& instance) {
-    instance.initialized = true;
-    return Told::ok;
-  }));
+  return fmi2(guarded(c, [](Instance& instance) { return instance.enter(exiting, stepping); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2Terminate(fmi2Component c) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [](Instance&) { return Told::ok; }));
+  return fmi2(guarded(c, [](Instance& instance) { return instance.enter(terminating, terminated); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
   using namespace asperity_fmu;
@@ -93,27 +90,30 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            fmi2Real value[]) {
   using namespace asperity_fmu;
-  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-    return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
-  });
+  return each_value(
+      c, reading, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+        return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
+      });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            const fmi2Real value[]) {
   using namespace asperity_fmu;
-  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-    return instance.set(variable, point, value[i]);
-  });
+  return each_value(c, setting, vr, nvr,
+                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+                      return instance.set(variable, point, value[i]);
+                    });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Integer value[]) {
   using namespace asperity_fmu;
-  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-    if (variable != inside) return instance.error("`inside` is the only Integer");
-    double found = 0;
-    const Told told = instance.get(variable, point, found);
-    value[i] = static_cast<fmi2Integer>(found);
-    return told;
-  });
+  return each_value(c, reading, vr, nvr,
+                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+                      if (variable != inside) return instance.error("`inside` is the only Integer");
+                      double found = 0;
+                      const Told told = instance.get(variable, point, found);
+                      value[i] = static_cast<fmi2Integer>(found);
+                      return told;
+                    });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                               const fmi2Integer[]) {
@@ -122,19 +122,21 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueRe
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Boolean value[]) {
   using namespace asperity_fmu;
-  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-    bool on = false;
-    const Told told = instance.get_switch(variable, point, on);
-    value[i] = on ? 1 : 0;
-    return told;
-  });
+  return each_value(c, reading, vr, nvr,
+                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+                      bool on = false;
+                      const Told told = instance.get_switch(variable, point, on);
+                      value[i] = on ? 1 : 0;
+                      return told;
+                    });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               const fmi2Boolean value[]) {
   using namespace asperity_fmu;
-  return each_value(c, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-    return instance.set_switch(variable, point, value[i] != 0);
-  });
+  return each_value(c, setting, vr, nvr,
+                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+                      return instance.set_switch(variable, point, value[i] != 0);
+                    });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              fmi2String[]) {
@@ -177,7 +179,7 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
                                                             std::size_t n_knowns, const fmi2Real seed[],
                                                             fmi2Real sensitivity[]) {
   using namespace asperity_fmu;
-  return each_value(c, unknowns, n_unknowns,
+  return each_value(c, reading, unknowns, n_unknowns,
                     [&](Instance& instance, std::uint32_t output, std::size_t point, std::size_t i) {
                       sensitivity[i] = 0;
                       for (std::size_t k = 0; k < n_knowns; ++k) {
@@ -200,7 +202,7 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, con
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real from, fmi2Real size, fmi2Boolean) {
   using namespace asperity_fmu;
-  return fmi2(guarded(c, [&](Instance& instance) { return instance.step(from, size); }));
+  return fmi2(guarded(c, stepping_on, [&](Instance& instance) { return instance.step(from, size); }));
 }
 // A step is never pending.
 ASPERITY_FMU_EXPORT fmi2Status fmi2CancelStep(fmi2Component) { return fmi2Error; }

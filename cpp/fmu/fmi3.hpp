@@ -34,10 +34,6 @@ inline fmi3Status not_offered(fmi3Instance instance, const char* function) {
   return fmi3(guarded(instance, [&](Instance& of) { return of.error(std::string(function) + " is not offered"); }));
 }
 
-inline fmi3Status fine(fmi3Instance instance) {
-  return fmi3(guarded(instance, [](Instance&) { return Told::ok; }));
-}
-
 }  // namespace asperity_fmu
 
 extern "C" {
@@ -91,16 +87,19 @@ ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) {
 ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
                                                            fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) { return of.begin(start, has_stop, stop); }));
+  return fmi3(guarded(instance, entering, [&](Instance& of) {
+    const Told told = of.begin(start, has_stop, stop);
+    return told == Told::ok ? of.enter(entering, initializing) : told;
+  }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [](Instance& of) {
-    of.initialized = true;
-    return Told::ok;
-  }));
+  return fmi3(guarded(instance, [](Instance& of) { return of.enter(exiting, stepping); }));
 }
-ASPERITY_FMU_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return asperity_fmu::fine(instance); }
+ASPERITY_FMU_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) {
+  using namespace asperity_fmu;
+  return fmi3(guarded(instance, [](Instance& of) { return of.enter(terminating, terminated); }));
+}
 ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, [](Instance& of) { return of.reset(); }));
@@ -109,7 +108,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Float64 values[], std::size_t n_values) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, reading, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
     });
@@ -118,7 +117,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3V
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Float64 values[], std::size_t n_values) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, setting, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return of.set(variable, point, values[k]);
     });
@@ -127,7 +126,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3V
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                             fmi3Int32 values[], std::size_t n_values) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, reading, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       if (variable != inside) return of.error("`inside` is the only Int32");
       double found = 0;
@@ -140,7 +139,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3Val
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Boolean values[], std::size_t n_values) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, reading, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return of.get_switch(variable, point, values[k]);
     });
@@ -149,7 +148,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3V
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Boolean values[], std::size_t n_values) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, setting, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return of.set_switch(variable, point, values[k]);
     });
@@ -231,7 +230,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
                                                             std::size_t n_seed, fmi3Float64 sensitivity[],
                                                             std::size_t n_sensitivity) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, reading, [&](Instance& of) {
     const auto add = [&](std::uint32_t output, std::size_t point, std::size_t i) {
       sensitivity[i] = 0;
       return each_entry(of, knowns, n_knowns, n_seed, [&](std::uint32_t input, std::size_t at, std::size_t k) {
@@ -243,12 +242,11 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
   }));
 }
 
-ASPERITY_FMU_EXPORT fmi3Status fmi3EnterStepMode(fmi3Instance instance) { return asperity_fmu::fine(instance); }
 ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 size, fmi3Boolean,
                                           fmi3Boolean* event, fmi3Boolean* terminate, fmi3Boolean* early,
                                           fmi3Float64* reached) {
   using namespace asperity_fmu;
-  return fmi3(guarded(instance, [&](Instance& of) {
+  return fmi3(guarded(instance, stepping_on, [&](Instance& of) {
     const Told told = of.step(from, size);
     for (fmi3Boolean* const answer : {event, terminate, early})
       if (answer != nullptr) *answer = false;
@@ -261,6 +259,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 fro
 #define ASPERITY_FMU_NOT_OFFERED(name, arguments) \
   ASPERITY_FMU_EXPORT fmi3Status name arguments { return asperity_fmu::not_offered(instance, #name); }
 ASPERITY_FMU_NOT_OFFERED(fmi3EnterEventMode, (fmi3Instance instance))
+ASPERITY_FMU_NOT_OFFERED(fmi3EnterStepMode, (fmi3Instance instance))
 ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfVariableDependencies, (fmi3Instance instance, fmi3ValueReference, std::size_t*))
 ASPERITY_FMU_NOT_OFFERED(fmi3GetVariableDependencies,
                          (fmi3Instance instance, fmi3ValueReference, std::size_t[], fmi3ValueReference[], std::size_t[],

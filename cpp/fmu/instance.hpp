@@ -48,17 +48,50 @@ inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
 /// The categories of messages, as modelDescription.xml lists them.
 constexpr const char *warnings = "logStatusWarning", *errors = "logStatusError";
 
+/// Where an instance is in its life, one bit each.
+enum Phase : unsigned { instantiated = 1, initializing = 2, stepping = 4, terminated = 8 };
+
+/// A kind of call and the phases in which both standards allow it (FMI 2.0.4, Section 4.2.4; FMI 3.0, Sections 2.3 and
+/// 4.2). Logging, reset, and states that are kept are allowed in all.
+struct Call {
+  const char* name;
+  unsigned phases;
+};
+constexpr Call setting_up{"the setup of the experiment", instantiated},
+    entering{"the beginning of the initialization", instantiated},
+    exiting{"the end of the initialization", initializing},
+    setting{"setting a variable", instantiated | initializing | stepping},
+    reading{"reading a variable", initializing | stepping | terminated}, stepping_on{"a step", stepping},
+    terminating{"the termination", stepping};
+
 struct Instance {
   std::string name;
   std::unique_ptr<Model> model;
   std::function<void(Told, const char*)> tell;  // empty where the host does not listen
-  bool initialized = false, warned = false;
+  Phase phase = instantiated;
+  bool warned = false;
   bool tells_warnings = true, tells_errors = true;  // until the host switches them off
   double stop = std::numeric_limits<double>::infinity();
 
   Told error(const std::string& message) const {
     if (tell && tells_errors) tell(Told::error, message.c_str());
     return Told::error;
+  }
+
+  /// An error where the call is not allowed now.
+  Told allow(const Call& call) const {
+    if ((call.phases & phase) != 0) return Told::ok;
+    const char* const now = phase == instantiated   ? "before the initialization"
+                            : phase == initializing ? "during the initialization"
+                            : phase == stepping     ? "after the initialization"
+                                                    : "after the termination";
+    return error(std::string(call.name) + " is not allowed " + now);
+  }
+
+  Told enter(const Call& call, Phase next) {
+    const Told told = allow(call);
+    if (told == Told::ok) phase = next;
+    return told;
   }
 
   /// Switches categories of messages on or off, all of them where none is named.
@@ -134,7 +167,8 @@ struct Instance {
 
   Told reset() {
     model->start_anew();
-    initialized = warned = false;
+    phase = instantiated;
+    warned = false;
     stop = std::numeric_limits<double>::infinity();
     return Told::ok;
   }
@@ -178,7 +212,6 @@ struct Instance {
   }
 
   [[nodiscard]] Told step(double from, double size) {
-    if (!initialized) return error("a step before the end of the initialization");
     if (!std::isfinite(from) || !std::isfinite(size) || size < 0)
       return error("a step from " + std::to_string(from) + " by " + std::to_string(size) +
                    " s: the time must be finite and the step not negative");
@@ -208,6 +241,15 @@ Told guarded(void* instance, Function function) {
   } catch (...) {
     return Told::error;
   }
+}
+
+/// The same for a call that is not allowed at all times.
+template <class Function>
+Told guarded(void* instance, const Call& call, Function function) {
+  return guarded(instance, [&](Instance& of) {
+    const Told told = of.allow(call);
+    return told == Told::ok ? function(of) : told;
+  });
 }
 
 /// The path of a file URI (RFC 8089), or an empty one where it is none.

@@ -76,6 +76,14 @@ inline std::string read_file(const std::filesystem::path& path) {
 
 inline std::string first_line(const std::string& text) { return text.substr(0, text.find_first_of("\r\n")); }
 
+/// The number of points of the description whose token this is: the last eight of its hexadecimal digits, before a
+/// brace.
+inline std::size_t points_of(const std::string& token) {
+  constexpr std::size_t digits = 8;
+  return token.size() <= digits ? 0
+                                : std::strtoull(token.substr(token.size() - digits - 1, digits).c_str(), nullptr, 16);
+}
+
 /// All that changes in an instance: what get and set of its state keep.
 struct State {
   std::vector<Point> points;
@@ -98,6 +106,11 @@ class Model {
     model->token_ = first_line(read_file(resources / "token.txt"));
     if (model->token_.empty()) {
       why = "resources/token.txt must hold the GUID or instantiation token of modelDescription.xml";
+      return nullptr;
+    }
+    if (points != points_of(model->token_)) {
+      why = "resources/points.txt has " + std::to_string(points) + " points: must have the " +
+            std::to_string(points_of(model->token_)) + " of modelDescription.xml, with which its token ends";
       return nullptr;
     }
     const std::string bytes = read_file(resources / "friction.fmap");

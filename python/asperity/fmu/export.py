@@ -104,7 +104,8 @@ def _files(
     listed = variables(friction_map)
     content = friction_map.to_bytes()
     digest = hashlib.sha256(f"{name} {fmi} {points} ".encode() + content).hexdigest()
-    token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, digest)}}}"
+    drawn = uuid.uuid5(uuid.NAMESPACE_OID, digest).int >> 32 << 32
+    token = f"{{{uuid.UUID(int=drawn + (points or 1))}}}"  # the FMU reads the points of it
     yield "modelDescription.xml", description(fmi, name, token, listed, points, platforms())
     yield "resources/friction.fmap", content
     yield "resources/token.txt", f"{token}\n".encode()  # which a host must name

@@ -9,7 +9,7 @@ import fmpy
 import pytest
 
 from helpers.cases import each
-from helpers.fmus import INSIDE, NAN, Host, on_linux, same
+from helpers.fmus import CLAMP, INSIDE, NAN, Host, on_linux, same
 
 
 @on_linux
@@ -223,3 +223,69 @@ def test_event_mode_is_refused(files, tmp_path, capfd, asked):
     described = host.description.coSimulation
     assert not described.hasEventMode
     assert not described.providesIntermediateUpdate
+
+
+NOT_NOW = r"(?i)status 3|error"
+
+
+def _phases(host, unit):
+    """What there is to do with an instance, by name, and where the standards allow it."""
+    two = host.version == "2.0"
+    setup = (lambda: unit.setupExperiment(startTime=0.0)) if two else None
+    acts = {
+        "set": (lambda: host.set([1], [1e5]), "before during after"),
+        "get": (lambda: host.get([8]), "during after ended"),
+        "flag": (lambda: unit.getBoolean([CLAMP]), "during after ended"),
+        "inside": (host.inside, "during after ended"),
+        "switch": (lambda: host.clamp(True), "before during after"),
+        "step": (lambda: host.step(0.0, 0.1), "after"),
+        "exit": (unit.exitInitializationMode, "during"),
+        "enter": (unit.enterInitializationMode, "before"),
+        "terminate": (unit.terminate, "after"),
+    }
+    return acts | ({"setup": (setup, "before")} if two else {})
+
+
+@on_linux
+@each("fmi", ["2.0", "3.0"])
+def test_calls_are_allowed_in_the_phases_of_the_standard(files, tmp_path, fmi):
+    """Each act in each phase: allowed, or refused and the instance goes on."""
+    host = Host(files[fmi, None], tmp_path / fmi)
+    unit = host.unit
+    ways = {
+        "before": [],
+        "during": [unit.enterInitializationMode],
+        "after": [unit.enterInitializationMode, unit.exitInitializationMode],
+        "ended": [unit.enterInitializationMode, unit.exitInitializationMode, unit.terminate],
+    }
+    for phase, way in ways.items():
+        for name, (act, allowed) in _phases(host, unit).items():
+            unit.reset()
+            for one in way:
+                one()
+            if phase in allowed.split():
+                act()
+                continue
+            with pytest.raises(Exception, match=NOT_NOW):
+                act()
+            if phase == "after":
+                host.step(0.0, 0.1)
+            elif phase == "ended":
+                assert host.get([8])[0] > 0, name
+    unit.reset()
+    with pytest.raises(Exception, match=NOT_NOW):
+        host.step(0.0, 0.1)
+
+
+@on_linux
+@each("fmi", ["2.0", "3.0"])
+@each("points", [None, 3])
+def test_another_number_of_points_gives_no_instance(files, tmp_path, capfd, fmi, points):
+    if (fmi, points) not in files:
+        pytest.skip("no such file was made")
+    host = Host(files[fmi, points], tmp_path / f"{fmi} {points}")
+    (Path(host.folder) / "resources" / "points.txt").write_text("2\n")
+    with pytest.raises(Exception, match="Failed to instantiate"):
+        host.unit.instantiate(loggingOn=True)
+    said = capfd.readouterr()
+    assert f"points.txt has 2 points: must have the {points or 1} of" in said.out + said.err
