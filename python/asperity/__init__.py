@@ -1,5 +1,6 @@
 """Rubber contact area and friction on rough surfaces, after Persson. SI units throughout."""
 
+from asperity.base import begin  # noqa: F401  # isort: skip  # before what takes long
 from asperity import correction, validation
 from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion

@@ -110,7 +110,10 @@ def _in_address(scope: Message) -> str:
 def _foreign(headers: dict[str, str]) -> bool:
     """Whether a page of another origin asks."""
     origin = headers.get("origin")
-    return origin is not None and urlsplit(origin).netloc != headers.get("host")
+    try:
+        return origin is not None and urlsplit(origin).netloc != headers.get("host")
+    except ValueError:  # as of "http://["
+        return True
 
 
 async def _refuse(scope: Message, send: Send, status: int, text: str) -> None:

@@ -134,7 +134,10 @@ class Quantity:
         )
 
     async def _slid(self, event: events.GenericEventArguments) -> None:
-        place = float(event.args)
+        try:
+            place = float(event.args)
+        except (TypeError, ValueError):  # no browser of ours sends that
+            return
         if not math.isfinite(place):
             return
         value = float(f"{10**place if self._log else place:.3g}")

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from asperity._core import Error, InvalidInput, OutOfRange
+from asperity.base.begin import imported
 from asperity.cli.options import typed_options
 from asperity.cli.parser import parser
 from asperity.cli.streams import discard, print_stderr, printable, standard_streams
@@ -14,6 +15,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the shell command; the exit status is 0, 2 for bad input, 1 for any other failure."""
     with standard_streams():
         try:
+            imported()
             args = parser().parse_args(arguments)
             try:
                 args.run(args)

@@ -55,12 +55,16 @@ def local_cluster(workers: int) -> Iterator[Any]:
     with dask.config.set(quiet):
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Port .* is already in use")  # nobody asked for it
-            made = distributed.LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                dashboard_address=None,
-                silence_logs=logging.CRITICAL,
-            )
+            try:
+                made = distributed.LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    dashboard_address=None,
+                    silence_logs=logging.CRITICAL,
+                )
+            except RuntimeError as error:
+                problem = in_one_line(error)
+                raise Error(f"the workers ended as they started: {problem}") from error
         with made as cluster, distributed.Client(cluster) as client:
             yield client
 

@@ -1,20 +1,22 @@
 """The journal of a store: a line for each box that is whole, and the lock of its only writer."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 
 JOURNAL = "_sweep/journal"
+Entry = TypeVar("Entry")
 
 
 class Journal:
     """The lines of a store, open and locked until `close`."""
 
     def __init__(self, store: Path) -> None:
+        self._store = store
         try:  # without a buffer, which would be written again by `close` after a full disk
             self._file = (store / JOURNAL).open("r+b", buffering=0)
         except OSError as error:
@@ -26,14 +28,20 @@ class Journal:
             self._file.close()
             raise InvalidInput(f"{FilePath(store)}: another sweep is writing to it")
 
-    def lines(self) -> Iterator[bytes]:
-        """Every whole line. The next one is written after them, over one that was not ended."""
+    def read(self, meaning: Callable[[bytes], Entry | None]) -> Iterator[Entry]:
+        """What every line means. The next one is written after them, over a last one that means
+        nothing or was not ended; InvalidInput where there is such a line before the last."""
         whole = 0
         with open(self._file.fileno(), "rb", closefd=False) as file:
-            for line in file:
-                if line.endswith(b"\n"):
-                    whole += len(line)
-                    yield line[:-1]
+            for number, line in enumerate(file, 1):
+                entry = meaning(line[:-1]) if line.endswith(b"\n") else None
+                if entry is None:
+                    if file.read(1):
+                        problem = f"line {number} of {JOURNAL} is none of this sweep"
+                        raise InvalidInput(f"{FilePath(self._store)}: is damaged: {problem}")
+                    break
+                whole += len(line)
+                yield entry
         self._file.seek(whole)
 
     def add(self, line: bytes) -> None:

@@ -91,11 +91,7 @@ class ZarrStore:
         self._journal = Journal(path)
 
     def _read_journal(self) -> None:
-        for number, line in enumerate(self._journal.lines(), 1):
-            outcome = self._outcome_of(line)
-            if outcome is None:
-                problem = f"line {number} of {JOURNAL} is none of this sweep"
-                raise InvalidInput(f"{FilePath(self.path)}: is damaged: {problem}")
+        for outcome in self._journal.read(self._outcome_of):
             if not self.has(outcome.start) and self._sums_of(outcome) == outcome.sums:
                 self._add(outcome)
 

@@ -67,6 +67,7 @@ REFUSED = {
     "no cookie": ("", {"cookie": ";;;=\x01"}),
     "a page of another host": ("token=a-token", {"origin": "http://evil.example", "host": "a:1"}),
     "a page of another port": ("", cookie() | {"origin": "http://a:2", "host": "a:1"}),
+    "a page of no address": ("", cookie() | {"origin": "http://[", "host": "a:1"}),
     "a page of nowhere": ("", cookie() | {"origin": "null", "host": "a:1"}),
 }
 

@@ -95,12 +95,14 @@ def test_damage_is_told_in_a_line_and_nothing_is_changed():
             assert before == (journal.read_bytes() if journal.exists() else None)
 
 
-def test_a_line_that_was_not_ended_is_dropped():
+def test_a_last_line_that_was_not_ended_or_is_damaged_is_dropped():
     with sweep() as expected:
         mu = expected.mu.values
     journal = Path("a.zarr", JOURNAL)
     content = journal.read_bytes()
-    for rest in (content[:-20], content + b"\0" * 4096):
+    last = content.splitlines(keepends=True)[-1]
+    damaged = last.replace(b"start", b"stars")
+    for rest in (content[:-20], content + b"\0" * 4096, content[: -len(last)] + damaged):
         journal.write_bytes(rest)
         with sweep(resume=True) as found:
             assert found.mu.values.tolist() == mu.tolist()

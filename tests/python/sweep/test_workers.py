@@ -193,3 +193,31 @@ def test_what_a_killed_driver_wrote_is_resumed(ending, expected, tmp_path, monke
     if ending == ".zarr":
         assert journal.read_text().count("\n") == 64
     assert os.listdir() == [f"killed{ending}"]
+
+
+def _begun_by(parent):
+    """A process that Dask has begun for the parent."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (folder / "cmdline").read_text()
+            of = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+        except (OSError, IndexError):
+            continue
+        if "spawn_main" in command and of == parent:
+            return int(folder.name)
+    return None
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc")
+def test_a_worker_killed_as_it_starts_is_one_line(files):
+    pytest.importorskip("distributed")
+    command = ("asperity", "sweep", "sweep.toml", "--output", "a.zarr", "--workers", "2")
+    with started(*command) as process:
+        while (worker := _begun_by(process.pid)) is None:
+            assert process.poll() is None
+            time.sleep(0.01)
+        os.kill(worker, signal.SIGKILL)
+        said = process.communicate(timeout=120)[1]
+    assert process.returncode == 1
+    assert said.startswith("asperity: the workers ended as they started: ")
+    assert said.count("\n") == 1
