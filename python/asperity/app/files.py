@@ -1,16 +1,19 @@
 """Files that a session was given: kept in a folder of its own, under names of our own."""
 
 import itertools
+import os
 import re
 import shutil
 import tempfile
 from pathlib import Path
 
 from asperity._core import InvalidInput
+from asperity.io.aside import locked_folder, remove_left
 
 MOST_BYTES = 256 * 2**20  # of one file
 MOST_FILES = 40  # of a session
 MOST_TOGETHER = 2**30  # bytes of a session
+_PREFIX = "asperity-app-"
 _ENDING = re.compile(r"\.[A-Za-z0-9]{1,8}")
 
 
@@ -18,7 +21,7 @@ class Folder:
     """A private folder, which is gone when the session is."""
 
     def __init__(self) -> None:
-        self.path = Path(tempfile.mkdtemp(prefix="asperity-app-"))  # for its owner alone
+        self.path, self._lock = locked_folder(_PREFIX)  # for its owner alone
         self.shown: dict[str, str] = {}  # by our names, the client's, which are only ever shown
         self._numbers = itertools.count(1)  # no two threads have the same
 
@@ -54,6 +57,14 @@ class Folder:
 
     def close(self) -> None:
         shutil.rmtree(self.path, ignore_errors=True)
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+
+def remove_old_folders() -> None:
+    """Remove those of apps that were killed."""
+    remove_left(Path(tempfile.gettempdir()), _PREFIX)
 
 
 def plain(name: str) -> str:

@@ -64,8 +64,10 @@ def _run(bound: socket.socket, token: str, port: int) -> None:
     from fastapi import FastAPI
     from nicegui import ui
 
+    from asperity.app.files import remove_old_folders
     from asperity.app.page import close_all, show_page
 
+    remove_old_folders()
     application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     ui.page("/", title="asperity")(show_page)
     ui.run_with(application, title="asperity", language="en-US", show_welcome_message=False)
@@ -75,6 +77,9 @@ def _run(bound: socket.socket, token: str, port: int) -> None:
     )
     sys.setswitchinterval(_TURN)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))  # uvicorn raises it again at its end
+    hangup = getattr(signal, "SIGHUP", None)  # the terminal was closed; Windows has none
+    if hangup is not None and signal.getsignal(hangup) == signal.SIG_DFL:
+        signal.signal(hangup, lambda *_: signal.raise_signal(signal.SIGTERM))
     try:
         with contextlib.suppress(KeyboardInterrupt):
             uvicorn.Server(config).run(sockets=[bound])

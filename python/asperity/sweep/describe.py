@@ -4,10 +4,8 @@ import hashlib
 import itertools
 import json
 import os
-import uuid
 import warnings
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +13,7 @@ import numpy as np
 
 from asperity._core import Error, __version__
 from asperity.base.table import imported
+from asperity.io.aside import folder_beside
 from asperity.io.fields import without_unit
 from asperity.sweep.axes import Axis
 from asperity.sweep.chunks import BLOSC, FAILURE
@@ -179,20 +178,16 @@ def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
     `dataset` and `group` are the store as xarray and as Zarr open it.
     """
     netcdf = imported("netCDF4", "sweep")
-    part: str | None = None
     try:
-        part = str(path.with_name(f".asperity-{uuid.uuid4().hex}.nc"))
-        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-        with netcdf.Dataset(part, "w") as file:
-            _fill(file, dataset, group)
-        os.replace(part, path)
+        with folder_beside(path) as folder:
+            part = folder / "store.nc"
+            part.touch()  # with the permissions that a file has here
+            with netcdf.Dataset(str(part), "w") as file:
+                _fill(file, dataset, group)
+            os.replace(part, path)
     except (OSError, RuntimeError) as error:  # the latter is NetCDF's, which knows no reasons
         reason = getattr(error, "strerror", None) or f"{error}: is the disk full?"
         raise Error(f"{path}: cannot be written: {reason}; --resume goes on") from error
-    finally:
-        if part is not None:
-            with suppress(OSError):
-                os.unlink(part)
 
 
 def _fill(file: Any, dataset: Any, group: Any) -> None:

@@ -3,8 +3,6 @@
 import itertools
 import json
 import os
-import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ from typing import Any
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.table import imported
+from asperity.io.aside import folder_beside
 from asperity.sweep.journal import Journal
 
 
@@ -79,10 +78,10 @@ def remove_store(path: Path) -> None:
             return
         journal = Journal(path)
         try:  # away from its place at once: no half of it is left there
-            beside = Path(tempfile.mkdtemp(prefix=".asperity-", dir=path.parent))
-            os.rename(path, beside / "store")
+            with folder_beside(path) as folder:
+                os.rename(path, folder / "store")
+                journal.close()
         finally:
             journal.close()
-        shutil.rmtree(beside)
     except OSError as error:
         raise Error(f"{path}: cannot be removed: {error.strerror or error}") from error

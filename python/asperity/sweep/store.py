@@ -3,8 +3,6 @@
 import json
 import math
 import os
-import shutil
-import tempfile
 import uuid
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +14,7 @@ from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.executors import in_one_line
 from asperity.base.table import imported
+from asperity.io.aside import folder_beside
 from asperity.sweep.chunks import FAILURE, Place, checksums, content_of
 from asperity.sweep.describe import Described, consolidate
 from asperity.sweep.existing import attributes_of, open_store, refuse_another, refuse_taken
@@ -37,18 +36,14 @@ class ZarrStore:
         refuse_taken(path)
         zarr = imported("zarr", "sweep")
         try:
-            beside = Path(tempfile.mkdtemp(prefix=".asperity-", dir=path.parent)) / "store"
-        except OSError as error:
-            raise InvalidInput(f"{path}: cannot be written: {error.strerror}") from error
-        try:
-            described.create(zarr, beside, cut)
-            (beside / JOURNAL).touch()
-            (beside / TOKEN).write_text(uuid.uuid4().hex)
-            os.rename(beside, path)
+            with folder_beside(path) as folder:
+                store = folder / "store"
+                described.create(zarr, store, cut)
+                (store / JOURNAL).touch()
+                (store / TOKEN).write_text(uuid.uuid4().hex)
+                os.rename(store, path)
         except OSError as error:
             raise Error(f"{path}: cannot be written: {error.strerror or error}") from error
-        finally:
-            shutil.rmtree(beside.parent, ignore_errors=True)
         self._open(path, described)
 
     @classmethod

@@ -1,10 +1,15 @@
 """The server answers nobody without the token, and serves everything that its page needs."""
 
+import os
 import re
+import signal
 import socket
+import subprocess
+import sys
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
@@ -86,3 +91,21 @@ def test_what_is_missing_is_named(
     assert main(["app", "--no-browser"]) == 2
     said = f"asperity: the app needs NiceGUI: {to_install('app')}\n"
     assert capsys.readouterr().err == said
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="there is no SIGHUP here")
+def test_a_closed_terminal_leaves_no_folder(tmp_path: Path) -> None:
+    """Its session's folder goes; at its start the app removes one that a killed app left."""
+    left = tmp_path / "asperity-app-12345678"
+    left.mkdir()
+    os.utime(left, (0, 0))
+    run = [sys.executable, "-m", "asperity", "app", "--no-browser"]
+    environment = {**os.environ, "TMPDIR": str(tmp_path), "MPLBACKEND": "agg"}
+    with subprocess.Popen(run, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        assert process.stdout is not None
+        assert get(process.stdout.readline().strip())[0] == 200
+        (session,) = tmp_path.glob("asperity-app-*")
+        assert session != left
+        process.send_signal(signal.SIGHUP)
+        process.wait(30)
+    assert list(tmp_path.glob("asperity-app-*")) == []
