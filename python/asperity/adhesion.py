@@ -20,8 +20,10 @@ from asperity.base.arguments import (
     real_array,
     sentences,
 )
+from asperity.base.parameters import parameter
+from asperity.base.quantities import SHEAR_STRESS, VELOCITY
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import Value, value
+from asperity.base.value import CoreValue, value
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.rubber import Rubber
@@ -31,7 +33,7 @@ __all__ = ["Adhesion", "AdhesionFit", "fit_adhesion"]
 
 
 @value
-class Adhesion(Value):
+class Adhesion(CoreValue):
     """Friction of the real contact area (Eq. 23).
 
     mu_A = (tau_f0 / sigma0) (A/A0) exp(-c log10(v / v0)^2).
@@ -50,14 +52,11 @@ class Adhesion(Value):
     InvalidInput
     """
 
-    shear_stress: float
-    reference_velocity: float = 6e-3
-    width: float = 0.1
-
-    def __post_init__(self) -> None:
-        for name in PARAMETERS:
-            self._set(**{name: number(getattr(self, name), name)})
-        self._set(_core=_core.Adhesion(*(getattr(self, name) for name in PARAMETERS)))
+    shear_stress: float = parameter(SHEAR_STRESS, usual=(1e4, 1e8), shown_unit="MPa")
+    reference_velocity: float = parameter(
+        VELOCITY, default=6e-3, usual=(1e-6, 1.0), shown_unit="mm/s"
+    )
+    width: float = parameter(default=0.1, usual=(0.01, 1))
 
 
 PARAMETERS = ("shear_stress", "reference_velocity", "width")
@@ -98,8 +97,10 @@ class AdhesionFit(Adhesion, Table):
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        super().__post_init__()
+        plain = self.adhesion
         self._set(
+            **plain._arguments(),
+            _core=plain._core,
             covariance=covariance_matrix(self.covariance),
             residual=number(self.residual, "residual"),
             outliers=frozen(real_array(self.outliers, "outliers").astype(bool)),

@@ -1,6 +1,6 @@
 """Single-scale asperity contact: Hertz and Greenwood-Williamson (Eqs 14, 16-20)."""
 
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +10,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import broadcast, choice, number, number_or_none, shaped, vector
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.correction import READINGS, Reading
+from asperity.correction import Reading
 
 __all__ = ["Separation", "hertz_penetration", "separation"]
 
@@ -135,7 +135,7 @@ def separation(
         number(rms_height, "rms_height"),
         number(q0, "q0"),
         heights,
-        choice(reading, "reading", READINGS),
+        choice(reading, "reading", get_args(Reading)),
         number_or_none(z_max, "z_max"),
         number_or_none(z_min, "z_min"),
     )

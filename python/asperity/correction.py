@@ -1,7 +1,7 @@
 """Corrections for partial contact: the S factor and the affine shifts p_T (Eqs 8-11, 13, 21)."""
 
 from dataclasses import field
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,7 +9,9 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number, number_or_none, vector
-from asperity.base.value import Value, value
+from asperity.base.parameters import parameter
+from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
+from asperity.base.value import CoreValue, Value, value
 from asperity.scan_contact import ScanContact
 from asperity.surface import HeightMap
 
@@ -26,13 +28,10 @@ __all__ = [
 
 AppliesTo = Literal["friction", "area", "both"]
 Reading = Literal["implicit", "added"]
-# in the order of the core's enumerations
-APPLIES_TO = ("friction", "area", "both")
-READINGS = ("implicit", "added")
 
 
 @value
-class SFactor(Value):
+class SFactor(CoreValue):
     """Persson's correction for partial contact (Eq. 8).
 
     S = gamma + (1 - gamma) P^2 with P = A/A0.
@@ -56,17 +55,12 @@ class SFactor(Value):
     `asperity validate` makes the table.
     """
 
-    gamma: float = 0.5
-    applies_to: AppliesTo = "friction"
-
-    def __post_init__(self) -> None:
-        where = choice(self.applies_to, "applies_to", APPLIES_TO)
-        self._set(gamma=number(self.gamma, "gamma"))
-        self._set(_core=_core.SFactor(self.gamma, where))
+    gamma: float = parameter(default=0.5, usual=(0, 1))
+    applies_to: AppliesTo = parameter(default="friction", usual=get_args(AppliesTo))
 
 
 @value
-class NayakSFactor(Value):
+class NayakSFactor(CoreValue):
     """S inside G that knows how wide the spectrum's band is, fitted to exact contacts.
 
     For `contact_area` and the adhesion int_0^G dg / S(P(g)) = G_uncorrected with
@@ -90,15 +84,11 @@ class NayakSFactor(Value):
     and below this load results carry a note.
     """
 
-    friction_gamma: float = 0.4
-
-    def __post_init__(self) -> None:
-        self._set(friction_gamma=number(self.friction_gamma, "friction_gamma"))
-        self._set(_core=_core.NayakSFactor(self.friction_gamma))
+    friction_gamma: float = parameter(default=0.4, usual=(0, 1))
 
 
 @value
-class PartialContact(Value):
+class PartialContact(CoreValue):
     """Area and friction from one sum rule over the stress of all waves, made on exact contacts.
 
     The source is this project's own work, exact steady sliding contact of viscoelastic half-spaces
@@ -133,12 +123,9 @@ class PartialContact(Value):
     `friction(...).model_error` has the error by speed and load.
     """
 
-    def __post_init__(self) -> None:
-        self._set(_core=_core.PartialContact())
-
 
 @value
-class AffineShift(Value):
+class AffineShift(CoreValue):
     """C -> C / p^2 with a given shift factor (Eqs 9-11).
 
     Parameters
@@ -155,11 +142,7 @@ class AffineShift(Value):
     would, results carry a note.
     """
 
-    p: float = field(kw_only=False)
-
-    def __post_init__(self) -> None:
-        self._set(p=number(self.p, "p"))
-        self._set(_core=_core.AffineShift(self.p))
+    p: float = parameter(kw_only=False, usual=(1, 5), start=1.5)
 
 
 @value
@@ -194,9 +177,15 @@ class LocalPeaks(Value):
     is right at one load alone.
     """
 
-    heights_or_map: ArrayLike | HeightMap = field(kw_only=False)
-    min_distance: float | None = None
-    z_max: float | None = None
+    heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
+    min_distance: float | None = parameter(
+        SPACING,
+        default=None,
+        usual=(1e-7, 0.1),
+        shown_unit="um",
+        label="Least distance of peaks",
+    )
+    z_max: float | None = parameter(HEIGHT, default=None)
     heights: Array = field(init=False)
 
     def __post_init__(self) -> None:
@@ -242,15 +231,17 @@ class GreenwoodWilliamson(Value):
     all, on all but 5 of 104 contacts from p / (E* h') = 0.1 on, the added one turns back above 0.5.
     """
 
-    z_max: float
-    z_min: float
-    peaks: ArrayLike | None = None
+    z_max: float = parameter(HEIGHT)
+    z_min: float = parameter(HEIGHT)
+    peaks: ArrayLike | None = parameter(HEIGHT, default=None, key_name="heights")
     reading: Reading = "implicit"
-    rms_height: float | None = None
-    q0: float | None = None
+    rms_height: float | None = parameter(RMS_HEIGHT, default=None)
+    q0: float | None = parameter(
+        FIRST_WAVENUMBER, default=None, usual=(10, 1e6), label="q0 of macro-asperities"
+    )
 
     def __post_init__(self) -> None:
-        reading = choice(self.reading, "reading", READINGS)
+        reading = choice(self.reading, "reading", get_args(Reading))
         peaks = np.empty(0) if self.peaks is None else vector(self.peaks, "peaks")
         if self.peaks is not None:
             if not peaks.size:
@@ -295,17 +286,25 @@ class PeaksThenGreenwoodWilliamson(Value):
     than lambda0 / 2, mean error and the worst: area 67 %, +182 %; elastic energy 45 %, -82 %.
     """
 
-    heights_or_map: ArrayLike | HeightMap = field(kw_only=False)
-    min_distance: float | None = None
-    z_max: float | None = None
-    z_min: float | None = None
+    heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
+    min_distance: float | None = parameter(
+        SPACING,
+        default=None,
+        usual=(1e-7, 0.1),
+        shown_unit="um",
+        label="Least distance of peaks",
+    )
+    z_max: float | None = parameter(HEIGHT, default=None)
+    z_min: float | None = parameter(HEIGHT, default=None)
     reading: Reading = "implicit"
-    rms_height: float | None = None
-    q0: float | None = None
+    rms_height: float | None = parameter(RMS_HEIGHT, default=None)
+    q0: float | None = parameter(
+        FIRST_WAVENUMBER, default=None, usual=(10, 1e6), label="q0 of macro-asperities"
+    )
     heights: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        reading = choice(self.reading, "reading", READINGS)
+        reading = choice(self.reading, "reading", get_args(Reading))
         heights, z_max, z_min = _profile(self)
         if self.z_min is not None:
             z_min = number(self.z_min, "z_min")

@@ -5,18 +5,17 @@ from typing import Any, Literal
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity.base.arguments import broadcast, choice, number, number_or_none, of_kind, shaped
-from asperity.base.value import Value, value
+from asperity.base.arguments import broadcast, of_kind, shaped
+from asperity.base.parameters import parameter
+from asperity.base.quantities import SPACING, WAVENUMBER
+from asperity.base.value import CoreValue, value
 
 Residence = Literal["disc", "box"]
 HeatModel = Literal["profile", "one-temperature"]
-# in the order of the core's enumerations
-RESIDENCES = ("disc", "box")
-MODELS = ("profile", "one-temperature")
 
 
 @value
-class Heating(Value):
+class Heating(CoreValue):
     """Thermal constants of a rubber, and the macro-asperity contacts in which sliding heats it.
 
     Heat flows in depth only, none of it into the road but by `interface_share`. It is spread evenly
@@ -54,26 +53,15 @@ class Heating(Value):
     InvalidInput
     """
 
-    density: float
-    heat_capacity: float
-    conductivity: float
-    contact_diameter: float
-    macro_wavenumber: float | None = None
+    density: float = parameter(unit="kg/m^3")
+    heat_capacity: float = parameter(unit="J/(kg K)")
+    conductivity: float = parameter(unit="W/(m K)", usual=(0.05, 2))
+    contact_diameter: float = parameter(SPACING, usual=(1e-5, 2e-2), shown_unit="mm")
+    macro_wavenumber: float | None = parameter(WAVENUMBER, default=None)
     macro_area: float | None = None
     residence: Residence = "disc"
     interface_share: float = 1.0
     model: HeatModel = "profile"
-
-    def __post_init__(self) -> None:
-        for name in ("density", "heat_capacity", "conductivity", "contact_diameter"):
-            self._set(**{name: number(getattr(self, name), name)})
-        for name in ("macro_wavenumber", "macro_area"):
-            self._set(**{name: number_or_none(getattr(self, name), name)})
-        self._set(interface_share=number(self.interface_share, "interface_share"))
-        constants = list(self._arguments().values())
-        constants[6] = choice(self.residence, "residence", RESIDENCES)
-        constants[8] = choice(self.model, "model", MODELS)
-        self._set(_core=_core.Heating(*constants))
 
 
 def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: ArrayLike, heating: Heating) -> Any:

@@ -67,12 +67,14 @@ class PronyFit(PronySeries):
     shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
-        super().__post_init__()
+        names = ("equilibrium_modulus", "moduli", "relaxation_times")
+        plain = PronySeries(**{name: getattr(self, name) for name in names})
         lowest = number(self.lowest_frequency, "lowest_frequency")
         highest = number(self.highest_frequency, "highest_frequency")
         beyond = _goes_beyond(self.extrapolation)
         self._set(
-            _core=self._core.fitted_on(lowest, highest, beyond),
+            **plain._arguments(),
+            _core=plain._core.fitted_on(lowest, highest, beyond),
             lowest_frequency=lowest,
             highest_frequency=highest,
             storage_residual=number(self.storage_residual, "storage_residual"),

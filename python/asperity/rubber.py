@@ -24,8 +24,10 @@ from asperity.base.arguments import (
     shaped,
     vector,
 )
+from asperity.base.parameters import parameter
+from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import CoreValue, value
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import StrainSweep, draw_moduli, modulus_columns
 
@@ -80,7 +82,7 @@ class _HasModulus(Table):
 
 
 @value
-class PronySeries(_HasModulus):
+class PronySeries(_HasModulus, CoreValue):
     """E(w) = E_inf + sum_k E_k i w tau_k / (1 + i w tau_k).
 
     The angular integrals are closed forms. Without terms the rubber is elastic.
@@ -106,18 +108,9 @@ class PronySeries(_HasModulus):
     (501000000+500000000j)
     """
 
-    equilibrium_modulus: float
-    moduli: Vector
-    relaxation_times: Vector
-
-    def __post_init__(self) -> None:
-        self._set(
-            equilibrium_modulus=number(self.equilibrium_modulus, "equilibrium_modulus"),
-            moduli=vector(self.moduli, "moduli"),
-            relaxation_times=vector(self.relaxation_times, "relaxation_times"),
-        )
-        core = _core.PronySeries(self.equilibrium_modulus, self.moduli, self.relaxation_times)
-        self._set(_core=core)
+    equilibrium_modulus: float = parameter(RELAXED_MODULUS)
+    moduli: Vector = parameter(unit="Pa")
+    relaxation_times: Vector = parameter(unit="s")
 
     @classmethod
     def _of(cls, core: Any, **others: Any) -> Self:

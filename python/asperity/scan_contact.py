@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, brief, frozen, number, of_kind, path_of
+from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
 from asperity.io.archive import read_arrays
@@ -144,7 +145,7 @@ class ScanContact(Value):
 
     height_map: HeightMap = field(kw_only=False)
     periodic: Closing = "blend"
-    tolerance: float = 0.02
+    tolerance: float = parameter(default=0.02, usual=(0.001, 0.1))
 
     def __post_init__(self) -> None:
         named = isinstance(self.periodic, str) and self.periodic in _PLACE

@@ -21,8 +21,10 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
+from asperity.base.parameters import parameter
+from asperity.base.quantities import DECADES, TEMPERATURE
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import Value, value
+from asperity.base.value import CoreValue, Value, value
 
 
 class _Errors:
@@ -81,7 +83,7 @@ class _FittedLaw(_Law):
 
 
 @value
-class WLF(_Law):
+class WLF(_Law, CoreValue):
     """The law of Williams, Landel and Ferry, by constants that are known.
 
     log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref) (M. L. Williams, R. F. Landel, J. D. Ferry, J.
@@ -109,14 +111,9 @@ class WLF(_Law):
     2.172
     """
 
-    c1: float
-    c2: float
-    reference_temperature: float
-
-    def __post_init__(self) -> None:
-        for name in ("c1", "c2", "reference_temperature"):
-            self._set(**{name: number(getattr(self, name), name)})
-        self._set(_core=_core.WLF(self.c1, self.c2, self.reference_temperature))
+    c1: float = parameter(DECADES, key_name="wlf_c1")
+    c2: float = parameter(unit="K", key_name="wlf_c2")
+    reference_temperature: float = parameter(TEMPERATURE)
 
 
 @value

@@ -24,8 +24,10 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
+from asperity.base.parameters import parameter
+from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import CoreValue, value
 from asperity.surface import around
 
 Flags = Given[ArrayLike | None, NDArray[np.uint8] | None]
@@ -104,7 +106,7 @@ class _Spectrum(Table):
 
 
 @value
-class SelfAffineSpectrum(_Spectrum):
+class SelfAffineSpectrum(_Spectrum, CoreValue):
     """Spectrum of a self-affine surface.
 
     C(q) = C_r (q / q_r)^(-2 (H + 1)) on [q_r, q1], flat on [q0, q_r] and zero elsewhere. C_r
@@ -136,17 +138,11 @@ class SelfAffineSpectrum(_Spectrum):
     (2.76, 11.7)
     """
 
-    rms_height: float
+    rms_height: float = parameter(RMS_HEIGHT)
     hurst: float
-    q0: float
-    q1: float
-    rolloff: float | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("rms_height", "hurst", "q0", "q1"):
-            self._set(**{name: number(getattr(self, name), name)})
-        self._set(rolloff=number_or_none(self.rolloff, "rolloff"))
-        self._set(_core=_core.SelfAffineSpectrum(*self._arguments().values()))
+    q0: float = parameter(FIRST_WAVENUMBER)
+    q1: float = parameter(LAST_WAVENUMBER)
+    rolloff: float | None = parameter(FIRST_WAVENUMBER, default=None)
 
     @staticmethod
     def from_article(*, h0: float, hurst: float, q0: float, q1: float) -> SelfAffineSpectrum:

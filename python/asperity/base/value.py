@@ -7,8 +7,11 @@ from typing import Any, Self, dataclass_transform
 
 import numpy as np
 
+from asperity import _core
+from asperity.base.parameters import parameter, parameters
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(field,))
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(field, parameter))
 def value(cls: Any) -> Any:
     """Make a frozen dataclass whose fields are keyword-only arguments and pattern attributes."""
     decorate = dataclass(frozen=True, eq=False, repr=False, kw_only=True, match_args=False)
@@ -68,6 +71,16 @@ class Value:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _made_anew, (type(self), self._arguments())
+
+
+class CoreValue(Value):
+    """A value of which the core has a class of the same name, made of the fields in their order."""
+
+    def __post_init__(self) -> None:
+        cls: Any = type(self)
+        taken = {one.name: one.take(getattr(self, one.name)) for one in parameters(cls)}
+        self._set(**{name: kept for name, (kept, _) in taken.items()})
+        self._set(_core=getattr(_core, cls.__name__)(*(of_core for _, of_core in taken.values())))
 
 
 def _made_anew(kind: type[Value], arguments: dict[str, Any]) -> Value:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import FilePath, brief
 from asperity.base.notes import note_about
 from asperity.cli.friction_commands import (
@@ -35,8 +36,8 @@ from asperity.scene.scene import load_scene
 _APART = 0.2  # of ln pressure
 _COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
 _HELD = {
-    "shear_stress_pa": plausible.SHEAR_STRESS,
-    "reference_velocity_m_s": plausible.VELOCITY,
+    "shear_stress_pa": quantities.SHEAR_STRESS,
+    "reference_velocity_m_s": quantities.VELOCITY,
 }
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
@@ -126,10 +127,10 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
 
 def _check_sides(args: Namespace, scene: Scene) -> None:
     if args.pressure is not None:
-        plausible.check("--pressure", args.pressure, plausible.PRESSURE)
+        plausible.check("--pressure", args.pressure, quantities.PRESSURE)
         plausible.check_load("--pressure", args.pressure, stiffest(scene.rubber))
     if args.velocity is not None:
-        plausible.check("--velocity", args.velocity, plausible.VELOCITY)
+        plausible.check("--velocity", args.velocity, quantities.VELOCITY)
 
 
 def _errors(

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
@@ -41,7 +42,7 @@ def rubber(args: Namespace) -> None:
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:
             flag, given = "--reference-temperature", args.reference_temperature
-            plausible.check(flag, given, plausible.TEMPERATURE)
+            plausible.check(flag, given, quantities.TEMPERATURE)
         isotherms = read_isotherms(
             files,
             columns=args.columns,

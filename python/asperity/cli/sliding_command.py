@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
@@ -42,7 +43,7 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
     plot.check_plot(directory / FILES[2])
     check_directory(directory, FILES, force=args.force)
     with plausible.collected(typed_options(args)) as unusual:
-        plausible.check("--velocities", args.velocities or [], plausible.VELOCITY)
+        plausible.check("--velocities", args.velocities or [], quantities.VELOCITY)
     scene, notes = _scene(args)
     notes += unusual
     inputs = [FilePath(name) for name in (args.surface, args.rubber) if name is not None]

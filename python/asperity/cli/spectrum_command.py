@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput, NotConverged
+from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
@@ -52,7 +53,7 @@ def spectrum(args: Namespace) -> None:
     with plausible.collected(typed_options(args)) as unusual:
         for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
             if q is not None:
-                plausible.check(flag, q, plausible.WAVENUMBER)
+                plausible.check(flag, q, quantities.WAVENUMBER)
         found = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
     measured = found.spectrum
     fit, fit_notes = _fit(measured, args)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
@@ -101,7 +102,7 @@ def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[str]]:
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, flags):
         if args.q0 is not None:
-            plausible.check("--q0", args.q0, plausible.FIRST_WAVENUMBER)
+            plausible.check("--q0", args.q0, quantities.FIRST_WAVENUMBER)
         read = {name: given[name] for name in flags if name in given}
         _, filled = read_filled(path, max_fraction=0.10, **read)
     if not isinstance(filled, HeightMap):

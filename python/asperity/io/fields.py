@@ -4,7 +4,7 @@ import datetime
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -12,34 +12,26 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
+from asperity.base.parameters import KEY_UNITS, parameters
+from asperity.base.quantities import Quantity
 from asperity.io import plausible
 from asperity.io.typed import Typed, as_typed
 
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
 _SWEEP = dict.fromkeys(("from", "to", "points"))
-KEY_UNITS = {  # by how keys end, the longest first
-    "kg_m3": "kg/m^3",
-    "j_kg_k": "J/(kg K)",
-    "w_m_k": "W/(m K)",
-    "per_m": "1/m",
-    "m_s": "m/s",
-    "pa": "Pa",
-    "k": "K",
-    "c": "degC",
-    "m": "m",
-    "s": "s",
-}
 
 
 @dataclass(frozen=True)
 class Field:
-    """What a key may hold, the argument of the core that it sets, and what its unit lets it be."""
+    """What a key may hold, the argument that it sets, and what its unit lets it be."""
 
     read: Callable[[object], Any]
     argument: str = ""
-    quantity: plausible.Quantity | None = None
+    quantity: Quantity | None = None
     unit: str = ""  # of `quantity`, the SI unit if empty
+    default: Any = None  # None where the key is required, or nothing takes its place
+    required: bool = False
 
 
 class _WrongValueError(Exception):
@@ -151,6 +143,45 @@ def _logarithmic(value: Mapping[str, object]) -> Any:
     if not 2 <= points <= MOST_POINTS:
         raise _WrongValueError(f"points must be in 2..{MOST_POINTS}")
     return np.geomspace(low, high, points)
+
+
+_READERS: dict[Any, Callable[[object], Any]] = {
+    float: number,
+    float | None: number,
+    int: count,
+    str: text,
+    str | None: text,
+}
+
+
+def fields_of(of: Callable[..., Any], *names: str) -> dict[str, Field]:
+    """The keys of a scene for the parameters of a value or a function, or for those of `names`.
+
+    What is no number, text or list of numbers is not set by a key.
+    """
+    fields = {}
+    for one in parameters(of, *names):
+        read = _READERS.get(one.type)
+        if one.choices:
+            read = text_or_true if True in one.choices else text
+        elif read is None and one.si_unit:
+            read = numbers
+        if read is not None:
+            required = one.default is MISSING
+            default = None if required else one.default
+            field = Field(read, one.name, one.quantity, default=default, required=required)
+            fields[one.key] = field
+    return fields
+
+
+def defaults_of(fields: Mapping[str, Field]) -> dict[str, Any]:
+    """What holds for the keys that are left out."""
+    return {key: one.default for key, one in fields.items() if one.default is not None}
+
+
+def required(fields: Mapping[str, Field]) -> tuple[str, ...]:
+    """The keys that a table must have."""
+    return tuple(key for key, one in fields.items() if one.required)
 
 
 def refuse(path: Path, field: str, problem: str) -> NoReturn:

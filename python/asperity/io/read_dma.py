@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
@@ -162,7 +163,7 @@ def read_shift_factors(
     columns = {"temperature": "temperature_k", "log10_a_T": "log10_a_t"}
     file = path_of(path, "path")
     table = _table(file, columns)
-    plausible.check(f"{file}: temperature_k", table["temperature"], plausible.TEMPERATURE)
+    plausible.check(f"{file}: temperature_k", table["temperature"], quantities.TEMPERATURE)
     order = np.argsort(table["temperature"], kind="stable")
     try:
         return ShiftFactors(
@@ -252,17 +253,17 @@ def _check_units(
 ) -> None:
     """Refuse what the declared units make absurd; temperatures are still in theirs."""
     plausible.check(
-        f"{file}: temperature", table["temperature"], plausible.TEMPERATURE, units["temperature"]
+        f"{file}: temperature", table["temperature"], quantities.TEMPERATURE, units["temperature"]
     )
-    _check(file, "frequency", table["frequency"], plausible.FREQUENCY, units)
+    _check(file, "frequency", table["frequency"], quantities.FREQUENCY, units)
     if "strain" in table:
-        _check(file, "strain", table["strain"], plausible.STRAIN, units)
+        _check(file, "strain", table["strain"], quantities.STRAIN, units)
     largest = factor * np.max(np.hypot(table["storage"], table["loss"]))
-    _check(file, "modulus", largest, plausible.MODULUS, units)
+    _check(file, "modulus", largest, quantities.MODULUS, units)
 
 
 def _check(
-    file: Path, kind: str, si: Any, quantity: plausible.Quantity, units: Mapping[str, str]
+    file: Path, kind: str, si: Any, quantity: quantities.Quantity, units: Mapping[str, str]
 ) -> None:
     named = "largest |E|" if kind == "modulus" else kind
     declared = si / _UNITS[kind][units[kind]]

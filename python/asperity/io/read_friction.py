@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.base.arguments import path_of
 from asperity.io import plausible
 from asperity.io.instrument import brief
@@ -21,7 +22,7 @@ _COLUMNS = {
     "mu": {"mu": ""},
     "pressure": {"pressure_pa": "Pa", "pressure_kpa": "kPa", "pressure_mpa": "MPa"},
 }
-_QUANTITIES = {"velocity": plausible.VELOCITY, "pressure": plausible.PRESSURE}
+_QUANTITIES = {"velocity": quantities.VELOCITY, "pressure": quantities.PRESSURE}
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
@@ -44,5 +45,5 @@ def read_master_curve(
     except InvalidInput as error:
         raise InvalidInput(f"{path}: {error}") from error
     largest = np.max(np.hypot(curve.storage_modulus, curve.loss_modulus))
-    plausible.check(f"{path}: largest |E|", largest, plausible.MODULUS)
+    plausible.check(f"{path}: largest |E|", largest, quantities.MODULUS)
     return curve

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
-from asperity.adhesion import AdhesionFit, fit_adhesion
+from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
+from asperity.base.parameters import parameters
 from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
 from asperity.scene.model import Curves, Progress, Scene
@@ -19,11 +20,7 @@ from asperity.spectrum import Spectrum
 from asperity.uncertainty.draws import Generator
 
 # arguments of Adhesion by the names that files give them
-PARAMETERS = {
-    "shear_stress_pa": "shear_stress",
-    "reference_velocity_m_s": "reference_velocity",
-    "width": "width",
-}
+PARAMETERS = {one.key: one.name for one in parameters(Adhesion)}
 _TRIES = 20  # fits of one draw
 
 

@@ -3,15 +3,15 @@
 from pathlib import Path
 from typing import Any
 
+from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
-from asperity.io import plausible
 from asperity.io.fields import Field, refuse, sweep
 from asperity.scene.rubber import BuiltRubber
 
 MOST_TEMPERATURES = 1000  # of a list
 TEMPERATURE = {
-    "temperature_k": Field(sweep, "temperature", plausible.TEMPERATURE),
-    "temperature_c": Field(sweep, "", plausible.TEMPERATURE, "C"),
+    "temperature_k": Field(sweep, "temperature", quantities.TEMPERATURE),
+    "temperature_c": Field(sweep, "", quantities.TEMPERATURE, "C"),
 }
 
 

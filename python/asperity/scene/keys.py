@@ -1,18 +1,16 @@
 """Keys of a scene's own tables, and the names that errors on their arguments take."""
 
-from asperity.io import plausible
-from asperity.io.fields import Field, count, names_of, number, sweep, text
+from asperity.base import quantities
+from asperity.friction import friction
+from asperity.io.fields import Field, fields_of, names_of, sweep
 from asperity.scene.heat import TEMPERATURE
+from asperity.uncertainty.band import friction_band
 
 POINTS = {
-    "pressure_pa": Field(sweep, "pressure", plausible.PRESSURE),
-    "velocity_m_s": Field(sweep, "velocity", plausible.VELOCITY),
+    "pressure_pa": Field(sweep, "pressure", quantities.PRESSURE),
+    "velocity_m_s": Field(sweep, "velocity", quantities.VELOCITY),
 }
-CONDITIONS = {**POINTS, **TEMPERATURE, "poisson_ratio": Field(number, "poisson_ratio")}
-SOLVER = {"rtol": Field(number, "rtol")} | {name: Field(text, name) for name in ("form", "method")}
+CONDITIONS = {**POINTS, **TEMPERATURE, **fields_of(friction, "poisson_ratio")}
+SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
-UNCERTAINTY = {
-    "samples": Field(count, "samples"),
-    "seed": Field(count, "seed"),
-    "level": Field(number, "level"),
-}
+UNCERTAINTY = fields_of(friction_band, "samples", "seed", "level")

@@ -1,106 +1,66 @@
 """Correction and adhesion of a scene, each built from its table."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from asperity.adhesion import Adhesion
-from asperity.correction import (
-    AffineShift,
-    Correction,
-    GreenwoodWilliamson,
-    LocalPeaks,
-    NayakSFactor,
-    PartialContact,
-    PeaksThenGreenwoodWilliamson,
-    ScanContact,
-    SFactor,
-)
+from asperity.correction import CORRECTIONS as CLASSES
+from asperity.correction import Correction
 from asperity.heating import Heating
-from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
+    fields_of,
     names_of,
     nearest,
-    number,
-    numbers,
     read_table,
     refuse,
     rename_in_errors,
     require,
+    required,
     text,
-    text_or_true,
 )
 from asperity.scene.scan import Scan
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
 from asperity.surface import HeightMap, LineScan
 
 Values = dict[str, Any]
-_KIND = {"kind": Field(text)}
-_PEAKS = {
-    **_KIND,
-    "heights_m": Field(numbers, "heights_or_map", plausible.HEIGHT),
-    "min_distance_m": Field(number, "min_distance", plausible.SPACING),
-    "z_max_m": Field(number, "z_max", plausible.HEIGHT),
-}
-_ASPERITIES = {
-    **_PEAKS,
-    "z_min_m": Field(number, "z_min", plausible.HEIGHT),
-    "reading": Field(text, "reading"),
-    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
-    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
-}
-CORRECTIONS = {
-    "s-factor": {**_KIND, "gamma": Field(number, "gamma"), "applies_to": Field(text, "applies_to")},
-    "nayak-s-factor": {**_KIND, "friction_gamma": Field(number, "friction_gamma")},
-    "partial-contact": _KIND,
-    "affine-shift": {**_KIND, "p": Field(number, "p")},
-    "local-peaks": _PEAKS,
-    "greenwood-williamson": _ASPERITIES,
-    "peaks-then-greenwood-williamson": _ASPERITIES,
-    "scan-contact": {
-        **_KIND,
-        "tolerance": Field(number, "tolerance"),
-        "periodic": Field(text_or_true, "periodic"),
-    },
-}
-ADHESION = {
-    "shear_stress_pa": Field(number, "shear_stress", plausible.SHEAR_STRESS),
-    "reference_velocity_m_s": Field(number, "reference_velocity", plausible.VELOCITY),
-    "width": Field(number, "width"),
-}
+_Part = TypeVar("_Part", Adhesion, Heating)
 
 
-HEATING = {
-    "density_kg_m3": Field(number, "density"),
-    "heat_capacity_j_kg_k": Field(number, "heat_capacity"),
-    "conductivity_w_m_k": Field(number, "conductivity"),
-    "contact_diameter_m": Field(number, "contact_diameter", plausible.SPACING),
-    "macro_wavenumber_per_m": Field(number, "macro_wavenumber", plausible.WAVENUMBER),
-    "macro_area": Field(number, "macro_area"),
-    "residence": Field(text, "residence"),
-    "interface_share": Field(number, "interface_share"),
-    "model": Field(text, "model"),
-}
+def _kind(correction: type) -> str:
+    """The name of a correction in scenes: that of NayakSFactor is "nayak-s-factor"."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "-", correction.__name__).lower()
+
+
+KINDS = {_kind(one): one for one in CLASSES}
+CORRECTIONS = {kind: {"kind": Field(text), **fields_of(one)} for kind, one in KINDS.items()}
+_PEAKS = CORRECTIONS["local-peaks"]
+CORRECTIONS["greenwood-williamson"]["min_distance_m"] = _PEAKS["min_distance_m"]
+ADHESION = fields_of(Adhesion)
+HEATING = fields_of(Heating)
 HEATING_NAMES = names_of("heating", HEATING)
 
 
 def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
-    values = read_table(path, "heating", table, HEATING)
-    needed = tuple(HEATING)[:4]
-    require(path, "heating", values, needed, "[heating] needs " + ", ".join(needed))
-    with rename_in_errors(path, HEATING_NAMES):
-        heating = Heating(**arguments(values, HEATING))
-    return heating, _with_defaults(values, HEATING, heating)
+    return _build(path, "heating", table, Heating)
 
 
 def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
-    values = read_table(path, "adhesion", table, ADHESION)
-    require(path, "adhesion", values, ("shear_stress_pa",))
-    with rename_in_errors(path, names_of("adhesion", ADHESION)):
-        adhesion = Adhesion(**arguments(values, ADHESION))
-    return adhesion, _with_defaults(values, ADHESION, adhesion)
+    return _build(path, "adhesion", table, Adhesion)
+
+
+def _build(path: Path, section: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
+    fields = fields_of(part)
+    values = read_table(path, section, table, fields)
+    needed = required(fields)
+    hint = f"[{section}] needs {', '.join(needed)}" if len(needed) > 1 else ""
+    require(path, section, values, needed, hint)
+    with rename_in_errors(path, names_of(section, fields)):
+        made = part(**arguments(values, fields))
+    return made, _with_defaults(values, fields, made)
 
 
 def build_correction(
@@ -123,32 +83,17 @@ def build_correction(
     values = read_table(path, "correction", table, fields)
     if "z_max_m" in fields:
         values = _with_map(path, kind, values, surface, surface_values)
-    if kind == "affine-shift":
-        require(path, "correction", values, ("p",))
+    require(path, "correction", values, required(fields))
     settings = arguments(values, fields)
-    settings.pop("min_distance", None)
-    correction: Correction
-    with rename_in_errors(
-        path, {**names_of("correction", fields), "peaks": "[correction] heights_m"}
-    ):
-        if kind == "s-factor":
-            correction = SFactor(**settings)
-        elif kind == "nayak-s-factor":
-            correction = NayakSFactor(**settings)
-        elif kind == "partial-contact":
-            correction = PartialContact()
-        elif kind == "scan-contact":
-            correction = ScanContact(_map_of(path, surface, surface_values), **settings)
-        elif kind == "affine-shift":
-            correction = AffineShift(settings["p"])
-        elif kind == "greenwood-williamson":
-            correction = GreenwoodWilliamson(peaks=settings.pop("heights_or_map", None), **settings)
-        else:
-            part = LocalPeaks if kind == "local-peaks" else PeaksThenGreenwoodWilliamson
-            correction = part(settings.pop("heights_or_map"), **settings)
+    settings.pop("min_distance", None)  # the peaks are found
+    if kind == "scan-contact":
+        settings["height_map"] = _map_of(path, surface, surface_values)
+    names = {**names_of("correction", fields), "peaks": "[correction] heights_m"}
+    with rename_in_errors(path, names):
+        correction: Correction = KINDS[kind](**settings)
     if "min_distance_m" in values:
         values["peaks"] = len(values.pop("heights_m"))
-    if fields is _ASPERITIES:  # what the core takes from the spectrum
+    if "rms_height_m" in fields:  # what the core takes from the spectrum
         rolloff = spectrum.rolloff if isinstance(spectrum, SelfAffineSpectrum) else None
         q0 = spectrum.q0 if rolloff is None else rolloff
         values = {"rms_height_m": spectrum.rms_height, "q0_per_m": q0, **values}

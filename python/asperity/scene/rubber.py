@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from asperity._core import Error, InvalidInput, OutOfRange
+from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.notes import FATAL
 from asperity.dma import MasterCurveBuild, build_master_curve
@@ -16,6 +17,7 @@ from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
+    fields_of,
     file_name,
     file_names,
     names_of,
@@ -56,11 +58,7 @@ Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
 
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
-_PRONY = {
-    "equilibrium_modulus_pa": Field(number, "equilibrium_modulus", plausible.RELAXED_MODULUS),
-    "moduli_pa": Field(numbers, "moduli"),
-    "relaxation_times_s": Field(numbers, "relaxation_times"),
-}
+_PRONY = fields_of(PronySeries)
 _DMA = {
     "columns": Field(texts, "columns"),
     "units": Field(texts, "units"),
@@ -148,7 +146,7 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
         with rename_in_errors(path, names_of("rubber", _PRONY)):
             rubber = PronySeries(**arguments(values, _PRONY))
         where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
-        plausible.check(where, stiffest(rubber), plausible.MODULUS)
+        plausible.check(where, stiffest(rubber), quantities.MODULUS)
     shifts = shift_of(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):

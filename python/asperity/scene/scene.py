@@ -13,6 +13,7 @@ from asperity.io import plausible
 from asperity.io.fields import (
     MOST_ROWS,
     arguments,
+    defaults_of,
     nearest,
     read_table,
     refuse,
@@ -92,9 +93,9 @@ def build_scene(
     require(path, "conditions", conditions, tuple(POINTS))
     solver = read_table(path, "solver", tables.get("solver", {}), SOLVER)
     points = {key: conditions.pop(key) for key in POINTS}
-    conditions = {"poisson_ratio": 0.5, **conditions}
+    conditions = {**defaults_of(CONDITIONS), **conditions}
     stated_rtol = solver.get("rtol")
-    solver = {"rtol": 1e-6, "form": "exact", "method": "gauss", **solver}
+    solver = {**defaults_of(SOLVER), **solver}
 
     rows = points["pressure_pa"].size * points["velocity_m_s"].size
     if rows > MOST_ROWS:
@@ -138,7 +139,7 @@ def build_scene(
             temperatures = [rubber.temperature]
         check_heated(path, temperatures[0], rubber)
     inputs["solver"] = solver
-    sampling = {"samples": 100, "seed": 0, "level": 0.95}
+    sampling = defaults_of(UNCERTAINTY)
     if "uncertainty" in tables:
         sampling |= read_table(path, "uncertainty", tables["uncertainty"], UNCERTAINTY)
         inputs["uncertainty"] = sampling

@@ -4,11 +4,12 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
+from asperity.base import quantities
 from asperity.dma import MasterCurveBuild
-from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
+    fields_of,
     file_name,
     names_of,
     number,
@@ -23,16 +24,16 @@ from asperity.shift_factors import WLF, ShiftFactors
 
 Values = dict[str, Any]
 BUILD = {
-    "reference_temperature_k": Field(number, "reference_temperature", plausible.TEMPERATURE),
-    "reference_temperature_c": Field(number, "", plausible.TEMPERATURE, "C"),
+    "reference_temperature_k": Field(number, "reference_temperature", quantities.TEMPERATURE),
+    "reference_temperature_c": Field(number, "", quantities.TEMPERATURE, "C"),
     "vertical_shift": Field(text, "vertical_shift"),
 }
 TEMPERATURE = {
-    "temperature_k": Field(one_temperature, "temperature", plausible.TEMPERATURE),
-    "temperature_c": Field(one_temperature, "", plausible.TEMPERATURE, "C"),
+    "temperature_k": Field(one_temperature, "temperature", quantities.TEMPERATURE),
+    "temperature_c": Field(one_temperature, "", quantities.TEMPERATURE, "C"),
     "shift": Field(file_name),
 }
-WLF_KEYS = {"wlf_c1": Field(number, "c1", plausible.DECADES), "wlf_c2_k": Field(number, "c2")}
+WLF_KEYS = fields_of(WLF, "c1", "c2")
 
 
 def shift_of(path: Path, values: Values) -> ShiftFactors | WLF | None:

@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput, OutOfRange
+from asperity.base import quantities
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
-    count,
+    defaults_of,
+    fields_of,
     file_name,
     names_of,
     number,
@@ -22,6 +24,8 @@ from asperity.io.fields import (
     require,
     text,
 )
+from asperity.io.read_surface import read_surface
+from asperity.measured_spectrum import power_spectrum
 from asperity.scene.scan import (
     Scan,
     lay,
@@ -38,26 +42,19 @@ from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectru
 
 Values = dict[str, Any]
 
-_SELF_AFFINE = {
-    "rms_height_m": Field(number, "rms_height", plausible.RMS_HEIGHT),
-    "hurst": Field(number, "hurst"),
-    "rolloff_per_m": Field(number, "rolloff", plausible.FIRST_WAVENUMBER),
-}
-_BAND = {
-    "q0_per_m": Field(number, "q0", plausible.FIRST_WAVENUMBER),
-    "q1_per_m": Field(number, "q1", plausible.LAST_WAVENUMBER),
-}
+_SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff")
+_BAND = fields_of(SelfAffineSpectrum, "q0", "q1")
 _CUTOFFS = {
-    "contamination_size_m": Field(number, "size", plausible.PARTICLE),
+    "contamination_size_m": Field(number, "size", quantities.PARTICLE),
     "slope_cutoff": Field(number, "slope"),
 }
 _READ = {
-    "channel": Field(count, "channel"),
-    "pixel_size_m": Field(pixel_size, "pixel_size", plausible.SPACING),
-    "unit": Field(text, "unit"),
-    "max_dropouts": Field(number, "max_fraction"),
+    **fields_of(read_surface, "channel"),
+    "pixel_size_m": Field(pixel_size, "pixel_size", quantities.SPACING),
+    **fields_of(read_surface, "unit"),
+    "max_dropouts": fields_of(HeightMap.fill_dropouts, "max_fraction")["max_fraction"],
 }
-_TRANSFORM = {"window": Field(text, "window"), "detrend": Field(text, "detrend")}
+_TRANSFORM = fields_of(power_spectrum, "window", "detrend")
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
 SURFACE = {
@@ -93,13 +90,7 @@ def build_surface(path: Path, table: object) -> Surface:
         for key in _SELF_AFFINE:
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
-        values = {
-            "channel": 0,
-            "max_dropouts": 0.10,
-            "window": "split-cosine-bell",
-            "detrend": "plane",
-            **values,
-        }
+        values = {**defaults_of(_READ), **defaults_of(_TRANSFORM), **values}
         scan = _read_scan(path, values, derived)
         measured, fit, floor = _measure(path, scan, values)
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
@@ -113,7 +104,7 @@ def build_surface(path: Path, table: object) -> Surface:
         with rename_in_errors(path, names_of("surface", fields)):
             spectrum = SelfAffineSpectrum(**arguments(values, fields))
     spectrum = _cut(path, spectrum, values)
-    plausible.check(f"{path}: [surface]: rms slope", spectrum.rms_slope, plausible.SLOPE)
+    plausible.check(f"{path}: [surface]: rms slope", spectrum.rms_slope, quantities.SLOPE)
     derived |= {
         "q0_per_m": spectrum.q0,
         "q1_per_m": spectrum.q1,

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.base import quantities
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.io import plausible
@@ -468,12 +469,12 @@ class TestTemperature:
 
     def test_a_unit_is_offered_only_where_the_number_is_likely_in_it(self):
         with plausible.collected(), pytest.raises(asperity.InvalidInput) as error:
-            plausible.check("temperature", -300, plausible.TEMPERATURE, "C")
+            plausible.check("temperature", -300, quantities.TEMPERATURE, "C")
         assert str(error.value).endswith("no DMA cools so far)")
 
 
 def test_every_limit_has_its_reason():
-    found = {name: q for name, q in vars(plausible).items() if isinstance(q, plausible.Quantity)}
+    found = {name: q for name, q in vars(quantities).items() if isinstance(q, quantities.Quantity)}
     assert len(found) > 12
     for name, quantity in found.items():
         least, most = quantity.least.value, quantity.most.value

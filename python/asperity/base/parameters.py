@@ -1,0 +1,114 @@
+"""Parameters of values and functions, each declared once.
+
+Its name, type and default, its entry in the docstring and, in the field of a value, `parameter` say
+all that there is to say. How Python checks it, how scenes read it, what the app offers and what the
+pages list follow from here.
+"""
+
+import dataclasses
+import inspect
+from collections.abc import Callable
+from dataclasses import MISSING, dataclass
+from functools import cache
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+from asperity.base.arguments import (
+    OptionalVector,
+    Vector,
+    choice,
+    number,
+    number_or_none,
+    vector,
+    vector_or_none,
+)
+from asperity.base.quantities import Quantity
+
+KEY_UNITS = {  # by how keys of scenes end, the longest first
+    "kg_m3": "kg/m^3",
+    "j_kg_k": "J/(kg K)",
+    "w_m_k": "W/(m K)",
+    "per_m": "1/m",
+    "m_s": "m/s",
+    "pa": "Pa",
+    "k": "K",
+    "c": "degC",
+    "m": "m",
+    "s": "s",
+}
+_ENDS = {unit: end for end, unit in KEY_UNITS.items()}
+_CHECKS: dict[Any, Callable[[Any, str], Any]] = {
+    float: number,
+    float | None: number_or_none,
+    Vector: vector,
+    OptionalVector: vector_or_none,
+}
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is declared of one parameter."""
+
+    name: str
+    type: Any
+    default: Any = MISSING  # MISSING where it must be given
+    quantity: Quantity | None = None  # its unit, and the ranges that this leaves plausible
+    unit: str = ""  # the SI unit of a number without a quantity
+    key_name: str = ""  # in scenes, without the unit; its name, if empty
+    usual: tuple[Any, ...] = ()  # what the app offers: the ends of a slider [SI], or the choices
+    shown_unit: str = ""  # of the slider
+    label: str = ""  # what the app calls it; its name, if empty
+    start: float | None = None  # of the slider, where there is no default
+
+    @property
+    def si_unit(self) -> str:
+        return self.unit if self.quantity is None else next(iter(self.quantity.units))
+
+    @property
+    def key(self) -> str:
+        """Its key in scenes, which ends in its unit."""
+        end = _ENDS.get(self.si_unit, "")
+        return "_".join(filter(None, (self.key_name or self.name, end)))
+
+    @property
+    def choices(self) -> tuple[Any, ...]:
+        """The values that it is limited to, in the order of the core's enumeration."""
+        types = (self.type, *get_args(self.type))
+        return next((get_args(one) for one in types if get_origin(one) is Literal), ())
+
+    def take(self, given: Any) -> tuple[Any, Any]:
+        """Return what an object keeps of an argument, and what the object of the core gets."""
+        if self.choices:
+            return given, choice(given, self.name, self.choices)
+        kept = _CHECKS[self.type](given, self.name)
+        return kept, kept
+
+
+def parameter(
+    quantity: Quantity | None = None,
+    *,
+    default: Any = MISSING,
+    kw_only: bool = True,
+    **declared: Any,
+) -> Any:
+    """Return a field of a value that declares more than its type and default: see `Parameter`."""
+    metadata = {"declared": {"quantity": quantity, **declared}}
+    return dataclasses.field(default=default, kw_only=kw_only, metadata=metadata)
+
+
+@cache
+def parameters(of: Callable[..., Any], *names: str) -> tuple[Parameter, ...]:
+    """Return the parameters of a value or a function, or those of these names."""
+    types = get_type_hints(of)
+    if dataclasses.is_dataclass(of):
+        fields = [one for one in dataclasses.fields(of) if one.init]
+        declared = [
+            Parameter(one.name, types[one.name], one.default, **one.metadata.get("declared", {}))
+            for one in fields
+        ]
+    else:
+        declared = [
+            Parameter(name, types.get(name), MISSING if one.default is one.empty else one.default)
+            for name, one in inspect.signature(of).parameters.items()
+        ]
+    by_name = {one.name: one for one in declared}
+    return tuple(by_name[name] for name in names or by_name)
