@@ -55,6 +55,7 @@ class SFactor(CoreValue):
     `asperity validate` makes the table.
     """
 
+    _title = "S-factor"
     gamma: float = parameter(default=0.5, usual=(0, 1))
     applies_to: AppliesTo = parameter(default="friction", usual=get_args(AppliesTo))
 
@@ -84,6 +85,7 @@ class NayakSFactor(CoreValue):
     and below this load results carry a note.
     """
 
+    _title = "S-factor after Nayak"
     friction_gamma: float = parameter(default=0.4, usual=(0, 1))
 
 
@@ -122,6 +124,8 @@ class PartialContact(CoreValue):
     by 4.0 and 10 %; `NayakSFactor` is off by 25 and 63 % there in mu, by 18 and 80 % in the area.
     `friction(...).model_error` has the error by speed and load.
     """
+
+    _title = "partial contact (recommended)"
 
 
 @value
@@ -177,6 +181,7 @@ class LocalPeaks(Value):
     is right at one load alone.
     """
 
+    _title = "local peaks of the scan"
     heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
     min_distance: float | None = parameter(
         SPACING,
@@ -231,6 +236,7 @@ class GreenwoodWilliamson(Value):
     all, on all but 5 of 104 contacts from p / (E* h') = 0.1 on, the added one turns back above 0.5.
     """
 
+    _title = "Greenwood-Williamson on the scan's peaks"
     z_max: float = parameter(HEIGHT)
     z_min: float = parameter(HEIGHT)
     peaks: ArrayLike | None = parameter(HEIGHT, default=None, key_name="heights")
@@ -286,6 +292,7 @@ class PeaksThenGreenwoodWilliamson(Value):
     than lambda0 / 2, mean error and the worst: area 67 %, +182 %; elastic energy 45 %, -82 %.
     """
 
+    _title = "local peaks, then Greenwood-Williamson"
     heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
     min_distance: float | None = parameter(
         SPACING,

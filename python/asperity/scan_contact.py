@@ -143,6 +143,7 @@ class ScanContact(Value):
     True
     """
 
+    _title = "exact contact of the scan itself"
     height_map: HeightMap = field(kw_only=False)
     periodic: Closing = "blend"
     tolerance: float = parameter(default=0.02, usual=(0.001, 0.1))

@@ -138,9 +138,9 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
     (2.76, 11.7)
     """
 
-    rms_height: float = parameter(RMS_HEIGHT)
-    hurst: float
-    q0: float = parameter(FIRST_WAVENUMBER)
+    rms_height: float = parameter(RMS_HEIGHT, usual=(1e-8, 2e-3), shown_unit="um")
+    hurst: float = parameter(usual=(0.05, 1), label="Hurst exponent H")
+    q0: float = parameter(FIRST_WAVENUMBER, usual=(10, 1e6))
     q1: float = parameter(LAST_WAVENUMBER)
     rolloff: float | None = parameter(FIRST_WAVENUMBER, default=None)
 

@@ -1,21 +1,23 @@
 """The part of the conditions: pressure, temperature, velocities, adhesion, heat."""
 
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
+from asperity.app.controls import Changed, controls
 from asperity.app.correction_part import CorrectionFields
 from asperity.app.parts import Quantity, part
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker
 from asperity.base.celsius import ZERO_CELSIUS
+from asperity.scene.parts import ADHESION, HEATING
 
 _UNFIT = (
     "Adhesion was switched off: its shear stress was fitted to the shipped scan and rubber. "
     "Fit yours to tests by asperity fit, or give one."
 )
-_ADHESION = {"reference_velocity_m_s": 6e-3, "width": 0.1}  # what a scene may leave out
 
 
 class ConditionsPart:
@@ -33,12 +35,12 @@ class ConditionsPart:
         """Show the conditions of another scene."""
         self._inside.clear()
         with self._inside:
-            conditions = self._state.conditions
+            set_pressure = self._set("conditions", "pressure_pa")
             Quantity(
                 "Pressure [MPa]",
-                conditions["pressure_pa"] / 1e6,
+                self._state.conditions["pressure_pa"] / 1e6,
                 (0.001, 10),
-                self._set("conditions", "pressure_pa", 1e6),
+                lambda value: set_pressure(float(f"{value * 1e6:.12g}")),
                 logarithmic=True,
             )
             self._temperature()
@@ -81,32 +83,15 @@ class ConditionsPart:
             Quantity(name, ends[i], (1e-9, 100), end(i), logarithmic=True)
 
     def _adhesion(self) -> None:
-        table = {**_ADHESION, **self._state.adhesion}
         fields = self._switched("Adhesion", "adhesion")
         self._unfit = ui.label(_UNFIT).classes("soft")
         self._unfit.set_visibility(self._state.adhesion_left)
         with fields:
-            for name, key, unit, ends in (
-                ("Shear stress [MPa]", "shear_stress_pa", 1e6, (0.01, 100)),
-                ("Reference velocity [mm/s]", "reference_velocity_m_s", 1e-3, (1e-3, 1e3)),
-            ):
-                changed = self._set("adhesion", key, unit)
-                Quantity(name, table[key] / unit, ends, changed, logarithmic=True)
-            Quantity("Width", table["width"], (0.01, 1), self._set("adhesion", "width", 1.0))
+            controls(ADHESION, self._state.adhesion, partial(self._set, "adhesion"))
 
     def _heat(self) -> None:
-        table = self._state.heating
         with self._switched("Heat of sliding", "heating"):
-            diameter = self._set("heating", "contact_diameter_m", 1e-3)
-            Quantity(
-                "Contact diameter [mm]",
-                1e3 * table["contact_diameter_m"],
-                (0.01, 20),
-                diameter,
-                logarithmic=True,
-            )
-            conductivity = self._set("heating", "conductivity_w_m_k", 1.0)
-            Quantity("Conductivity [W/(m K)]", table["conductivity_w_m_k"], (0.05, 2), conductivity)
+            controls(HEATING, self._state.heating, partial(self._set, "heating"))
 
     def _switched(self, name: str, table: str) -> ui.element:
         """A switch for a table of the scene, and the place of its fields."""
@@ -127,10 +112,9 @@ class ConditionsPart:
         self._fields[table] = fields
         return fields
 
-    def _set(self, table: str, key: str, unit: float) -> Callable[[float], Awaitable[None]]:
-        async def changed(value: float) -> None:
-            number = float(f"{value * unit:.12g}")
-            setattr(self._state, table, {**getattr(self._state, table), key: number})
+    def _set(self, table: str, key: str) -> Changed:
+        async def changed(value: Any) -> None:
+            setattr(self._state, table, {**getattr(self._state, table), key: value})
             await self._worker.changed()
 
         return changed

@@ -1,56 +1,29 @@
 """The choice of a correction, and its arguments."""
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
-from asperity.app.corrections import OF_SCAN, PLAIN, offered
-from asperity.app.parts import Quantity
+from asperity.app.controls import Changed, controls
+from asperity.app.corrections import PLAIN, offered
 from asperity.app.state import State
 from asperity.app.worker import Worker
 from asperity.scene.model import Scene
+from asperity.scene.parts import CORRECTIONS, KINDS
 
-_NAMES = {
-    "none": "none: Persson's theory alone",
-    "partial-contact": "partial contact (recommended)",
-    "scan-contact": "exact contact of the scan itself",
-    "s-factor": "S-factor",
-    "nayak-s-factor": "S-factor after Nayak",
-    "affine-shift": "affine shift",
-    "local-peaks": "local peaks of the scan",
-    "greenwood-williamson": "Greenwood-Williamson on the scan's peaks",
-    "peaks-then-greenwood-williamson": "local peaks, then Greenwood-Williamson",
-}
-# of an argument: its name, its unit, the ends of the slider, whether that is logarithmic, default
-_ARGUMENTS: dict[str, tuple[str, float, tuple[float, float], bool, float]] = {
-    "tolerance": ("tolerance", 1.0, (0.001, 0.1), True, 0.02),
-    "gamma": ("gamma", 1.0, (0.01, 1), False, 0.5),
-    "friction_gamma": ("gamma of friction", 1.0, (0.01, 1), False, 0.4),
-    "p": ("p", 1.0, (1, 5), False, 1.5),
-    "min_distance_m": ("Least distance of peaks [µm]", 1e-6, (0.1, 1e5), True, 1e-4),
-    "q0_per_m": ("q0 of macro-asperities [1/m]", 1.0, (10, 1e6), True, 1e3),
-}
-_OF = {
-    "scan-contact": ("tolerance",),
-    "s-factor": ("gamma",),
-    "nayak-s-factor": ("friction_gamma",),
-    "affine-shift": ("p",),
-    "local-peaks": ("min_distance_m",),
-    "greenwood-williamson": ("min_distance_m", "q0_per_m"),
-    "peaks-then-greenwood-williamson": ("min_distance_m", "q0_per_m"),
-}
-_Set = Callable[[str, str, float], Callable[[float], Awaitable[None]]]
+_NONE = "none: Persson's theory alone"
 
 
 class CorrectionFields:
     """A menu of those that the surface can give, and sliders for the arguments of the chosen."""
 
-    def __init__(self, state: State, worker: Worker, setter: _Set) -> None:
+    def __init__(self, state: State, worker: Worker, setter: Callable[[str, str], Changed]) -> None:
         self._state, self._worker, self._set = state, worker, setter
         kind = self._kind
         self._menu = ui.select(
-            self._named(tuple(PLAIN)), value=kind, label="Correction", on_change=self._chosen
+            self._named(PLAIN), value=kind, label="Correction", on_change=self._chosen
         )
         self._menu.props("dense outlined").classes("w-full mt-2")
         self._fields = ui.element("div").classes("w-full flex flex-col gap-2")
@@ -61,7 +34,8 @@ class CorrectionFields:
         return str(self._state.correction["kind"]) if "correction" in self._state.used else "none"
 
     def _named(self, kinds: tuple[str, ...]) -> dict[str, str]:
-        return {kind: _NAMES[kind] for kind in dict.fromkeys(("none", *kinds, self._kind))}
+        named = dict.fromkeys(("none", *kinds, self._kind))
+        return {kind: _NONE if kind == "none" else _title(kind) for kind in named}
 
     def offer(self, scene: Scene) -> None:
         """Let the menu have what the scene's surface can give."""
@@ -81,13 +55,8 @@ class CorrectionFields:
         table = self._state.correction
         self._fields.clear()
         with self._fields:
-            for key in _OF.get(self._kind, ()):
-                if "heights_m" in table and key == "min_distance_m":
-                    continue  # of a scene that lists its peaks
-                name, unit, ends, logarithmic, default = _ARGUMENTS[key]
-                value = table.get(key, default) / unit
-                changed = self._set("correction", key, unit)
-                Quantity(name, value, ends, changed, logarithmic=logarithmic)
+            controls(CORRECTIONS.get(self._kind, {}), table, partial(self._set, "correction"))
 
 
-assert {*_NAMES} == {"none", *PLAIN, *OF_SCAN}
+def _title(kind: str) -> str:
+    return KINDS[kind]._title or kind.replace("-", " ")

@@ -9,12 +9,14 @@ from nicegui import background_tasks, ui
 
 from asperity._core import Error
 from asperity.app.charts import spectrum_chart
+from asperity.app.controls import Changed, controls
 from asperity.app.parts import Quantity, chart, part, redraw, upload
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.arguments import brief
 from asperity.scene.model import Scene
 from asperity.scene.scan import flat
+from asperity.scene.surface import SURFACE
 from asperity.surface import HeightMap
 
 _UNITS = {"": "as the file says", "m": "m", "mm": "mm", "um": "µm", "nm": "nm"}
@@ -73,27 +75,13 @@ class SurfacePart:
 
     def _law_fields(self) -> None:
         law = self._state.surfaces["law"]
-        Quantity(
-            "rms height [µm]",
-            law["rms_height_m"] * 1e6,
-            (0.01, 2000),
-            self._set("rms_height_m", 1e-6),
-            logarithmic=True,
-        )
-        Quantity("Hurst exponent H", law["hurst"], (0.05, 1.0), self._set("hurst", 1.0))
-        Quantity(
-            "q0 [1/m]", law["q0_per_m"], (10, 1e6), self._set("q0_per_m", 1.0), logarithmic=True
-        )
-        Quantity(
-            "rms slope at which it ends",
-            law["slope_cutoff"],
-            (0.01, 5),
-            self._set("slope_cutoff", 1.0),
-        )
+        controls(SURFACE, law, self._set)
+        end = self._set("slope_cutoff")
+        Quantity("rms slope at which it ends", law["slope_cutoff"], (0.01, 5), end)
 
-    def _set(self, key: str, unit: float) -> Any:
-        async def changed(value: float) -> None:
-            self._state.surfaces["law"][key] = float(f"{value * unit:.12g}")
+    def _set(self, key: str) -> Changed:
+        async def changed(value: Any) -> None:
+            self._state.surfaces["law"][key] = value
             await self._worker.changed()
 
         return changed

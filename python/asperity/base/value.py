@@ -24,6 +24,7 @@ class Value:
     """What every public object can do. `_core` is the object of the compiled core behind it."""
 
     _core: Any
+    _title = ""  # in menus; the name of the class, if empty
     __match_args__: tuple[str, ...]
     __hash__ = None  # type: ignore[assignment]  # equal arrays have no equal hash
 

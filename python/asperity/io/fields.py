@@ -12,7 +12,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
-from asperity.base.parameters import KEY_UNITS, parameters
+from asperity.base.parameters import KEY_UNITS, Parameter, parameters
 from asperity.base.quantities import Quantity
 from asperity.io import plausible
 from asperity.io.typed import Typed, as_typed
@@ -30,8 +30,16 @@ class Field:
     argument: str = ""
     quantity: Quantity | None = None
     unit: str = ""  # of `quantity`, the SI unit if empty
-    default: Any = None  # None where the key is required, or nothing takes its place
-    required: bool = False
+    declared: Parameter | None = None
+
+    @property
+    def required(self) -> bool:
+        return self.declared is not None and self.declared.default is MISSING
+
+    @property
+    def default(self) -> Any:
+        """What holds where the key is left out; None where it is required, or nothing does."""
+        return None if self.declared is None or self.required else self.declared.default
 
 
 class _WrongValueError(Exception):
@@ -167,10 +175,7 @@ def fields_of(of: Callable[..., Any], *names: str) -> dict[str, Field]:
         elif read is None and one.si_unit:
             read = numbers
         if read is not None:
-            required = one.default is MISSING
-            default = None if required else one.default
-            field = Field(read, one.name, one.quantity, default=default, required=required)
-            fields[one.key] = field
+            fields[one.key] = Field(read, one.name, one.quantity, declared=one)
     return fields
 
 

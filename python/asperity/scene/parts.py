@@ -35,7 +35,7 @@ def _kind(correction: type) -> str:
     return re.sub(r"(?<!^)(?=[A-Z])", "-", correction.__name__).lower()
 
 
-KINDS = {_kind(one): one for one in CLASSES}
+KINDS: dict[str, Any] = {_kind(one): one for one in CLASSES}
 CORRECTIONS = {kind: {"kind": Field(text), **fields_of(one)} for kind, one in KINDS.items()}
 _PEAKS = CORRECTIONS["local-peaks"]
 CORRECTIONS["greenwood-williamson"]["min_distance_m"] = _PEAKS["min_distance_m"]
