@@ -27,6 +27,7 @@ extensions = [
     "sphinx-mathjax-offline",
     "sphinx_gallery.gen_gallery",
     "command_line",
+    "scene_keys",
 ]
 exclude_patterns = ["_build", "examples/README.rst", "examples/*.py", "benchmarks/*.md"]
 suppress_warnings = ["config.cache"]

@@ -41,11 +41,12 @@ class Adhesion(CoreValue):
     Parameters
     ----------
     shear_stress : float
-        tau_f0 [Pa]; 5.3 to 8.3 MPa in the article.
+        tau_f0 [Pa]; 5.3 to 8.3 MPa in the article. It goes with the cut-off and the correction that
+        the area is taken with.
     reference_velocity : float
         v0 [m/s].
     width : float
-        c [-].
+        c of Eq. 23 [-].
 
     Raises
     ------

@@ -81,8 +81,8 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
     contributions : bool
         Also give dmu/dlnq and the share of each decade of frequency.
     method : {"gauss", "qag", "qags", "cquad"}
-        As above, or GSL's adaptive integration of that name to check it with, slower by hundreds of
-        times.
+        "gauss" is as above; the others are GSL's adaptive integration of that name, to check it
+        with, slower by hundreds of times.
     threads : int
         As many at most share the points, a hundred or more each. The numbers are the same for any
         of them.

@@ -1,6 +1,7 @@
 """What the README and the pages of docs show works as it stands there."""
 
 import contextlib
+import importlib.util
 import io
 import re
 import shlex
@@ -13,7 +14,9 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.cli.parser import parser
-from asperity.scene import keys, model, parts, rubber, surface
+from asperity.io.fields import without_unit
+from asperity.scene import model
+from asperity.scene.known import KEYS, KEYS_OF_KIND
 from asperity.scene.scene import load_scene
 from helpers.measured import present
 
@@ -224,15 +227,44 @@ def test_every_verb_is_shown_and_has_an_example() -> None:
     assert "{command-line}" in PAGES["docs/reference/command_line.md"]
 
 
-def test_the_page_of_scenes_has_every_key() -> None:
+@pytest.fixture(scope="module")
+def page_of_scenes() -> str:
+    """The page as it is read: with the tables that the directive `scene-keys` makes."""
+    code = ROOT / "docs/_extensions/scene_tables.py"
+    spec = importlib.util.spec_from_file_location("scene_tables", code)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
     page = PAGES["docs/reference/scene.md"]
-    tables = [surface.SURFACE, rubber.RUBBER, parts.ADHESION, *parts.CORRECTIONS.values()]
-    tables += [parts.HEATING]
-    tables += [keys.CONDITIONS, keys.SOLVER, keys.UNCERTAINTY]
-    missing = {key for table in tables for key in table if f"`{key}`" not in page}
-    assert missing == set()
+    for name in module.TABLES:
+        directive = f"```{{scene-keys}} {name}\n```"
+        assert directive in page
+        page = page.replace(directive, "\n".join(module.table(name)))
+    return page
+
+
+def test_the_page_of_scenes_has_every_key(page_of_scenes: str) -> None:
+    keys = {key for table in KEYS.values() for key in table}
+    assert {key for key in keys if f"`{key}`" not in page_of_scenes} == set()
     kinds = PAGES["docs/howto/which_correction.md"]
-    assert [kind for kind in parts.CORRECTIONS if f"`{kind}`" not in kinds] == []
+    assert [kind for kind in KEYS_OF_KIND if f"`{kind}`" not in kinds] == []
+
+
+def test_the_page_of_scenes_has_units_and_defaults(page_of_scenes: str) -> None:
+    row = re.compile(r"^\| `(\w+)` \| (.*?) ?\| (.*?) ?\| .+\|$", re.M)
+    defaults = 0
+    sections = re.findall(r"^## `\[(\w+)\]`\n(.*?)(?=^## |\Z)", page_of_scenes, re.M | re.S)
+    assert {name for name, _ in sections} == KEYS.keys()
+    for name, text in sections:
+        for key, unit, default in row.findall(text):
+            assert unit in (without_unit(key)[1], "1"), (name, key)
+            given = KEYS[name][key].default
+            if given is not None:
+                shown = f'"{given}"' if isinstance(given, str) else f"{given:g}"
+                assert default == shown, (name, key)
+                defaults += 1
+    assert defaults > 15
 
 
 def test_the_reference_of_python_has_every_name() -> None:
