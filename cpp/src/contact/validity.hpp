@@ -9,7 +9,7 @@
 
 #include "asperity/correction.hpp"
 #include "contact/model_error.hpp"
-#include "contact/s_factor.hpp"
+#include "contact/theory/s_factor.hpp"
 
 namespace asperity {
 

@@ -20,7 +20,7 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
     : scene_(scene),
       grid_(grid),
       angular_(scene.rubber),
-      contact_(heat_contact(scene.model, scene.spectrum, scene.surface, grid)),
+      contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid)),
       known_(known_range(scene.rubber)),
       table_(grid.temperature_points(), grid.wavenumber()),
       at_macro_(grid.row_at(scene.macro_wavenumber)) {

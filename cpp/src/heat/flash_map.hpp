@@ -9,9 +9,9 @@
 
 #include "asperity/contact.hpp"
 #include "asperity/dma.hpp"
+#include "contact/theory/theory.hpp"
 #include "heat/angular_slopes.hpp"
-#include "heat/grid.hpp"
-#include "heat/heat_contact.hpp"
+#include "heat/heat_grid.hpp"
 #include "heat/hot_shift.hpp"
 #include "heat/kernel.hpp"
 
@@ -57,7 +57,7 @@ class FlashMap {
   /// What the contact was in the last pass; the heat of another one, which over its macro-asperities is the rise [K] at
   /// the last temperature point; and the share of that rise that q_m feels.
   struct ContactHeat {
-    Eigen::VectorXd part;  // as HeatContact has it
+    Eigen::VectorXd part;  // as Theory has it
     double area = 0, macro_area = 1;
   };
   [[nodiscard]] ContactHeat contact_heat() const;
@@ -116,7 +116,7 @@ class FlashMap {
   const HeatScene& scene_;
   const HeatGrid& grid_;
   AngularSlopes angular_;
-  std::unique_ptr<HeatContact> contact_;
+  std::unique_ptr<Theory> contact_;
   std::optional<FrequencyRange> known_;
   HeatPoint point_{};
   double mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]

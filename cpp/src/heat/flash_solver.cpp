@@ -134,22 +134,22 @@ void FlashSolver::set_stops(std::vector<double> stops) {
 FlashMap& FlashSolver::map_of(std::size_t level) {
   Level& made = levels_[level];
   if (!made.map) {
-    HeatGridOptions options{.poisson_ratio = scene_.model.poisson_ratio,
-                            .level = level,
-                            .tabulated = has_rows(),
-                            .macro_wavenumber = scene_.macro_wavenumber,
-                            .stops = stops_,
-                            .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
-                            .held_from = held_from_,
-                            .also_felt = asperity_wavenumber(scene_.model.correction, scene_.spectrum)};
+    ContactGridOptions options{.poisson_ratio = scene_.model.poisson_ratio,
+                               .level = level,
+                               .tabulated = has_rows(),
+                               .macro_wavenumber = scene_.macro_wavenumber,
+                               .stops = stops_,
+                               .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
+                               .held_from = held_from_};
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
     const bool by_pieces =
         table && stops_.empty() && scene_.model.rtol >= pieces_rtol && table->wavenumber().size() >= pieces_rows;
     if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels))
-      options.pieces = &table->surface().pieces(*table, level - 1);
+      options.pieces = &roughness_pieces(*table, level - 1);
     else if (has_rows())
       options.halvings = level - (by_pieces ? 3 : 1);  // of some twice as many nodes as the last pieces
-    made.grid = std::make_unique<HeatGrid>(scene_.surface, options);
+    made.grid = std::make_unique<HeatGrid>(scene_.surface, options,
+                                           asperity_wavenumber(scene_.model.correction, scene_.spectrum));
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);
     if (level > 0 && levels_[level - 1].grid) {
       made.up = carrying(*levels_[level - 1].grid, *made.grid);

@@ -1,7 +1,7 @@
 // Friction with its heat by GSL's adaptive rules, as a check of the grids.
 #pragma once
 
-#include "contact/s_factor.hpp"
+#include "contact/theory/s_factor.hpp"
 #include "heat/flash_solver.hpp"
 
 namespace asperity {

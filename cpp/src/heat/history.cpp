@@ -106,12 +106,12 @@ double distance_to_last(const std::vector<double>& values, double step) {
 }  // namespace
 
 double sliding_length(const HeatScene& scene, const HeatPoint& point) {
-  const HeatGrid grid(scene.surface, {.poisson_ratio = scene.model.poisson_ratio,
-                                      .level = level,
-                                      .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
-                                      .macro_wavenumber = scene.macro_wavenumber,
-                                      .beyond_end = std::holds_alternative<PartialContact>(scene.model.correction),
-                                      .also_felt = asperity_wavenumber(scene.model.correction, scene.spectrum)});
+  const ContactGridOptions options{.poisson_ratio = scene.model.poisson_ratio,
+                                   .level = level,
+                                   .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
+                                   .macro_wavenumber = scene.macro_wavenumber,
+                                   .beyond_end = std::holds_alternative<PartialContact>(scene.model.correction)};
+  const HeatGrid grid(scene.surface, options, asperity_wavenumber(scene.model.correction, scene.spectrum));
   FlashMap map(scene, grid);
   map.start(point);
   const double reach = scene.heating.contact_diameter / (scene.heating.residence == Residence::box ? 2 : 1);

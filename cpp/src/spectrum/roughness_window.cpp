@@ -1,5 +1,5 @@
 // c(q) = int q^3 C dq over a window of ln q, over its length, and where the roughness ends, ln q_e = the mean of ln q
-// over the last tenth of int q^3 C dq (contact/partial_contact_rule.hpp).
+// over the last tenth of int q^3 C dq (contact/theory/partial_contact_rule.hpp).
 #include "spectrum/roughness_window.hpp"
 
 #include <algorithm>

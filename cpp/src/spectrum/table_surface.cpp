@@ -39,12 +39,6 @@ const RingSurface& TableSurface::rings(const TabulatedSpectrum& table, std::size
   return *rings_[grid];
 }
 
-const RoughnessPieces& TableSurface::pieces(const TabulatedSpectrum& table, std::size_t level) {
-  std::call_once(pieces_made_[level],
-                 [&] { pieces_[level] = std::make_unique<RoughnessPieces>(segments(table), level); });
-  return *pieces_[level];
-}
-
 SurfaceSegments::SurfaceSegments(const Spectrum& spectrum) {
   if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) {
     all_ = table->surface().segments(*table);

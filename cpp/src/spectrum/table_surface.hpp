@@ -11,7 +11,6 @@
 
 #include "asperity/spectrum.hpp"
 #include "spectrum/ring_blocks.hpp"
-#include "spectrum/roughness_pieces.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -25,18 +24,29 @@ class TableSurface {
   /// On one of so many grids, each finer than the one before.
   static constexpr std::size_t grids = 7;
   const RingSurface& rings(const TabulatedSpectrum& table, std::size_t grid);
-  /// Each level finer than the one before.
-  const RoughnessPieces& pieces(const TabulatedSpectrum& table, std::size_t level);
+  /// What a later folder derives from the rows; all of a table's is one T.
+  struct Derived {
+    Derived() = default;
+    Derived(const Derived&) = delete;
+    Derived(Derived&&) = delete;
+    Derived& operator=(const Derived&) = delete;
+    Derived& operator=(Derived&&) = delete;
+    virtual ~Derived() = default;
+  };
+  template <class T>
+  T& derived() {
+    std::call_once(derived_made_, [&] { derived_ = std::make_unique<T>(); });
+    return static_cast<T&>(*derived_);
+  }
 
  private:
-  std::once_flag segments_made_, slope_made_, nayak_made_, rows_made_;
+  std::once_flag segments_made_, slope_made_, nayak_made_, rows_made_, derived_made_;
   std::array<std::once_flag, grids> rings_made_;
-  std::array<std::once_flag, RoughnessPieces::levels_with_rows> pieces_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
   std::unique_ptr<const RingRows> rows_;
   std::array<std::unique_ptr<const RingSurface>, grids> rings_;
-  std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels_with_rows> pieces_;
+  std::unique_ptr<Derived> derived_;
 };
 
 /// The segments of a spectrum for as long as it is there: a table's own, or made here.

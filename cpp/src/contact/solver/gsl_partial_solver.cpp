@@ -1,13 +1,13 @@
-// The integrals of PartialContact's rule (contact/partial_contact_rule.hpp) by GSL's adaptive rules on ln q, with G
-// integrated anew inside the integrand, and the root by the false position.
+// The integrals of PartialContact's rule (contact/theory/partial_contact_rule.hpp) by GSL's adaptive rules on ln q,
+// with G integrated anew inside the integrand, and the root by the false position.
 #include "contact/solver/gsl_partial_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "contact/conditions.hpp"
-#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/solver.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "numerics/roots.hpp"
 
 namespace asperity {

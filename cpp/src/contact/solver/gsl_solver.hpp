@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/s_factor.hpp"
+#include "contact/theory/s_factor.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 
 namespace asperity {

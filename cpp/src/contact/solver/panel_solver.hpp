@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/solver/contact_integral.hpp"
 #include "contact/solver/panels.hpp"
+#include "contact/theory/contact_integral.hpp"
 
 namespace asperity {
 

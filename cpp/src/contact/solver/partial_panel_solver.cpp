@@ -1,4 +1,4 @@
-// Area and hysteresis by the rule of PartialContact (contact/partial_contact_rule.hpp):
+// Area and hysteresis by the rule of PartialContact (contact/theory/partial_contact_rule.hpp):
 //   A / A0 = A1,  mu_H = 4 (1 - nu^2) sigma0 (int (I1 / I2) R dG + int (I1 / I2) T d ln x),
 // on panels that are halved until the sum of their stated errors is below the tolerance.
 #include "contact/solver/partial_panel_solver.hpp"
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "contact/conditions.hpp"
-#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_error.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {

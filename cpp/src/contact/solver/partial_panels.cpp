@@ -1,12 +1,12 @@
-// Panels of ln q for the rule of PartialContact (contact/partial_contact_rule.hpp): their ends, G at their nodes, and
-// what the rubber has there.
+// Panels of ln q for the rule of PartialContact (contact/theory/partial_contact_rule.hpp): their ends, G at their
+// nodes, and what the rubber has there.
 #include "contact/solver/partial_panels.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "contact/partial_contact_rule.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {

@@ -1,11 +1,12 @@
-// Two levels of pieces solve a point (spectrum/roughness_pieces.hpp) by the rule of contact/partial_contact_rule.hpp.
+// Two levels of pieces solve a point (contact/grid/roughness_pieces.hpp) by the rule of
+// contact/theory/partial_contact_rule.hpp.
 #include "contact/solver/partial_ring_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "contact/conditions.hpp"
-#include "contact/partial_contact_rule.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 
 namespace asperity {
 
@@ -34,7 +35,7 @@ PartialRingSolver::PartialRingSolver(const TabulatedSpectrum& table, std::span<c
       rubber_(rubber),
       model_(model),
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
-      end_(table.surface().pieces(table, 0).window(), stiffening_ * stiffening_ / 8),
+      end_(roughness_pieces(table, 0).window(), stiffening_ * stiffening_ / 8),
       tail_of_(rubber, for_tail * model.rtol) {
   if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
     known_in_part_ = series->fitted_range().has_value();
@@ -78,7 +79,7 @@ PartialRingSolver::Level& PartialRingSolver::at_velocity(std::size_t number, dou
   Level& level = levels_[number];
   if (level.velocity == velocity) return level;
   if (!level.pieces) {
-    level.pieces = &table_.surface().pieces(table_, number);
+    level.pieces = &roughness_pieces(table_, number);
     const std::size_t n = level.pieces->nodes().weight.size();
     for (auto* const row : {&level.frequency, &level.i1, &level.i2, &level.g, &level.steepness, &level.weight,
                             &level.ratio, &level.stress})

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/grid/roughness_pieces.hpp"
 #include "contact/solver/partial_panel_solver.hpp"
 #include "contact/solver/partial_solver.hpp"
 #include "spectrum/table_surface.hpp"

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/gsl_partial_solver.hpp"
 #include "contact/solver/partial_panel_solver.hpp"
 #include "contact/solver/partial_ring_solver.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 
 namespace asperity {
 
@@ -24,12 +24,6 @@ std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Seg
   if (model.method == Method::gauss) return std::make_unique<PartialPanelSolver>(surface, rubber, model, stops);
   return std::make_unique<GslPartialSolver>(surface, rubber, model, stops);
 }
-
-RoughnessEnd::RoughnessEnd(const RoughnessWindow& roughness, double g_factor)
-    : wavenumber(roughness.end()),
-      window(g_factor * std::fmax(roughness(wavenumber), partial_contact::last / 2 * roughness.total())),
-      total(g_factor * roughness.total()),
-      factor(total > 0 ? std::pow(4 * (window / total), 0.2) : 1) {}
 
 std::vector<std::array<double, 2>> tail_stretches(double q_e, std::span<const double> stops) {
   const double end = q_e * partial_contact::tail_end;

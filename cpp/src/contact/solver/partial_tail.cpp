@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/partial_contact_rule.hpp"
 #include "contact/solver/partial_error.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "numerics/kernels.hpp"
 #include "rubber/unlimited_rubber.hpp"
 

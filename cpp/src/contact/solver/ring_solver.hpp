@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "asperity/rubber.hpp"
-#include "contact/solver/contact_integral.hpp"
 #include "contact/solver/panel_solver.hpp"
+#include "contact/theory/contact_integral.hpp"
 #include "spectrum/ring_blocks.hpp"
 
 namespace asperity {

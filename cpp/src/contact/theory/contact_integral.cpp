@@ -2,7 +2,7 @@
 // or (1 + (pi G)^1.5)^(-1/3) (Eq. 7) and S = gamma + (1 - gamma) P^2 (Eq. 8): integrals over P and over P^3, divided by
 // their powers of z at both ends, as polynomials about equal steps of rest.
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
-#include "contact/solver/contact_integral.hpp"
+#include "contact/theory/contact_integral.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // A = erf(1 / (2 z)), z = sqrt(G), and its slope over ln G, both over rest = 1 / (1 + z), as polynomials about equal
 // steps of rest; and the sums of PartialContact's rule over nodes (partial_loops.inc).
-#include "contact/solver/partial_loops.hpp"
+#include "contact/theory/partial_loops.hpp"
 
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-#define ASPERITY_LOOPS "contact/solver/partial_loops.inc"
+#define ASPERITY_LOOPS "contact/theory/partial_loops.inc"
 #include "numerics/vector_units.inc"
 
 constexpr std::size_t steps = ShareTable::steps, terms = ShareTable::terms;

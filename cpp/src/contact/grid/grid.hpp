@@ -1,4 +1,4 @@
-// Where the heat of sliding is integrated, and where its temperature is an unknown.
+// The nodes in ln q at which a contact is integrated, whether its rubber has one temperature or many.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "contact/solver/partial_solver.hpp"
+#include "contact/grid/roughness_pieces.hpp"
+#include "contact/theory/partial_root.hpp"
 #include "numerics/gauss_legendre.hpp"
-#include "spectrum/roughness_pieces.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
 
-struct HeatGridOptions {
+struct ContactGridOptions {
   double poisson_ratio = 0.5;
   std::size_t level = 0;                           // a level more is two digits more
   std::size_t halvings = 0;                        // of panels, in which rows of a measured modulus lie anywhere
@@ -23,16 +23,13 @@ struct HeatGridOptions {
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
   bool beyond_end = false;                         // PartialContact carries stress beyond the end of the roughness
   std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
-  std::optional<double> also_felt = std::nullopt;  // a temperature point that may lie outside of the band [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
 };
 
 /// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root
 /// that F(G) has behind the front is smooth, or pieces of rings with two nodes each. Behind the nodes of the band
-/// follow those of the edges of contacts, from the end of the roughness on, and those that G at q_m is taken from. The
-/// temperature is an unknown at Chebyshev's points in ln q, both ends among them, as it is analytic within pi of the
-/// real axis.
-class HeatGrid {
+/// follow those of the edges of contacts, from the end of the roughness on, and those that G at q_m is taken from.
+class ContactGrid {
  public:
   static constexpr int first_digits = 4;  // of level 0
   struct Cell {
@@ -44,7 +41,7 @@ class HeatGrid {
     Eigen::MatrixXd to_g;  // from I2 at the nodes to G there at unit pressure, less that at the lower end
   };
 
-  HeatGrid(std::span<const Segment> surface, const HeatGridOptions& options);
+  ContactGrid(std::span<const Segment> surface, const ContactGridOptions& options);
 
   [[nodiscard]] std::size_t size() const { return wavenumber_.size(); }
   [[nodiscard]] std::size_t band_size() const { return band_size_; }
@@ -54,16 +51,9 @@ class HeatGrid {
   [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
   /// G at q_m as a sum over I2 of all nodes.
   [[nodiscard]] const Eigen::VectorXd& macro_weight() const { return macro_weight_; }
-  /// Points of the temperature [1/m]; the last is the upper end.
-  [[nodiscard]] const std::vector<double>& temperature_points() const { return points_; }
-  /// From values at those points to values at the nodes.
-  [[nodiscard]] const Eigen::MatrixXd& to_nodes() const { return to_nodes_; }
-  /// The row that takes values at the points to that at a wavenumber.
-  [[nodiscard]] Eigen::RowVectorXd row_at(double wavenumber) const;
-  /// Whether the first of the points is beside the band.
-  [[nodiscard]] bool lone_point() const { return first_point_ == 1; }
-  /// The row of `also_felt`.
-  [[nodiscard]] const Eigen::RowVectorXd& also_felt() const { return also_felt_; }
+  /// ln q of both ends of all nodes, those of the edges among them.
+  [[nodiscard]] double lowest() const { return lowest_; }
+  [[nodiscard]] double highest() const { return highest_; }
   /// q at t.
   [[nodiscard]] double wavenumber_at(double t) const;
   [[nodiscard]] double t_at(double wavenumber) const;
@@ -84,25 +74,22 @@ class HeatGrid {
   [[nodiscard]] const Beyond& beyond() const { return beyond_; }
 
  private:
-  void add_panels(std::span<const Segment> surface, const HeatGridOptions& options);
-  void add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options);
+  void add_panels(std::span<const Segment> surface, const ContactGridOptions& options);
+  void add_front(const Segment& segment, double upper, double end, const ContactGridOptions& options);
   void add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end,
-                 const HeatGridOptions& options);
+                 const ContactGridOptions& options);
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
-  void add_beyond(const HeatGridOptions& options);
-  void add_macro_nodes(std::span<const Segment> surface, const HeatGridOptions& options);
-  void add_temperature_points(const HeatGridOptions& options);
+  void add_beyond(const ContactGridOptions& options);
+  void add_macro_nodes(std::span<const Segment> surface, const ContactGridOptions& options);
 
   double g_factor_, start_;  // ln q where the roughness begins
-  double lowest_, highest_;  // ln q of the temperature's ends
-  double end_of_band_;       // [1/m]
-  std::size_t band_size_ = 0, first_point_ = 0;
+  double lowest_, highest_;
+  double end_of_band_;  // [1/m]
+  std::size_t band_size_ = 0;
   std::vector<Cell> cells_;
-  std::vector<double> wavenumber_, points_, log_points_;
+  std::vector<double> wavenumber_;
   Eigen::VectorXd weight_, macro_weight_;
-  Eigen::MatrixXd to_nodes_;
-  Eigen::RowVectorXd also_felt_;
   std::vector<double> weights_, macro_weights_;
   std::vector<double> roughness_before_{0.0};  // each panel, and after all: sums of weights_
   Beyond beyond_;

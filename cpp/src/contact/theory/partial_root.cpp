@@ -1,12 +1,19 @@
-// The root of PartialContact's rule in ln kappa, by Newton's steps in a bracket (contact/partial_contact_rule.hpp).
+// The root of PartialContact's rule in ln kappa, by Newton's steps in a bracket
+// (contact/theory/partial_contact_rule.hpp).
+#include "contact/theory/partial_root.hpp"
+
 #include <cmath>
 #include <limits>
 
-#include "contact/partial_contact_rule.hpp"
-#include "contact/solver/partial_solver.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
+
+RoughnessEnd::RoughnessEnd(const RoughnessWindow& roughness, double g_factor)
+    : wavenumber(roughness.end()),
+      window(g_factor * std::fmax(roughness(wavenumber), partial_contact::last / 2 * roughness.total())),
+      total(g_factor * roughness.total()),
+      factor(total > 0 ? std::pow(4 * (window / total), 0.2) : 1) {}
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "contact/s_factor.hpp"
+#include "contact/theory/s_factor.hpp"
 #include "numerics/kernels.hpp"
 
 namespace asperity {

@@ -1,15 +1,18 @@
 // Pieces of ln q with two nodes each: their ends, and the moments of c = q^4 C that make nodes, weights and
 // projections. The Gauss rule of two nodes: with mean y and standard deviation s of dm on the piece, z = (y - mean) / s
 // and the skewness g = <z^3>, the nodes are the roots of z^2 - g z - 1, their weights 1 / (1 + z^2) of m.
-#include "spectrum/roughness_pieces.hpp"
+#include "contact/grid/roughness_pieces.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 
 #include "asperity/watch.hpp"
 #include "spectrum/roughness_window.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -304,6 +307,23 @@ void RoughnessPieces::add_piece(const Points& p) {
     nodes_.of_first.push_back((of_c_z - z[1] * of_c) / (z[0] - z[1]));
     nodes_.of_second.push_back((of_c_z - z[0] * of_c) / (z[1] - z[0]));
   }
+}
+
+namespace {
+
+struct PiecesOfTable : TableSurface::Derived {
+  std::array<std::once_flag, RoughnessPieces::levels_with_rows> made;
+  std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels_with_rows> pieces;
+};
+
+}  // namespace
+
+const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::size_t level) {
+  auto& all = table.surface().derived<PiecesOfTable>();
+  std::call_once(all.made[level], [&] {
+    all.pieces[level] = std::make_unique<RoughnessPieces>(table.surface().segments(table), level);
+  });
+  return *all.pieces[level];
 }
 
 }  // namespace asperity

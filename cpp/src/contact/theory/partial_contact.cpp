@@ -1,5 +1,5 @@
-// The rule of PartialContact (contact/partial_contact_rule.hpp) where each node has a temperature of its own: kappa is
-// a function of all of them by the sum rule, and so are the stresses of all waves. Slopes come from that rule
+// The rule of PartialContact (contact/theory/partial_contact_rule.hpp) where each node has a temperature of its own:
+// kappa is a function of all of them by the sum rule, and so are the stresses of all waves. Slopes come from that rule
 // implicitly. The stress of the edges, which begins at the end q_e of the roughness, heats and is heated too.
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "contact/partial_contact_rule.hpp"
-#include "contact/solver/partial_solver.hpp"
-#include "heat/heat_contact.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
+#include "contact/theory/partial_root.hpp"
+#include "contact/theory/theory.hpp"
 
 namespace asperity {
 
@@ -21,9 +21,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-class PartialHeat final : public HeatContact {
+class PartialContactTheory final : public Theory {
  public:
-  explicit PartialHeat(const HeatGrid& grid) : HeatContact(grid) {}
+  explicit PartialContactTheory(const ContactGrid& grid) : Theory(grid) {}
   void start(std::function<NodeModulus()> cold) override {
     kappa_ = usual_kappa;
     cold_ = std::move(cold);
@@ -75,10 +75,10 @@ double share_slope(double g, double share) {
   return -s * std::exp(-s * s) * std::numbers::inv_sqrtpi / share;
 }
 
-void PartialHeat::evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) {
+void PartialContactTheory::evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) {
   add_up(modulus, 1);
   scale_ = scale;
-  const HeatGrid::Beyond& beyond = grid_.beyond();
+  const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
   const double i2_at_end = i2_[end_node()];
   g_unit_ = g_edge_.back();
@@ -132,8 +132,8 @@ void PartialHeat::evaluate(const NodeModulus& modulus, double scale, std::option
   for (double& g : g_edge_) g *= scale;
 }
 
-void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
-  const HeatGrid::Beyond& beyond = grid_.beyond();
+void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
+  const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
   const Index directions = along.i2.cols();
   result.part.setZero(part_.size(), directions);
@@ -203,14 +203,15 @@ void PartialHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
     result.macro = macro_ * share_slope(kappa_ * g_macro_, macro_) * (slopes.macro / g_macro_ + log_kappa);
 }
 
-double PartialHeat::density(std::size_t panel, double u, double wavenumber, double i1, double i2, double rate) const {
+double PartialContactTheory::density(std::size_t panel, double u, double wavenumber, double i1, double i2,
+                                     double rate) const {
   if (g_unit_ == 0) return 0;
   const double a = share_of(kappa_ * g_on(panel, u));
   return rate * (i1 / i2) *
          partial_contact::stress(a, obstacle_ * scale_ * grid_.beyond().window_at(wavenumber) * i2 * a * a);
 }
 
-double PartialHeat::density_of_edges(double wavenumber, double i1, double i2) const {
+double PartialContactTheory::density_of_edges(double wavenumber, double i1, double i2) const {
   const RoughnessEnd& end = *grid_.beyond().end;
   const double x = wavenumber / end.wavenumber;
   if (g_unit_ == 0 || !(x >= 1 && x <= partial_contact::tail_end)) return 0;
@@ -220,6 +221,8 @@ double PartialHeat::density_of_edges(double wavenumber, double i1, double i2) co
 
 }  // namespace
 
-std::unique_ptr<HeatContact> partial_heat_contact(const HeatGrid& grid) { return std::make_unique<PartialHeat>(grid); }
+std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid) {
+  return std::make_unique<PartialContactTheory>(grid);
+}
 
 }  // namespace asperity

@@ -1,12 +1,12 @@
 // dG/du = q^4 C I2 / (8 (1 - nu^2)^2) dln q/du on panels of t = sqrt(ln(q / q0)), as many nodes on each as the distance
 // of the nearest singularities asks for, pi / 2 off the real axis of ln q for a Prony series.
-#include "heat/grid.hpp"
+#include "contact/grid/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contact/partial_contact_rule.hpp"
-#include "heat/panel_nodes.hpp"
+#include "contact/grid/panel_nodes.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "spectrum/ring_gauss.hpp"
 
 namespace asperity {
@@ -17,7 +17,7 @@ constexpr double same = 1e-12;  // relative distance of two wavenumbers that are
 
 }  // namespace
 
-HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& options)
+ContactGrid::ContactGrid(std::span<const Segment> surface, const ContactGridOptions& options)
     : lowest_(std::log(surface.front().a)), highest_(std::log(surface.back().b)), end_of_band_(surface.back().b) {
   const double stiffening = 1 / (1 - options.poisson_ratio * options.poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
@@ -35,10 +35,9 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, const HeatGridOptions& opti
   macro_weights_.resize(wavenumber_.size());
   weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
   macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
-  add_temperature_points(options);
 }
 
-void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOptions& options) {
+void ContactGrid::add_panels(std::span<const Segment> surface, const ContactGridOptions& options) {
   const double longest = options.tabulated ? 0.5 : 3;
   std::vector<double> stops = options.stops;
   stops.push_back(options.macro_wavenumber);
@@ -75,7 +74,7 @@ void HeatGrid::add_panels(std::span<const Segment> surface, const HeatGridOption
 
 /// The panel that begins where G is 0, cut in t at a quarter once more from level to level, so that two levels tell a
 /// front that is thinner than their nodes apart.
-void HeatGrid::add_front(const Segment& segment, double upper, double end, const HeatGridOptions& options) {
+void ContactGrid::add_front(const Segment& segment, double upper, double end, const ContactGridOptions& options) {
   const std::size_t cuts = options.level > 1 ? options.level - 1 : 0;
   const std::size_t n = std::min(nodes_for(upper * upper, options.level, true, options.tabulated), LegendreRule::most);
   double lower = 0;
@@ -89,8 +88,8 @@ void HeatGrid::add_front(const Segment& segment, double upper, double end, const
 
 /// A panel further on, in y = ln q. Where the roughness of its beginning is far above all that came before, that is
 /// where the contact breaks up: it is cut like a front, down to what came before.
-void HeatGrid::add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end,
-                         const HeatGridOptions& options) {
+void ContactGrid::add_after(std::span<const Segment> surface, const Segment& segment, double from, double to,
+                            double end, const ContactGridOptions& options) {
   constexpr double cut = 1.0 / 16, far = 100;
   const double before = roughness_before_.back(), first = start_ - std::log(segment.a);
   const auto roughness_to = [&](double y) {  // about, from the panel's beginning
@@ -115,7 +114,7 @@ void HeatGrid::add_after(std::span<const Segment> surface, const Segment& segmen
               std::min(n, LegendreRule::most));
 }
 
-void HeatGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
+void ContactGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
   const LegendreRule& rule = legendre_rule(nodes);
   const auto n = static_cast<Eigen::Index>(rule.n);
   Cell cell{wavenumber_.size(), rule.n, &rule, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
@@ -136,7 +135,7 @@ void HeatGrid::add_panel(const Segment& segment, double lower, double upper, dou
   roughness_before_.push_back(sum);
 }
 
-void HeatGrid::add_pieces(const RoughnessPieces& pieces) {
+void ContactGrid::add_pieces(const RoughnessPieces& pieces) {
   const RoughnessPieces::Nodes& nodes = pieces.nodes();
   for (std::size_t i = 0; i < nodes.wavenumber.size(); i += 2) {
     Cell cell{i, 2, nullptr, 0, 0, end_of_band_, nullptr, Eigen::MatrixXd(2, 2)};
@@ -151,7 +150,7 @@ void HeatGrid::add_pieces(const RoughnessPieces& pieces) {
   }
 }
 
-void HeatGrid::add_beyond(const HeatGridOptions& options) {
+void ContactGrid::add_beyond(const ContactGridOptions& options) {
   const RoughnessWindow& window = options.pieces ? options.pieces->window() : *beyond_.of_surface;
   beyond_.g_factor = g_factor_;
   if (options.pieces) {
@@ -197,7 +196,7 @@ void HeatGrid::add_beyond(const HeatGridOptions& options) {
 
 /// Gauss rules of the roughness, with which I2 is integrated up to q_m. Rows of a measured modulus lie anywhere in
 /// them, and levels tell what they miss of these only where they differ: stretches are halved from level to level.
-void HeatGrid::add_macro_nodes(std::span<const Segment> surface, const HeatGridOptions& options) {
+void ContactGrid::add_macro_nodes(std::span<const Segment> surface, const ContactGridOptions& options) {
   const double longest = options.tabulated ? std::exp2(-static_cast<double>(options.level)) : 1;
   constexpr std::size_t most_nodes = 10;
   const double length = std::log(options.macro_wavenumber) - start_;
@@ -237,9 +236,9 @@ void HeatGrid::add_macro_nodes(std::span<const Segment> surface, const HeatGridO
   }
 }
 
-double HeatGrid::wavenumber_at(double t) const { return std::exp(start_ + t * t); }
+double ContactGrid::wavenumber_at(double t) const { return std::exp(start_ + t * t); }
 
-double HeatGrid::t_at(double wavenumber) const { return std::sqrt(std::fmax(std::log(wavenumber) - start_, 0)); }
+double ContactGrid::t_at(double wavenumber) const { return std::sqrt(std::fmax(std::log(wavenumber) - start_, 0)); }
 
 // With f = sum_k a_k P_k, a_k = (2 k + 1) / 2 sum_j weight_j P_k(u_j) f_j, int_-1^u P_k = (P_k+1 - P_k-1) / (2 k + 1).
 void integrals_to(const LegendreRule& rule, double u, double* weights) {

@@ -1,12 +1,12 @@
 // A Gauss-Legendre rule of n nodes on a panel of length L misses rho^(-2 n) of a function with singularities no nearer
 // than d, ln rho = asinh(2 d / L). L. N. Trefethen, SIAM Rev. 50, 67 (2008).
-#include "heat/panel_nodes.hpp"
+#include "contact/grid/panel_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "heat/grid.hpp"
+#include "contact/grid/grid.hpp"
 #include "numerics/gauss_legendre.hpp"
 
 namespace asperity {
@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 std::size_t nodes_for(double length, std::size_t level, bool front, bool tabulated) {
   const double falling = std::asinh(pi / length) * (front ? 0.6 : 1);
-  const double nodes = (front ? 8 : tabulated ? 8 : 4) + HeatGrid::first_digits * std::numbers::ln10 / (2 * falling);
+  const double nodes = (front ? 8 : tabulated ? 8 : 4) + ContactGrid::first_digits * std::numbers::ln10 / (2 * falling);
   return 4 * static_cast<std::size_t>(std::ceil(nodes / 4)) + 4 * level;
 }
 

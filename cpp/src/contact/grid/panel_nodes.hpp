@@ -1,4 +1,4 @@
-// How many nodes the panels of the heat's grid take.
+// How many nodes the panels of the grid take.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "spectrum/roughness_cells.hpp"
+#include "contact/grid/roughness_cells.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
 
@@ -74,5 +74,8 @@ class RoughnessPieces {
   RoughnessCells cells_, coarse_cells_;
   double foot_ = 0;
 };
+
+/// Those of a table, made when first asked for and kept with it; each level finer than the one before.
+const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::size_t level);
 
 }  // namespace asperity

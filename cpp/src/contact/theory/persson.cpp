@@ -1,11 +1,11 @@
 // F(G) = int_0^G P S dG of Eq. 22 with G of Eq. 7. By parts on each panel dF is a measure of the nodes, so that the
 // front of F is met exactly; on pieces of rings, P S dG at their two nodes, of which the sum is made that of F.
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
-#include "heat/heat_contact.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "contact/theory/theory.hpp"
 
 namespace asperity {
 
@@ -15,7 +15,7 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-void HeatContact::add_up(const NodeModulus& modulus, double scale) {
+void Theory::add_up(const NodeModulus& modulus, double scale) {
   scale_ = scale;
   i2_ = modulus.i2;
   ratio_ = modulus.ratio;
@@ -33,7 +33,7 @@ void HeatContact::add_up(const NodeModulus& modulus, double scale) {
   g_macro_ = scale * grid_.macro_weight().dot(i2_);
 }
 
-void HeatContact::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
+void Theory::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
   const auto& cells = grid_.cells();
   const Index directions = along.i2.cols();
   slopes.node.resize(g_.size(), directions);
@@ -54,8 +54,8 @@ void HeatContact::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
   slopes.macro += g_macro_ * along.scale;
 }
 
-double HeatContact::g_on(std::size_t panel, double u) const {
-  const HeatGrid::Cell& cell = grid_.cells()[panel];
+double Theory::g_on(std::size_t panel, double u) const {
+  const ContactGrid::Cell& cell = grid_.cells()[panel];
   double weights[LegendreRule::most], sum = g_edge_[panel];
   integrals_to(*cell.rule, u, weights);
   for (std::size_t j = 0; j < cell.count; ++j) {
@@ -76,11 +76,11 @@ double p_slope(double g, Form form) {
 
 double p_of(double g, Form form) { return g <= 0 ? 1 : contact_share(g, form); }
 
-class PerssonHeat final : public HeatContact {
+class PerssonTheory final : public Theory {
  public:
-  PerssonHeat(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
-              const HeatGrid& grid)
-      : HeatContact(grid),
+  PerssonTheory(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
+                const ContactGrid& grid)
+      : Theory(grid),
         form_(model.form),
         factor_(s_in_integrand(model.correction)),
         inside_(s_inside(model.correction, spectrum, surface, surface.back().b)),
@@ -112,13 +112,13 @@ class PerssonHeat final : public HeatContact {
 };
 
 /// F at values of G; their number is a multiple of `lanes`.
-void PerssonHeat::integral_of(const double* g, Index n, double* f) const {
+void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
   kernels().contact_integral(contact_.table, g, static_cast<std::size_t>(n), f, nullptr);
   for (Index i = 0; i < n; ++i)
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-void PerssonHeat::evaluate(const NodeModulus& modulus, double scale, std::optional<double> /*log_kappa*/) {
+void PerssonTheory::evaluate(const NodeModulus& modulus, double scale, std::optional<double> /*log_kappa*/) {
   add_up(modulus, scale);
   const auto& cells = grid_.cells();
   const Index n = g_.size();
@@ -152,7 +152,7 @@ void PerssonHeat::evaluate(const NodeModulus& modulus, double scale, std::option
   macro_ = p_of(g_macro_, form_);
 }
 
-void PerssonHeat::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
+void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
   GSlopes slopes;
   add_up(along, slopes);
   const auto& cells = grid_.cells();
@@ -190,16 +190,16 @@ void PerssonHeat::differentiate(const ModulusSlopes& along, ContactSlopes& resul
   result.macro = p_slope(g_macro_, form_) * slopes.macro;
 }
 
-double PerssonHeat::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {
+double PerssonTheory::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {
   return rate * (i1 / i2) * p_s(g_on(panel, u));
 }
 
 }  // namespace
 
-std::unique_ptr<HeatContact> heat_contact(const ContactModel& model, const Spectrum& spectrum,
-                                          std::span<const Segment> surface, const HeatGrid& grid) {
-  if (std::holds_alternative<PartialContact>(model.correction)) return partial_heat_contact(grid);
-  return std::make_unique<PerssonHeat>(model, spectrum, surface, grid);
+std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
+                                       std::span<const Segment> surface, const ContactGrid& grid) {
+  if (std::holds_alternative<PartialContact>(model.correction)) return partial_contact_theory(grid);
+  return std::make_unique<PerssonTheory>(model, spectrum, surface, grid);
 }
 
 }  // namespace asperity

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "asperity/contact.hpp"
-#include "contact/s_factor.hpp"
-#include "contact/solver/contact_integral.hpp"
-#include "heat/grid.hpp"
+#include "contact/grid/grid.hpp"
+#include "contact/theory/contact_integral.hpp"
+#include "contact/theory/s_factor.hpp"
 
 namespace asperity {
 
@@ -35,14 +35,14 @@ struct ContactSlopes {
 };
 
 /// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
-class HeatContact {
+class Theory {
  public:
-  explicit HeatContact(const HeatGrid& grid) : grid_(grid) {}
-  HeatContact(const HeatContact&) = delete;
-  HeatContact(HeatContact&&) = delete;
-  HeatContact& operator=(const HeatContact&) = delete;
-  HeatContact& operator=(HeatContact&&) = delete;
-  virtual ~HeatContact() = default;
+  explicit Theory(const ContactGrid& grid) : grid_(grid) {}
+  Theory(const Theory&) = delete;
+  Theory(Theory&&) = delete;
+  Theory& operator=(const Theory&) = delete;
+  Theory& operator=(Theory&&) = delete;
+  virtual ~Theory() = default;
 
   /// A new point, whose numbers shall not depend on the one before. `cold` has the rubber at T0 at all nodes; it may be
   /// asked for until the next point.
@@ -80,17 +80,17 @@ class HeatContact {
   /// G at u on a panel.
   [[nodiscard]] double g_on(std::size_t panel, double u) const;
 
-  const HeatGrid& grid_;
+  const ContactGrid& grid_;
   double scale_ = 0, area_ = 0, macro_ = 1, g_macro_ = 0;
   Eigen::VectorXd i2_, ratio_, g_, part_;
   std::vector<double> g_edge_;
 };
 
 /// Persson's P with S, or the rule of PartialContact.
-std::unique_ptr<HeatContact> heat_contact(const ContactModel& model, const Spectrum& spectrum,
-                                          std::span<const Segment> surface, const HeatGrid& grid);
+std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
+                                       std::span<const Segment> surface, const ContactGrid& grid);
 
 /// The rule of PartialContact.
-std::unique_ptr<HeatContact> partial_heat_contact(const HeatGrid& grid);
+std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid);
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // Lagrange's polynomials of Chebyshev's points in their barycentric form: J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46,
 // 501 (2004). With singularities pi / 2 off the real axis an interpolant through n points of a cell of length L misses
 // some 2 r^-n, r = pi / L + sqrt(1 + (pi / L)^2): 1e-10 for L = 0.8 and n = 12.
-#include "spectrum/roughness_cells.hpp"
+#include "contact/grid/roughness_cells.hpp"
 
 #include <algorithm>
 #include <cmath>

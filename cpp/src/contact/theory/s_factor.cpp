@@ -1,7 +1,7 @@
 // P(G), exact, erf(1 / (2 sqrt G)), or interpolated (Eq. 7), and the S factor S = gamma + (1 - gamma) P^2 (Eq. 8)
 // inside G, where dG = S dG(uncorrected), or on the integrand of Eq. 22. NayakSFactor has an S of its own, fitted to
 // boundary elements. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
-#include "contact/s_factor.hpp"
+#include "contact/theory/s_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
