@@ -1,4 +1,4 @@
-"""All charts of speed and exactness, and the tables of them in docs/explanation/speed.md.
+"""All charts of speed and exactness, and the tables of them in docs/notes/speed.md.
 Takes about three minutes:
 
     python tests/benchmarks/charts.py
@@ -25,7 +25,7 @@ import friction
 from asperity.io.files import write_files
 
 ROOT = Path(__file__).parents[2]
-DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "explanation" / "speed.md"
+DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "notes" / "speed.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
 PARTS = (rings, friction, point, scaling, work_precision, models)
 

@@ -93,8 +93,8 @@ def separation(load: float) -> float:
 def partial_contact(
     c: Any, integrals: Integrals, q: Any, end: float, pressure: float, velocity: float
 ) -> float:
-    """mu by the rule of PartialContact as docs/sliding.md writes it, its roughness ending at `end`,
-    by the trapezoid rule in ln q and brentq in ln kappa; nu = 0.5."""
+    """mu by the rule of PartialContact as docs/explanation/partial_contact.md writes it, its
+    roughness ending at `end`, by the trapezoid rule in ln q and brentq in ln kappa; nu = 0.5."""
     y, rough, stiff = np.log(q), q**4 * c, 1 / (8 * (0.75 * pressure) ** 2)
     mass = cumulative_trapezoid(rough, y, initial=0)
     window = lambda at: (np.interp(at + 1, y, mass) - np.interp(at - 1, y, mass)) / 2  # noqa: E731

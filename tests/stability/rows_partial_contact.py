@@ -2,7 +2,7 @@
 
 Contacts are those that no fit has seen, of tests/reference/exact_sliding.csv and
 exact_sliding_ends.csv: mu of maps of rms slope 1, nu = 0.5. What is allowed is the worst that
-docs/sliding.md states, rounded up.
+docs/explanation/partial_contact.md states, rounded up.
 """
 
 import sys

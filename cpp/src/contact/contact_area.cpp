@@ -92,8 +92,8 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
 
 /// The same by the rule of PartialContact, with the one kappa of the whole band: visit(index of point, index of
 /// wavenumber, kappa G, A / A0). G grows with q, so the area never rises with magnification; with the kappa of the
-/// surface cut at each wavenumber it did, by up to 6 % from ring to ring (docs/sliding.md compares both with exact
-/// contacts).
+/// surface cut at each wavenumber it did, by up to 6 % from ring to ring (docs/explanation/partial_contact.md
+/// compares both with exact contacts).
 template <class Visit>
 void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                    std::span<const double> pressure, std::span<const double> velocity,

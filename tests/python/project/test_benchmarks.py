@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[3]
 CURVES = {name: curve.thinned() for name, curve in curves().items()}
 TERMS = [name for name in CURVES if name != "tabulated modulus"]
 SPEED = (ROOT / "docs/explanation/speed.md").read_text(encoding="utf-8")
+NOTES = (ROOT / "docs/notes/speed.md").read_text(encoding="utf-8")
 WORTH = (ROOT / "docs/explanation/corrections.md").read_text(encoding="utf-8")
 DOCS = ROOT / "docs/benchmarks"
 TABLES = {path.name: path.read_text(encoding="utf-8") for path in DOCS.glob("*.csv")}
@@ -90,8 +91,8 @@ def test_the_single_scale_is_light_contact():
     assert models.single_scale(curve.road, 1e9, 1e3) == pytest.approx(area, rel=1e-6)
 
 
-def test_the_page_of_speed_has_the_table_of_the_benchmarks():
-    assert charts.with_page(SPEED, charts.page(TABLES)) == SPEED
+def test_the_notes_on_speed_have_the_table_of_the_benchmarks():
+    assert charts.with_page(NOTES, charts.page(TABLES)) == NOTES
 
 
 @pytest.mark.parametrize("name", ["work_precision", "models", "scaling"])
