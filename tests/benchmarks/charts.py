@@ -6,7 +6,7 @@ Takes about three minutes:
 Runs rings, friction, point, scaling, work_precision and models one after the other and writes what
 they find to docs/benchmarks, and the tables between their two marks in that page. Needs
 ASPERITY_DATA as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
-pip install asperity[bem] scipy pybind11.
+pip install asperity scipy pybind11.
 """
 
 import csv

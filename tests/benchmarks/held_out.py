@@ -1,7 +1,7 @@
 """Corrections on maps that no fit has seen: Hurst exponents and bandwidths beyond the shipped rows.
 
-Ten random-phase maps of 512 x 512 points, H 0.3, 0.5 and 0.9, pressed by boundary elements (needs
-asperity[bem]) at p / (E* h') = 0.02, 0.1 and 0.3. Takes some minutes:
+Ten random-phase maps of 512 x 512 points, H 0.3, 0.5 and 0.9, pressed by boundary elements at
+p / (E* h') = 0.02, 0.1 and 0.3. Takes some minutes:
 
     python tests/benchmarks/held_out.py
 """

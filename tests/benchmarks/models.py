@@ -9,7 +9,7 @@ surface and 20 Prony terms, at the default rtol; of the estimate on a single sca
 A/A0 = min(1, sqrt(8 / pi) sigma0 / (E* h')) with the rms slope h' and E* at q1, and mu from it, the
 arithmetic in NumPy; of boundary elements one load, p / (E* h') = 0.1, on 256 x 256 points
 (q1/q0 = 8, elastic); of exact sliding the median of sliding.py over 512 x 512 points. One thread,
-processor time. pip install asperity[bem].
+processor time.
 """
 
 import csv

@@ -1,35 +1,26 @@
 """A surface of one's own pressed by boundary elements: the contact that the theory is held against.
 
-The solver is tamaas (AGPL-3.0-or-later) where this optional package is installed, and otherwise
-`slide` at velocity 0, which finds the same contacts. tamaas is imported when a contact is asked
-for, and by nothing else in asperity.
+The solver is `slide` at velocity 0.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, NotConverged
+from asperity._core import InvalidInput
 from asperity.rubber import PronySeries
 from asperity.scene.model import Progress
 from asperity.surface import HeightMap
 from asperity.validation.sliding import slide
 
 _Array = NDArray[np.float64]
-_Pressed = Callable[[float], tuple[float, float, float, float]]
 
 _FEWEST = 16  # points along a side
-# sum(p gap) / (sum(p) h_rms). Areas of 256^2 and 512^2 points are those of 1e-10 to the last pixel,
-# energies to 1e-7; rounding alone leaves 1e-12.
-_TOLERANCE = 1e-8
-_ITERATIONS = 20_000  # 512^2 points, whose finest waves are two pixels long, take up to 950
-_CHUNK = 50  # iterations between two looks at Ctrl-C: the solver goes on where it stopped
-_EXCESS = (math.pi - 1 + math.log(2)) / 24
+_TOLERANCE = 1e-8  # sum(p gap) / (sum(p) h_rms)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,10 +84,8 @@ def contact(
 
     Notes
     -----
-    Fourier modes of the points' own grid and Polonsky and Keer's conjugate gradients
-    (Wear 231 (1999) 206), in tamaas; without it the Newton steps of `slide`. From the load on where
-    the sum of the modes leaves no tension anywhere the contact is full and has a closed form, which
-    is taken.
+    Fourier modes of the points' own grid, solved by `slide`. From the load on where the sum of the
+    modes leaves no tension anywhere the contact is full and has a closed form, which is taken.
 
     Points touch in whole pixels, more of them than the true area has. What stands out over the
     perimeter S is taken off (Yastrebov, Anciaux and Molinari, Tribology International 114 (2017)
@@ -106,19 +95,19 @@ def contact(
     by 1.6, 1.6 and 0.2 % at 5. At 2.5 single maps scatter by 2 % at 0.1 and more below. Energies
     and gaps are right to 0.3 % at 5 pixels, and to 1 % (0.7: 3 %) at 2.5 from 0.1 on.
 
-    512^2 points take 1.6 s at p / (E* h') = 0.005 and 12 s at 0.5, 1024^2 points 9 s and 100 s, and
-    120 bytes each, in tamaas. A `mirrored` map has four times the points of its scan.
+    512^2 points take 0.1 to 0.2 s, 1024^2 points 0.6 to 1.2 s. A `mirrored` map has four times the
+    points of its scan.
 
     Raises
     ------
     InvalidInput
-        For a map with drop-outs, below 16 points along a side, flat, or periodic of
-        an odd number of rows; for loads that are not positive numbers.
+        For a map with drop-outs, below 16 points along a side, or flat; for loads that are not
+        positive numbers.
     NotConverged
         Names the load and the error that was reached.
     """
     loads = _loads(p_over_Eh)
-    _check(surface, periodic)
+    _check(surface)
     solved = surface if periodic else mirrored(surface)
     dy, dx = solved.pixel_size
     heights = np.array(solved.heights, dtype=np.float64, order="C")
@@ -128,78 +117,31 @@ def contact(
     if not 0 < slope < math.inf:
         raise InvalidInput(f"surface has an rms slope of {slope:.3g}: must have roughness")
 
-    press = _with_tamaas if (tamaas := _tamaas()) else _with_slide
-    pressed = press(tamaas, HeightMap(heights, pixel_size=(dy, dx)), slope)
+    level = HeightMap(heights, pixel_size=(dy, dx))
     rows = []
     with progress([slice(i, i + 1) for i in range(loads.size)]) as shown:
         for chunk in shown:
             (load,) = loads[chunk]
             full = load + lowest / slope >= 0
-            rows.append((1.0, 1.0, 0.0, energy) if full else pressed(float(load)))
+            rows.append((1.0, 1.0, 0.0, energy) if full else _pressed(level, float(load) * slope))
     raw, area, gap, work = np.array(rows).T
     return Contacts(loads, raw, area, gap, work, slope)
 
 
-def _with_tamaas(tamaas: Any, surface: HeightMap, slope: float) -> _Pressed:
-    """Return what gives raw area, area, mean gap and energy at a load.
-
-    In units of dx along the surface, of h' dx along its heights and of E* h' for pressures, no
-    number is large or small.
-    """
-    (ny, nx), (dy, dx) = surface.heights.shape, surface.pixel_size
-    height_unit = slope * dx
-    with _quiet(tamaas):
-        model = tamaas.ModelFactory.createModel(
-            tamaas.model_type.basic_2d, [ny * dy / dx, float(nx)], [ny, nx]
-        )
-        model.E, model.nu = 1.0, 0.0
-        scaled = surface.heights / height_unit
-        solver = tamaas.PolonskyKeerRey(model, scaled, _TOLERANCE)
-        solver.max_iter = _CHUNK
-
-    def pressed(load: float) -> tuple[float, float, float, float]:
-        with _quiet(tamaas):
-            _solve(solver, load)
-        pressure, moved = np.asarray(model.traction), np.asarray(model.displacement)
-        touching = pressure > 0
-        # where points touch, the gap is what the iteration left: none
-        gap = float(np.where(touching, 0.0, moved - scaled).mean()) * height_unit
-        work = float((pressure * (moved - moved.mean())).mean()) / 2 * slope * height_unit
-        raw = float(touching.mean())
-        return raw, raw - _EXCESS * _edges(touching) / touching.size, gap, work
-
-    return pressed
-
-
-def _with_slide(_: Any, surface: HeightMap, slope: float) -> _Pressed:
-    """Return the same without tamaas: a velocity of 0 is elastic."""
+def _pressed(surface: HeightMap, pressure: float) -> tuple[float, float, float, float]:
+    """Raw area, area, mean gap and energy at a pressure [E*]: a velocity of 0 is elastic."""
     solid = PronySeries(equilibrium_modulus=1.0, moduli=[], relaxation_times=[])
-
-    def pressed(load: float) -> tuple[float, float, float, float]:
-        found = slide(
-            surface,
-            solid,
-            pressure=load * slope,
-            velocity=0.0,
-            poisson_ratio=0.0,
-            periodic=True,
-            rtol=_TOLERANCE,
-        )
-        gap = float(found.gap.mean())
-        return found.contact_area_raw, found.contact_area, gap, found.elastic_energy
-
-    return pressed
-
-
-def _tamaas() -> Any:
-    """Return the package, or None where it is not installed."""
-    try:
-        import tamaas
-    except ModuleNotFoundError as error:
-        if error.name != "tamaas":
-            raise
-        return None
-    return tamaas
+    contact = slide(
+        surface,
+        solid,
+        pressure=pressure,
+        velocity=0.0,
+        poisson_ratio=0.0,
+        periodic=True,
+        rtol=_TOLERANCE,
+    )
+    gap = float(contact.gap.mean())
+    return contact.contact_area_raw, contact.contact_area, gap, contact.elastic_energy
 
 
 def _loads(p_over_Eh: Sequence[float]) -> _Array:
@@ -215,7 +157,7 @@ def _loads(p_over_Eh: Sequence[float]) -> _Array:
     return loads
 
 
-def _check(surface: HeightMap, periodic: bool) -> None:
+def _check(surface: HeightMap) -> None:
     ny, nx = surface.heights.shape
     if min(ny, nx) < _FEWEST:
         raise InvalidInput(
@@ -226,11 +168,6 @@ def _check(surface: HeightMap, periodic: bool) -> None:
         raise InvalidInput(
             f"surface has {surface.dropout_fraction:.3g} of its points dropped out: must have "
             "none, see fill_dropouts"
-        )
-    if periodic and ny % 2:
-        # tamaas 2.9.0 takes the finest waves along the first axis for 1/ny shorter than they are
-        raise InvalidInput(
-            f"surface has {ny} rows: must have an even number to be solved as periodic"
         )
 
 
@@ -245,31 +182,3 @@ def _full_contact(heights: _Array, pixel_size: tuple[float, float]) -> tuple[flo
     pressure = np.fft.irfft2(modes * q / 2, s=heights.shape)
     slope = math.sqrt(np.mean(heights * np.fft.irfft2(modes * q**2, s=heights.shape)))
     return slope, float(pressure.min()), float(np.mean(pressure * heights)) / 2
-
-
-def _edges(touching: NDArray[np.bool_]) -> int:
-    """Sides that pixels in contact share with pixels that are not, periodic like the map."""
-    return sum(int(np.count_nonzero(touching != np.roll(touching, 1, axis))) for axis in range(2))
-
-
-def _solve(solver: Any, load: float) -> None:
-    error = math.inf
-    for _ in range(_ITERATIONS // _CHUNK):
-        error = solver.solve(load)
-        if error <= _TOLERANCE:
-            return
-    raise NotConverged(
-        f"p_over_Eh = {load:g}: boundary elements reached an error of {error:.2g} in {_ITERATIONS} "
-        f"iterations: must be {_TOLERANCE:g}"
-    )
-
-
-@contextmanager
-def _quiet(tamaas: Any) -> Iterator[None]:
-    """Iterations are not printed, and the level is the caller's again afterwards."""
-    level = tamaas.get_log_level()
-    tamaas.set_log_level(tamaas.LogLevel.error)
-    try:
-        yield
-    finally:
-        tamaas.set_log_level(level)

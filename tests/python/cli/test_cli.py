@@ -177,7 +177,7 @@ def test_without_tqdm_there_is_no_bar(
 def test_extras_are_those_of_the_readme() -> None:
     text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
     extras = tomllib.loads(text)["project"]["optional-dependencies"]
-    for_users = {"plot", "io", "tables", "bem", "sweep", "mpi", "app", "all"}
+    for_users = {"plot", "io", "tables", "sweep", "mpi", "app", "all"}
     assert set(extras) == for_users | {"docs", "test", "browser"}
     assert [name.partition(">")[0] for name in extras["all"]] == [
         "asperity[plot,tables,io,sweep,app]",

@@ -1,7 +1,6 @@
 """`asperity validate --surface`: theory and boundary elements on a map of one's own."""
 
 import csv
-import sys
 
 import numpy as np
 import pytest
@@ -16,15 +15,8 @@ SIDE = 256
 PIXEL = 8 * 2 * np.pi / SURFACE.q0 / SIDE  # eight longest waves along a side, 32 pixels each
 
 
-def wanted(what, reason):
-    """Where CI runs the solver it must be there; elsewhere it may be missing."""
-    if sys.platform != "linux":
-        pytest.importorskip(what, reason=reason)
-
-
 @pytest.fixture(scope="module")
 def scan(tmp_path_factory):
-    wanted("tamaas", "boundary elements need asperity[bem]")
     path = tmp_path_factory.mktemp("surface") / "scan.npy"
     pixels = (SIDE, SIDE)
     np.save(path, asperity.synthesize(SURFACE, shape=pixels, pixel_size=PIXEL, seed=6).heights)
@@ -57,7 +49,6 @@ def test_a_run_on_a_map_of_ones_own(undrawn, scan, tmp_path, loads):
 
 
 def test_the_theory_is_told_the_slope_and_energy_of_the_maps_own_modes():
-    wanted("tamaas", "boundary elements need asperity[bem]")
     surface = asperity.synthesize(SURFACE, shape=(64, 64), pixel_size=PIXEL, seed=6)
     (full,), _ = own_contacts(surface, "map", loads=[50.0], periodic=True)
     q = 2 * np.pi * np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(64, PIXEL)]))
@@ -80,7 +71,6 @@ def test_without_the_wavenumber_of_the_asperities_their_models_are_left_out(
 
 
 def test_patches_of_few_pixels_are_said(undrawn, tmp_path, capsys):
-    wanted("tamaas", "boundary elements need asperity[bem]")
     np.save(tmp_path / "rough.npy", np.random.default_rng(1).normal(size=(32, 32)))
     more = ["--loads", "0.02", "--output", str(tmp_path / "worth")]
     path = tmp_path / "rough.npy"
@@ -88,18 +78,6 @@ def test_patches_of_few_pixels_are_said(undrawn, tmp_path, capsys):
         main(["validate", "--surface", str(path), "--pixel-size", "1", "--unit", "m", *more]) == 0
     )
     assert "note: at p* up to 0.02 the points touch in patches" in capsys.readouterr().err
-
-
-def test_without_tamaas_the_same_contacts_are_found(undrawn, scan, tmp_path, monkeypatch):
-    more = ["--periodic", "--loads", "0.02,0.2"]
-    assert main(arguments(scan, *more, "--output", str(tmp_path / "with"))) == 0
-    monkeypatch.setitem(sys.modules, "tamaas", None)
-    assert main(arguments(scan, *more, "--output", str(tmp_path / "without"))) == 0
-    for row, other in zip(
-        *(rows(tmp_path / name / "errors.csv") for name in ("with", "without")), strict=True
-    ):
-        for name in ("contact_area_exact", "energy_exact_j_per_m2"):
-            assert float(row[name]) == pytest.approx(float(other[name]), rel=1e-6)
 
 
 BAD = {
