@@ -28,6 +28,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "command_line",
     "scene_keys",
+    "codes",
 ]
 exclude_patterns = ["_build", "examples/README.rst", "examples/*.py", "benchmarks/*.md"]
 suppress_warnings = ["config.cache"]

@@ -1,11 +1,11 @@
 # The compiled core, private to the package. What stands above it has types of its own.
 from typing import Any
 
-__version__: str
+from asperity.base.diagnostics import Error as Error
+from asperity.base.diagnostics import InvalidInput as InvalidInput
+from asperity.base.diagnostics import NotConverged as NotConverged
+from asperity.base.diagnostics import OutOfRange as OutOfRange
 
-class Error(Exception): ...
-class InvalidInput(Error, ValueError): ...
-class OutOfRange(Error): ...
-class NotConverged(Error): ...
+__version__: str
 
 def __getattr__(name: str) -> Any: ...

@@ -11,15 +11,15 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Vector,
-    brief,
     broadcast,
     choice,
     covariance_matrix,
     frozen,
+    notes_of,
     number,
     real_array,
-    sentences,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import SHEAR_STRESS, VELOCITY
 from asperity.base.table import Column, Columns, Table
@@ -68,7 +68,7 @@ def adhesion_core(adhesion: Adhesion | None) -> Any:
     if adhesion is None:
         return None
     if not isinstance(adhesion, Adhesion):
-        raise InvalidInput(f"adhesion = {brief(adhesion)}: must be an Adhesion or None")
+        raise refusal("adhesion", adhesion, "an Adhesion or None")
     return adhesion._core
 
 
@@ -86,7 +86,7 @@ class AdhesionFit(Adhesion, Table):
         Robust standard deviation of ln(mu / fit) [-].
     outliers : ndarray of bool
         Points put aside, in the shape of mu: more than 4.685 residuals off the fit.
-    notes : tuple of str
+    notes : tuple of Note
         What a reader must know.
     """
 
@@ -95,7 +95,7 @@ class AdhesionFit(Adhesion, Table):
     covariance: Vector
     residual: float
     outliers: Vector
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         plain = self.adhesion
@@ -105,7 +105,7 @@ class AdhesionFit(Adhesion, Table):
             covariance=covariance_matrix(self.covariance),
             residual=number(self.residual, "residual"),
             outliers=frozen(real_array(self.outliers, "outliers").astype(bool)),
-            notes=sentences(self.notes, "notes"),
+            notes=notes_of(self.notes, "notes"),
         )
 
     @property
@@ -222,8 +222,10 @@ def fit_adhesion(
     measured = real_array(mu, "mu")
     if measured.shape != shape:
         raise InvalidInput(
-            f"mu has shape {measured.shape}: must be that of pressure and velocity together, "
-            f"{shape}"
+            Argument("mu"),
+            f" has shape {measured.shape}",
+            MUST_BE,
+            f"that of pressure and velocity together, {shape}",
         )
     held = _held(fixed)
     parameters, covariance, residual, outliers, notes = _core.fit_adhesion(
@@ -247,7 +249,7 @@ def _held(fixed: Any) -> dict[str, float]:
     if fixed is None:
         return {}
     if not isinstance(fixed, Mapping):
-        raise InvalidInput(f"fixed = {brief(fixed)}: must be a dict")
+        raise refusal("fixed", fixed, "a dict")
     for name in fixed:
         choice(name, "fixed", PARAMETERS)
     return {name: number(value, f"fixed: {name}") for name, value in fixed.items()}

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
-    brief,
     broadcast,
     choice,
     number,
@@ -18,6 +17,7 @@ from asperity.base.arguments import (
     real_array,
     shaped,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, refusal
 from asperity.correction import CORRECTIONS, Correction
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
@@ -43,7 +43,7 @@ def contact_model(
     """Return how the contact is computed, as the core takes it."""
     if correction is not None and not isinstance(correction, CORRECTIONS):
         names = ", ".join(kind.__name__ for kind in CORRECTIONS)
-        raise InvalidInput(f"correction = {brief(correction)}: must be None or one of {names}")
+        raise refusal("correction", correction, f"None or one of {names}")
     return (
         number(poisson_ratio, "poisson_ratio"),
         None if correction is None else correction._core,
@@ -179,15 +179,17 @@ def contact_notes(
     form: Form = "exact",
     rtol: float = 1e-6,
     method: Method = "gauss",
-) -> tuple[str, ...]:
-    """Return sentences that say where the theory or its input leaves its range.
+) -> tuple[Note, ...]:
+    """Return notes that say where the theory or its input leaves its range.
 
     They are those that `friction` returns as notes, for who asks for the contact area alone.
     Arguments are those of `contact_area`.
     """
     _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     model = contact_model(poisson_ratio, correction, form, rtol, method)
-    notes: tuple[str, ...] = _core.contact_notes(*surface_and_rubber(spectrum, rubber), model, p, v)
+    notes: tuple[Note, ...] = _core.contact_notes(
+        *surface_and_rubber(spectrum, rubber), model, p, v
+    )
     return notes
 
 
@@ -247,8 +249,10 @@ def _over_wavenumber(
     if wavenumber is not None:
         q = real_array(wavenumber, "wavenumber")
         if q.ndim > 1:
-            raise InvalidInput(f"wavenumber has {q.ndim} dimensions: must have 0 or 1")
+            raise InvalidInput(
+                Argument("wavenumber"), f" has {q.ndim} dimensions", Must(": must have "), "0 or 1"
+            )
         if not q.size:
-            raise InvalidInput("wavenumber has 0 entries: must be 1 or more")
+            raise InvalidInput(Argument("wavenumber"), " has 0 entries", MUST_BE, "1 or more")
         shape += q.shape
     return shaped(function(*surface_and_rubber(spectrum, rubber), model, p, v, q), shape)

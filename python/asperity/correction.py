@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number, number_or_none, vector
+from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
 from asperity.base.value import CoreValue, Value, value
@@ -251,7 +252,7 @@ class GreenwoodWilliamson(Value):
         peaks = np.empty(0) if self.peaks is None else vector(self.peaks, "peaks")
         if self.peaks is not None:
             if not peaks.size:
-                raise InvalidInput("peaks has 0 entries: must be 3 or more")
+                raise InvalidInput(Argument("peaks"), " has 0 entries", MUST_BE, "3 or more")
             self._set(peaks=peaks)
         self._set(
             z_max=number(self.z_max, "z_max"),
@@ -316,7 +317,9 @@ class PeaksThenGreenwoodWilliamson(Value):
         if self.z_min is not None:
             z_min = number(self.z_min, "z_min")
         if z_min is None:
-            raise InvalidInput("z_min: must be given where heights_or_map is no HeightMap")
+            raise InvalidInput(
+                Argument("z_min"), MUST_BE, "given where heights_or_map is no HeightMap"
+            )
         self._set(
             heights=heights,
             z_max=z_max,
@@ -350,20 +353,30 @@ def _profile(given: Any) -> tuple[Array, float, float | None]:
     if isinstance(source, HeightMap):
         if given.min_distance is None:
             raise InvalidInput(
-                "min_distance: must be given with a HeightMap, for instance 2 pi / q0 [m]"
+                Argument("min_distance"),
+                MUST_BE,
+                "given with a HeightMap, for instance 2 pi / q0 [m]",
             )
         heights = source.local_peaks(min_distance=given.min_distance)
         heights.setflags(write=False)
         if len(heights) < 3:
             raise InvalidInput(
-                f"min_distance = {given.min_distance!r}: leaves {len(heights)} peaks on this map, "
-                "must leave 3 or more"
+                Argument("min_distance"),
+                " = ",
+                valued(given.min_distance, f"{given.min_distance!r}"),
+                f": leaves {len(heights)} peaks on this map",
+                Must(", must leave "),
+                "3 or more",
             )
         return heights, source.z_max if z_max is None else z_max, source.z_min
     heights = vector(source, "heights_or_map")
     if given.min_distance is not None:
-        raise InvalidInput("min_distance: only goes with a HeightMap, these are the peaks' heights")
+        raise InvalidInput(
+            Argument("min_distance"), ": only goes with a HeightMap, these are the peaks' heights"
+        )
     if len(heights) < 3:
-        raise InvalidInput(f"heights_or_map has {len(heights)} entries: must be 3 or more")
+        raise InvalidInput(
+            Argument("heights_or_map"), f" has {len(heights)} entries", MUST_BE, "3 or more"
+        )
     given._set(heights_or_map=heights)
     return heights, float(heights.max()) if z_max is None else z_max, None

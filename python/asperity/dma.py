@@ -14,17 +14,17 @@ from asperity.base.arguments import (
     Given,
     OptionalVector,
     Vector,
-    brief,
     flag,
     frozen,
     many,
+    notes_of,
     number,
     of_kind,
     quoted,
     real_array,
-    sentences,
     vector,
 )
+from asperity.base.diagnostics import Argument, Note, refusal, valued
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.rubber import Extrapolation, MasterCurve, extrapolation_number
@@ -36,7 +36,7 @@ REDUCED = "Reduced frequency $a_T\\, \\omega$ [rad/s]"
 
 def _require_length(array: NDArray[Any], name: str, length: int) -> None:
     if array.size != length:
-        raise InvalidInput(f"{name} has {array.size} entries; it must have {length}")
+        raise InvalidInput(Argument(name), f" has {array.size} entries; it must have {length}")
 
 
 @value
@@ -64,7 +64,7 @@ class MasterPoints(Table):
             _require_length(getattr(self, name), name, self.angular_frequency.size)
         origin = self.isotherm
         if not np.all((origin >= 0) & (origin < 2**53) & (origin == np.floor(origin))):
-            raise InvalidInput(f"isotherm = {brief(origin)}: must be whole numbers, 0 or more")
+            raise refusal("isotherm", origin, "whole numbers, 0 or more")
         self._set(isotherm=frozen(origin.astype(np.int64)))
 
     def _columns(self) -> Columns:
@@ -95,7 +95,7 @@ class MasterCurveBuild(HasShiftFactors):
         Root mean square of ln E' and ln E'' about the master spline [-].
     covariance : array_like, shape (n, n), optional
         That of log10_a_T [-], zero at the isotherm nearest to T_ref.
-    notes : tuple of str
+    notes : tuple of Note
         What a reader must know: averaged points, small overlaps, undetermined shifts, outliers, and
         what the other vertical shift would do.
     """
@@ -106,7 +106,7 @@ class MasterCurveBuild(HasShiftFactors):
     points: MasterPoints
     residual: float
     covariance: OptionalVector = ABSENT
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         self._set(
@@ -115,7 +115,7 @@ class MasterCurveBuild(HasShiftFactors):
             b_T=vector(self.b_T, "b_T"),
             points=of_kind(self.points, "points", MasterPoints),
             residual=number(self.residual, "residual"),
-            notes=sentences(self.notes, "notes"),
+            notes=notes_of(self.notes, "notes"),
         )
         n = self.temperature.size
         _require_length(self.b_T, "b_T", n)
@@ -126,7 +126,9 @@ class MasterCurveBuild(HasShiftFactors):
             covariance = np.array(real_array(self.covariance, "covariance"))
             if covariance.shape != (n, n) or not np.isfinite(covariance).all():
                 problem = f"must be finite, of shape ({n}, {n})"
-                raise InvalidInput(f"covariance = {brief(covariance)}: {problem}")
+                raise InvalidInput(
+                    Argument("covariance"), " = ", valued(covariance), f": {problem}"
+                )
             self._set(covariance=frozen(covariance))
         self._set(_core=self.shift_factors._core)
 
@@ -235,7 +237,12 @@ def build_master_curve(
     if isinstance(vertical_shift, str):
         if vertical_shift != "T/T_ref":
             allowed = 'must be None, "T/T_ref" or an array of b_T'
-            raise InvalidInput(f"vertical_shift = {quoted(vertical_shift)}: {allowed}")
+            raise InvalidInput(
+                Argument("vertical_shift"),
+                " = ",
+                valued(vertical_shift, quoted(vertical_shift)),
+                f": {allowed}",
+            )
         kind = 1
     elif vertical_shift is not None:
         kind, table = 2, vector(vertical_shift, "vertical_shift")
@@ -274,7 +281,7 @@ def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
     shifts move what was measured, and a draw is to answer wherever the build's curve does.
     """
     if build.covariance is None:
-        raise InvalidInput("build: has no covariance to draw from")
+        raise InvalidInput(Argument("build"), ": has no covariance to draw from")
     parts = _core.draw_master_curve(
         build.master_curve._core,
         build.shift_factors._core,

@@ -12,7 +12,6 @@ from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import (
     MOST_THREADS,
     Shape,
-    brief,
     broadcast,
     choice,
     flag,
@@ -20,11 +19,12 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
+from asperity.base.diagnostics import Argument, valued
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.heating import Heating
 from asperity.results.friction import COLUMNS, Friction
-from asperity.results.heat_notes import NotesWithHeat, law_notes
+from asperity.results.heat_notes import law_notes
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.spectrum import Spectrum
@@ -144,38 +144,21 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
     points = (*parts, model, added, p, v, told, count, shifted_by, t)
     if heating is None:
         if which:
-            raise InvalidInput('branch = "hot": needs heating=, without which there is one')
-        result = _made(_core.friction(*points), shape)
-        if law is None:
-            return result
-
-        def heated_at(i: int, heat: Heating) -> Friction:
-            return friction(
-                spectrum,
-                rubber,
-                pressure=np.ravel(p)[i],
-                velocity=np.ravel(v)[i],
-                poisson_ratio=poisson_ratio,
-                correction=correction,
-                adhesion=adhesion,
-                form=form,
-                rtol=ROUGHLY,
-                temperature=law.reference_temperature if t is None else np.ravel(t)[i],
-                shift=law,
-                heating=heat,
+            raise InvalidInput(
+                Argument("branch"),
+                " = ",
+                valued("hot", '"hot"'),
+                ": needs heating=, without which there is one",
             )
-
-        more: dict[str, Any] = {}
-        beyond: tuple[str, ...] = ()
-        if t is not None:
-            more["temperature"] = _shaped(t, shape)
-            beyond = law_notes(law, t)
-        sized = NotesWithHeat(result.notes, v, added is not None, heated_at, beyond)
-        return _with(result, **more, notes=sized)
+        result = _made(_core.friction(*points), shape)
+        if t is None:
+            return result
+        notes = (*result.notes, *law_notes(law, t))
+        return _with(result, temperature=_shaped(t, shape), notes=notes)
     core = of_kind(heating, "heating", Heating)._core
     if t is None:
         raise InvalidInput(
-            "heating: needs temperature= and shift=, from which the rubber is heated"
+            Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"
         )
     hot, cold, hottest, area, gain, branches, profile = _core.flash_friction(*points, core, which)
     without = _made(cold, shape)
@@ -229,6 +212,13 @@ def _check_temperature(
     temperature: ArrayLike | None, shift: TemperatureShift | None, law: TemperatureShift | None
 ) -> None:
     if temperature is None and shift is not None:
-        raise InvalidInput(f"shift = {brief(shift)}: needs temperature=, at which to take a_T")
+        raise InvalidInput(
+            Argument("shift"), " = ", valued(shift), ": needs temperature=, at which to take a_T"
+        )
     if temperature is not None and law is None:
-        raise InvalidInput(f"temperature = {brief(temperature)}: needs shift=, which gives a_T(T)")
+        raise InvalidInput(
+            Argument("temperature"),
+            " = ",
+            valued(temperature),
+            ": needs shift=, which gives a_T(T)",
+        )

@@ -11,7 +11,6 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Vector,
-    brief,
     choice,
     frozen,
     number,
@@ -21,6 +20,7 @@ from asperity.base.arguments import (
     vector,
     whole,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
@@ -45,7 +45,10 @@ def _map(surface: Any) -> Any:
     """Return the core's object of a map."""
     if isinstance(surface, LineScan):
         raise InvalidInput(
-            "surface = a LineScan: must be a HeightMap; line_spectrum takes line scans"
+            Argument("surface"),
+            " = a LineScan",
+            MUST_BE,
+            "a HeightMap; line_spectrum takes line scans",
         )
     return of_kind(surface, "surface", HeightMap)._core
 
@@ -134,7 +137,7 @@ def power_spectrum(
     side = choice(part, "part", PARTS)
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
-            raise InvalidInput(f'part = "{part}": must be "all" by tiles')
+            raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')
         return power_spectrum_of(
             source_of(surface, pixel_size),
             window=window,
@@ -152,7 +155,9 @@ def power_spectrum(
         ("executor", executor),
     ):
         if unused is not None:
-            raise InvalidInput(f"{name}: goes with tiles, or with an array instead of a HeightMap")
+            raise InvalidInput(
+                Argument(name), ": goes with tiles, or with an array instead of a HeightMap"
+            )
     return around(TabulatedSpectrum, _core.power_spectrum(_map(surface), *how, several, side))
 
 
@@ -206,7 +211,7 @@ class SpectralDensity(Table):
         density = np.array(real_array(self.density, "density"), order="C")
         if density.shape != (q_y.size, q_x.size):
             allowed = f"must have {(q_y.size, q_x.size)}, as the wavenumbers have"
-            raise InvalidInput(f"density has shape {density.shape}: {allowed}")
+            raise InvalidInput(Argument("density"), f" has shape {density.shape}: {allowed}")
         self._set(wavenumber_y=q_y, wavenumber_x=q_x, density=frozen(density))
 
     def _columns(self) -> Columns:
@@ -399,7 +404,7 @@ def merge_spectra(
         have counts and others have none.
     """
     if not isinstance(spectra, Iterable):
-        raise InvalidInput(f"spectra = {brief(spectra)}: must be an iterable of TabulatedSpectrum")
+        raise refusal("spectra", spectra, "an iterable of TabulatedSpectrum")
     cores = [of_kind(s, f"spectra[{i}]", TabulatedSpectrum)._core for i, s in enumerate(spectra)]
     merged = _core.merge_spectra(cores, number_or_none(per_decade, "per_decade"))
     return around(TabulatedSpectrum, merged)

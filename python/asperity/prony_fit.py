@@ -12,11 +12,12 @@ from asperity.base.arguments import (
     Vector,
     choice,
     flag,
+    notes_of,
     number,
     number_or_none,
     of_kind,
-    sentences,
 )
+from asperity.base.diagnostics import Note
 from asperity.base.table import Columns
 from asperity.base.value import value
 from asperity.dma import MasterCurveBuild
@@ -49,7 +50,7 @@ class PronyFit(PronySeries):
     extrapolation : {None, "prony"}
         "prony": the series may be asked beyond them. What comes from there is then counted by the
         `extrapolated_share` of a result, whose notes say so.
-    notes : tuple of str
+    notes : tuple of Note
         What a reader must know.
     shift_factors : ShiftFactors, optional
         Those of the master curve that it was fitted to, which `friction` takes at a temperature.
@@ -63,7 +64,7 @@ class PronyFit(PronySeries):
     lowest_frequency: float
     highest_frequency: float
     extrapolation: PronyExtrapolation | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
@@ -80,7 +81,7 @@ class PronyFit(PronySeries):
             storage_residual=number(self.storage_residual, "storage_residual"),
             loss_residual=number(self.loss_residual, "loss_residual"),
             causal=flag(self.causal, "causal"),
-            notes=sentences(self.notes, "notes"),
+            notes=notes_of(self.notes, "notes"),
         )
         if self.shift_factors is not None:
             self._set(shift_factors=shift_factors_of(self.shift_factors))

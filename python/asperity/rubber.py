@@ -24,6 +24,7 @@ from asperity.base.arguments import (
     shaped,
     vector,
 )
+from asperity.base.diagnostics import Argument
 from asperity.base.parameters import parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
@@ -243,7 +244,7 @@ class MasterCurve(_HasModulus):
         known = self.shift_factors if shift_factors is None else shift_factors_of(shift_factors)
         if known is None:
             problem = "is missing; the curve does not know at which temperature it holds"
-            raise InvalidInput(f"shift_factors: {problem}")
+            raise InvalidInput(Argument("shift_factors"), f": {problem}")
         given = [sweep._core for sweep in many(sweeps, "sweeps", StrainSweep)]
         core, notes = _core.at_strain(self._core, known._core, size, given)
         for note in notes:

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, brief, frozen, number, of_kind, path_of
+from asperity.base.arguments import Array, frozen, number, of_kind, path_of
+from asperity.base.diagnostics import MUST_BE, Argument, valued
 from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
@@ -152,7 +153,7 @@ class ScanContact(Value):
         named = isinstance(self.periodic, str) and self.periodic in _PLACE
         if not named and self.periodic is not True:
             allowed = 'must be "blend", "mirror" or True'
-            raise InvalidInput(f"periodic = {brief(self.periodic)}: {allowed}")
+            raise InvalidInput(Argument("periodic"), " = ", valued(self.periodic), f": {allowed}")
         core = of_kind(self.height_map, "height_map", HeightMap)._core
         self._set(tolerance=number(self.tolerance, "tolerance"))
         self._set(_core=_core.ScanContact(core, _PLACE[self.periodic], self.tolerance))
@@ -192,9 +193,9 @@ class ScanContact(Value):
             made._core.add(_rows(saved["contacts"]))
             return made
         except OSError as error:
-            raise InvalidInput(f"{file}: cannot be read: {error.strerror or error}") from error
+            raise InvalidInput(f"cannot be read: {error.strerror or error}", where=file) from error
         except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, zlib.error) as error:
-            raise InvalidInput(f"{file}: is no saved ScanContact: {error}") from error
+            raise InvalidInput(f"is no saved ScanContact: {error}", where=file) from error
 
     def _summary(self) -> dict[str, Any]:
         shape = {"shape": self.height_map.heights.shape, "periodic": self.periodic}
@@ -214,5 +215,7 @@ def _with_contacts(arguments: Mapping[str, Any], contacts: ArrayLike) -> ScanCon
 def _rows(contacts: ArrayLike) -> Array:
     rows = np.asarray(contacts, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
-        raise InvalidInput(f"contacts has the shape {rows.shape}: must be (n, {len(COLUMNS)})")
+        raise InvalidInput(
+            Argument("contacts"), f" has the shape {rows.shape}", MUST_BE, f"(n, {len(COLUMNS)})"
+        )
     return rows

@@ -8,11 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Array,
     Given,
-    brief,
     choice,
     covariance_matrix,
     frozen,
@@ -21,6 +19,7 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
+from asperity.base.diagnostics import refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
@@ -203,7 +202,7 @@ def synthesize(
     try:
         ny, nx = shape
     except (TypeError, ValueError):
-        raise InvalidInput(f"shape = {brief(shape)}: must be two whole numbers (ny, nx)") from None
+        raise refusal("shape", shape, "two whole numbers (ny, nx)") from None
     grid = whole(ny, "shape"), whole(nx, "shape")
     start = whole(seed, "seed", highest=2**64 - 1)
     options = pixel_sizes(pixel_size), start, number(skewness, "skewness")

@@ -21,6 +21,7 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import DECADES, TEMPERATURE
 from asperity.base.table import Column, Columns, Table
@@ -40,7 +41,7 @@ class _Errors:
 
     def __set__(self, instance: object, given: Mapping[str, float]) -> None:
         if not isinstance(given, Mapping) or not all(isinstance(name, str) for name in given):
-            raise InvalidInput(f"{self.name} = {brief(given)}: must be a dict of numbers")
+            raise InvalidInput(f"{self.name} = {brief(given)}", MUST_BE, "a dict of numbers")
         checked = {
             name: number(error, f"{self.name}[{brief(name)}]") for name, error in given.items()
         }
@@ -73,11 +74,13 @@ class _FittedLaw(_Law):
         lowest, highest = (number_or_none(getattr(self, name), name) for name in ends)
         if (lowest is None) != (highest is None):
             given, missing = ends if highest is None else ends[::-1]
-            raise InvalidInput(f"{missing}: must be given where {given} is")
+            raise InvalidInput(Argument(missing), MUST_BE, f"given where {given} is")
         if lowest is not None and highest is not None and not 0 < lowest < highest:
-            raise InvalidInput(
-                f"lowest_temperature = {lowest:g}: must be positive and below "
-                f"highest_temperature = {highest:g}"
+            raise refusal(
+                "lowest_temperature",
+                lowest,
+                f"positive and below highest_temperature = {highest:g}",
+                text=f"{lowest:g}",
             )
         self._set(lowest_temperature=lowest, highest_temperature=highest)
 
@@ -319,7 +322,7 @@ def shift_factors_of(found: Any) -> ShiftFactors:
     if isinstance(found, HasShiftFactors):
         return found.shift_factors  # type: ignore[attr-defined, no-any-return]
     allowed = "must be a ShiftFactors or what build_master_curve returned"
-    raise InvalidInput(f"shift_factors = {brief(found)}: {allowed}")
+    raise InvalidInput(Argument("shift_factors"), " = ", valued(found), f": {allowed}")
 
 
 TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors
@@ -332,7 +335,7 @@ def temperature_shift_core(found: Any) -> Any:
         if vertical is not None and np.any(vertical != 1):
             problem = "the modulus is shifted by a_T alone; give its shift_factors to leave b_T out"
             span = f"{vertical.min():.3g} to {vertical.max():.3g}"
-            raise InvalidInput(f"shift: its build has b_T from {span}, and {problem}")
+            raise InvalidInput(Argument("shift"), f": its build has b_T from {span}, and {problem}")
         return found._core
     kinds = "a WLF, a WlfFit, an ArrheniusFit, a ShiftFactors or what build_master_curve returned"
-    raise InvalidInput(f"shift = {brief(found)}: must be {kinds}")
+    raise refusal("shift", found, kinds)

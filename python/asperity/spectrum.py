@@ -15,7 +15,6 @@ from asperity.base.arguments import (
     Given,
     OptionalVector,
     Vector,
-    brief,
     frozen,
     number,
     number_or_none,
@@ -24,6 +23,7 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
@@ -198,7 +198,12 @@ class _Rows(Table):
         for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
-                raise InvalidInput(f"{name} has 0 entries: must have one for each wavenumber")
+                raise InvalidInput(
+                    Argument(name),
+                    " has 0 entries",
+                    Must(": must have "),
+                    "one for each wavenumber",
+                )
         self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
 
     @property
@@ -267,7 +272,7 @@ def _flags(found: Any) -> NDArray[np.uint8] | None:
     wrong = ~np.isin(given, range(8))
     if wrong.any():
         i = int(wrong.argmax())
-        raise InvalidInput(f"flag[{i}] = {given[i]}: must be a whole number from 0 to 7")
+        raise InvalidInput(f"flag[{i}] = {given[i]}", MUST_BE, "a whole number from 0 to 7")
     return frozen(given.astype(np.uint8))
 
 
@@ -277,7 +282,13 @@ def _correlation(found: Any) -> Array | None:
         return None
     given = np.array(real_array(found, "correlation"), order="C")
     if given.ndim != 2:
-        raise InvalidInput(f"correlation = {brief(given)}: must have two axes, rows and lags")
+        raise InvalidInput(
+            Argument("correlation"),
+            " = ",
+            valued(given),
+            Must(": must have "),
+            "two axes, rows and lags",
+        )
     return frozen(given)
 
 

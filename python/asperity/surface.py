@@ -14,7 +14,6 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Array,
     Given,
-    brief,
     choice,
     flag,
     frozen,
@@ -23,6 +22,7 @@ from asperity.base.arguments import (
     real_numbers,
     whole,
 )
+from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
 
@@ -51,7 +51,7 @@ def pixel_sizes(found: Any) -> tuple[float, float]:
     except TypeError:
         dy = dx = found
     except ValueError:
-        raise InvalidInput(f"pixel_size = {brief(found)}: must be a number or (dy, dx)") from None
+        raise refusal("pixel_size", found, "a number or (dy, dx)") from None
     return number(dy, "pixel_size"), number(dx, "pixel_size")
 
 
@@ -66,7 +66,9 @@ def _heights(found: Any, axes: str) -> NDArray[Any]:
     single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     array = array.astype(np.float32 if single else np.float64, copy=False)
     if array.ndim != axes.count("n"):
-        raise InvalidInput(f"heights has shape {array.shape}: must be of shape {axes}")
+        raise InvalidInput(
+            Argument("heights"), f" has shape {array.shape}", MUST_BE, f"of shape {axes}"
+        )
     if masked:
         array = np.where(found.mask, array.dtype.type(np.nan), array)
     packed = any(stride % array.itemsize for stride in array.strides)  # fields of packed records
@@ -310,7 +312,7 @@ class LineScan(_Surface):
     def __post_init__(self) -> None:
         spacing = number(self.spacing, "spacing")
         if not (isfinite(spacing) and spacing > 0):
-            raise InvalidInput(f"spacing = {spacing}: must be positive and finite")
+            raise refusal("spacing", spacing, "positive and finite", text=f"{spacing}")
         core = _core.LineScan(_heights(self.heights, "(n,)"), spacing)
         self._set(_core=core, heights=frozen(core.heights), spacing=spacing)
 

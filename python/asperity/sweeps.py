@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from asperity import _core
-from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, number, sentences, vector
+from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of, number, vector
+from asperity.base.diagnostics import Note
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 
@@ -60,7 +61,7 @@ class Isotherm(Table):
     ----------
     angular_frequency, storage_modulus, loss_modulus : ndarray
         The rows after averaging, in rising frequency.
-    notes : tuple of str
+    notes : tuple of Note
         What was done to the points.
 
     Raises
@@ -73,7 +74,7 @@ class Isotherm(Table):
     angular_frequency: Vector
     storage_modulus: Vector
     loss_modulus: Vector
-    notes: Given[Iterable[str] | None, tuple[str, ...]] = ABSENT
+    notes: Given[Iterable[str] | None, tuple[Note, ...]] = ABSENT
 
     def __post_init__(self) -> None:
         self._set(temperature=number(self.temperature, "temperature"))
@@ -81,7 +82,7 @@ class Isotherm(Table):
             vector(getattr(self, name), name)
             for name in ("angular_frequency", "storage_modulus", "loss_modulus")
         ]
-        notes = None if self.notes is None else sentences(self.notes, "notes")
+        notes = None if self.notes is None else notes_of(self.notes, "notes")
         core = _core.Isotherm(self.temperature, *rows, notes)
         self._set(
             _core=core,

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/errors.hpp"
 #include "asperity/watch.hpp"
 
 namespace asperity::python {
@@ -57,6 +58,8 @@ py::array computed(F f) {
   return array_of(released(f));
 }
 
-inline py::tuple tuple_of(const std::vector<std::string>& sentences) { return py::tuple(py::cast(sentences)); }
+/// Notes as those of the package, and back.
+py::tuple tuple_of(const std::vector<Diagnostic>& notes);
+std::vector<Diagnostic> notes_of(const py::iterable& notes);
 
 }  // namespace asperity::python

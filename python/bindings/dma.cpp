@@ -70,9 +70,9 @@ void bind_laws(py::module_& m) {
 void bind_sweeps(py::module_& m) {
   py::classh<Isotherm>(m, "Isotherm")
       .def(py::init([](double temperature, const Array& w, const Array& storage, const Array& loss,
-                       std::optional<std::vector<std::string>> notes) {
+                       const std::optional<py::tuple>& notes) {
         if (!notes) return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss));
-        return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss), std::move(*notes));
+        return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss), notes_of(*notes));
       }))
       .def("angular_frequency", [](const Isotherm& s) { return array_of(s.angular_frequency()); })
       .def("storage_modulus", [](const Isotherm& s) { return array_of(s.storage_modulus()); })

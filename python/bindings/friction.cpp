@@ -106,6 +106,9 @@ void bind_friction(py::module_& m) {
                             span_of(temperature));
     });
   });
+  m.def("extrapolation_notes", [](const Array& velocity, const Array& share) {
+    return tuple_of(extrapolation_notes(span_of(velocity), span_of(share)));
+  });
   m.def("fit_adhesion", &fit);
 }
 

@@ -37,9 +37,9 @@ ASPERITY_EXPORT std::vector<double> contact_area(const Spectrum& spectrum, const
                                                  std::span<const double> wavenumber = {});
 
 /// Where the theory or its input leaves its range at these pressures and velocities, in sentences.
-ASPERITY_EXPORT std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber,
-                                                       const ContactModel& model, std::span<const double> pressure,
-                                                       std::span<const double> velocity);
+ASPERITY_EXPORT std::vector<Diagnostic> contact_notes(const Spectrum& spectrum, const Rubber& rubber,
+                                                      const ContactModel& model, std::span<const double> pressure,
+                                                      std::span<const double> velocity);
 
 /// <sigma> = sigma0 A0 / A (Eq. 1) [Pa], arguments as for contact_area.
 ASPERITY_EXPORT std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber,

@@ -23,17 +23,17 @@ class ASPERITY_EXPORT Isotherm {
            const std::vector<double>& loss_modulus);
   /// Rows of an isotherm as they are, its notes with them: frequencies that rise, none averaged again.
   Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
-           std::vector<double> loss_modulus, std::vector<std::string> notes);
+           std::vector<double> loss_modulus, std::vector<Diagnostic> notes);
   [[nodiscard]] double temperature() const { return temperature_; }
   [[nodiscard]] const std::vector<double>& angular_frequency() const { return frequency_; }
   [[nodiscard]] const std::vector<double>& storage_modulus() const { return storage_; }
   [[nodiscard]] const std::vector<double>& loss_modulus() const { return loss_; }
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<Diagnostic>& notes() const { return notes_; }
 
  private:
   double temperature_;
   std::vector<double> frequency_, storage_, loss_;
-  std::vector<std::string> notes_;
+  std::vector<Diagnostic> notes_;
 };
 
 /// log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref), with standard errors.
@@ -134,7 +134,7 @@ struct MasterCurveBuild {
   std::vector<MasterPoint> points;  // in rising frequency
   double residual;                  // rms of ln E', ln E'' about the master spline
   std::vector<double> covariance;   // of log10 a_T, n rows of n: zero at the isotherm nearest to T_ref
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
 };
 
 /// Horizontal shifts on E' and E'' together: neighbours in pairs for a start, then all at once about one master spline,
@@ -159,7 +159,7 @@ struct PronyFit {
   double storage_residual, loss_residual;  // relative rms of E' and E'' [-]
   /// Prony series are causal: what no series can follow, noise apart, violates the Kramers-Kronig relations.
   bool causal;
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
 };
 /// Non-negative least squares with relative weights over relaxation times from one decade below to one above those of
 /// the measured range. The series is known on the frequencies of the rows, and OutOfRange beyond unless `extrapolated`.
@@ -185,7 +185,7 @@ class ASPERITY_EXPORT StrainSweep {
 
 struct LargeStrain {
   MasterCurve master_curve;
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
 };
 /// The master curve at a large strain: E' and E'' times their own ratios to 0.5 % strain, each sweep placed at
 /// a_T(T) w, interpolated in ln w, held beyond the first and the last sweep.

@@ -43,12 +43,16 @@ struct Friction {
   std::vector<double> extrapolated_share;    // of mu_H, from frequencies outside of the measured range
   std::vector<double> model_error;           // relative, of mu_H on exact sliding contacts; NaN where nothing is known
   std::vector<double> temperature;           // as given [K]; empty without
-  std::vector<std::string> notes;            // where the theory or its input leaves its range
+  std::vector<Diagnostic> notes;             // where the theory or its input leaves its range
   std::optional<Contributions> contributions;
 };
 
-/// Values of `extrapolated_share` from which on a note tells of it, and from which on that note is fatal.
+/// Values of `extrapolated_share` above which a note says so, and above which that note is fatal.
 inline constexpr double noted_extrapolation = 0.05, fatal_extrapolation = 0.5;
+
+/// These notes on points of any number, at which velocities [m/s] they hold.
+ASPERITY_EXPORT std::vector<Diagnostic> extrapolation_notes(std::span<const double> velocity,
+                                                            std::span<const double> share);
 
 /// The columns of Friction, in the order in which they are shown.
 inline constexpr std::vector<double> Friction::*friction_columns[] = {
@@ -134,7 +138,7 @@ struct AdhesionFit {
   std::array<double, 9> covariance;  // 3 x 3: shear_stress [Pa], reference_velocity [m/s], width [-]; 0 where held
   double residual;                   // robust standard deviation of ln(mu / fit) [-]
   std::vector<bool> outliers;        // an entry a point: put aside, more than 4.685 times `residual` off the fit
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
 };
 
 /// Robust least squares in ln mu: points scatter in proportion to mu. Hysteresis and area are those of `friction`.

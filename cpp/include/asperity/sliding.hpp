@@ -54,7 +54,7 @@ struct SlidingContact {
   double error;                     // <p (gap - least gap)> / (sigma0 h_rms)
   std::vector<double> pressure;     // [Pa], row by row
   std::vector<double> gap;          // [m]
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
 };
 
 /// Contact and friction of a map that slides steadily along `direction` (by default x, the second axis, towards larger

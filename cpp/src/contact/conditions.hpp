@@ -22,11 +22,12 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   const bool by_rule =
       std::holds_alternative<PartialContact>(model.correction) || std::holds_alternative<ScanContact>(model.correction);
   if (model.form != Form::exact && by_rule)
-    throw InvalidInput(
-        "form = interpolated: must be exact with PartialContact and ScanContact, whose rule has the exact A / A0 in "
-        "it");
+    throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
+                       "exact with PartialContact and ScanContact, whose rule has the exact A / A0 in it");
   require_same_size("velocity", velocity.size(), "pressure", pressure.size());
-  if (velocity.empty()) throw InvalidInput("pressure, velocity: have 0 entries, must have 1 or more");
+  if (velocity.empty())
+    throw InvalidInput(argument("pressure") + ", " + argument("velocity") + ": have 0 entries" + must(", must have ") +
+                       "1 or more");
   for (const double p : pressure) require_positive("pressure", p);
   for (const double v : velocity) require_positive("velocity", v);
 }
@@ -35,7 +36,8 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
 inline void check_gauss(Method method, const std::string& where) {
   constexpr std::array<const char*, 4> names{"gauss", "qag", "qags", "cquad"};
   if (method != Method::gauss)
-    throw InvalidInput(std::string("method = ") + names[static_cast<std::size_t>(method)] + ": must be gauss " + where);
+    throw InvalidInput(argument("method") + " = " + word(names[static_cast<std::size_t>(method)]) + must_be() +
+                       "gauss " + where);
 }
 
 /// Whether products of a number keep all their digits.
@@ -44,8 +46,8 @@ inline bool tellable(double value) { return value >= 1e-280 && value <= 1e280; }
 /// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
 inline void check_g(double g, double pressure) {
   if (!(g >= 1e-280 && g <= 1e180))  // its square and its root are doubles too
-    throw InvalidInput("pressure = " + show(pressure) + ": leads to G = " + show(g) +
-                       ", must be such that G is in [1e-280, 1e180]");
+    throw InvalidInput(argument("pressure") + " = " + value(pressure) + ": leads to G = " + show(g) +
+                       must(", must be ") + "such that G is in [1e-280, 1e180]");
 }
 
 /// work(), with the point added to the message of a NotConverged; its temperature where heat makes one of its own.
@@ -54,8 +56,10 @@ void at_point(double pressure, double velocity, std::optional<double> temperatur
   try {
     work();
   } catch (const NotConverged& error) {
-    const std::string also = temperature ? ", temperature = " + show(*temperature) : "";
-    throw NotConverged("pressure = " + show(pressure) + ", velocity = " + show(velocity) + also + ": " + error.what());
+    Sentence where =
+        argument("pressure") + " = " + value(pressure) + ", " + argument("velocity") + " = " + value(velocity);
+    if (temperature) where = where + ", " + argument("temperature") + " = " + value(*temperature, 12, "K");
+    throw NotConverged(error.diagnostic().within(where + ": "));
   }
 }
 
@@ -70,15 +74,17 @@ void at_temperature(double temperature, Work work) {
   try {
     work();
   } catch (const OutOfRange& error) {
-    throw OutOfRange("temperature = " + show(temperature, 6) + ": " + error.what());
+    throw OutOfRange(error.diagnostic().within(argument("temperature") + " = " + in_kelvin(temperature) + ": "));
   }
 }
 
 /// What would let a rubber be asked beyond its measured frequencies, as a part of a message.
-inline const char* way_beyond(const Rubber& rubber) {
+inline Sentence way_beyond(const Rubber& rubber) {
   if (const auto* curve = std::get_if<MasterCurve>(&rubber))
-    return curve->extrapolation() ? "" : "; extrapolation= of the master curve adds a decade at each end";
-  return "; extrapolation=\"prony\" of fit_prony goes on beyond them";
+    return curve->extrapolation() ? Sentence{}
+                                  : "; " + advice("extrapolate-curve", "extrapolation= of the master curve") +
+                                        " adds a decade at each end";
+  return "; " + advice("extrapolate-series", "extrapolation=\"prony\" of fit_prony") + " goes on beyond them";
 }
 
 /// OutOfRange where v q0 or v q1 of a velocity leaves the measured frequencies. It speaks of the fastest one, or of the
@@ -92,25 +98,34 @@ inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, st
   const auto [slowest, fastest] = std::ranges::minmax(velocity);
   const bool above = fastest * q1 > highest * (1 + rounding), below = slowest * q0 < lowest * (1 - rounding);
   if (!above && !below) return;
-  const double told = above ? fastest : slowest;
+  const double worst = above ? fastest : slowest;
   const ShownRange range(lowest, highest);
-  std::string shown = show(told, 6), where = "; no velocity asks for less than is known, with this q0 and this q1";
+  Phrase shown = value(worst, 6);
+  Sentence where{"; no velocity asks for less than is known, with this q0 and this q1"};
   if (lowest / q0 <= highest / q1) {
-    const ShownRange allowed(lowest / q0, highest / q1);
-    shown = allowed.value(told);
-    where = "; velocities from " + allowed.lowest() + " to " + allowed.highest() + " m/s are allowed";
+    const ShownRange fit(lowest / q0, highest / q1);
+    shown = fit.value(worst);
+    where = "; velocities " +
+            advice("allowed-velocities", "from " + fit.lowest().text + " to " + fit.highest().text + " m/s",
+                   {fit.lowest().numbers[0], fit.highest().numbers[0]}) +
+            " are allowed";
   }
-  std::string text = "velocity = " + shown + ": q0 = " + show(q0, 6) + " and q1 = " + show(q1, 6) +
-                     " 1/m ask for the modulus from " + range.value(told * q0) + " to " + range.value(told * q1) +
-                     " rad/s, known in " + range.text() + " rad/s";
-  const auto cut = [&](double end) { return ".truncated(q1=" + ShownRange(q0, end / fastest).highest() + ")"; };
-  const std::string way = way_beyond(rubber);
+  Sentence text = argument("velocity") + " = " + shown + ": " + argument("q0") + " = " + value(q0, 6) + " and " +
+                  argument("q1") + " = " + value(q1, 6) + " 1/m ask for the modulus from " + range.value(worst * q0) +
+                  " to " + range.value(worst * q1) + " rad/s, known in " + range.text() + " rad/s";
+  const auto cut = [&](double end) {
+    const Phrase last = ShownRange(q0, end / fastest).highest();
+    return advice("end-spectrum", ".truncated(q1=" + last.text + ")", last.numbers);
+  };
+  const Sentence way = way_beyond(rubber);
   if (const double decade = 10 * highest; !std::holds_alternative<MasterCurve>(rubber))
-    text += way;
-  else if (!way.empty() && fastest * q0 < decade && slowest * q0 >= lowest / 10)  // else a decade does not serve
-    text += way + (decade < fastest * q1 ? ", and " + cut(decade) + " ends the spectrum there" : "");
-  if (!below && fastest * q0 < highest) text += "; " + cut(highest) + " ends the spectrum where it is known";
-  throw OutOfRange(text + where);
+    text = text + way;
+  else if (!way.empty() && fastest * q0 < decade && slowest * q0 >= lowest / 10) {  // else a decade does not serve
+    text = text + way;
+    if (decade < fastest * q1) text = text + ", and " + cut(decade) + " ends the spectrum there";
+  }
+  if (!below && fastest * q0 < highest) text = text + "; " + cut(highest) + " ends the spectrum where it is known";
+  throw OutOfRange(text + where, "unknown-modulus");
 }
 
 }  // namespace asperity

@@ -33,7 +33,8 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
     require_positive("wavenumber", q);
     if (q >= q0 && q <= q1) continue;
     const ShownRange known(q0, q1);
-    throw OutOfRange("wavenumber = " + known.value(q) + ": the spectrum's band is " + known.text() + " 1/m");
+    throw OutOfRange(argument("wavenumber") + " = " + known.value(q) + ": the spectrum's band is " + known.text() +
+                     " 1/m");
   }
   return {wavenumber.begin(), wavenumber.end()};
 }
@@ -153,7 +154,7 @@ const ScanContact* scan_of(const ContactModel& model) { return std::get_if<ScanC
 
 void refuse_scan(const ContactModel& model, const char* what) {
   if (scan_of(model))
-    throw InvalidInput(std::string("correction = ScanContact: knows no ") + what +
+    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + ": knows no " + what +
                        ", must be another one; validation.slide gives the pressure at every point");
 }
 
@@ -181,8 +182,8 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   return result;
 }
 
-std::vector<std::string> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-                                       std::span<const double> pressure, std::span<const double> velocity) {
+std::vector<Diagnostic> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                      std::span<const double> pressure, std::span<const double> velocity) {
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction) || scan_of(model)) {
@@ -257,15 +258,17 @@ std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber
                                           std::span<const double> velocity, double wavenumber) {
   require_same_size("stress", stress.size(), "pressure", pressure.size());
   refuse_scan(model, "distribution of pressure");
-  if (model.form != Form::exact) throw InvalidInput("form = interpolated: must be exact, Eq. 7 has no distribution");
+  if (model.form != Form::exact)
+    throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
+                       "exact, Eq. 7 has no distribution");
   for (const double sigma : stress) require_not_negative("stress", sigma);
   const std::vector<double> q = wavenumbers_or_end(spectrum, std::span(&wavenumber, 1));
   std::vector<double> result(pressure.size());
   const auto at_g = [&](std::size_t i, double g) {
     const double x = stress[i] / pressure[i], from_nominal = (stress[i] - pressure[i]) / pressure[i];
     if (g == 0)
-      throw InvalidInput("wavenumber = " + show(wavenumber) +
-                         ": must be above q0, where the pressure is a delta at its nominal value");
+      throw InvalidInput(argument("wavenumber") + " = " + value(wavenumber) + must_be() +
+                         "above q0, where the pressure is a delta at its nominal value");
     // exp(-(x-1)^2 / 4G) - exp(-(x+1)^2 / 4G), the difference taken out as 1 - exp(-x / G)
     const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
     result[i] = -bell * std::expm1(-x / g) / pressure[i];

@@ -33,8 +33,7 @@ void validate_macro(const std::optional<double>& rms_height, const std::optional
 }
 
 void validate_peaks(const LocalPeaks& peaks) {
-  if (peaks.heights.size() < 3)
-    throw InvalidInput("heights has " + std::to_string(peaks.heights.size()) + " peaks: must be 3 or more");
+  require_size("heights", peaks.heights.size(), 3);
   require_each_finite("heights", peaks.heights);
   const double highest = std::ranges::max(peaks.heights), top = highest_point(peaks);
   require_finite("z_max", top);
@@ -43,9 +42,9 @@ void validate_peaks(const LocalPeaks& peaks) {
   require_span("z_max", top, lowest);
   double mean = 0;
   for (const double z : peaks.heights) mean += z / static_cast<double>(peaks.heights.size());
-  if (!(mean > 0)) refuse("heights: their mean", mean, "above the mean plane (positive)");
+  if (!(mean > 0)) refuse(argument("heights") + ": their mean", mean, "above the mean plane (positive)");
   // not by the rounded mean: peaks of one height are as high as their highest
-  if (top == lowest) refuse("heights: their mean", mean, "below z_max = " + show(top));
+  if (top == lowest) refuse(argument("heights") + ": their mean", mean, "below z_max = " + show(top));
 }
 
 /// The wavenumber of the macro-asperities: the caller's, else the roll-off, else the lowest of the spectrum.
@@ -64,9 +63,11 @@ double modulus_at(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum, co
   if (const std::optional<FrequencyRange> known = known_range(rubber); known && s.q0) {
     const ShownRange range(known->lowest, known->highest);
     if (w < known->lowest || w > known->highest)
-      throw OutOfRange("velocity = " + ShownRange(known->lowest / q0, known->highest / q0).value(velocity) +
-                       ": q0 = " + show(q0, 6) + " 1/m of the correction asks for the modulus at " + range.value(w) +
-                       " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber));
+      throw OutOfRange(argument("velocity") + " = " +
+                           ShownRange(known->lowest / q0, known->highest / q0).value(velocity) + ": " + argument("q0") +
+                           " = " + value(q0, 6) + " 1/m of the correction asks for the modulus at " + range.value(w) +
+                           " rad/s, known in " + range.text() + " rad/s" + way_beyond(rubber),
+                       "unknown-modulus");
   }
   return effective_modulus(std::abs(asperity::modulus(rubber, w)), poisson_ratio);
 }
@@ -92,41 +93,40 @@ Shift greenwood_williamson_shift(const MacroAsperities& asperities, double z_max
 }  // namespace
 
 void validate(const Correction& correction) {
-  std::visit(
-      Overloaded{
-          [](const NoCorrection&) {},
-          [](const SFactor& s) {
-            if (!(s.gamma >= 0 && s.gamma <= 1)) refuse("gamma", s.gamma, "in [0, 1]");
-          },
-          [](const NayakSFactor& s) {
-            if (!(s.friction_gamma >= 0 && s.friction_gamma <= 1))
-              refuse("friction_gamma", s.friction_gamma, "in [0, 1]");
-          },
-          [](const PartialContact&) {},
-          [](const ScanContact&) {},
-          [](const AffineShift& s) {
-            if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
-          },
-          [](const LocalPeaks& s) { validate_peaks(s); },
-          [](const GreenwoodWilliamson& s) {
-            validate_heights(s.z_max, s.z_min);
-            validate_macro(s.rms_height, s.q0);
-            if (!s.peaks.empty()) {
-              if (s.peaks.size() < 3)
-                throw InvalidInput("peaks has " + std::to_string(s.peaks.size()) + " entries: must be 3 or more");
-              require_each_finite("peaks", s.peaks);
-              const auto [lowest, highest] = std::ranges::minmax(s.peaks);
-              if (highest > s.z_max) refuse("z_max", s.z_max, "no lower than the highest peak, " + show(highest));
-              require_span("z_max", s.z_max, lowest);
-            }
-          },
-          [](const PeaksThenGreenwoodWilliamson& s) {
-            validate_peaks(s.peaks);
-            validate_heights(s.z_max, s.z_min);
-            validate_macro(s.rms_height, s.q0);
-          },
-      },
-      correction);
+  std::visit(Overloaded{
+                 [](const NoCorrection&) {},
+                 [](const SFactor& s) {
+                   if (!(s.gamma >= 0 && s.gamma <= 1)) refuse("gamma", s.gamma, "in [0, 1]");
+                 },
+                 [](const NayakSFactor& s) {
+                   if (!(s.friction_gamma >= 0 && s.friction_gamma <= 1))
+                     refuse("friction_gamma", s.friction_gamma, "in [0, 1]");
+                 },
+                 [](const PartialContact&) {},
+                 [](const ScanContact&) {},
+                 [](const AffineShift& s) {
+                   if (!(s.p >= 1) || !std::isfinite(s.p)) refuse("p", s.p, "1 or more, and finite");
+                 },
+                 [](const LocalPeaks& s) { validate_peaks(s); },
+                 [](const GreenwoodWilliamson& s) {
+                   validate_heights(s.z_max, s.z_min);
+                   validate_macro(s.rms_height, s.q0);
+                   if (!s.peaks.empty()) {
+                     require_size("peaks", s.peaks.size(), 3);
+                     require_each_finite("peaks", s.peaks);
+                     const auto [lowest, highest] = std::ranges::minmax(s.peaks);
+                     if (highest > s.z_max)
+                       refuse("z_max", s.z_max, "no lower than the highest peak, " + show(highest));
+                     require_span("z_max", s.z_max, lowest);
+                   }
+                 },
+                 [](const PeaksThenGreenwoodWilliamson& s) {
+                   validate_peaks(s.peaks);
+                   validate_heights(s.z_max, s.z_min);
+                   validate_macro(s.rms_height, s.q0);
+                 },
+             },
+             correction);
 }
 
 double shift_factor(const LocalPeaks& peaks) {

@@ -146,7 +146,7 @@ double log_depth_of(std::span<const double> peaks, double highest, double log_mo
     if (last < 1e-11) return next;
     x = next;
   }
-  throw NotConverged("peaks: no separation of ln depth between " + show(lower) + " and " + show(upper));
+  throw NotConverged(argument("peaks") + ": no separation of ln depth between " + show(lower) + " and " + show(upper));
 }
 
 /// d of sigma0 / E* = (4/3) sqrt(R) n_a <(z - d)^1.5> (Eqs 16 and 20), solved in the logarithm: the moment falls
@@ -179,8 +179,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   require_positive("effective_modulus", effective_modulus);
   require_positive("rms_height", a.rms_height);
   require_positive("q0", a.q0);
-  if (!a.peaks.empty() && a.peaks.size() < 3)
-    throw InvalidInput("peaks has " + std::to_string(a.peaks.size()) + " entries: must be 3 or more");
+  if (!a.peaks.empty() && a.peaks.size() < 3) require_size("peaks", a.peaks.size(), 3);
   PeakRange range{};
   if (!a.peaks.empty()) {
     range = range_of_peaks(a.peaks.data(), a.peaks.size());
@@ -196,7 +195,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
   if (log_depth > most || log_depth - std::log(a.rms_height) > most || log_interaction > most)
     refuse("pressure", pressure,
            "lower: with effective_modulus = " + show(effective_modulus) + ", rms_height = " + show(a.rms_height) +
-               " and q0 = " + show(a.q0) + " the separation leaves the range of a double");
+               " and " + argument("q0") + " = " + value(a.q0) + " the separation leaves the range of a double");
   const double d = greenwood_williamson(a, range, load - stiffness);
   const double ratio = pressure / effective_modulus;
   // sigma0 sqrt(A_a) / E* (Eq. 19)
@@ -207,7 +206,7 @@ Separation separation(const MacroAsperities& a, double pressure, double effectiv
 ContactState contact_state(double effective_separation, double z_max, double z_min) {
   require_finite("z_max", z_max);
   require_finite("z_min", z_min);
-  if (!(z_max > z_min)) refuse("z_max", z_max, "above z_min = " + show(z_min));
+  if (!(z_max > z_min)) refuse("z_max", z_max, "above " + argument("z_min") + " = " + value(z_min));
   if (std::isnan(effective_separation)) refuse("effective_separation", effective_separation, "a number");
   if (effective_separation >= z_max) return ContactState::no_contact;
   return effective_separation <= z_min ? ContactState::full : ContactState::partial;

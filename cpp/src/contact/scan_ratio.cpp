@@ -73,8 +73,10 @@ Band common_band(const HeightMap& map, const Spectrum& spectrum) {
   const Band known = known_band(map);
   const Band common{std::max(q0, known.q0), std::min(q1, known.q1)};
   if (!(common.q0 < common.q1))
-    throw InvalidInput("height_map knows waves from " + show(known.q0, 4) + " to " + show(known.q1, 4) +
-                       " 1/m: the spectrum, " + show(q0, 4) + " to " + show(q1, 4) + " 1/m, must have some of them");
+    throw InvalidInput(argument("height_map") + " knows waves from " + show(known.q0, 4) + " to " + show(known.q1, 4) +
+                           " 1/m: the spectrum, " + show(q0, 4) + " to " + show(q1, 4) + " 1/m" + must(", must have ") +
+                           "some of them",
+                       "no-common-band");
   return common;
 }
 
@@ -97,8 +99,9 @@ ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const 
   const auto [q0, q1] = band(rings);
   const double mine = slope_variance(rings, {q0, q1}), theirs = slope_variance(spectrum, {q0, q1});
   if (!(mine <= 2 * theirs && theirs <= 2 * mine))
-    throw InvalidInput("spectrum has a mean square slope of " + show(theirs, 4) + " from " + show(q0, 4) + " to " +
-                       show(q1, 4) + " 1/m: must be within a factor of 2 of that of height_map, " + show(mine, 4));
+    throw InvalidInput(argument("spectrum") + " has a mean square slope of " + show(theirs, 4) + " from " +
+                       show(q0, 4) + " to " + show(q1, 4) + " 1/m" + must_be() +
+                       "within a factor of 2 of that of height_map, " + show(mine, 4));
   spectrum_ = beyond_map(rings, spectrum, known_band(scan.map()));
 }
 
@@ -157,7 +160,8 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
 ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule) {
   Scan& scan = contact_.scan();
   if (!scan.one_grid(band_))
-    throw InvalidInput("heating: must be left out with a ScanContact whose scan one grid does not hold");
+    throw InvalidInput(argument("heating") + must_be() +
+                       "left out with a ScanContact whose scan one grid does not hold");
   const auto log_a_T = [&rule](double q) {
     const double place = std::log(q / rule.q0) / std::log(rule.q1 / rule.q0) * static_cast<double>(rule.a_T.size() - 1);
     const double last = static_cast<double>(rule.a_T.size() - 1), x = std::clamp(place, 0.0, last);
@@ -181,8 +185,8 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
   return {.hysteresis = std::exp(ratio.hysteresis), .area = std::exp(ratio.area), .convergence = found->error};
 }
 
-std::vector<std::string> ScanRatios::notes() const {
-  std::vector<std::string> result;
+std::vector<Diagnostic> ScanRatios::notes() const {
+  std::vector<Diagnostic> result;
   const Scan& scan = contact_.scan();
   const HeightMap& map = scan.map();
   const auto [ny, nx] = map.shape();
@@ -191,15 +195,21 @@ std::vector<std::string> ScanRatios::notes() const {
   const double waves = side * band_.q0 / (2 * std::numbers::pi);
   constexpr double few = 4;
   if (waves < few * (1 - 1e-9) && contact_.continuation() != Continuation::periodic)
-    result.push_back("the scan holds " + show(waves, 2) + " of its longest waves to a side, where " + show(few) +
-                     " or more are wanted: another scan of the surface may differ by more than model_error says");
+    result.push_back(warning("few-long-waves",
+                             "the scan holds " + value(waves, 2) + " of its longest waves to a side, where " +
+                                 show(few) +
+                                 " or more are wanted: another scan of the surface may differ by more than "
+                                 "model_error says",
+                             {"measure a longer scan, or begin the spectrum at a higher " + std::string("q0")}));
   if (!contact_.scan().one_grid(band_))
-    result.emplace_back(
-        "the scan is too large to be solved whole: its short waves are solved on four pieces of it alone");
+    result.push_back(
+        note("scan-in-parts",
+             {"the scan is too large to be solved whole: its short waves are solved on four pieces of it alone"}));
   else if (const auto solved = contact_.scan().part(band_, Scan::whole, false);
            solved->period.shape[0] > solved->scanned[0] || solved->period.shape[1] > solved->scanned[1])
-    result.push_back("the scan has fewer points than its shortest waves ask for: it was interpolated to " +
-                     std::to_string(solved->period.shape[0]) + " x " + std::to_string(solved->period.shape[1]));
+    result.push_back(note("scan-interpolated",
+                          {"the scan has fewer points than its shortest waves ask for: it was interpolated to " +
+                           std::to_string(solved->period.shape[0]) + " x " + std::to_string(solved->period.shape[1])}));
   return result;
 }
 

@@ -45,7 +45,7 @@ class ScanRatios {
   /// temperature.
   ScanRatio hot(double pressure, double velocity, const HotRule& rule);
   /// What there is to say of the map.
-  [[nodiscard]] std::vector<std::string> notes() const;
+  [[nodiscard]] std::vector<Diagnostic> notes() const;
 
  private:
   ScanContact contact_;

@@ -119,74 +119,103 @@ void Notes::add(const Notes& others) {
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
-std::vector<std::string> Notes::texts(bool heated) const {
-  std::vector<std::string> result;
+std::vector<Diagnostic> Notes::texts(bool heated) const {
+  std::vector<Diagnostic> result;
   // a spectrum cut by the rule itself ends at the limit to rounding
   if (rms_slope_ > slope_limit * (1 + 1e-9))
-    result.push_back("the rms slope is " + show(rms_slope_, 4) + ", above " + show(slope_limit) +
-                     ", where the cut-off rule ends a spectrum: mu rests on the choice of q1");
+    result.push_back(warning("steep-spectrum",
+                             "the rms slope is " + value(rms_slope_, 4) + ", above " + show(slope_limit) +
+                                 ", where the cut-off rule ends a spectrum: mu rests on the choice of " +
+                                 argument("q1"),
+                             "end the spectrum where its rms slope is " + value(slope_limit)));
   if (slope_of_few_periods_)
-    result.push_back("fatal: more than half of the mean square slope is of waves up to " + show(flagged_ends_[0], 4) +
-                     " 1/m, and mu with it, but the scan is too small to know their heights");
+    result.push_back(fatal("slope-unmeasured",
+                           "more than half of the mean square slope is of waves up to " +
+                               value(flagged_ends_[0], 4, "1/m") +
+                               " 1/m, and mu with it, but the scan is too small to know their heights",
+                           {"measure a longer scan, or one with finer pixels"}));
   if (flagged_ends_[0] > 0)
-    result.push_back("the measured spectrum is uncertain up to " + show(flagged_ends_[0], 4) +
-                     " 1/m, where the scan holds too few periods");
+    result.push_back(warning("few-periods",
+                             "the measured spectrum is uncertain up to " + value(flagged_ends_[0], 4, "1/m") +
+                                 " 1/m, where the scan holds too few periods",
+                             {"measure a longer scan, or merge several"}));
   if (std::isfinite(flagged_ends_[1]))
-    result.push_back("the measured spectrum is too high from " + show(flagged_ends_[1], 4) +
-                     " 1/m on, half of pi / pixel, if the surface is rough below the pixel too");
+    result.push_back(warning("near-nyquist",
+                             "the measured spectrum is too high from " + value(flagged_ends_[1], 4, "1/m") +
+                                 " 1/m on, half of pi / pixel, if the surface is rough below the pixel too",
+                             {"end the spectrum there, or measure with finer pixels"}));
   if (fast_ && !heated)
-    result.push_back(
-        "above " + show(flash_velocity) +
-        " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. Phys.: Condens. "
-        "Matter 18, 7789)");
+    result.push_back(warning("heat-left-out",
+                             "above " + value(flash_velocity, 12, "m/s") +
+                                 " m/s flash heating, which is not modelled, changes the friction (Persson 2006, J. "
+                                 "Phys.: Condens. Matter 18, 7789)",
+                             "give " + argument("heating") + ", with a temperature and the shift of the rubber"));
   if (beyond_fit_)
-    result.emplace_back(
-        "the Prony series is asked beyond the frequencies that it was fitted on at some points: nothing was measured "
-        "there");
+    result.push_back(warning("beyond-prony-fit",
+                             {"the Prony series is asked beyond the frequencies that it was fitted on at some points: "
+                              "nothing was measured there"},
+                             {"measure the modulus at more temperatures, or leave these velocities out"}));
   if (lowest_bin_)
-    result.emplace_back(
-        "fatal: Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, for that of "
-        "the "
-        "macro-asperities: give q0");
+    result.push_back(fatal("scan-length-as-q0",
+                           "Greenwood-Williamson took the lowest wavenumber of a measured spectrum, one scan length, "
+                           "for that of the macro-asperities: give " +
+                               argument("q0"),
+                           "give " + argument("q0")));
   if (unmeasured_nayak_)
-    result.push_back("the error of this correction is not known here: Nayak's parameter of the spectrum is " +
-                     show(*unmeasured_nayak_, 3) + ", those of the boundary-element contacts it was measured on are " +
-                     show(lowest_measured_nayak) + " to " + show(highest_measured_nayak));
+    result.push_back(note("unmeasured-bandwidth",
+                          "the error of this correction is not known here: Nayak's parameter of the spectrum is " +
+                              value(*unmeasured_nayak_, 3) +
+                              ", those of the boundary-element contacts it was measured on are " +
+                              show(lowest_measured_nayak) + " to " + show(highest_measured_nayak),
+                          {"take PartialContact, which was measured on wider bands"}));
   if (light_)
-    result.push_back("the error of this correction is not known at some points: their load sigma0 / (E* h') is below " +
-                     show(lowest_measured_load) + ", that of the boundary-element contacts it was measured on");
-  for (const auto& [flag, regime, error] :
-       {std::tuple{slow_, "slow (loss rises with frequency)", "1 to 5 % rms (12 where q1/q0 is above 128)"},
-        {constant_, "about constant loss tangents", "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128)"},
-        {fast_regime_, "fast (the modulus outgrows the loss)",
+    result.push_back(note("unmeasured-load",
+                          "the error of this correction is not known at some points: their load sigma0 / (E* h') "
+                          "is below " +
+                              value(lowest_measured_load) +
+                              ", that of the boundary-element contacts it was measured on",
+                          {"take PartialContact, which was measured at lighter loads"}));
+  for (const auto& [flag, code, regime, error] :
+       {std::tuple{slow_, "regime-slow", "slow (loss rises with frequency)",
+                   "1 to 5 % rms (12 where q1/q0 is above 128)"},
+        {constant_, "regime-constant", "about constant loss tangents",
+         "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128)"},
+        {fast_regime_, "regime-fast", "fast (the modulus outgrows the loss)",
          "2 to 11 % rms (2 to 15 where q1/q0 is below 5, 8 where it is above 128)"}})
     if (flag)
-      result.push_back("exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) +
-                       ": mu +-" + error + ", the more the lighter the load");
+      result.push_back(note(code, {"exact sliding contacts of Gaussian surfaces in this regime, " +
+                                   std::string(regime) + ": mu +-" + error + ", the more the lighter the load"}));
   if (unmeasured_)
-    result.emplace_back(
-        "the model error of PartialContact is not known at some points: exact sliding contacts were solved "
-        "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5, and from 128 to "
-        "16384 with loads from 0.005 to 0.3");
+    result.push_back(note(
+        "unknown-model-error",
+        {"the model error of PartialContact is not known at some points: exact sliding contacts were solved "
+         "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5, and from 128 to "
+         "16384 with loads from 0.005 to 0.3"},
+        {"compare with ScanContact on the scan itself"}));
   if (worse_)
-    result.emplace_back(
-        "fatal: the affine shift takes the contact area further from that of boundary elements than no correction "
-        "would at "
-        "some points: NayakSFactor is nearer");
+    result.push_back(fatal("area-further-off",
+                           "the affine shift takes the contact area further from that of boundary elements than no "
+                           "correction would at some points: " +
+                               advice("take-nayak", "NayakSFactor") + " is nearer"));
   if (full_)
-    result.emplace_back(
-        "fatal: Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below the lowest "
-        "point "
-        "z_min");
+    result.push_back(fatal("full-conformity",
+                           "Greenwood-Williamson: full conformity where shift_factor is 1, the separation is below "
+                           "the lowest point " +
+                               argument("z_min"),
+                           {"leave Greenwood-Williamson out at such pressures"}));
   if (far_)
-    result.push_back("fatal: Greenwood-Williamson has left its range at some points, where the separation is above " +
-                     show(separation_limit) + " rms heights: the area there does not fall with the load as it must");
+    result.push_back(fatal("separation-too-large",
+                           "Greenwood-Williamson has left its range at some points, where the separation is above " +
+                               value(separation_limit) +
+                               " rms heights: the area there does not fall with the load as it must",
+                           {"leave Greenwood-Williamson out at such pressures"}));
   if (no_contact_)
-    result.emplace_back(
-        "fatal: Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above the highest "
-        "point "
-        "z_max; area and mu are 0 there");
-  std::ranges::stable_partition(result, [](const std::string& note) { return note.starts_with("fatal: "); });
+    result.push_back(fatal("no-contact",
+                           "Greenwood-Williamson: no contact where shift_factor is infinite, the separation is above "
+                           "the highest point " +
+                               argument("z_max") + "; area and mu are 0 there",
+                           {"leave these pressures out, or take the heights of a larger scan"}));
+  std::ranges::stable_partition(result, [](const Diagnostic& d) { return d.severity == Severity::fatal; });
   return result;
 }
 

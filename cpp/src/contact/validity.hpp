@@ -46,7 +46,7 @@ class Notes {
   /// What others found on other points of the same scene.
   void add(const Notes& others);
   /// `heated`: the heat of sliding is taken into account.
-  [[nodiscard]] std::vector<std::string> texts(bool heated = false) const;
+  [[nodiscard]] std::vector<Diagnostic> texts(bool heated = false) const;
 
  private:
   double rms_slope_;

@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 /// In rising temperature; those of one temperature as one.
-std::vector<Isotherm> sorted(std::span<const Isotherm> isotherms, std::vector<std::string>& notes) {
+std::vector<Isotherm> sorted(std::span<const Isotherm> isotherms, std::vector<Diagnostic>& notes) {
   std::vector<Isotherm> result(isotherms.begin(), isotherms.end());
   std::ranges::stable_sort(result, {}, &Isotherm::temperature);
   for (std::size_t i = 0; i + 1 < result.size();) {
@@ -30,7 +30,7 @@ std::vector<Isotherm> sorted(std::span<const Isotherm> isotherms, std::vector<st
       all.insert(all.end(), other.begin(), other.end());
       return all;
     };
-    notes.push_back("two isotherms at " + kelvin(result[i]) + " were taken as one");
+    notes.push_back(note("isotherms-merged", "two isotherms at " + kelvin(result[i]) + " were taken as one"));
     result[i] = Isotherm(result[i].temperature(), both(&Isotherm::angular_frequency), both(&Isotherm::storage_modulus),
                          both(&Isotherm::loss_modulus));
     result.erase(result.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -84,10 +84,10 @@ MasterCurve merged(const std::vector<MasterPoint>& points, std::optional<Extrapo
 void require_meeting(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T) {
   for (std::size_t i = 1; i < isotherms.size(); ++i)
     if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i]))
-      throw InvalidInput("isotherms at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
-                         ": have no storage modulus in common, neighbours must overlap (a smaller step of temperature, "
-                         "isotherms on one side of the gap alone, "
-                         "or a shift table from outside)");
+      throw InvalidInput(argument("isotherms") + " at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
+                         ": have no storage modulus in common, neighbours" + must(" must ") +
+                         "overlap (a smaller step of temperature, isotherms on one side of the gap alone, or a shift "
+                         "table from outside)");
 }
 
 std::size_t nearest(const std::vector<double>& temperature, double reference) {
@@ -99,20 +99,22 @@ std::size_t nearest(const std::vector<double>& temperature, double reference) {
 
 MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const MasterCurveOptions& options) {
   require_positive("reference_temperature", options.reference_temperature);
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
   for (const Isotherm& isotherm : given) notes.insert(notes.end(), isotherm.notes().begin(), isotherm.notes().end());
   const std::vector<Isotherm> isotherms = sorted(given, notes);
   if (isotherms.size() < 2)
-    throw InvalidInput("isotherms at " + std::to_string(isotherms.size()) +
-                       " temperature(s): must be at 2 or more to shift; one isotherm is a MasterCurve as it stands");
+    throw InvalidInput(argument("isotherms") + " at " + count(isotherms.size()) + " temperature(s)" + must_be() +
+                       "at 2 or more to shift; one isotherm is a MasterCurve as it stands");
   const std::vector<double> b_T = vertical_shifts(isotherms, options);
   std::vector<double> temperature;
   temperature.reserve(isotherms.size());
   for (const Isotherm& i : isotherms) temperature.push_back(i.temperature());
   const double reference = options.reference_temperature;
   if (!options.shift_table && !(reference >= temperature.front() && reference <= temperature.back()))
-    throw OutOfRange("reference_temperature = " + show(reference, 6) + ": isotherms were measured in [" +
-                     show(temperature.front(), 6) + ", " + show(temperature.back(), 6) + "] K");
+    throw OutOfRange(argument("reference_temperature") + " = " + in_kelvin(reference) +
+                         ": isotherms were measured in [" + in_kelvin(temperature.front()) + ", " +
+                         in_kelvin(temperature.back()) + "]" + unit("K"),
+                     "unknown-shift");
 
   const SweepPoints points = gather(isotherms, b_T);
   const std::size_t n = isotherms.size();

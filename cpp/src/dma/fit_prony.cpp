@@ -143,8 +143,9 @@ Fit fit_to_residual(const Measured& data, double residual) {
     if (fit.rms() <= residual) return fit;
     reached = std::min(reached, fit.rms());
   }
-  throw NotConverged("residual = " + show(residual) + ": not reached with up to " + show(most_modes) +
-                     " modes per decade, which leave " + show(reached, 4) + "; must be above the noise of the data");
+  throw NotConverged(argument("residual") + " = " + value(residual) + ": not reached with up to " + show(most_modes) +
+                     " modes per decade, which leave " + show(reached, 4) + must("; must be ") +
+                     "above the noise of the data");
 }
 
 /// As much smoothing as the noise allows: the sum of squares may rise to what the true modulus leaves. A fit of p
@@ -193,15 +194,18 @@ void check(std::span<const double> w, std::span<const double> storage, std::span
   require_same_size("storage_modulus", storage.size(), "angular_frequency", w.size());
   require_same_size("loss_modulus", loss.size(), "angular_frequency", w.size());
   if (w.size() < 4)
-    throw InvalidInput("angular_frequency has " + std::to_string(w.size()) + " entries: must be 4 or more for a fit");
+    throw InvalidInput(argument("angular_frequency") + " has " + count(w.size()) + " entries" + must_be() +
+                       "4 or more for a fit");
   require_each_positive("angular_frequency", w);
   require_each_positive("storage_modulus", storage);
   require_each_positive("loss_modulus", loss);
   require_rising("angular_frequency", w);
   if (const double decades = std::log10(w.back()) - std::log10(w.front()); decades > 100)
-    throw InvalidInput("angular_frequency spans " + show(decades, 4) + " decades: must be 100 or fewer");
+    throw InvalidInput(argument("angular_frequency") + " spans " + value(decades, 4) + " decades" + must_be() +
+                       "100 or fewer");
   if (options.modes_per_decade && options.residual)
-    throw InvalidInput("modes_per_decade, residual: must not both be given, either settles the number of modes");
+    throw InvalidInput(argument("modes_per_decade") + ", " + argument("residual") +
+                       ": must not both be given, either settles the number of modes");
   if (options.modes_per_decade && !(*options.modes_per_decade >= 0.1 && *options.modes_per_decade <= 10))
     refuse("modes_per_decade", *options.modes_per_decade, "in [0.1, 10]");
   if (options.residual) require_positive("residual", *options.residual);
@@ -236,12 +240,14 @@ PronyFit fit_prony(std::span<const double> w, std::span<const double> storage, s
   const Fit best = data.solve(data.grid(8, 3), 0, 3);
   if (!contradicts(best)) return result;
   result.causal = false;
-  result.notes.push_back(
-      "fatal: no Prony series follows E' and E'' together: the best leaves " + percent(best.rms()) + " (E' " +
-      percent(rms(best.residual.head(n))) + ", E'' " + percent(rms(best.residual.tail(n))) + "), their scatter is " +
-      percent(scatter(best)) +
-      ". They contradict each other (Kramers-Kronig relations): E' and E'' on different frequency axes or in different "
-      "units (Hz and rad/s, MPa and Pa), columns swapped, or a wrong vertical shift");
+  result.notes.push_back(fatal("moduli-contradict",
+                               {"no Prony series follows E' and E'' together: the best leaves " + percent(best.rms()) +
+                                " (E' " + percent(rms(best.residual.head(n))) + ", E'' " +
+                                percent(rms(best.residual.tail(n))) + "), their scatter is " + percent(scatter(best)) +
+                                ". They contradict each other (Kramers-Kronig relations): E' and E'' on different "
+                                "frequency axes or in different "
+                                "units (Hz and rad/s, MPa and Pa), columns swapped, or a wrong vertical shift"},
+                               {"check the columns and units of the moduli"}));
   return result;
 }
 

@@ -17,7 +17,9 @@ constexpr double same_frequency = 0.01;  // relative: points no farther apart ar
 
 void require_kelvin(double temperature) {
   if (!(temperature >= coldest) || !std::isfinite(temperature))
-    refuse("temperature", temperature, "in kelvin, " + show(coldest) + " or more (Celsius + 273.15)");
+    throw InvalidInput(argument("temperature") + " = " + value(temperature, 12, "K") + must_be() + "in kelvin, " +
+                           show(coldest) + " or more (Celsius + 273.15)",
+                       "invalid-value");
 }
 
 void require_rows(double temperature, const std::vector<double>& angular_frequency,
@@ -32,15 +34,16 @@ void require_rows(double temperature, const std::vector<double>& angular_frequen
 
 void require_enough(std::size_t different, double temperature) {
   if (different < 4)
-    throw InvalidInput("angular_frequency has " + std::to_string(different) + " different entries at temperature = " +
-                       show(temperature, 6) + ": must have 4 or more for an isotherm" +
+    throw InvalidInput(argument("angular_frequency") + " has " + count(different) + " different entries at " +
+                       argument("temperature") + " = " + in_kelvin(temperature) + must(": must have ") +
+                       "4 or more for an isotherm" +
                        (different == 1 ? "; rows of one frequency are a strain sweep, which is none" : ""));
 }
 
 }  // namespace
 
 Isotherm::Isotherm(double temperature, std::vector<double> angular_frequency, std::vector<double> storage_modulus,
-                   std::vector<double> loss_modulus, std::vector<std::string> notes)
+                   std::vector<double> loss_modulus, std::vector<Diagnostic> notes)
     : temperature_(temperature),
       frequency_(std::move(angular_frequency)),
       storage_(std::move(storage_modulus)),
@@ -75,8 +78,9 @@ Isotherm::Isotherm(double temperature, const std::vector<double>& angular_freque
     if (rows.size() > 1) {
       std::string list;
       for (const std::size_t i : rows) list += (list.empty() ? "" : ", ") + std::to_string(i);
-      notes_.push_back("isotherm at " + show(temperature, 6) + " K: rows " + list + " lie within 1 % of " +
-                       show(frequency_.back(), 4) + " rad/s and were averaged");
+      notes_.push_back(note("rows-averaged", "isotherm at " + in_kelvin(temperature) + unit("K") + ": rows " + list +
+                                                 " lie within 1 % of " + show(frequency_.back(), 4) +
+                                                 " rad/s and were averaged"));
     }
     first = last;
   }
@@ -95,7 +99,7 @@ StrainSweep::StrainSweep(double temperature, double angular_frequency, std::vect
   require_same_size("storage_modulus", storage_.size(), "strain", strain_.size());
   require_same_size("loss_modulus", loss_.size(), "strain", strain_.size());
   if (strain_.size() < 2)
-    throw InvalidInput("strain has " + std::to_string(strain_.size()) + " entries: must be 2 or more");
+    throw InvalidInput(argument("strain") + " has " + count(strain_.size()) + " entries" + must_be() + "2 or more");
   require_each_positive("strain", strain_);
   require_rising("strain", strain_);
   require_each_positive("storage_modulus", storage_);

@@ -22,12 +22,13 @@ struct Ratio {
 
 Ratio ratio_of(const StrainSweep& sweep, double strain, double a_T, std::size_t row) {
   const auto& e = sweep.strain();
-  const std::string name = "sweeps[" + std::to_string(row) + "]";
+  const Sentence name = argument("sweeps") + ("[" + std::to_string(row) + "]");
   const std::string range = show(e.front(), 4) + " to " + show(e.back(), 4);
   if (!(strain >= e.front() && strain <= e.back()))
-    throw OutOfRange("strain = " + show(strain, 4) + ": " + name + " was measured from " + range);
+    throw OutOfRange(argument("strain") + " = " + value(strain, 4) + ": " + name + " was measured from " + range);
   if (!(small >= e.front() && small <= e.back()))
-    throw OutOfRange(name + ": was measured in strains " + range + ", must hold 0.005, the small strain of reference");
+    throw OutOfRange(name + ": was measured in strains " + range + must(", must hold ") +
+                     "0.005, the small strain of reference");
   const auto logarithms = [](const std::vector<double>& values) {
     std::vector<double> result;
     result.reserve(values.size());
@@ -45,7 +46,7 @@ Ratio ratio_of(const StrainSweep& sweep, double strain, double a_T, std::size_t 
 LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts, double strain,
                       std::span<const StrainSweep> sweeps) {
   require_positive("strain", strain);
-  if (sweeps.empty()) throw InvalidInput("sweeps has 0 entries: must have 1 or more");
+  if (sweeps.empty()) throw InvalidInput(argument("sweeps") + " has 0 entries" + must(": must have ") + "1 or more");
   std::vector<Ratio> ratios;
   ratios.reserve(sweeps.size());
   for (std::size_t i = 0; i < sweeps.size(); ++i)
@@ -54,7 +55,7 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
   std::vector<double> x, storage, loss;
   for (const Ratio& r : ratios) {
     if (!x.empty() && r.x - x.back() < 1e-6)
-      throw InvalidInput("sweeps: two stand at the reduced frequency " + show(std::exp(r.x), 4) +
+      throw InvalidInput(argument("sweeps") + ": two stand at the reduced frequency " + show(std::exp(r.x), 4) +
                          " rad/s; each must have its own");
     x.push_back(r.x);
     storage.push_back(r.storage);
@@ -66,12 +67,13 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
     return Steffen(x, y)(at);
   };
 
-  std::vector<std::string> notes;
+  std::vector<Diagnostic> notes;
   const auto& w = small_strain.angular_frequency();
   if (std::log(w.front()) < x.front() || std::log(w.back()) > x.back())
-    notes.push_back("strain sweeps reach from " + show(std::exp(x.front()), 3) + " to " + show(std::exp(x.back()), 3) +
-                    " rad/s of the master curve's " + show(w.front(), 3) + " to " + show(w.back(), 3) +
-                    ": beyond them the ratios of the last ones are held");
+    notes.push_back(note("strain-ratios-held",
+                         {"strain sweeps reach from " + show(std::exp(x.front()), 3) + " to " +
+                          show(std::exp(x.back()), 3) + " rad/s of the master curve's " + show(w.front(), 3) + " to " +
+                          show(w.back(), 3) + ": beyond them the ratios of the last ones are held"}));
   // the rows of the small-strain curve, and those where the sweeps stand
   std::vector<double> frequency = w;
   for (const double at : x)

@@ -38,20 +38,23 @@ void note_overlaps(const std::vector<Isotherm>& isotherms, const std::vector<dou
     const auto [c, d] = ends(i);
     const double shared = std::min(b, d) - std::max(a, c);
     if (shared < least_overlap * (1 + 1e-6))
-      notes.push_back("isotherms at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) + " overlap by " +
-                      show(std::max(0.0, shared), 2) + " decades, less than " + show(least_overlap) +
-                      ": the shift between them is uncertain");
+      notes.push_back(warning("small-overlap",
+                              "isotherms at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
+                                  " overlap by " + show(std::max(0.0, shared), 2) + " decades, less than " +
+                                  show(least_overlap) + ": the shift between them is uncertain",
+                              {"measure at a temperature between them"}));
   }
 }
 
 void note_undetermined(const std::vector<Isotherm>& isotherms, const std::vector<double>& deviation, Notes& notes) {
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (deviation[i] > undetermined_shift)
-      notes.push_back(
-          "fatal: the shift at " + kelvin(isotherms[i]) +
-          " is undetermined, moduli between there and the reference are too flat or too far apart to tell: standard "
-          "deviation " +
-          show(deviation[i], 3) + " decades");
+      notes.push_back(fatal("undetermined-shift",
+                            "the shift at " + kelvin(isotherms[i]) +
+                                " is undetermined, moduli between there and the reference are too flat or too far "
+                                "apart to tell: standard deviation " +
+                                show(deviation[i], 3) + " decades",
+                            {"measure at temperatures between, or give shift factors from outside"}));
 }
 
 void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreement& apart, std::size_t fixed,
@@ -62,12 +65,14 @@ void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreemen
   for (std::size_t i = 0; i < isotherms.size(); ++i)
     if (apart.deviations[i] > beyond_chance && distance(i) > std::max(undetermined_shift, distance(worst))) worst = i;
   if (worst == fixed) return;
-  notes.push_back(
-      "E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) + ": log10 a_T against " +
-      kelvin(isotherms[fixed]) + " would be " + show(apart.storage[worst], 3) + " and " + show(apart.loss[worst], 3) +
-      ", " + show(distance(worst), 2) +
-      " decades apart, as those of many filled rubbers do; the standard deviations of a_T and the bands from them "
-      "leave that out");
+  notes.push_back(warning("different-shifts",
+                          "E' alone and E'' alone ask for different shifts, most at " + kelvin(isotherms[worst]) +
+                              ": log10 a_T against " + kelvin(isotherms[fixed]) + " would be " +
+                              show(apart.storage[worst], 3) + " and " + show(apart.loss[worst], 3) + ", " +
+                              show(distance(worst), 2) +
+                              " decades apart, as those of many filled rubbers do; the standard deviations of a_T and "
+                              "the bands from them leave that out",
+                          {"give shift factors from another measurement, and compare"}));
 }
 
 void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, const MasterSpline& spline,
@@ -92,16 +97,19 @@ void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<dou
   const auto size = [](const Miss& m) { return std::max(std::fabs(m.storage), std::fabs(m.loss)); };
   std::erase_if(misses, [&](const Miss& m) { return size(m) <= limit; });
   if (misses.size() > 5 + sizes.size() / 100) {
-    notes.push_back(std::to_string(misses.size()) + " of " + std::to_string(sizes.size() / 2) +
-                    " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
-                    " %: these isotherms do not superpose (a vertical shift may be needed, or the rubber is not "
-                    "thermorheologically simple)");
+    notes.push_back(warning("points-off-curve",
+                            {std::to_string(misses.size()) + " of " + std::to_string(sizes.size() / 2) +
+                             " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
+                             " %: these isotherms do not superpose (a vertical shift may be needed, or the rubber is "
+                             "not thermorheologically simple)"},
+                            {"try a vertical shift"}));
     return;
   }
   for (const Miss& m : misses)
-    notes.push_back("isotherm at " + kelvin(isotherms[m.isotherm]) + ": row " + std::to_string(m.row) + " at " +
-                    show(isotherms[m.isotherm].angular_frequency()[m.row], 4) + " rad/s lies " +
-                    show(100 * std::expm1(size(m)), 3) + " % off the master curve");
+    notes.push_back(
+        note("point-off-curve", "isotherm at " + kelvin(isotherms[m.isotherm]) + ": row " + std::to_string(m.row) +
+                                    " at " + show(isotherms[m.isotherm].angular_frequency()[m.row], 4) +
+                                    " rad/s lies " + show(100 * std::expm1(size(m)), 3) + " % off the master curve"));
 }
 
 // Residuals of noise alone have no level, slope or bend of an isotherm in them beyond chance: the ratio of two mean
@@ -138,9 +146,12 @@ void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes
     each += (each.empty() ? "" : ", ") + std::string(modulus == 0 ? "E' by " : "E'' by ") + show(100 * size, 2) + " %";
   }
   if (!each.empty())
-    notes.push_back("whole isotherms lie off the master curve by more than their scatter explains, " + each +
-                    " (root mean square): a vertical shift or an error of the instrument between them, or a rubber "
-                    "that is not thermorheologically simple; the standard deviations of a_T take it for chance");
+    notes.push_back(
+        warning("isotherms-off-curve",
+                {"whole isotherms lie off the master curve by more than their scatter explains, " + each +
+                 " (root mean square): a vertical shift or an error of the instrument between them, or a rubber that "
+                 "is not thermorheologically simple; the standard deviations of a_T take it for chance"},
+                {"try a vertical shift"}));
 }
 
 void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,
@@ -159,9 +170,11 @@ void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& 
   const std::string now = show(residual_of(first.spline), 2);
   const std::string then = show(residual_of(ratio.spline), 2);
   notes.push_back(
-      "vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " + show(worst, 2) +
-      " decades, " +
-      (then == now ? "at the same residual of " + now : "with a residual of " + then + " instead of " + now));
+      warning("no-vertical-shift",
+              {"vertical shift: none; with b_T = T / T_ref the shift factors would differ by up to " + show(worst, 2) +
+               " decades, " +
+               (then == now ? "at the same residual of " + now : "with a residual of " + then + " instead of " + now)},
+              {"compute with a vertical shift too: mu lies between the two, or beyond"}));
 }
 
 }  // namespace asperity

@@ -11,7 +11,7 @@ namespace asperity {
 /// b_T = T / T_ref.
 std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference);
 
-using Notes = std::vector<std::string>;
+using Notes = std::vector<Diagnostic>;
 /// Neighbours that share less than they should once shifted.
 void note_overlaps(const std::vector<Isotherm>& isotherms, const std::vector<double>& log10_a_T, Notes& notes);
 /// Shifts that the data do not fix.

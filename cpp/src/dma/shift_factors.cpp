@@ -71,8 +71,8 @@ ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::v
   require_positive("reference_temperature", reference_);
   require_same_size("log10_a_T", log10_a_T_.size(), "temperature", temperature_.size());
   if (temperature_.size() < 2)
-    throw InvalidInput("temperature has " + std::to_string(temperature_.size()) +
-                       " entries: must be 2 or more for shift factors");
+    throw InvalidInput(argument("temperature") + " has " + count(temperature_.size()) + " entries" + must_be() +
+                       "2 or more for shift factors");
   require_each_positive("temperature", temperature_);
   require_rising("temperature", temperature_);
   require_each_finite("log10_a_T", log10_a_T_);
@@ -90,8 +90,9 @@ double ShiftTable::shift_factor(double temperature) const { return std::pow(10, 
 ShiftValue ShiftTable::shift_at(double temperature) const {
   require_finite("temperature", temperature);
   if (!(temperature >= temperature_.front() && temperature <= temperature_.back()))
-    throw OutOfRange("temperature = " + show(temperature, 6) + ": shift factors are known in [" +
-                     show(temperature_.front(), 6) + ", " + show(temperature_.back(), 6) + "] K");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(temperature) + ": shift factors are known in [" +
+                         in_kelvin(temperature_.front()) + ", " + in_kelvin(temperature_.back()) + "]" + unit("K"),
+                     "unknown-shift");
   const auto above = std::upper_bound(temperature_.begin() + 1, temperature_.end() - 1, temperature);
   const auto i = static_cast<std::size_t>(above - temperature_.begin());
   const double from = temperature_[i - 1], step = temperature_[i] - from;
@@ -104,7 +105,9 @@ ShiftValue ShiftTable::shift_at(double temperature) const {
 // ln(c2 + lowest d), from where c2 + T - T_ref vanishes at the lowest temperature to where the law is a straight line.
 WlfFit ShiftTable::fit_wlf(std::span<const double> covariance) const {
   const std::size_t n = temperature_.size();
-  if (n < 4) throw InvalidInput("temperature has " + std::to_string(n) + " entries: must be 4 or more for a WLF fit");
+  if (n < 4)
+    throw InvalidInput(argument("temperature") + " has " + count(n) + " entries" + must_be() +
+                       "4 or more for a WLF fit");
   const double lowest = temperature_.front() - reference_;
   const auto sums = [&](double c2) {
     Sums s;
@@ -160,7 +163,9 @@ ArrheniusFit ShiftTable::fit_arrhenius(std::span<const double> covariance) const
   Eigen::MatrixXd slopes(n, 1);  // of log10 a_T in E_a / (R ln 10)
   for (std::size_t i = 0; i < n; ++i) slopes(static_cast<Eigen::Index>(i), 0) = 1 / temperature_[i] - 1 / reference_;
   const double square = slopes.squaredNorm();
-  if (square == 0) throw InvalidInput("temperature: is the reference throughout, must differ for an Arrhenius fit");
+  if (square == 0)
+    throw InvalidInput(argument("temperature") + ": is the reference throughout" + must(", must differ ") +
+                       "for an Arrhenius fit");
   const auto shift = Eigen::Map<const Eigen::VectorXd>(log10_a_T_.data(), static_cast<Eigen::Index>(n));
   const double slope = slopes.col(0).dot(shift) / square;
   const Eigen::VectorXd residual = shift - slope * slopes.col(0);

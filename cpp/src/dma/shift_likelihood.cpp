@@ -15,7 +15,7 @@ constexpr double reach = 0.5;  // decades from an isotherm's middle to where its
 
 }  // namespace
 
-std::string kelvin(const Isotherm& isotherm) { return show(isotherm.temperature(), 6) + " K"; }
+Sentence kelvin(const Isotherm& isotherm) { return in_kelvin(isotherm.temperature()) + unit("K"); }
 
 SweepPoints gather(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T) {
   SweepPoints points;

@@ -107,6 +107,6 @@ class ShiftLikelihood {
   std::array<double, moduli> variance_{};
 };
 
-std::string kelvin(const Isotherm& isotherm);
+Sentence kelvin(const Isotherm& isotherm);
 
 }  // namespace asperity

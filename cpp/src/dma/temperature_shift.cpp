@@ -17,15 +17,19 @@ constexpr double lowest_temperature = 150;  // [K]: rubber is glass far above it
 ShiftValue wlf(double c1, double c2, double reference, double temperature) {
   const double distance = c2 + (temperature - reference);
   if (!(distance > 0))
-    throw OutOfRange("temperature = " + show(temperature, 6) +
-                     ": the WLF law has no a_T at or below reference_temperature - c2 = " + show(reference - c2, 6) +
-                     " K");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(temperature) +
+                         ": the WLF law has no a_T at or below reference_temperature - c2 = " +
+                         in_kelvin(reference - c2) + unit("K"),
+                     "unknown-shift");
   return {-c1 * (temperature - reference) / distance, -c1 * (c2 / distance / distance)};
 }
 
 void require_kelvin(std::string_view name, double temperature) {
   if (!(temperature >= lowest_temperature) || !std::isfinite(temperature))
-    refuse(name, temperature, "finite and at least " + show(lowest_temperature) + "; its unit is kelvin");
+    throw InvalidInput(argument(name) + " = " + value(temperature, 12, "K") + must_be() + "finite and at least " +
+                           value(lowest_temperature, 12, "K") +
+                           Phrase(Phrase::Kind::unit, "; its unit is kelvin", {}, "K"),
+                       "invalid-value");
 }
 
 }  // namespace
@@ -50,11 +54,11 @@ ShiftValue shift_at(const TemperatureShift& shift, double temperature) {
                  [&](const ShiftTable& table) { return table.shift_at(temperature); }},
       shift);
   if (!(std::fabs(value.log10_a_T) <= 200))
-    throw OutOfRange("temperature = " + show(temperature, 6) + ": log10 a_T = " + show(value.log10_a_T, 6) +
-                     ", must be in [-200, 200]");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(temperature) +
+                     ": log10 a_T = " + show(value.log10_a_T, 6) + must(", must be ") + "in [-200, 200]");
   if (!(std::fabs(value.slope) <= 1e6))
-    throw OutOfRange("temperature = " + show(temperature, 6) + ": log10 a_T changes by " + show(value.slope, 6) +
-                     " per kelvin, must be at most 1e6");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(temperature) + ": log10 a_T changes by " +
+                     show(value.slope, 6) + " per kelvin" + must(", must be ") + "at most 1e6");
   return value;
 }
 

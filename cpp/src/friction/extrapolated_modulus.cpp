@@ -3,7 +3,7 @@
 #include "friction/extrapolated_modulus.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,17 +12,41 @@
 
 namespace asperity {
 
+namespace {
+
+/// At which of the velocities the share is above a limit; empty where it is at none.
+std::string where_above(std::span<const double> velocity, std::span<const double> share, double limit) {
+  std::set<double> above;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    if (share[i] > limit) above.insert(velocity[i]);
+  const std::size_t all = std::set<double>(velocity.begin(), velocity.end()).size();
+  if (above.empty()) return {};
+  if (above.size() == all) return "all velocities";
+  const std::string first = show(*above.begin(), 3), last = show(*above.rbegin(), 3);
+  return std::to_string(above.size()) + " of " + std::to_string(all) + " velocities, " +
+         (above.size() == 1 ? first : "from " + first + " to " + last) + " m/s";
+}
+
+}  // namespace
+
+std::vector<Diagnostic> extrapolation_notes(std::span<const double> velocity, std::span<const double> share) {
+  const char* step = "measure the modulus there, at other temperatures, or leave these velocities out";
+  std::vector<Diagnostic> notes;
+  if (const std::string at = where_above(velocity, share, fatal_extrapolation); !at.empty())
+    notes.push_back(
+        fatal("modulus-extrapolated", {"most of the hysteresis is that of an extrapolated modulus at " + at}, {step}));
+  if (const std::string at = where_above(velocity, share, noted_extrapolation); !at.empty())
+    notes.push_back(warning("modulus-unmeasured",
+                            "more than " + value(100 * noted_extrapolation) +
+                                " % of the hysteresis comes from frequencies outside of the measured ones at " + at,
+                            {step}));
+  return notes;
+}
+
 void note_extrapolated_modulus(Friction& friction) {
-  if (friction.extrapolated_share.empty()) return;
-  const double largest = std::ranges::max(friction.extrapolated_share);
-  std::vector<std::string> notes;
-  if (largest > fatal_extrapolation)
-    notes.emplace_back("fatal: most of the hysteresis is that of an extrapolated modulus at some points");
-  std::ranges::move(friction.notes, std::back_inserter(notes));
-  if (largest > noted_extrapolation)
-    notes.push_back("more than " + show(100 * noted_extrapolation) +
-                    " % of the hysteresis comes from frequencies outside of the measured ones at some points");
-  friction.notes = std::move(notes);
+  for (Diagnostic& note : extrapolation_notes(friction.velocity, friction.extrapolated_share))
+    friction.notes.insert(note.severity == Severity::fatal ? friction.notes.begin() : friction.notes.end(),
+                          std::move(note));
 }
 
 }  // namespace asperity

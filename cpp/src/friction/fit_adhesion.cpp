@@ -38,9 +38,11 @@ void check(const FixedAdhesion& fixed) {
   if (fixed.reference_velocity) require_positive("fixed: reference_velocity", *fixed.reference_velocity);
   if (fixed.width) require_not_negative("fixed: width", *fixed.width);
   if (count_free(fixed) == 0)
-    throw InvalidInput("fixed: shear_stress, reference_velocity and width: must leave one of them to be fitted");
+    throw InvalidInput(argument("fixed") + ": " + argument("shear_stress") + ", " + argument("reference_velocity") +
+                       " and " + argument("width") + must(": must leave ") + "one of them to be fitted");
   if (fixed.width && *fixed.width == 0 && !fixed.reference_velocity)
-    throw InvalidInput("fixed: width = 0: must be positive where reference_velocity, without effect then, is fitted");
+    throw InvalidInput(argument("fixed: width") + " = " + word("0") + must_be() + "positive where " +
+                       argument("reference_velocity") + ", without effect then, is fitted");
 }
 
 void check(std::span<const double> velocity, std::span<const double> mu, const FixedAdhesion& fixed) {
@@ -48,9 +50,10 @@ void check(std::span<const double> velocity, std::span<const double> mu, const F
   require_each_positive("mu", mu);
   const std::size_t free = count_free(fixed), distinct = std::set<double>(velocity.begin(), velocity.end()).size();
   if (distinct <= free)
-    throw InvalidInput("velocity: different values: " + std::to_string(distinct) + ", must be " +
-                       std::to_string(free + 1) + " or more to fit " + std::to_string(free) +
-                       (free == 1 ? " parameter" : " parameters; fixed = {...} holds some"));
+    throw InvalidInput(
+        argument("velocity") + ": different values: " + std::to_string(distinct) + must(", must be ") +
+        std::to_string(free + 1) + " or more to fit " + std::to_string(free) +
+        (free == 1 ? Sentence{" parameter"} : " parameters; " + advice("hold-some", "fixed = {...} holds some")));
 }
 
 /// Friction without adhesion, each pair of pressure and velocity computed once, and the entry of each point in it.
@@ -85,8 +88,10 @@ AdhesionPoints logarithms(const Contact& contact, std::span<const double> pressu
     const auto i = static_cast<std::size_t>(k), entry = contact.entry[i];
     const double area = contact.friction.contact_area[entry];
     if (!(area > 0))
-      throw InvalidInput("mu[" + std::to_string(i) + "] = " + show(mu[i]) + " at pressure = " + show(pressure[i]) +
-                         ", velocity = " + show(velocity[i]) + ": must be left out, there is no contact by the model");
+      throw InvalidInput(argument("mu") + ("[" + std::to_string(i) + "] = ") + value(mu[i]) + " at " +
+                             argument("pressure") + " = " + value(pressure[i]) + ", " + argument("velocity") + " = " +
+                             value(velocity[i]) + must_be() + "left out, there is no contact by the model",
+                         "no-contact");
     points.x[k] = std::log10(velocity[i]);
     points.log_mu[k] = std::log(mu[i]);
     points.log_hysteresis[k] = std::log(contact.friction.hysteresis[entry]);
@@ -97,46 +102,51 @@ AdhesionPoints logarithms(const Contact& contact, std::span<const double> pressu
 
 [[noreturn]] void refuse_hysteresis(const AdhesionPoints& points, const ContactModel& model) {
   const Index below = (points.log_mu <= points.log_hysteresis).count();
-  throw InvalidInput("mu: leaves nothing for the adhesion, the hysteresis alone exceeds it at " +
-                     std::to_string(below) + " of " + std::to_string(points.size()) + " points (mean ratio " +
-                     show(std::exp((points.log_hysteresis - points.log_mu).mean()), 3) + "): must be above it; " +
-                     (std::holds_alternative<NoCorrection>(model.correction)
-                          ? "plain Persson overestimates the hysteresis of partial contact, see correction"
-                          : "the spectrum may reach too far, the modulus or the correction may be wrong"));
+  throw InvalidInput(argument("mu") + ": leaves nothing for the adhesion, the hysteresis alone exceeds it at " +
+                         std::to_string(below) + " of " + std::to_string(points.size()) + " points (mean ratio " +
+                         show(std::exp((points.log_hysteresis - points.log_mu).mean()), 3) + ")" + must_be() +
+                         "above it; " +
+                         (std::holds_alternative<NoCorrection>(model.correction)
+                              ? "plain Persson overestimates the hysteresis of partial contact, see correction"
+                              : "the spectrum may reach too far, the modulus or the correction may be wrong"),
+                     "no-adhesion-left");
 }
 
 /// The parameters that the points leave open, in words; empty where they settle all. `curve` is none where it ran away.
-std::string open_parameters(const std::optional<AdhesionCurve>& curve, const FixedAdhesion& fixed) {
-  std::string text;
-  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+Sentence open_parameters(const std::optional<AdhesionCurve>& curve, const FixedAdhesion& fixed) {
+  Sentence open;
+  const auto add = [&](std::string_view name, const std::string& range) {
+    open = std::move(open) + (open.empty() ? "" : ", ") + argument(name) + range;
+  };
   if (!curve) {
-    if (!fixed.shear_stress) add("shear_stress");
-    if (!fixed.reference_velocity) add("reference_velocity");
-    if (!fixed.width) add("width");
-    return text;
+    if (!fixed.shear_stress) add("shear_stress", "");
+    if (!fixed.reference_velocity) add("reference_velocity", "");
+    if (!fixed.width) add("width", "");
+    return open;
   }
   const auto error = [&](Index k) { return std::sqrt(curve->covariance(k, k)); };
   const double v0 = std::pow(10, curve->at[1]), tau = std::exp(curve->at[0]), c = curve->at[2];
   if (!fixed.shear_stress && !(error(0) <= uncertain_share))
-    add("shear_stress (" + show(tau, 3) + " +- " + show(tau * error(0), 2) + " Pa)");
+    add("shear_stress", " (" + show(tau, 3) + " +- " + show(tau * error(0), 2) + " Pa)");
   if (!fixed.reference_velocity && !(error(1) <= uncertain_decades))
-    add("reference_velocity (" + show(v0, 3) + " m/s, uncertain by " + show(error(1), 2) + " decades)");
+    add("reference_velocity", " (" + show(v0, 3) + " m/s, uncertain by " + show(error(1), 2) + " decades)");
   const double allowed = std::max(uncertain_share * c, fixed.reference_velocity ? uncertain_width : 0);
-  if (!fixed.width && !(error(2) <= allowed)) add("width (" + show(c, 2) + " +- " + show(error(2), 2) + ")");
-  return text;
+  if (!fixed.width && !(error(2) <= allowed)) add("width", " (" + show(c, 2) + " +- " + show(error(2), 2) + ")");
+  return open;
 }
 
-[[noreturn]] void refuse_open(const std::string& open, const FixedAdhesion& fixed) {
-  std::string advice;
+[[noreturn]] void refuse_open(const Sentence& open, const FixedAdhesion& fixed) {
+  Sentence held;
   if (!fixed.width)
-    advice = ", or hold what is known, as by fixed = {\"width\": 0.1}";
+    held = ", or hold what is known, as by " + advice("hold-width", "fixed = {\"width\": 0.1}");
   else if (!fixed.reference_velocity)
-    advice = ", or hold what is known, as by fixed = {\"reference_velocity\": 6e-3}";
-  throw InvalidInput(
-      "velocity, mu: do not determine " + open +
-      ": must show the maximum of Eq. 23 above the hysteresis and above their own scatter; take more points "
-      "or decades of velocity" +
-      advice);
+    held = ", or hold what is known, as by " + advice("hold-velocity", "fixed = {\"reference_velocity\": 6e-3}");
+  throw InvalidInput(argument("velocity") + ", " + argument("mu") + ": do not determine " + open +
+                         must(": must show ") +
+                         "the maximum of Eq. 23 above the hysteresis and above their own scatter; take more points or "
+                         "decades of velocity" +
+                         held,
+                     "undetermined");
 }
 
 /// Whether neighbours in velocity are off to the same side by more than chance (J. von Neumann, Ann. Math. Stat. 12,
@@ -159,34 +169,47 @@ bool systematic(const AdhesionCurve& curve, const AdhesionPoints& points) {
   return differences < 2 * squares * (1 - 3 / std::sqrt(static_cast<double>(at.size())));
 }
 
-std::vector<std::string> notes_on(const AdhesionCurve& curve, const AdhesionPoints& points, const FixedAdhesion& fixed,
-                                  bool edge, double rtol) {
-  std::vector<std::string> notes;
+std::vector<Diagnostic> notes_on(const AdhesionCurve& curve, const AdhesionPoints& points, const FixedAdhesion& fixed,
+                                 bool edge, double rtol) {
+  std::vector<Diagnostic> notes;
   const Index aside = (curve.weight == 0).count();
   if (aside > 0)
-    notes.push_back(std::to_string(aside) + " of " + std::to_string(points.size()) + " points were put aside, see " +
-                    "outliers" +
-                    (static_cast<double>(aside) > many_outliers * static_cast<double>(points.size())
-                         ? ": so many that the model may be what is wrong"
-                         : ""));
+    notes.push_back(
+        note("points-aside", std::to_string(aside) + " of " + std::to_string(points.size()) +
+                                 " points were put aside, see " + argument("outliers") +
+                                 (static_cast<double>(aside) > many_outliers * static_cast<double>(points.size())
+                                      ? ": so many that the model may be what is wrong"
+                                      : "")));
   if (!fixed.reference_velocity && (curve.at[1] < points.x.minCoeff() || curve.at[1] > points.x.maxCoeff()))
-    notes.push_back("reference_velocity = " + show(std::pow(10, curve.at[1]), 3) +
-                    " m/s lies outside of the measured velocities, " + show(std::pow(10, points.x.minCoeff()), 3) +
-                    " to " + show(std::pow(10, points.x.maxCoeff()), 3) + " m/s: it is extrapolated");
+    notes.push_back(warning("maximum-extrapolated",
+                            argument("reference_velocity") + " = " + value(std::pow(10, curve.at[1]), 3, "m/s") +
+                                " m/s lies outside of the measured velocities, " +
+                                show(std::pow(10, points.x.minCoeff()), 3) + " to " +
+                                show(std::pow(10, points.x.maxCoeff()), 3) + " m/s: it is extrapolated",
+                            {"measure at velocities about the maximum"}));
   if (curve.scale > rtol && systematic(curve, points))
-    notes.emplace_back(
-        "neighbours in velocity are off the fit to the same side, by more than chance: the hysteresis (spectrum, "
-        "modulus, correction), what was held or Eq. 23 does not fit these points; errors are larger than stated");
+    notes.push_back(warning(
+        "systematic-misfit",
+        {"neighbours in velocity are off the fit to the same side, by more than chance: the hysteresis (spectrum, "
+         "modulus, correction), what was held or Eq. 23 does not fit these points; errors are larger than stated"},
+        {"check spectrum, modulus and correction against the points"}));
   const Index spare = points.size() - static_cast<Index>(count_free(fixed));
   if (curve.scale > rtol && spare < few_spare)
-    notes.push_back(
-        "only " + std::to_string(spare) +
-        " points more than parameters: standard errors are too small, of 17 by a third and of 3 by four times "
-        "in simulations");
+    notes.push_back(warning(
+        "few-points",
+        {"only " + std::to_string(spare) +
+         " points more than parameters: standard errors are too small, of 17 by a third and of 3 by four times in "
+         "simulations"},
+        {"measure more points"}));
   if (curve.scale > large_scatter)
-    notes.push_back("the points scatter by " + show(100 * curve.scale, 2) +
-                    " % about the fit: their unit of velocity, the hysteresis or Eq. 23 may be wrong");
-  if (edge) notes.emplace_back("width was taken as 0: the points leave it there or, within their scatter, below");
+    notes.push_back(warning("large-scatter",
+                            "the points scatter by " + value(100 * curve.scale, 2, "%") +
+                                " % about the fit: their unit of velocity, the hysteresis or Eq. 23 may be wrong",
+                            {"check the unit of the velocities"}));
+  if (edge)
+    notes.push_back(note("width-at-zero", argument("width") +
+                                              " was taken as 0: the points leave it there or, within their scatter, "
+                                              "below"));
   return notes;
 }
 
@@ -216,15 +239,14 @@ AdhesionFit fit_adhesion(const Spectrum& spectrum, const Rubber& rubber, const C
     curve = fit_adhesion_curve(points, held);
     if (curve) curve->covariance = covariance;
   }
-  if (const std::string open = open_parameters(curve, fixed); !curve || !open.empty()) {
+  if (const Sentence open = open_parameters(curve, fixed); !curve || !open.empty()) {
     if (2 * (points.log_mu <= points.log_hysteresis).count() >= points.size()) refuse_hysteresis(points, model);
     refuse_open(open, fixed);
   }
   if (curve->at[2] < 0)
-    throw InvalidInput(
-        "fixed: reference_velocity = " + show(*fixed.reference_velocity) +
-        ": must be near the maximum of the adhesion, which has its minimum there by the points (width = " +
-        show(curve->at[2], 3) + ")");
+    throw InvalidInput(argument("fixed: reference_velocity") + " = " + value(*fixed.reference_velocity) + must_be() +
+                       "near the maximum of the adhesion, which has its minimum there by the points (" +
+                       argument("width") + " = " + value(curve->at[2], 3) + ")");
 
   AdhesionFit fit{{fixed.shear_stress.value_or(std::exp(curve->at[0])),
                    fixed.reference_velocity.value_or(std::pow(10, curve->at[1])), curve->at[2]},
@@ -237,7 +259,7 @@ AdhesionFit fit_adhesion(const Spectrum& spectrum, const Rubber& rubber, const C
     for (Index j = 0; j < 3; ++j)
       fit.covariance[static_cast<std::size_t>(3 * i + j)] = slope[i] * slope[j] * curve->covariance(i, j);
   for (const double weight : curve->weight) fit.outliers.push_back(weight == 0);
-  for (std::string& note : notes_on(*curve, points, fixed, edge, model.rtol)) fit.notes.push_back(std::move(note));
+  for (Diagnostic& found : notes_on(*curve, points, fixed, edge, model.rtol)) fit.notes.push_back(std::move(found));
   return fit;
 }
 

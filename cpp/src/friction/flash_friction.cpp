@@ -60,26 +60,33 @@ constexpr double published_rise = 100;  // [K]
 constexpr double least_peclet = 10, telling_rise = 1;
 constexpr double crowded_area = 0.3;
 
-std::vector<std::string> texts(const HeatNotes& notes, const Heating& heating, const Spectrum& spectrum) {
-  std::vector<std::string> result;
+std::vector<Diagnostic> texts(const HeatNotes& notes, const Heating& heating, const Spectrum& spectrum) {
+  std::vector<Diagnostic> result;
   if (notes.hot)
-    result.push_back("the rubber heats itself by more than " + show(published_rise) +
-                     " K at some points, beyond what the model was compared with experiments on");
+    result.push_back(warning("hot-rubber",
+                             "the rubber heats itself by more than " + value(published_rise) +
+                                 " K at some points, beyond what the model was compared with experiments on",
+                             {"hold these points against a measurement"}));
   if (notes.wide)
-    result.push_back("heat flows to the sides too at some points, where v R / D is below " + show(least_peclet) +
-                     ": the rise there is up to 5 % too high, at v R / D = 1 by half");
+    result.push_back(note("heat-flows-sideways", "heat flows to the sides too at some points, where v R / D is below " +
+                                                     value(least_peclet) +
+                                                     ": the rise there is up to 5 % too high, at v R / D = 1 by half"));
   if (notes.several)
-    result.emplace_back(
-        "the heat has more than one steady state at some points, see branches: the one that sliding from rest reaches "
-        "is given, unless branch=\"hot\" asked for the other end");
+    result.push_back(warning(
+        "several-states",
+        "the heat has more than one steady state at some points, " + advice("see-branches", "see branches") +
+            ": the one that sliding from rest reaches is given, unless branch=\"hot\" asked for the other end"));
   const auto [q0, q1] = band(spectrum);
   const double q = 2 * std::numbers::pi / heating.contact_diameter;
   if (!heating.macro_wavenumber && !heating.macro_area && (q < q0 || q > q1))
-    result.push_back("the macro-asperities' wavenumber, 2 pi / contact_diameter = " + show(q, 4) +
-                     " 1/m, is held to the spectrum's end: give macro_wavenumber or macro_area");
+    result.push_back(
+        warning("macro-wavenumber-held", "the macro-asperities' wavenumber, 2 pi / " + argument("contact_diameter") +
+                                             " = " + value(q, 4, "1/m") + " 1/m, is held to the spectrum's end: " +
+                                             advice("give-macro-wavenumber", "give macro_wavenumber or macro_area")));
   if (notes.crowded)
-    result.push_back("the macro-asperity contacts cover more than " + show(crowded_area) +
-                     " of the surface at some points: they touch, and the heat of one reaches the next");
+    result.push_back(note("crowded-contacts",
+                          "the macro-asperity contacts cover more than " + value(crowded_area) +
+                              " of the surface at some points: they touch, and the heat of one reaches the next"));
   return result;
 }
 
@@ -224,7 +231,8 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
   const SurfaceSegments kept(scan.spectrum());
   const HeatScene scene{scan.spectrum(), kept.get(), rubber, shift, heating, scan.model(), q_m};
   if (heating.model == HeatModel::one_temperature) {
-    if (scan.of_scan()) throw InvalidInput("model = one-temperature: must be profile with ScanContact");
+    if (scan.of_scan())
+      throw InvalidInput(argument("model") + " = " + word("one-temperature") + must_be() + "profile with ScanContact");
     heat_to_one_temperature(scene, adhesion, branch, threads, f);
     return f;
   }

@@ -132,8 +132,8 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   if (scene_.adhesion) {
     at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
     if (!std::isfinite(at.adhesion))
-      throw InvalidInput("shear_stress = " + show(scene_.adhesion->shear_stress) +
-                         ": overflows over pressure = " + show(pressure) + ", their ratio must be finite");
+      throw InvalidInput(argument("shear_stress") + " = " + value(scene_.adhesion->shear_stress) + ": overflows over " +
+                         argument("pressure") + " = " + value(pressure) + ", their ratio must be finite");
   }
   const double mu = at.hysteresis + at.adhesion;
 
@@ -148,7 +148,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
                                        2 * shift.relative_error + angular_error) +
                       at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
-    throw NotConverged("mu = " + show(mu) + " with error " + show(at.error_estimate) +
+    throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) +
                        " where rtol = " + show(scene_.model.rtol) + " was asked for");
   // coefficients do not fall evenly at the knots of a table, and the last ones may be small by chance: one random
   // table in a thousand was above its estimate where that was below a hundredth of the tolerance, none elsewhere
@@ -285,7 +285,7 @@ void check_points(const ContactModel& model, const std::optional<Adhesion>& adhe
                   std::span<const double> velocity, unsigned threads) {
   check_contact(model, pressure, velocity);
   if (adhesion) validate(*adhesion);
-  if (threads == 0) throw InvalidInput("threads = 0: must be 1 or more");
+  if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
 }
 
 }  // namespace

@@ -20,16 +20,18 @@ void note_large_friction(Friction& friction) {
   if (top == friction.mu.end() || !(*top > largest)) return;
   const auto i = static_cast<std::size_t>(top - friction.mu.begin());
   const double hysteresis = friction.hysteresis[i], adhesion = friction.adhesion[i];
+  const bool sticks = adhesion > hysteresis;
   friction.notes.insert(
       friction.notes.begin(),
-      "fatal: mu reaches " + show(*top, 3) + " at " + show(friction.velocity[i], 3) + " m/s and " +
-          show(friction.pressure[i], 3) + " Pa, above " + show(largest) + ", more than rubber has on clean glass: " +
-          (adhesion > hysteresis
-               ? "adhesion makes " + show(adhesion, 3) +
-                     " of it, so its shear stress was found on another surface, or with another end of the spectrum"
-               : "hysteresis makes " + show(hysteresis, 3) +
-                     " of it, so the spectrum goes on too far, or its heights, the modulus or the pressure are in "
-                     "another unit"));
+      fatal("large-friction",
+            "mu reaches " + value(*top, 3) + " at " + show(friction.velocity[i], 3) + " m/s and " +
+                show(friction.pressure[i], 3) + " Pa, above " + show(largest) +
+                ", more than rubber has on clean glass: " + (sticks ? "adhesion" : "hysteresis") + " makes " +
+                show(std::max(adhesion, hysteresis), 3) + " of it, so " +
+                (sticks ? "its shear stress was found on another surface, or with another end of the spectrum"
+                        : "the spectrum goes on too far, or its heights, the modulus or the pressure are in another "
+                          "unit"),
+            {sticks ? "fit the adhesion on this surface" : "check where the spectrum ends, and the units"}));
 }
 
 }  // namespace asperity

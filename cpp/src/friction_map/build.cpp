@@ -29,8 +29,9 @@ void check_request(const MapRequest& request, const std::optional<Adhesion>& adh
       if (side < smallest || side > largest) refuse(name, side, "in [1e-300, 1e300]");
     }
     if (!(box[0] * (1 + 1e-6) < box[1]))
-      throw InvalidInput(std::string(name) + " = (" + show(box[0]) + ", " + show(box[1]) +
-                         "): must be (lo, hi) with lo < hi, a millionth apart or more");
+      throw InvalidInput(argument(name) + " = " +
+                         Phrase(Phrase::Kind::value, "(" + show(box[0]) + ", " + show(box[1]) + ")", {box[0], box[1]}) +
+                         ": must be (lo, hi) with lo < hi, a millionth apart or more");
   }
   require_rtol(request.rtol);
   if (!adhesion) return;
@@ -45,8 +46,9 @@ void check_temperature(const std::array<double, 2>& temperature) {
   for (const double one : temperature) require_temperature(one);
   const auto [lowest, highest] = temperature;
   if (lowest != highest && !(lowest + least_range <= highest))
-    throw InvalidInput("temperature = (" + show(lowest) + ", " + show(highest) +
-                       "): must be one, or (lo, hi) with lo < hi, " + show(least_range) + " K apart or more");
+    throw InvalidInput(argument("temperature") + " = " +
+                       Phrase(Phrase::Kind::value, "(" + show(lowest) + ", " + show(highest) + ")", {lowest, highest}) +
+                       must_be() + "one, or (lo, hi) with lo < hi, " + show(least_range) + " K apart or more");
 }
 
 struct Places {
@@ -84,9 +86,17 @@ Places places_of(const MapRequest& request, const std::array<double, 2>& tempera
   return places;
 }
 
-std::string text_of(const std::vector<std::string>& notes, const MapRequest& request) {
+std::string text_of(const std::vector<Diagnostic>& notes, const MapRequest& request) {
   std::string text = "asperity " + std::string(version()) + "\n";
-  for (const std::string& note : notes) text.append("note: ").append(note).append("\n");
+  constexpr std::array<const char*, 3> severities{"note", "warning", "fatal"};
+  for (const Diagnostic& note : notes) {
+    text.append("note: ").append(severities[static_cast<std::size_t>(note.severity)]).append(" ").append(note.code);
+    if (!note.argument.empty()) text.append(" ").append(note.argument);
+    text.append(": ");
+    for (const Sentence* part : {&note.where, &note.sentence})
+      for (const Phrase& phrase : *part) text += phrase.text;
+    text += "\n";
+  }
   return text.append(request.text);
 }
 
@@ -174,11 +184,12 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   check_gauss(model.method, "in a map with heat, whose sliding lengths GSL's methods do not know");
   if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
     throw InvalidInput(
-        "correction: must be none of Greenwood-Williamson's in a map with heat. Without it all kinks of p_T lie along "
-        "one curve, E*(velocity), which the map follows; with heat each has a curve of its own. friction takes it");
+        argument("correction") + must_be() +
+        "none of Greenwood-Williamson's in a map with heat. Without it all kinks of p_T lie along one curve, "
+        "E*(velocity), which the map follows; with heat each has a curve of its own. friction takes it");
   if (std::holds_alternative<ScanContact>(model.correction))
-    throw InvalidInput(
-        "correction = ScanContact: must be another one in a map with heat, of which every point is a contact");
+    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + must_be() +
+                       "another one in a map with heat, of which every point is a contact");
   const Places at = places_of(request, temperature);
   const FlashFriction found =
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);

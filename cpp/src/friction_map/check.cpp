@@ -111,8 +111,9 @@ void check(const MapFrame& frame, const std::vector<unsigned char>& file, const 
   }
   certificate.checked = request.checked;
   if (certificate.largest_checked_error > request.rtol)
-    throw NotConverged("rtol = " + show(request.rtol) + ": " + show(certificate.largest_checked_error, 3) +
-                       " was reached, on one of " + std::to_string(request.checked) + " random points");
+    throw NotConverged(argument("rtol") + " = " + value(request.rtol) + ": " +
+                       show(certificate.largest_checked_error, 3) + " was reached, on one of " +
+                       std::to_string(request.checked) + " random points");
 }
 
 }  // namespace asperity

@@ -136,8 +136,8 @@ class Builder {
       }
     }
     if (stuck)
-      throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * largest_error(), 3) + " was reached with " +
-                         std::to_string(cells) + " cells");
+      throw NotConverged(argument("rtol") + " = " + asperity::value(rtol_) + ": " + show(2 * largest_error(), 3) +
+                         " was reached with " + std::to_string(cells) + " cells");
     return !bad.empty();
   }
 
@@ -190,7 +190,7 @@ class Builder {
 
   double error_at(const MapTree::Leaf& leaf, const MapPlace& place, double height, const MapSample& truth) {
     if (truth.error > lattice_share * rtol_)  // no number of cells would help
-      throw NotConverged("rtol = " + show(rtol_) + ": " + show(2 * truth.error, 3) +
+      throw NotConverged(argument("rtol") + " = " + asperity::value(rtol_) + ": " + show(2 * truth.error, 3) +
                          " was reached, twice the error of what the solver and " + std::to_string(MapPatches::most) +
                          " polynomials through its points tell");
     const auto found = value(leaf, place, height);

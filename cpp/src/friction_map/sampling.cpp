@@ -57,8 +57,8 @@ auto solved(double rtol, const Solve& solve) {
   try {
     return solve();
   } catch (const NotConverged& error) {
-    throw NotConverged("rtol = " + show(rtol) + " of the map: the solver, asked for a part of it, found " +
-                       error.what());
+    throw NotConverged(error.diagnostic().within(argument("rtol") + " = " + value(rtol) +
+                                                 " of the map: the solver, asked for a part of it, found "));
   }
 }
 
@@ -116,11 +116,10 @@ void refuse_folds(const FlashFriction& f) {
   const auto fold = std::ranges::find_if(f.branches, [](int n) { return n > 1; });
   if (fold == f.branches.end()) return;
   const auto i = static_cast<std::size_t>(fold - f.branches.begin());
-  throw InvalidInput("temperature = " + show(f.cold.temperature[i], 6) +
-                     ": at velocity = " + show(f.cold.velocity[i], 6) +
-                     " and pressure = " + show(f.cold.pressure[i], 6) + " the heat has " + std::to_string(*fold) +
-                     " steady states, between which mu jumps: the map must leave out where it "
-                     "does");
+  throw InvalidInput(argument("temperature") + " = " + value(f.cold.temperature[i], 6) + ": at " +
+                     argument("velocity") + " = " + value(f.cold.velocity[i], 6) + " and " + argument("pressure") +
+                     " = " + value(f.cold.pressure[i], 6) + " the heat has " + std::to_string(*fold) +
+                     " steady states, between which mu jumps: the map must leave out where it does");
 }
 
 std::vector<MapSample> MapFrame::with_heat(std::span<const double> pressure, std::span<const double> velocity,
@@ -138,10 +137,11 @@ std::vector<MapSample> MapFrame::samples_of(const Friction& f, std::span<const d
   std::vector<MapSample> result;
   for (std::size_t i = 0; i < f.mu.size(); ++i) {
     const double h = f.hysteresis[i], a = f.contact_area[i];
-    for (const auto& [name, value] : {std::pair{"A/A0", a}, std::pair{"mu_H", hysteresis_ ? h : 1}})
-      if (!std::isnormal(value))
-        throw InvalidInput("pressure = " + show(f.pressure[i]) + " at velocity = " + show(f.velocity[i]) + ": " + name +
-                           " = " + show(value) + ", whose logarithm cannot be mapped");
+    for (const auto& [name, found] : {std::pair{"A/A0", a}, std::pair{"mu_H", hysteresis_ ? h : 1}})
+      if (!std::isnormal(found))
+        throw InvalidInput(argument("pressure") + " = " + value(f.pressure[i]) + " at " + argument("velocity") + " = " +
+                           value(f.velocity[i]) + ": " + name + " = " + show(found) +
+                           ", whose logarithm cannot be mapped");
     const double error = !parts_error.empty() ? parts_error[i] : h > 0 ? f.error_estimate[i] / h : model_.rtol;
     result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, error});
   }

@@ -233,7 +233,7 @@ void MapSlices::choose_nodes() {
     const double factor = std::clamp(1.05 * std::pow(error / allowed, 0.25), 1.05, 4.0);
     const auto more = static_cast<std::size_t>(std::ceil(static_cast<double>(steps) * factor));
     if (more > most_steps)
-      throw NotConverged("rtol = " + show(rtol_) + ": " + show(error, 3) + " was reached between " +
+      throw NotConverged(argument("rtol") + " = " + value(rtol_) + ": " + show(error, 3) + " was reached between " +
                          std::to_string(steps + 1) + " temperatures from " + show(frame_.temperature()[0], 6) + " to " +
                          show(frame_.temperature()[1], 6) + " K");
     steps = more;

@@ -118,8 +118,10 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
   March march(map, point.temperature, cold_rise);
   const std::vector<std::pair<Place, Place>> crossings = march.crossings();
   if (crossings.empty())
-    throw OutOfRange("temperature = " + show(point.temperature, 6) + ": the rubber heats itself above " +
-                     show(highest_rubber_temperature) + " K, which it does not stand");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(point.temperature) +
+                         ": the rubber heats itself above " + in_kelvin(highest_rubber_temperature) + unit("K") +
+                         ", which it does not stand",
+                     "too-hot");
   const auto& [low, high] = branch == Branch::coldest ? crossings.front() : crossings.back();
   for (const double near : {0.1, 0.01, 1e-3}) {
     const std::optional<VectorXd> theta = newton(map, march.between(low, high, near), tolerance, 30, tangent);

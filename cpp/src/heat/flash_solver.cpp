@@ -306,15 +306,16 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
   const auto temperature = [&](double q) { return point.temperature + map.grid().row_at(q).dot(found.theta); };
   const double rise = found.theta.maxCoeff(), hottest = point.temperature + (1 - in_doubt) * rise;
   const auto at = [&] {
-    return "temperature = " + show(point.temperature, 6) + ", velocity = " + show(point.velocity) +
-           ": the rubber heats itself to " + show(point.temperature + rise, 6) + " K";
+    return argument("temperature") + " = " + in_kelvin(point.temperature) + ", " + argument("velocity") + " = " +
+           value(point.velocity) + ": the rubber heats itself to " + in_kelvin(point.temperature + rise) + unit("K");
   };
   if (hottest > highest_rubber_temperature)
-    throw OutOfRange(at() + ", above " + show(highest_rubber_temperature) + " K, which it does not stand");
+    throw OutOfRange(
+        at() + ", above " + in_kelvin(highest_rubber_temperature) + unit("K") + ", which it does not stand", "too-hot");
   try {
     (void)shift_at(scene_.shift, hottest);
   } catch (const OutOfRange& error) {
-    throw OutOfRange(at() + ": " + error.what());
+    throw OutOfRange(error.diagnostic().within(at() + ": "));
   }
   if (!known_) return;
   double lowest = HUGE_VAL, highest = 0;
@@ -328,8 +329,9 @@ void FlashSolver::check_temperatures(const FlashMap& map, const FixedPoint& foun
     see(map.reduced_frequency(*q, point.temperature + map.grid().also_felt().dot(found.theta)));
   if (lowest < known_->lowest * (1 - in_doubt) || highest > known_->highest * (1 + in_doubt))
     throw OutOfRange(at() + " and is asked for its modulus from " + show(lowest) + " to " + show(highest) +
-                     " rad/s at the reference of its shift, known in [" + show(known_->lowest) + ", " +
-                     show(known_->highest) + "] rad/s");
+                         " rad/s at the reference of its shift, known in [" + show(known_->lowest) + ", " +
+                         show(known_->highest) + "] rad/s",
+                     "unknown-hot-modulus");
 }
 
 double FlashSolver::temperature_at(double wavenumber) const {

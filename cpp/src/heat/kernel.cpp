@@ -29,8 +29,9 @@ void validate(const Heating& heating) {
   require_between("conductivity", heating.conductivity, 0.01, 100, "W/(m K)");
   require_positive("contact_diameter", heating.contact_diameter);
   if (heating.macro_wavenumber && heating.macro_area)
-    throw InvalidInput("macro_area = " + show(*heating.macro_area) +
-                       ": must be left out where macro_wavenumber is given, which gives that area");
+    throw InvalidInput(argument("macro_area") + " = " + value(*heating.macro_area) + must_be() + "left out where " +
+                           argument("macro_wavenumber") + " is given, which gives that area",
+                       "invalid-value");
   if (heating.macro_wavenumber) require_positive("macro_wavenumber", *heating.macro_wavenumber);
   if (heating.macro_area && !(*heating.macro_area > 0 && *heating.macro_area <= 1))
     refuse("macro_area", *heating.macro_area, "in (0, 1]");

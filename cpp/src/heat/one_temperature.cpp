@@ -50,8 +50,9 @@ Start start_of(FlashMap& map, double background, double before, double cold, Bra
     above = here;
   }
   if (found.empty())
-    throw OutOfRange("temperature = " + show(background, 6) + ": the rubber heats itself above " +
-                     show(highest_rubber_temperature) + " K, which it does not stand");
+    throw OutOfRange(argument("temperature") + " = " + in_kelvin(background) + ": the rubber heats itself above " +
+                         in_kelvin(highest_rubber_temperature) + unit("K") + ", which it does not stand",
+                     "too-hot");
   const auto [lower, upper] = branch == Branch::coldest ? found.front() : found.back();
   return {between(lower, upper), static_cast<int>(found.size())};
 }

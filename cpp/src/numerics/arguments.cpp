@@ -13,32 +13,58 @@ std::string show(double value, int digits) {
   return {text, end};
 }
 
-void refuse(std::string_view name, double value, std::string_view allowed) {
-  throw InvalidInput(std::string(name) + " = " + show(value) + ": must be " + std::string(allowed));
+namespace {
+
+[[noreturn]] void refuse(const Sentence& what, double found, const Sentence& allowed) {
+  throw InvalidInput(what + " = " + value(found) + must_be() + allowed, "invalid-value");
+}
+
+}  // namespace
+
+void refuse(std::string_view name, double found, const Sentence& allowed) {
+  refuse(Sentence{argument(name)}, found, allowed);
+}
+
+void refuse(std::string_view name, double found, std::string allowed) {
+  refuse(Sentence{argument(name)}, found, Sentence{std::move(allowed)});
+}
+
+void refuse(const Sentence& what, double found, std::string allowed) {
+  refuse(what, found, Sentence{std::move(allowed)});
+}
+
+void refuse(std::string_view name, std::size_t entry, double found, std::string allowed) {
+  refuse(argument(name) + ("[" + std::to_string(entry) + "]"), found, Sentence{std::move(allowed)});
 }
 
 void require_each_finite(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i])) refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "finite");
+    if (!std::isfinite(values[i])) refuse(name, i, values[i], "finite");
 }
 
 void require_each_positive(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0) || !std::isfinite(values[i]))
-      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i], "positive and finite");
+    if (!(values[i] > 0) || !std::isfinite(values[i])) refuse(name, i, values[i], "positive and finite");
 }
 
 void require_rising(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 1; i < values.size(); ++i)
     if (!(values[i] > values[i - 1]))
-      refuse(std::string(name) + "[" + std::to_string(i) + "]", values[i],
-             "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+      refuse(name, i, values[i], "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+}
+
+void require_size(std::string_view name, std::size_t size, std::size_t least, const std::string& what) {
+  if (size < least)
+    throw InvalidInput(
+        argument(name) + " has " + count(size) + " entries" + must_be() + std::to_string(least) + " or more" + what,
+        "too-few-entries");
 }
 
 void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size) {
   if (size != other_size)
-    throw InvalidInput(std::string(name) + " (" + std::to_string(size) + ") and " + std::string(other) + " (" +
-                       std::to_string(other_size) + ") must have equal length");
+    throw InvalidInput(argument(name) + " (" + count(size) + ") and " + argument(other) + " (" + count(other_size) +
+                           ")" + must(" must have ") + "equal length",
+                       "unequal-lengths");
 }
 
 }  // namespace asperity

@@ -14,8 +14,52 @@ namespace asperity {
 /// A number as a person would write it, with all the digits that matter.
 std::string show(double value, int digits = 12);
 
+// The phrases of sentences, joined by +.
+inline Phrase argument(std::string_view name) { return {Phrase::Kind::argument, std::string(name)}; }
+inline Phrase value(std::string text, double number, std::string unit = {}) {
+  return {Phrase::Kind::value, std::move(text), {number}, std::move(unit)};
+}
+inline Phrase value(double number, int digits = 12, std::string unit = {}) {
+  return value(show(number, digits), number, std::move(unit));
+}
+inline Phrase word(std::string text) { return {Phrase::Kind::value, std::move(text)}; }
+inline Phrase count(std::size_t number) { return value(std::to_string(number), static_cast<double>(number)); }
+/// The unit behind a value.
+inline Phrase unit(const char* name) { return {Phrase::Kind::unit, std::string(" ") + name, {}, name}; }
+inline Phrase in_kelvin(double temperature) { return value(temperature, 6, "K"); }
+inline Phrase must(std::string words) { return {Phrase::Kind::must, std::move(words)}; }
+inline Phrase must_be() { return must(": must be "); }
+inline Phrase advice(std::string code, std::string words, std::vector<double> numbers = {}) {
+  return {Phrase::Kind::advice, std::move(words), std::move(numbers), std::move(code)};
+}
+inline Sentence operator+(Sentence sentence, Phrase phrase) {
+  sentence.push_back(std::move(phrase));
+  return sentence;
+}
+inline Sentence operator+(Phrase first, Phrase second) { return Sentence{std::move(first)} + std::move(second); }
+inline Sentence operator+(Sentence sentence, const Sentence& end) {
+  sentence.insert(sentence.end(), end.begin(), end.end());
+  return sentence;
+}
+inline Sentence operator+(Phrase first, const Sentence& end) { return Sentence{std::move(first)} + end; }
+
+// The notes of a result; `step` is what to do, by default the advice in the sentence.
+inline Diagnostic note(std::string code, Sentence sentence, Sentence step = {}) {
+  return {std::move(code), Severity::note, std::move(sentence), std::move(step)};
+}
+inline Diagnostic warning(std::string code, Sentence sentence, Sentence step = {}) {
+  return {std::move(code), Severity::warning, std::move(sentence), std::move(step)};
+}
+inline Diagnostic fatal(std::string code, Sentence sentence, Sentence step = {}) {
+  return {std::move(code), Severity::fatal, std::move(sentence), std::move(step)};
+}
+
 /// InvalidInput: "name = value: must be allowed".
-[[noreturn]] void refuse(std::string_view name, double value, std::string_view allowed);
+[[noreturn]] void refuse(std::string_view name, double found, const Sentence& allowed);
+[[noreturn]] void refuse(std::string_view name, double found, std::string allowed);
+[[noreturn]] void refuse(const Sentence& what, double found, std::string allowed);
+/// The same of an entry of a list.
+[[noreturn]] void refuse(std::string_view name, std::size_t entry, double found, std::string allowed);
 
 // Written so that NaN fails every one of them.
 inline void require_positive(std::string_view name, double value) {
@@ -41,6 +85,8 @@ void require_rising(std::string_view name, std::span<const double> values);
 inline void require_band(std::string_view name, double lowest, double highest) {
   if (!(highest / lowest <= 1e300)) refuse(name, highest, "at most 1e300 times the lowest, " + show(lowest));
 }
+/// At least so many entries; `what` they are for goes on behind it.
+void require_size(std::string_view name, std::size_t size, std::size_t least, const std::string& what = "");
 void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size);
 /// Spans that results are written to must be as long as their argument.
 inline void require_room(std::span<const double> w, std::span<const double> i1, std::span<const double> i2) {

@@ -68,7 +68,8 @@ struct Fftw {
 };
 
 int side(std::size_t n) {
-  if (n > 1U << 30) throw InvalidInput("shape: a side of " + std::to_string(n) + " points: must be at most 2^30");
+  if (n > 1U << 30)
+    throw InvalidInput(argument("shape") + ": a side of " + std::to_string(n) + " points" + must_be() + "at most 2^30");
   return static_cast<int>(n);
 }
 

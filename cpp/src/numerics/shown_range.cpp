@@ -30,19 +30,25 @@ std::string inwards(double x, int digits, bool up) {
 }  // namespace
 
 ShownRange::ShownRange(double lowest, double highest) : lowest_(lowest), highest_(highest), digits_(least_digits) {
-  while (digits_ < most_digits && read(this->lowest()) > read(this->highest())) ++digits_;
+  while (digits_ < most_digits && read(this->lowest().text) > read(this->highest().text)) ++digits_;
 }
 
-std::string ShownRange::lowest() const { return inwards(lowest_, digits_, true); }
+Phrase ShownRange::lowest() const {
+  const std::string text = inwards(lowest_, digits_, true);
+  return asperity::value(text, read(text));
+}
 
-std::string ShownRange::highest() const { return inwards(highest_, digits_, false); }
+Phrase ShownRange::highest() const {
+  const std::string text = inwards(highest_, digits_, false);
+  return asperity::value(text, read(text));
+}
 
-std::string ShownRange::text() const { return "[" + lowest() + ", " + highest() + "]"; }
+Sentence ShownRange::text() const { return "[" + lowest() + ", " + highest() + "]"; }
 
-std::string ShownRange::value(double x) const {
+Phrase ShownRange::value(double x) const {
   int digits = least_digits;
   while (digits < most_digits && side(read(show(x, digits))) != side(x)) ++digits;
-  return show(x, digits);
+  return asperity::value(show(x, digits), x);
 }
 
 int ShownRange::side(double x) const { return x < lowest_ ? -1 : x > highest_ ? 1 : 0; }

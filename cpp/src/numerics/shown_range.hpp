@@ -3,18 +3,20 @@
 
 #include <string>
 
+#include "asperity/errors.hpp"
+
 namespace asperity {
 
 /// A range of positive numbers as a message shows it. Its ends are rounded inwards: whoever types them is inside of it.
 class ShownRange {
  public:
   ShownRange(double lowest, double highest);
-  [[nodiscard]] std::string lowest() const;
-  [[nodiscard]] std::string highest() const;
+  [[nodiscard]] Phrase lowest() const;
+  [[nodiscard]] Phrase highest() const;
   /// "[lowest, highest]"
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] Sentence text() const;
   /// A number with six digits, or as many more as show on which side of the range it lies.
-  [[nodiscard]] std::string value(double x) const;
+  [[nodiscard]] Phrase value(double x) const;
 
  private:
   [[nodiscard]] int side(double x) const;

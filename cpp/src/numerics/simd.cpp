@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "asperity/errors.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 
@@ -14,7 +14,7 @@ namespace {
 VectorUnit choose() {
   const char* const wish = std::getenv("ASPERITY_VECTORS");
   if (wish != nullptr && std::strcmp(wish, "baseline") != 0 && std::strcmp(wish, "avx2") != 0)
-    throw InvalidInput("ASPERITY_VECTORS = " + std::string(wish) + ": must be baseline or avx2");
+    throw InvalidInput(argument("ASPERITY_VECTORS") + " = " + word(std::string(wish)) + must_be() + "baseline or avx2");
 #ifdef __x86_64__
   if ((wish && std::strcmp(wish, "baseline") == 0) || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     return VectorUnit::baseline;

@@ -37,9 +37,9 @@ std::vector<ModulusPiece> pieces_of(const std::vector<double>& w, const std::vec
     const ModulusPiece piece{low, high, w[row], line(storage, log_storage), line(loss, log_loss), false};
     for (const std::complex<double> e : {piece(low), piece(high)})
       if (!(tellable_square(e.real()) && tellable_square(e.imag())))
-        throw InvalidInput("extrapolation: beyond angular_frequency = " + show(w[row]) +
-                           " rad/s the modulus leaves [1e-140, 1e140] Pa, in which its square can be told, within its "
-                           "decade");
+        throw InvalidInput(
+            argument("extrapolation") + ": beyond angular_frequency = " + show(w[row]) +
+            " rad/s the modulus leaves [1e-140, 1e140] Pa, in which its square can be told, within its decade");
     return piece;
   };
   std::vector<ModulusPiece> result(1);
@@ -80,9 +80,11 @@ struct MasterCurve::Table {
     require_positive("angular_frequency", w);
     if (w >= knots.front() * (1 - rounding) && w <= knots.back() * (1 + rounding)) return;
     const ShownRange known(knots.front(), knots.back());
-    throw OutOfRange(
-        "angular_frequency = " + known.value(w) + " rad/s: the master curve is known in " + known.text() + " rad/s" +
-        (extrapolation ? " with its extrapolation of one decade" : "; extrapolation= adds a decade at each end"));
+    throw OutOfRange(argument("angular_frequency") + " = " + known.value(w) + " rad/s: the master curve is known in " +
+                     known.text() + " rad/s" +
+                     (extrapolation
+                          ? Sentence{" with its extrapolation of one decade"}
+                          : "; " + advice("extrapolate-curve", "extrapolation=") + " adds a decade at each end"));
   }
 };
 
@@ -91,8 +93,8 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
   require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", angular_frequency.size());
   require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", angular_frequency.size());
   if (angular_frequency.size() < 2)
-    throw InvalidInput("angular_frequency has " + std::to_string(angular_frequency.size()) +
-                       " entries: must be 2 or more");
+    throw InvalidInput(argument("angular_frequency") + " has " + count(angular_frequency.size()) + " entries" +
+                       must_be() + "2 or more");
   require_each_positive("angular_frequency", angular_frequency);
   require_each_positive("storage_modulus", storage_modulus);
   require_each_positive("loss_modulus", loss_modulus);
@@ -101,11 +103,10 @@ MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<doub
        {std::pair{"storage_modulus", &storage_modulus}, std::pair{"loss_modulus", &loss_modulus}})
     for (std::size_t i = 0; i < moduli->size(); ++i)
       if (const double e = (*moduli)[i]; !tellable_square(e))
-        refuse(std::string(name) + "[" + std::to_string(i) + "]", e,
-               "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
+        refuse(name, i, e, "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
   for (std::size_t i = 1; i < angular_frequency.size(); ++i)
     if (!(std::log(angular_frequency[i]) > std::log(angular_frequency[i - 1])))
-      refuse("angular_frequency[" + std::to_string(i) + "]", angular_frequency[i],
+      refuse("angular_frequency", i, angular_frequency[i],
              "further from the entry before it: their logarithms are the same number");
   table_ = std::make_shared<const Table>(std::move(angular_frequency), std::move(storage_modulus),
                                          std::move(loss_modulus), extrapolation);

@@ -31,8 +31,9 @@ PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli,
   longest_ = times_.empty() ? 0 : std::ranges::max(times_);
   const double glassy = std::accumulate(moduli_.begin(), moduli_.end(), equilibrium_);
   if (!(glassy >= 1e-140 && glassy <= 1e140))
-    refuse(moduli_.empty() ? "equilibrium_modulus" : "moduli: their sum with equilibrium_modulus", glassy,
-           "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
+    refuse(moduli_.empty() ? Sentence{argument("equilibrium_modulus")}
+                           : argument("moduli") + ": their sum with " + argument("equilibrium_modulus"),
+           glassy, "in [1e-140, 1e140] Pa, so that its square is in the range of a double");
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     double sum = equilibrium_;
     // tau_l / (tau_k + tau_l) as 1 / (1 + tau_k / tau_l): no overflow for far modes
@@ -125,8 +126,9 @@ void PronySeries::check_fitted(double w) const {
   const auto [lowest, highest] = fit_->range;
   if (w >= lowest * (1 - rounding) && w <= highest * (1 + rounding)) return;
   const ShownRange known(lowest, highest);
-  throw OutOfRange("angular_frequency = " + known.value(w) + " rad/s: the Prony series was fitted on " + known.text() +
-                   " rad/s; extrapolation=\"prony\" of fit_prony goes on beyond them");
+  throw OutOfRange(argument("angular_frequency") + " = " + known.value(w) + " rad/s: the Prony series was fitted on " +
+                   known.text() + " rad/s; " + advice("extrapolate-series", "extrapolation=\"prony\" of fit_prony") +
+                   " goes on beyond them");
 }
 
 bool PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,

@@ -39,7 +39,8 @@ double require_roughness(const std::vector<double>& heights) {
   for (const double h : heights) square += h * h;
   const double rms = std::sqrt(square / static_cast<double>(heights.size()));
   if (!(rms > 0) || !std::isfinite(rms))
-    throw InvalidInput("height_map has an rms height of " + show(rms, 3) + " m: must have roughness");
+    throw InvalidInput(argument("height_map") + " has an rms height of " + show(rms, 3) + " m" + must(": must have ") +
+                       "roughness");
   return rms;
 }
 
@@ -110,10 +111,10 @@ Period one_period(const HeightMap& map, Continuation continuation, double shorte
   Period period{map.shape(), std::vector<double>(map.shape()[0] * map.shape()[1]), 0};
   auto& [shape, heights, rms] = period;
   if (shape[0] < fewest || shape[1] < fewest)
-    throw InvalidInput("height_map has " + std::to_string(shape[0]) + " x " + std::to_string(shape[1]) +
-                       " points: must have 16 or more along both sides");
+    throw InvalidInput(argument("height_map") + " has " + count(shape[0]) + " x " + std::to_string(shape[1]) +
+                       " points" + must(": must have ") + "16 or more along both sides");
   if (map.dropout_fraction() > 0)
-    throw InvalidInput("height_map has drop-outs (" + show(100 * map.dropout_fraction(), 3) +
+    throw InvalidInput(argument("height_map") + " has drop-outs (" + show(100 * map.dropout_fraction(), 3) +
                        " %); call fill_dropouts() first");
   for (std::size_t y = 0; y < shape[0]; ++y) {
     heed();

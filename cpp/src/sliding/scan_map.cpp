@@ -70,9 +70,9 @@ Spectrum within(const TabulatedSpectrum& table, const Band& band) {
   const auto [first, last] = asperity::band(Spectrum(table));
   const double q0 = std::max(band.q0, first), q1 = std::min(band.q1, last);
   if (!(q0 < q1 * (1 - rounding)))
-    throw InvalidInput("height_map: the band of the spectrum, " + show(band.q0, 4) + " to " + show(band.q1, 4) +
-                       " 1/m, has less than two rings of its waves, which are known from " + show(first, 4) + " to " +
-                       show(last, 4) + " 1/m");
+    throw InvalidInput(argument("height_map") + ": the band of the spectrum, " + show(band.q0, 4) + " to " +
+                       show(band.q1, 4) + " 1/m, has less than two rings of its waves, which are known from " +
+                       show(first, 4) + " to " + show(last, 4) + " 1/m");
   return truncated(Spectrum(table), q0, q1);
 }
 

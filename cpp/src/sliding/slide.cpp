@@ -37,15 +37,15 @@ void check_range(const Rubber& rubber, double velocity, const Period& period, He
   const double last = pi * (cosine / dx + sine / dy);
   const double slowest = known->lowest / first, fastest = known->highest / last;
   if (velocity >= slowest && velocity <= fastest) return;
-  throw OutOfRange("velocity = " + show(velocity, 6) + " m/s: the waves of this map have q_x from " + show(first, 4) +
-                   " to " + show(last, 4) + " 1/m, and the modulus is known from " + show(known->lowest, 4) + " to " +
-                   show(known->highest, 4) + " rad/s; " +
+  throw OutOfRange(argument("velocity") + " = " + value(velocity, 6) + " m/s: the waves of this map have q_x from " +
+                   show(first, 4) + " to " + show(last, 4) + " 1/m, and the modulus is known from " +
+                   show(known->lowest, 4) + " to " + show(known->highest, 4) + " rad/s; " +
                    (slowest <= fastest
                         ? "velocities from " + show(slowest, 4) + " to " + show(fastest, 4) + " m/s are allowed"
                         : "no velocity has all of them in this range"));
 }
 
-std::string told(Continuation continuation) {
+std::string description(Continuation continuation) {
   if (continuation == Continuation::mirror)
     return "the map was continued by its mirror images: it slides over its slopes in both directions";
   if (continuation == Continuation::blend)
@@ -74,9 +74,13 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
                        " steps: must be " + show(model.rtol, 2) + "; its contact area was " +
                        show(contact.contact_area, 4) + " and its hysteresis " + show(contact.hysteresis, 4) +
                        (std::chrono::steady_clock::now() > course.deadline ? " at the end of time_limit" : ""));
-  if (model.continuation != Continuation::periodic) contact.notes.push_back(told(model.continuation));
+  if (model.continuation != Continuation::periodic)
+    contact.notes.push_back(note("map-continued", {description(model.continuation)}));
   if (std::fabs(model.direction) > 2 * pi)
-    contact.notes.push_back("direction = " + show(model.direction, 6) + " is more than a turn: it is in radians");
+    contact.notes.push_back(
+        warning("large-angle",
+                argument("direction") + " = " + value(model.direction, 6) + " is more than a turn: it is in radians",
+                {"give the angle in radians"}));
   return std::move(contact);
 }
 

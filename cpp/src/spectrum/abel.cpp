@@ -52,7 +52,7 @@ class ProfilePieces {
  public:
   explicit ProfilePieces(const LineSpectrum& spectrum) : q_(spectrum.wavenumber()), c_(spectrum.density()) {
     for (std::size_t i = 0; i < q_.size(); ++i)
-      if (c_[i] == 0) refuse("density[" + std::to_string(i) + "]", 0, "positive for the surface behind a profile");
+      if (c_[i] == 0) refuse("density", i, 0, "positive for the surface behind a profile");
     for (std::size_t i = 0; i + 1 < q_.size(); ++i)
       fall_.push_back(-std::log(c_[i + 1] / c_[i]) / std::log(q_[i + 1] / q_[i]));
     // beyond the last row: the slope of the last factor of 2, or of the last two rows where they are farther apart
@@ -60,8 +60,8 @@ class ProfilePieces {
         std::min(static_cast<std::size_t>(std::ranges::lower_bound(q_, q_.back() / 2) - q_.begin()), q_.size() - 2);
     tail_ = -std::log(c_.back() / c_[from]) / std::log(q_.back() / q_[from]);
     if (!(tail_ > 0))
-      throw InvalidInput("spectrum: rises as q^" + show(-tail_, 4) + " at its upper end, " + show(q_.back()) +
-                         " 1/m: must fall there for the surface behind a profile");
+      throw InvalidInput(argument("spectrum") + ": rises as q^" + show(-tail_, 4) + " at its upper end, " +
+                         show(q_.back()) + " 1/m: must fall there for the surface behind a profile");
   }
 
   /// C(q_i) = -(1 / pi) int dC1D/dk dk / sqrt(k^2 - q^2) = (1 / pi q) int e C1D(q cosh t) / cosh t dt.
@@ -108,8 +108,8 @@ std::vector<double> isotropic_densities(const LineSpectrum& spectrum) {
 TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const std::size_t n = spectrum.wavenumber().size();
   if (n > 1000)
-    throw InvalidInput("spectrum has " + std::to_string(n) +
-                       " rows: must have 1000 or fewer for the surface behind a profile; log_binned() averages them");
+    throw InvalidInput(argument("spectrum") + " has " + count(n) + " rows" + must(": must have ") +
+                       "1000 or fewer for the surface behind a profile; log_binned() averages them");
   const RowQuality& old = spectrum.quality();
   const std::vector<double> all = isotropic_densities(spectrum);
   std::vector<double> variance(n);
@@ -128,7 +128,7 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
     const bool flagged = !old.flag.empty() && old.flag[i] != 0;
     if (!(all[i] >= 0) && flagged) continue;
     if (!(all[i] >= 0))
-      throw InvalidInput("spectrum: rises so steeply above " + show(spectrum.wavenumber()[i], 6) +
+      throw InvalidInput(argument("spectrum") + ": rises so steeply above " + show(spectrum.wavenumber()[i], 6) +
                          " 1/m that no isotropic surface has such profiles; rows that scatter must be averaged over "
                          "wider bins (per_decade)");
     q.push_back(spectrum.wavenumber()[i]);

@@ -35,7 +35,7 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
         if (r > 0) next = std::min(next, q + 2 * pi / r);
         heed_at(steps);
         if (++steps > 1'000'000)
-          throw NotConverged("distance = " + show(r) + ": the spectrum up to " + show(s.b) +
+          throw NotConverged(argument("distance") + " = " + value(r) + ": the spectrum up to " + show(s.b) +
                              " 1/m makes more than 10^6 oscillations, of which the sum is below rounding");
         next = std::min(next, s.b);
         const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };

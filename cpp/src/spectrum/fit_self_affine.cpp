@@ -60,8 +60,7 @@ Rows gather(const TabulatedSpectrum& spectrum, const std::vector<std::size_t>& r
   Rows result{{}, {}, {}, rows, spectrum.quality()};
   for (const std::size_t row : rows) {
     if (spectrum.density()[row] == 0)
-      refuse("density[" + std::to_string(row) + "]", 0,
-             "positive for a fit in the logarithm; q_min, q_max may leave it out");
+      refuse("density", row, 0, "positive for a fit in the logarithm; q_min, q_max may leave it out");
     result.x.push_back(std::log(spectrum.wavenumber()[row]));
     result.y.push_back(std::log(spectrum.density()[row]));
     const bool counted = method == FitMethod::least_squares && !spectrum.quality().count.empty();
@@ -193,9 +192,9 @@ void check(const FitOptions& options) {
   if (options.q_min) require_positive("q_min", *options.q_min);
   if (options.q_max) require_positive("q_max", *options.q_max);
   if (options.q_min && options.q_max && !(*options.q_max > *options.q_min))
-    refuse("q_max", *options.q_max, "above q_min = " + show(*options.q_min));
+    refuse("q_max", *options.q_max, "above " + argument("q_min") + " = " + value(*options.q_min));
   if (options.method == FitMethod::slope && options.rolloff == Rolloff::require)
-    throw InvalidInput("rolloff: cannot be required of method \"slope\", which is a straight line");
+    throw InvalidInput(argument("rolloff") + ": cannot be required of method \"slope\", which is a straight line");
 }
 
 }  // namespace
@@ -209,12 +208,12 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   if (chosen.size() < 3) {
     const std::string found = std::to_string(chosen.size());
     if (options.q_min || options.q_max || spectrum.quality().flag.empty())
-      throw InvalidInput("q_min, q_max: " + found + " rows of the spectrum in [" +
+      throw InvalidInput(argument("q_min") + ", " + argument("q_max") + ": " + found + " rows of the spectrum in [" +
                          show(options.q_min.value_or(q.front())) + ", " + show(options.q_max.value_or(q.back())) +
-                         "] 1/m: must be 3 or more for a fit");
-    throw InvalidInput("spectrum: " + found +
-                       " reliable rows, must be 3 or more for a fit: the map is too small against its wavelengths, or "
-                       "too coarse; q_min and q_max take rows on trust");
+                         "] 1/m" + must_be() + "3 or more for a fit");
+    throw InvalidInput(argument("spectrum") + ": " + found + " reliable rows" + must(", must be ") +
+                       "3 or more for a fit: the map is too small against its wavelengths, or too coarse; q_min and "
+                       "q_max take rows on trust");
   }
   const Rows rows = gather(spectrum, chosen, options.method);
   const double x0 = rows.x.front(), x1 = rows.x.back();
@@ -226,7 +225,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
     broken = found && convincing(rows, fit, *found);
     if (broken) fit = *found;
     if (!broken && options.rolloff == Rolloff::require)
-      throw InvalidInput("spectrum: has no roll-off between " + show(q[chosen.front()], 6) + " and " +
+      throw InvalidInput(argument("spectrum") + ": has no roll-off between " + show(q[chosen.front()], 6) + " and " +
                          show(q[chosen.back()], 6) +
                          " 1/m (rolloff = \"require\"): a scan smaller than lambda_0 does not reach it");
   }
@@ -239,9 +238,9 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
     hurst = 1;
   }
   if (!(hurst > 0 && hurst <= 1))
-    throw InvalidInput("spectrum: falls as q^" + show(fit.slope, 4) + " between " +
+    throw InvalidInput(argument("spectrum") + ": falls as q^" + show(fit.slope, 4) + " between " +
                        show(std::exp(broken ? fit.x_r : x0), 6) + " and " + show(q[chosen.back()], 6) +
-                       " 1/m, hurst = " + show(hurst, 4) + ": must be in (0, 1]");
+                       " 1/m, hurst = " + show(hurst, 4) + must_be() + "in (0, 1]");
 
   const auto log_rms = [&](double level, double slope, double x_r) {
     return Broken::log_rms(fit.level + level, fit.slope + slope, fit.x_r + x_r, x0, x1);

@@ -7,6 +7,7 @@
 
 #include "asperity/spectrum.hpp"
 #include "asperity/watch.hpp"
+#include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/window.hpp"
@@ -33,7 +34,9 @@ HeightMap row_of(const HeightMap& map, std::size_t y) {
 LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend) {
   require_filled(map);
   const std::size_t rows = map.shape()[0], n = map.shape()[1];
-  if (n < 4) throw InvalidInput("surface has " + std::to_string(n) + " points along x: must have 4 or more");
+  if (n < 4)
+    throw InvalidInput(argument("surface") + " has " + count(n) + " points along x" + must(": must have ") +
+                       "4 or more");
   const std::vector<double> w = window_weights(window, n);
   const WindowMoments moments(w);
   const RealTransform<double> transform(n);

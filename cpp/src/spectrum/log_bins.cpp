@@ -155,8 +155,9 @@ S binned(const S& spectrum, double per_decade) {
   const Rows rows = rows_of(spectrum);
   Rows result = means(rows, log_bins(rows, per_decade));
   if (result.wavenumber.size() < 2)
-    throw InvalidInput("per_decade = " + show(per_decade) + ": makes " + std::to_string(result.wavenumber.size()) +
-                       " bin of this spectrum, must make 2 or more");
+    throw InvalidInput(argument("per_decade") + " = " + value(per_decade) + ": makes " +
+                       std::to_string(result.wavenumber.size()) + " bin of this spectrum" + must(", must make ") +
+                       "2 or more");
   return S(std::move(result.wavenumber), std::move(result.density), std::move(result.quality));
 }
 
@@ -175,12 +176,13 @@ TabulatedSpectrum log_binned(const TabulatedSpectrum& spectrum, double per_decad
 LineSpectrum log_binned(const LineSpectrum& spectrum, double per_decade) { return binned(spectrum, per_decade); }
 
 TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std::optional<double> per_decade) {
-  if (spectra.empty()) throw InvalidInput("spectra has 0 entries: must have 1 or more");
+  if (spectra.empty()) throw InvalidInput(argument("spectra") + " has 0 entries" + must(": must have ") + "1 or more");
   const bool counted = std::ranges::none_of(spectra, [](const auto& s) { return s.quality().count.empty(); });
   if (!counted && std::ranges::any_of(spectra, [](const auto& s) { return !s.quality().count.empty(); }))
-    throw InvalidInput("spectra: some have counts and some have none; a weighted mean needs all of them or none");
+    throw InvalidInput(argument("spectra") +
+                       ": some have counts and some have none; a weighted mean needs all of them or none");
   if (!per_decade && !same_wavenumbers(spectra))
-    throw InvalidInput("spectra: have different wavenumbers; give per_decade to merge them in bins");
+    throw InvalidInput(argument("spectra") + ": have different wavenumbers; give per_decade to merge them in bins");
 
   Rows all;
   std::vector<std::vector<std::size_t>> same(spectra.front().wavenumber().size());

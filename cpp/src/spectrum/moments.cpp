@@ -27,8 +27,8 @@ std::vector<Segment> checked_segments(const Spectrum& spectrum) {
   std::vector<Segment> result = segments(spectrum);
   const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum);
   if (s && !std::isnormal(result.front().at_a))
-    throw InvalidInput("rms_height = " + show(s->rms_height) + ", q0 = " + show(s->q0) +
-                       ": C(q0) = " + show(result.front().at_a) + " m^4 leaves the range of a double");
+    throw InvalidInput(argument("rms_height") + " = " + value(s->rms_height) + ", " + argument("q0") + " = " +
+                       value(s->q0) + ": C(q0) = " + show(result.front().at_a) + " m^4 leaves the range of a double");
   return result;
 }
 
@@ -41,8 +41,9 @@ double root_of_moment(std::string_view name, std::span<const Segment> surface, i
     rough |= s.at_a > 0 || s.at_b > 0;
   }
   if (rough && !std::isnormal(sum))
-    throw InvalidInput(std::string(name) + " of a spectrum from q0 = " + show(surface.front().a) + " to q1 = " +
-                       show(surface.back().b) + " 1/m: its square, " + show(sum) + ", leaves the range of a double");
+    throw InvalidInput(std::string(name) + " of a spectrum from " + argument("q0") + " = " + value(surface.front().a) +
+                       " to " + argument("q1") + " = " + value(surface.back().b) + " 1/m: its square, " + show(sum) +
+                       ", leaves the range of a double");
   return std::sqrt(sum);
 }
 
@@ -142,7 +143,8 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
     if (q < q0 || q > q1) {
       if (measured) {
         const ShownRange known(q0, q1);
-        throw OutOfRange("wavenumber = " + known.value(q) + ": the spectrum is known in " + known.text() + " 1/m");
+        throw OutOfRange(argument("wavenumber") + " = " + known.value(q) + ": the spectrum is known in " +
+                         known.text() + " 1/m");
       }
       result.push_back(0);
       continue;

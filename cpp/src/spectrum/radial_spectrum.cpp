@@ -21,7 +21,7 @@ using std::numbers::pi;
 
 void require_filled(const HeightMap& map) {
   if (map.dropout_fraction() > 0)
-    throw InvalidInput("surface: has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
+    throw InvalidInput(argument("surface") + ": has drop-outs (" + show(100 * map.dropout_fraction(), 4) +
                        " %); call fill_dropouts() first");
 }
 
@@ -29,8 +29,8 @@ void require_plane(const HeightMap& map) {
   require_filled(map);
   const auto [ny, nx] = map.shape();
   if (ny < 2 || nx < 2)
-    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must be 2 x 2 or more for a two-dimensional spectrum; one line is a LineScan");
+    throw InvalidInput(argument("surface") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
+                       must_be() + "2 x 2 or more for a two-dimensional spectrum; one line is a LineScan");
 }
 
 Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads) {
@@ -69,10 +69,12 @@ class Rings {
     const std::size_t columns = shape[1] / 2 + 1;
     const double modes = static_cast<double>(shape[0]) * static_cast<double>(columns);
     if (!(corner <= most_rings || corner <= modes))  // of more rings than modes most are empty
-      throw InvalidInput("pixel_size = (" + show(pixel[0]) + ", " + show(pixel[1]) + "): its aspect of " +
-                         show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " + show(corner, 3) +
-                         " rings of wavenumbers for the " + show(modes) + " modes of this map: must be at most " +
-                         show(most_rings));
+      throw InvalidInput(
+          argument("pixel_size") + " = " +
+          Phrase(Phrase::Kind::value, "(" + show(pixel[0]) + ", " + show(pixel[1]) + ")", {pixel[0], pixel[1]}) +
+          ": its aspect of " + show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " +
+          show(corner, 3) + " rings of wavenumbers for the " + show(modes) + " modes of this map" + must_be() +
+          "at most " + show(most_rings));
     count_ = static_cast<std::size_t>(std::lround(corner)) + 1;
   }
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -208,8 +210,8 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     for (std::size_t m = 1; m < covariances.size(); ++m) quality.correlation.push_back(covariances[m] / covariances[0]);
   }
   if (wavenumber.size() < 2)
-    throw InvalidInput("surface has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must have more points; these make only one ring of wavenumbers");
+    throw InvalidInput(argument("surface") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
+                       must(": must have ") + "more points; these make only one ring of wavenumbers");
   return {std::move(wavenumber), std::move(density), std::move(quality)};
 }
 

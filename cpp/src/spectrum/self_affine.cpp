@@ -55,10 +55,11 @@ void validate(const SelfAffineSpectrum& s) {
   if (!(s.hurst > 0 && s.hurst <= 1)) refuse("hurst", s.hurst, "in (0, 1]");
   require_positive("q0", s.q0);
   require_finite("q1", s.q1);
-  if (!(s.q1 > s.q0)) refuse("q1", s.q1, "above q0 = " + show(s.q0));
+  if (!(s.q1 > s.q0)) refuse("q1", s.q1, "above " + argument("q0") + " = " + value(s.q0));
   require_band("q1", s.q0, s.q1);
   if (s.rolloff && !(*s.rolloff > s.q0 && *s.rolloff < s.q1))
-    refuse("rolloff", *s.rolloff, "between q0 = " + show(s.q0) + " and q1 = " + show(s.q1));
+    refuse("rolloff", *s.rolloff,
+           "between " + argument("q0") + " = " + value(s.q0) + " and " + argument("q1") + " = " + value(s.q1));
 }
 
 Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::optional<double> new_q1) {
@@ -70,14 +71,14 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
   require_finite("q1", q1);
   const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
   const auto outside = [&](std::string_view name, double q) {
-    const std::string problem =
-        std::string(name) + " = " + known.value(q) + ": must be in " + known.text() + ", the spectrum's band [1/m]";
+    const Sentence problem =
+        argument(name) + " = " + known.value(q) + must_be() + "in " + known.text() + ", the spectrum's band [1/m]";
     if (measured) throw OutOfRange(problem);
-    throw InvalidInput(problem);
+    throw InvalidInput(problem, "invalid-value");
   };
   if (!(q0 >= old_q0 && q0 < old_q1)) outside("q0", q0);
   if (!(q1 > old_q0 && q1 <= old_q1)) outside("q1", q1);
-  if (!(q1 > q0)) refuse("q1", q1, "above q0 = " + show(q0));
+  if (!(q1 > q0)) refuse("q1", q1, "above " + argument("q0") + " = " + value(q0));
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
     const double q_r = s->rolloff.value_or(s->q0);
     if (q1 <= q_r)

@@ -58,7 +58,7 @@ Anisotropy anisotropy(const HeightMap& map, Window window, std::optional<Detrend
   const Reliability reliable(window, std::min(ly, lx), std::max(dy, dx), prepared.ring_covariances[0]);
   const double lowest = q_min.value_or(reliable.lowest), highest = q_max.value_or(reliable.highest);
   if (!(highest > lowest))
-    throw InvalidInput("surface: has no band between " + show(lowest, 6) +
+    throw InvalidInput(argument("surface") + ": has no band between " + show(lowest, 6) +
                        " 1/m, the longest waves that the window leaves, and " + show(highest, 6) +
                        ", half of pi / pixel: is too small for its anisotropy; q_min and q_max choose one");
   double xx = 0, xy = 0, yy = 0;
@@ -76,8 +76,9 @@ Anisotropy anisotropy(const HeightMap& map, Window window, std::optional<Detrend
     }
   });
   if (modes < 16)
-    throw InvalidInput("q_min, q_max: " + std::to_string(modes) + " modes of the map in [" + show(lowest, 6) + ", " +
-                       show(highest, 6) + "] 1/m: must be 16 or more for its anisotropy");
+    throw InvalidInput(argument("q_min") + ", " + argument("q_max") + ": " + std::to_string(modes) +
+                       " modes of the map in [" + show(lowest, 6) + ", " + show(highest, 6) + "] 1/m" + must_be() +
+                       "16 or more for its anisotropy");
   const double to_slope = prepared.scale * 4 * pi * pi / (lx * ly);
   const double mean = (xx + yy) / 2, split = std::hypot((xx - yy) / 2, xy);
   const double steep = std::atan2(2 * xy, xx - yy) / 2;  // direction of the greatest slope, in (-pi/2, pi/2]

@@ -68,7 +68,7 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
     }
   }
   if (!any)
-    throw InvalidInput("spectrum: its band [" + show(q0, 6) + ", " + show(q1, 6) +
+    throw InvalidInput(argument("spectrum") + ": its band [" + show(q0, 6) + ", " + show(q1, 6) +
                        "] 1/m holds no mode of this grid, whose wavenumbers run from " +
                        show(2 * pi / std::max(lx, ly), 6) + " to " +
                        show(std::hypot(pi / pixel_size[0], pi / pixel_size[1]), 6) + " 1/m");
@@ -136,8 +136,9 @@ std::vector<double> skewed(const std::vector<double>& z, double skewness, const 
     (best * at_a > 0 ? at_a : at_b) = best;
   }
   if (std::fabs(best) > tolerance)
-    throw NotConverged("skewness = " + show(skewness) + ": heights of this spectrum on this grid reached " +
-                       show(best + skewness, 3) + "; fewer long waves than some 8 x 8 leave too little room");
+    throw NotConverged(argument("skewness") + " = " + value(skewness) +
+                       ": heights of this spectrum on this grid reached " + show(best + skewness, 3) +
+                       "; fewer long waves than some 8 x 8 leave too little room");
   return found;
 }
 
@@ -149,12 +150,16 @@ HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap
                      std::uint64_t seed, double skewness) {
   const auto [ny, nx] = shape;
   if (ny < 2 || nx < 2)
-    throw InvalidInput("shape = (" + std::to_string(ny) + ", " + std::to_string(nx) + "): must be 2 x 2 or more");
+    throw InvalidInput(argument("shape") + " = " +
+                       Phrase(Phrase::Kind::value, "(" + std::to_string(ny) + ", " + std::to_string(nx) + ")",
+                              {static_cast<double>(ny), static_cast<double>(nx)}) +
+                       must_be() + "2 x 2 or more");
   require_positive("pixel_size", pixel_size[0]);
   require_positive("pixel_size", pixel_size[1]);
   if (!(std::fabs(skewness) <= 2)) refuse("skewness", skewness, "in [-2, 2]");
   if (rms_height(spectrum) == 0)
-    throw InvalidInput("spectrum: its density is 0 everywhere, must be positive somewhere");
+    throw InvalidInput(argument("spectrum") + ": its density is 0 everywhere" + must(", must be ") +
+                       "positive somewhere");
   const std::vector<double> amplitude = amplitudes(spectrum, shape, pixel_size);
   Random random(seed);
   Modes modes{shape, std::vector<std::complex<double>>(amplitude.size())};

@@ -16,7 +16,7 @@ namespace {
 
 void require_each_not_negative(std::string_view name, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    require_not_negative(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
+    if (!(values[i] >= 0) || !std::isfinite(values[i])) refuse(name, i, values[i], "finite and not negative");
 }
 
 /// The rows of either spectrum.
@@ -24,7 +24,8 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
                    const RowQuality& quality) {
   require_same_size("density", density.size(), "wavenumber", wavenumber.size());
   if (wavenumber.size() < 2)
-    throw InvalidInput("wavenumber has " + std::to_string(wavenumber.size()) + " entries: must be 2 or more");
+    throw InvalidInput(argument("wavenumber") + " has " + count(wavenumber.size()) + " entries" + must_be() +
+                       "2 or more");
   require_each_positive("wavenumber", wavenumber);
   require_rising("wavenumber", wavenumber);
   require_band("wavenumber: its last entry", wavenumber.front(), wavenumber.back());
@@ -36,18 +37,18 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
   require_rows("standard_error", quality.standard_error.size());
   require_rows("flag", quality.flag.size());
   if (!quality.correlation.empty() && quality.standard_error.empty())
-    throw InvalidInput("correlation: standard_error is missing, whose entries it ties together");
+    throw InvalidInput(argument("correlation") + ": standard_error is missing, whose entries it ties together");
   if (quality.correlation.size() % wavenumber.size() != 0)
-    throw InvalidInput("correlation has " + std::to_string(quality.correlation.size()) + " entries, wavenumber has " +
-                       std::to_string(wavenumber.size()) + ": each row must have as many");
+    throw InvalidInput(argument("correlation") + " has " + count(quality.correlation.size()) +
+                       " entries, wavenumber has " + std::to_string(wavenumber.size()) +
+                       ": each row must have as many");
   require_each_not_negative("count", quality.count);
   require_each_not_negative("standard_error", quality.standard_error);
   for (std::size_t i = 0; i < quality.flag.size(); ++i)
-    if (quality.flag[i] > (few_periods | near_nyquist | few_modes))
-      refuse("flag[" + std::to_string(i) + "]", quality.flag[i], "from 0 to 7");
+    if (quality.flag[i] > (few_periods | near_nyquist | few_modes)) refuse("flag", i, quality.flag[i], "from 0 to 7");
   for (std::size_t i = 0; i < quality.correlation.size(); ++i)
     if (!(std::abs(quality.correlation[i]) <= 1))
-      refuse("correlation: entry " + std::to_string(i), quality.correlation[i], "in [-1, 1]");
+      refuse(argument("correlation") + ": entry " + std::to_string(i), quality.correlation[i], "in [-1, 1]");
 }
 
 }  // namespace

@@ -291,8 +291,9 @@ HeightMap HeightMap::fill_dropouts(double max_fraction) const {
   if (!(max_fraction >= 0 && max_fraction < 1)) refuse("max_fraction", max_fraction, "in [0, 1)");
   const double missing = dropout_fraction();
   if (missing > max_fraction)
-    throw InvalidInput("heights: " + show(100 * missing, 4) + " % of the points are drop-outs: must be at most " +
-                       show(100 * max_fraction, 4) + " %, max_fraction = " + show(max_fraction));
+    throw InvalidInput(argument("heights") + ": " + show(100 * missing, 4) + " % of the points are drop-outs" +
+                       must_be() + "at most " + show(100 * max_fraction, 4) + " %, " + argument("max_fraction") +
+                       " = " + value(max_fraction));
   if (dropouts_ == 0) return *this;
   return std::visit(
       [&](const auto* data) {

@@ -16,8 +16,8 @@ namespace {
 
 void require_size(std::size_t size, HeightMap::Shape shape) {
   if (size != shape[0] * shape[1])
-    throw InvalidInput("heights has " + std::to_string(size) + " entries: must be shape = " + std::to_string(shape[0]) +
-                       " x " + std::to_string(shape[1]));
+    throw InvalidInput(argument("heights") + " has " + count(size) + " entries" + must_be() +
+                       "shape = " + std::to_string(shape[0]) + " x " + std::to_string(shape[1]));
 }
 
 /// Owns a vector and points at its numbers. A vector's buffer stays where it is when the vector is moved.
@@ -41,19 +41,19 @@ HeightMap::HeightMap(Data data, Strides strides, std::shared_ptr<const void> own
     : data_(data), strides_(strides), owner_(std::move(owner)), shape_(shape), pixel_size_(pixel_size) {
   const bool line = strides_[0] == 0 && shape_[0] == 1;
   if (shape_[0] == 0 || shape_[1] == 0)
-    throw InvalidInput("heights has shape (" + (line ? "" : std::to_string(shape_[0]) + ", ") +
-                       std::to_string(shape_[1]) + (line ? ",): must not be empty" : "): must not be empty"));
+    throw InvalidInput(argument("heights") + " has shape (" + (line ? "" : std::to_string(shape_[0]) + ", ") +
+                       std::to_string(shape_[1]) + (line ? ",)" : ")") + must(": must not be ") + "empty");
   require_positive("pixel_size", pixel_size_[0]);
   require_positive("pixel_size", pixel_size_[1]);
   for_each_row(*this, [&](std::size_t y, std::span<const double> row) {
     for (std::size_t x = 0; x < row.size(); ++x) {
       if (std::isnan(row[x])) ++dropouts_;
       if (std::isinf(row[x]))
-        refuse("heights[" + (line ? "" : std::to_string(y) + ", ") + std::to_string(x) + "]", row[x],
+        refuse(argument("heights") + ("[" + (line ? "" : std::to_string(y) + ", ") + std::to_string(x) + "]"), row[x],
                "finite, or NaN for a drop-out");
     }
   });
-  if (dropouts_ == shape_[0] * shape_[1]) throw InvalidInput("heights: every point is a drop-out (NaN)");
+  if (dropouts_ == shape_[0] * shape_[1]) throw InvalidInput(argument("heights") + ": every point is a drop-out (NaN)");
 }
 
 void HeightMap::read_row(std::size_t y, double* row) const {
@@ -107,7 +107,8 @@ HeightHistogram HeightMap::height_histogram(std::size_t bins) const {
   if (bins < 1 || bins > 1'000'000) refuse("bins", static_cast<double>(bins), "from 1 to 10^6");
   const HeightStatistics s = statistics();
   const double lower = s.z_min, upper = s.z_max, width = (upper - lower) / static_cast<double>(bins);
-  if (!(width > 0)) throw InvalidInput("heights: must differ for a histogram, but are all the same");
+  if (!(width > 0))
+    throw InvalidInput(argument("heights") + must(": must differ ") + "for a histogram, but are all the same");
   HeightHistogram histogram{std::vector<double>(bins + 1), std::vector<double>(bins, 0.0)};
   for (std::size_t i = 0; i <= bins; ++i) histogram.edges[i] = lower + width * static_cast<double>(i);
   histogram.edges.back() = upper;
@@ -127,8 +128,8 @@ HeightHistogram HeightMap::height_histogram(std::size_t bins) const {
 double HeightMap::rms_slope() const {
   const auto [ny, nx] = shape_;
   if (ny < 3 || nx < 3)
-    throw InvalidInput("heights has shape (" + std::to_string(ny) + ", " + std::to_string(nx) +
-                       "): must be 3 x 3 or more for central differences");
+    throw InvalidInput(argument("heights") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
+                       must_be() + "3 x 3 or more for central differences");
   const auto [dy, dx] = pixel_size_;
   std::vector<double> before(nx), here(nx), after(nx);
   read_row(0, here.data());
@@ -156,7 +157,8 @@ double HeightMap::rms_slope() const {
   }
   across(after);
   if (count_x == 0 || count_y == 0)
-    throw InvalidInput("heights: no point has both neighbours measured; call fill_dropouts() before a slope");
+    throw InvalidInput(argument("heights") +
+                       ": no point has both neighbours measured; call fill_dropouts() before a slope");
   return std::sqrt(sum_x / count_x + sum_y / count_y);
 }
 

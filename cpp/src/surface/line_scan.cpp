@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "asperity/surface.hpp"
+#include "numerics/arguments.hpp"
 
 namespace asperity {
 
@@ -32,7 +33,7 @@ double LineScan::rms_slope() const {
       ++count;
     }
   if (count == 0)
-    throw InvalidInput("heights has " + std::to_string(size()) +
+    throw InvalidInput(argument("heights") + " has " + asperity::count(size()) +
                        " points, none with both neighbours measured: a slope by central differences needs one");
   return std::sqrt(sum / count);
 }

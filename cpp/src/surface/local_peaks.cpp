@@ -152,7 +152,7 @@ class Neighbourhood {
 
 std::vector<double> HeightMap::local_peaks(double min_distance, bool periodic) const {
   require_positive("min_distance", min_distance);
-  if (dropouts_ > 0) throw InvalidInput("heights: has drop-outs; call fill_dropouts() first");
+  if (dropouts_ > 0) throw InvalidInput(argument("heights") + ": has drop-outs; call fill_dropouts() first");
   const double mean = statistics().mean;
   std::vector<double> z(shape_[0] * shape_[1]);
   for (std::size_t y = 0; y < shape_[0]; ++y) read_row(y, z.data() + y * shape_[1]);

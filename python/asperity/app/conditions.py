@@ -12,6 +12,7 @@ from asperity.app.parts import Quantity, part
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker
 from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.diagnostics import Error
 from asperity.scene.parts import ADHESION, HEATING
 
 _UNFIT = (
@@ -126,7 +127,7 @@ class ConditionsPart:
         self._correction.offer(found.scene)
         self._show_switches()
 
-    def fail(self, problem: str) -> None:
+    def fail(self, error: Error) -> None:
         self._show_switches()
 
     def _show_switches(self) -> None:

@@ -31,7 +31,7 @@ def rubber_of(
     swept = [name for name in names if name not in single]
     if not swept:
         problem = "holds one frequency: must be sweeps of frequency at several temperatures"
-        raise InvalidInput(f"{folder.path / single[0]}: {problem}")
+        raise InvalidInput(problem, where=folder.path / single[0])
     isotherms = read_isotherms([folder.path / name for name in swept], **read)
     prony = bool(settings.get("prony", False))
     table = {
@@ -65,7 +65,7 @@ def _master_curve(
         for quantity, factor in factors.items()
     ]
     if len({len(one) for one in columns}) != 1:
-        raise InvalidInput(f"{path}: has rows without a number in each of the columns")
+        raise InvalidInput("has rows without a number in each of the columns", where=path)
     rows = sorted(zip(*columns, strict=True))
     lines = [_HEADER, *(",".join(f"{one:.17g}" for one in row) for row in rows)]
     shown = f"{folder.shown[names[0]]}, in rad/s and Pa"

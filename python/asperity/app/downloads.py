@@ -72,7 +72,7 @@ def map_of(scene: Scene) -> FrictionMap:
         velocity=side_of_map("velocity", None, scene.velocity, notes),
         adhesion=scene.adhesion,
         correction=scene.correction,
-        text="".join([*(f"note: {note}\n" for note in notes), *lines]),
+        text="".join([*(f"note: {note.line}\n" for note in notes), *lines]),
         checked=CHECKED,
         **{**scene.options, "rtol": MAP_RTOL},
         **heat_of_map(scene),

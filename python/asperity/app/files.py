@@ -2,19 +2,19 @@
 
 import itertools
 import os
-import re
 import shutil
 import tempfile
 from pathlib import Path
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import File, Sentence, Value
 from asperity.io.aside import locked_folder, remove_left
 
 MOST_BYTES = 256 * 2**20  # of one file
 MOST_FILES = 40  # of a session
 MOST_TOGETHER = 2**30  # bytes of a session
 _PREFIX = "asperity-app-"
-_ENDING = re.compile(r"\.[A-Za-z0-9]{1,8}")
+_LONGEST_ENDING = 8
 
 
 class Folder:
@@ -29,15 +29,18 @@ class Folder:
         """Write a file and return its name here; of the client's name only the ending is used."""
         if len(content) > MOST_BYTES:
             sizes = f"has {len(content) // 2**20} MB: must have at most {MOST_BYTES // 2**20}"
-            raise InvalidInput(f"{plain(shown)}: {sizes}")
+            raise InvalidInput(sizes, where=plain(shown))
         if not content:
-            raise InvalidInput(f"{plain(shown)}: is empty")
+            raise InvalidInput("is empty", where=plain(shown))
         held = sum(one.stat().st_size for one in self.path.iterdir())
         if len(self.shown) >= MOST_FILES or held + len(content) > MOST_TOGETHER:
             most = f"{MOST_FILES} files and {MOST_TOGETHER // 2**20} MB"
-            raise InvalidInput(f"{plain(shown)}: a session holds at most {most}: begin a new one")
-        ending = _ENDING.fullmatch(Path(shown.replace("\\", "/")).suffix)
-        name = f"file-{next(self._numbers)}{ending[0].lower() if ending else ''}"
+            raise InvalidInput(
+                f"a session holds at most {most}: begin a new one", where=plain(shown)
+            )
+        ending = Path(shown.replace("\\", "/")).suffix[1:].lower()
+        usable = ending.isascii() and ending.isalnum() and len(ending) <= _LONGEST_ENDING
+        name = f"file-{next(self._numbers)}{f'.{ending}' if usable else ''}"
         (self.path / name).write_bytes(content)
         self.shown[name] = plain(shown)
         return name
@@ -47,13 +50,19 @@ class Folder:
         (self.path / name).unlink(missing_ok=True)
         self.shown.pop(name, None)
 
-    def as_shown(self, text: str) -> str:
-        """A message with the client's names in the place of ours, and without our folder."""
-        text = text.replace(f"{self.path}/", "")
-        text = re.sub(r"^scene\.toml: ", "", text)
-        for name, shown in list(self.shown.items()):  # threads keep files
-            text = re.sub(rf"\b{re.escape(name)}\b", lambda _, shown=shown: shown, text)  # type: ignore[misc]
-        return text
+    def as_shown(self, sentence: Sentence) -> Sentence:
+        """A sentence with the client's names in the place of ours, and without our scene's."""
+        said: list[str] = []
+        for phrase in sentence:
+            if isinstance(phrase, File | Value):
+                name = Path(phrase.strip("'")).name
+                phrase = phrase.saying(self.shown.get(name, phrase))
+            elif type(phrase) is str:  # of a library
+                phrase = phrase.replace(f"{self.path}/", "")
+            said.append(phrase)
+        if said and isinstance(said[0], File) and Path(said[0]) == self.path / "scene.toml":
+            return tuple(said[2:])
+        return tuple(said)
 
     def close(self) -> None:
         shutil.rmtree(self.path, ignore_errors=True)

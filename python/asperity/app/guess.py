@@ -7,6 +7,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted
+from asperity.base.diagnostics import Must
 from asperity.io.column_names import cells_of, find_header, numbered_lines
 
 QUANTITIES = ("frequency", "storage", "loss", "temperature")
@@ -47,7 +48,9 @@ def guess_columns(path: Path) -> Guess:
     lines = numbered_lines(path)
     header = find_header(lines)
     if header is None:
-        raise InvalidInput(f"{path}: no line names columns: must have one above the numbers")
+        raise InvalidInput(
+            "no line names columns", Must(": must have "), "one above the numbers", where=path
+        )
     names = [name for name in header.names if name]
     columns: dict[str, str] = {}
     for quantity, pattern in _NAMED.items():
@@ -79,7 +82,7 @@ def numbers_of(path: Path, name: str) -> list[float]:
     lines = numbered_lines(path)
     header = find_header(lines)
     if header is None or name not in header.names:
-        raise InvalidInput(f"{path}: no column is named {quoted(name)}")
+        raise InvalidInput(f"no column is named {quoted(name)}", where=path)
     rows = [cells_of(line) for number, line in lines if number > header.number]
     return _numbers(rows, header.names.index(name))
 

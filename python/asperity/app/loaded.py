@@ -8,6 +8,7 @@ from typing import Any
 from asperity._core import InvalidInput
 from asperity.app.corrections import OF_SCAN
 from asperity.app.opened import Tables
+from asperity.base.diagnostics import Argument
 from asperity.scene.model import Scene
 from asperity.scene.scene import Builders, scene_of
 from asperity.scene.write import scene_text
@@ -52,5 +53,5 @@ def editable(name: str, tables: Tables) -> Tables:
     for key in ("pressure_pa", "temperature_k", "temperature_c"):
         if isinstance(conditions.get(key, 0.0), list | dict):
             problem = "the page shows one pressure and one temperature: must be a number"
-            raise InvalidInput(f"{name}: [conditions] {key}: {problem}")
+            raise InvalidInput(Argument(f"[conditions] {key}"), f": {problem}", where=name)
     return {**tables, "rubber": rubber, "conditions": conditions}

@@ -8,6 +8,7 @@ from nicegui import ui
 from asperity._core import Error
 from asperity.app.parts import upload
 from asperity.app.state import State
+from asperity.app.words import in_one_line
 from asperity.app.worker import Worker, in_thread
 
 
@@ -36,7 +37,7 @@ class OpenPart:
         try:
             take = await in_thread(lambda: self._state.open_scene(files))
         except Error as error:
-            self._say(self._state.said(error))
+            self._say(in_one_line(self._state.said(error)))
             return
         take()
         for part in self._parts:

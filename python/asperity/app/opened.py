@@ -7,6 +7,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.app.files import MOST_FILES, Folder, plain
+from asperity.base.diagnostics import MUST_BE, Argument, Must
 from asperity.io.archive import Archive
 from asperity.io.toml import read_toml_text
 from asperity.scene.scene import check_tables
@@ -36,7 +37,7 @@ def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:
     def here(wanted: str) -> str:
         shown = plain(wanted)
         if shown not in contents:
-            raise InvalidInput(f"{name} names {shown}: must be dropped together with the scene")
+            raise InvalidInput(f"{name} names {shown}", MUST_BE, "dropped together with the scene")
         kept.append(folder.keep(shown, contents[shown]))
         return kept[-1]
 
@@ -57,26 +58,30 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
     try:
         archive = Archive(io.BytesIO(content))
         if len(archive.members) > MOST_FILES:
-            raise InvalidInput(f"holds {len(archive.members)} files: must be at most {MOST_FILES}")
+            raise InvalidInput(
+                f"holds {len(archive.members)} files", MUST_BE, f"at most {MOST_FILES}"
+            )
         return [(one.filename, archive.open(one).read_all()) for one in archive.members]
     except InvalidInput as error:
-        raise InvalidInput(f"{shown}: {error}") from error
+        raise error.within(PurePosixPath(shown)) from error
     except Exception as error:  # zlib and zipfile have errors of many kinds
         problem = str(error) or "it ends too early"
-        raise InvalidInput(f"{shown}: cannot be unpacked: {problem}") from error
+        raise InvalidInput(f"cannot be unpacked: {problem}", where=shown) from error
 
 
 def _tables(name: str, content: bytes) -> Tables:
     if len(content) > _MOST_TEXT:
-        raise InvalidInput(f"{name}: has {len(content)} bytes: must have at most {_MOST_TEXT}")
+        raise InvalidInput(
+            f"has {len(content)} bytes", Must(": must have "), f"at most {_MOST_TEXT}", where=name
+        )
     try:
         tables = read_toml_text(content)
     except InvalidInput as error:
-        raise InvalidInput(f"{name}: {error}") from error
+        raise error.within(PurePosixPath(name)) from error
     check_tables(PurePosixPath(name), tables)  # type: ignore[arg-type]  # it only names it
     for key, table in tables.items():
         if not isinstance(table, dict):
-            raise InvalidInput(f"{name}: {key}: must be a table")
+            raise InvalidInput(Argument(key), MUST_BE, "a table", where=name)
     return tables
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
+from asperity.base.diagnostics import Note
 from asperity.correction import Correction
 from asperity.io import plausible
 from asperity.scene.parts import build_correction
@@ -18,7 +19,7 @@ class Remembered:
 
     def __init__(self, build: Callable[..., _Built]) -> None:
         self._build = build
-        self._kept: dict[str, tuple[Any, list[str]]] = {}
+        self._kept: dict[str, tuple[Any, list[Note]]] = {}
 
     def __call__(self, *arguments: Any) -> Any:
         key = repr(arguments)

@@ -13,8 +13,9 @@ from asperity.app.charts import Options, contributions_chart, friction_chart
 from asperity.app.computed import contributions
 from asperity.app.parts import chart, part, redraw, redraw_series
 from asperity.app.state import State
-from asperity.app.words import allowed_velocities, in_words
+from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Worker, in_thread
+from asperity.base.diagnostics import Note
 from asperity.report.errors import errors_of
 from asperity.scene.model import Curves, Scene
 
@@ -85,11 +86,11 @@ class ResultPart:
             self._offer_velocities(found)
         self._busy(not found.whole)
 
-    def fail(self, problem: str) -> None:
+    def fail(self, error: Error) -> None:
         found = self._worker.found
-        self._problem.set_text(problem)
+        self._problem.set_text(in_one_line(error))
         self._busy(False)
-        allowed = allowed_velocities(problem)
+        allowed = allowed_velocities(error)
         self._remedy.set_visibility(allowed is not None)
         if allowed is not None:
             self._remedy.set_text(f"Show {allowed[0]:g} to {allowed[1]:g} m/s, which are known")
@@ -120,10 +121,8 @@ class ResultPart:
         """Errors, notes and numbers, each as one piece of HTML: single elements take the page
         longer than the curve."""
         errors = [f"error of {one}: {size}" for one, size, _ in errors_of(found.scene, found.best)]
-        notes = [
-            in_words(self._state.folder.as_shown(one)) for one in dict.fromkeys(found.best.notes)
-        ]
-        self._notes.set_content(_items([*errors, *(notes or [_NOTHING])]))
+        notes = [self._state.said(one) for one in dict.fromkeys(found.best.notes)]
+        self._notes.set_content(_items([*errors, *(notes or [Note(_NOTHING)])]))
         self._table.set_content(_table(found.scene, found.best))
 
     def _offer_velocities(self, found: Found) -> None:
@@ -152,7 +151,7 @@ class ResultPart:
             scene = found.scene
             q, density = await in_thread(lambda: contributions(scene, velocity))
         except Error as error:
-            self._problem.set_text(self._state.said(error))
+            self._problem.set_text(in_one_line(self._state.said(error)))
             return
         name = f"Contributions to the hysteresis by wavenumber at {velocity:.3g} m/s"
         redraw(self._shares, contributions_chart(q, np.ravel(density)), name)
@@ -168,7 +167,7 @@ class ResultPart:
             name = self._name.value or ""
             self._state.keep_variant(name, found.tables, found.scene, found.curves)
         except Error as error:
-            self._problem.set_text(self._state.said(error))
+            self._problem.set_text(in_one_line(self._state.said(error)))
             return
         self._name.value = ""
         self._draw_variants()
@@ -230,7 +229,7 @@ class ResultPart:
             try:
                 content = await in_thread(make(found))
             except Error as error:
-                self._problem.set_text(self._state.said(error))
+                self._problem.set_text(in_one_line(self._state.said(error)))
             else:
                 ui.download.content(content, name)
                 self._status.set_text(f"{name} is downloaded")

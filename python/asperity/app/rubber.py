@@ -9,6 +9,7 @@ from asperity.app.charts import rubber_chart, shifts_chart
 from asperity.app.guess import QUANTITIES, UNITS
 from asperity.app.parts import chart, part, redraw, upload
 from asperity.app.state import State
+from asperity.app.words import in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.celsius import temperature_text
 
@@ -69,7 +70,7 @@ class RubberPart:
                 one = await in_thread(lambda n=name, c=content: self._state.keep_dma(n, c))  # type: ignore[misc]
                 kept.append(one)
             except Error as error:
-                self._say(self._state.said(error))
+                self._say(in_one_line(self._state.said(error)))
                 return
         self._files = kept
         self._ask()
@@ -121,7 +122,7 @@ class RubberPart:
             self._say("making the master curve ...")
             take = await in_thread(lambda: self._state.use_dma(self._files, settings))
         except Error as error:
-            self._say(self._state.said(error))
+            self._say(in_one_line(self._state.said(error)))
             return
         self._say("")
         self._left.set_text(take())
@@ -156,5 +157,5 @@ class RubberPart:
         if shifts is not None:
             redraw(self._shifts, shifts, "Shift factors log10 a_T over the temperature")
 
-    def fail(self, problem: str) -> None:
+    def fail(self, error: Error) -> None:
         """The result says it."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.words import in_words
 from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.diagnostics import Note
 from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible
 from asperity.scene.model import Curves, Scene
@@ -28,6 +29,7 @@ from asperity.scene.scene import Builders
 from asperity.scene.surface import build_surface
 from asperity.scene.write import scene_text
 
+Said = TypeVar("Said", Error, Note)
 MOST_VARIANTS = 7  # curves beside the present one: so many colours are told apart
 # Files are read in a thread; what is edited meanwhile must not be lost, so what was read becomes a
 # part of the state only where this is called, in the thread that edits. It returns what is to say.
@@ -155,7 +157,7 @@ class State:
             said = self.said(error)
             for one in kept:
                 self.folder.forget(one)
-            raise type(error)(said) from None
+            raise said from None
 
         def take() -> str:
             self._show(name, tables)
@@ -211,7 +213,7 @@ class State:
         except Error as error:
             said = self.said(error)
             self.folder.forget(name)
-            raise type(error)(said) from None
+            raise said from None
         return name
 
     def use_dma(self, names: list[str], settings: Mapping[str, Any]) -> Take:
@@ -251,9 +253,9 @@ class State:
         """The scene of the tables, which a thread is given; without any, that of now."""
         return loaded(self._path, self.tables if tables is None else tables, self._builders)
 
-    def said(self, error: Exception) -> str:
-        """An error in the words of the page."""
-        return in_words(self.folder.as_shown(" ".join(str(error).split())))
+    def said(self, one: Said) -> Said:
+        """An error or a note in the words of the page."""
+        return one.said(self.folder.as_shown).said(in_words)
 
     def keep_variant(self, name: str, tables: Tables, scene: Scene, curves: Curves) -> None:
         """Keep a curve beside those to come; `tables` are those that it was computed of."""

@@ -12,6 +12,7 @@ from asperity.app.charts import spectrum_chart
 from asperity.app.controls import Changed, controls
 from asperity.app.parts import Quantity, chart, part, redraw, upload
 from asperity.app.state import State
+from asperity.app.words import in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.arguments import brief
 from asperity.scene.model import Scene
@@ -98,7 +99,7 @@ class SurfacePart:
         try:
             await in_thread(lambda: self._state.keep_scan(name, content))
         except Error as error:
-            self._say(self._state.said(error))
+            self._say(in_one_line(self._state.said(error)))
             return
         await self._use()
 
@@ -111,7 +112,7 @@ class SurfacePart:
         try:
             take = await in_thread(lambda: self._state.use_scan(given))
         except Error as error:
-            self._say(self._state.said(error))
+            self._say(in_one_line(self._state.said(error)))
             return
         take()
         self._say("")
@@ -198,7 +199,7 @@ class SurfacePart:
             self._map.props(f'alt="Map of the heights; {facts}"')
             self._map_facts.set_text(facts)
 
-    def fail(self, problem: str) -> None:
+    def fail(self, error: Error) -> None:
         """The result says it."""
 
 

@@ -1,29 +1,37 @@
-"""Messages and notes as the page says them: no names of Python, few digits."""
+"""Errors and notes as the page says them: no names of Python, few digits."""
 
-import re
+from asperity.base.diagnostics import Advice, Argument, Error, Sentence, Value
 
-_LONG = re.compile(r"(?<![\w.])\d+\.\d{5,}(?:e[+-]?\d+)?")
-_SAID = (
-    (r"[:,] see (?:its flag|the flag)", ": grey in the picture of the spectrum"),
-    (r"[:,;] see (?:extrapolated_share|model_error)", ""),
-    (r" is not known where model_error is NaN", " is not known at some points"),
-    (r"\bslope_cutoff = (\S+) is not reached", r"the wanted rms slope of \1 is not reached"),
-    (r": give macro_wavenumber(_per_m)? or macro_area", ""),
-)
-_ALLOWED = re.compile(r"velocities from (\S+) to (\S+) m/s are allowed")
+_ARGUMENTS = {"slope_cutoff": "the wanted rms slope"}
+_ADVICE = {
+    "see-branches": "as its branches show",
+    "give-macro-wavenumber": "the page sets none",
+}
 
 
-def in_words(text: str) -> str:
+def in_words(sentence: Sentence) -> Sentence:
     """The same for a reader who does not program."""
-    for pattern, said in _SAID:
-        text = re.sub(pattern, said, text)
-    return _LONG.sub(lambda found: f"{float(found[0]):.4g}", text)
+    said: list[str] = []
+    for phrase in sentence:
+        if isinstance(phrase, Argument):
+            phrase = phrase.saying(_ARGUMENTS.get(phrase, phrase))
+        elif isinstance(phrase, Advice):
+            phrase = phrase.saying(_ADVICE.get(phrase.tag, phrase))
+        elif isinstance(phrase, Value) and len(phrase.numbers) == 1:
+            phrase = phrase.saying(min(phrase, f"{phrase.numbers[0]:.4g}", key=len))
+        said.append(phrase)
+    return tuple(said)
 
 
-def allowed_velocities(problem: str) -> tuple[float, float] | None:
-    """Velocities [m/s] that a message offers, both within what it allows."""
-    found = _ALLOWED.search(problem)
-    if found is None:
-        return None
-    low, high = (float(one) for one in found.groups())
-    return float(f"{1.01 * low:.3g}"), float(f"{0.99 * high:.3g}")
+def in_one_line(error: Error) -> str:
+    """The text of an error, whatever a library put into it."""
+    return " ".join(str(error).split())
+
+
+def allowed_velocities(error: Error) -> tuple[float, float] | None:
+    """Velocities [m/s] that an error offers, both within what it allows."""
+    for phrase in error.sentence:
+        if isinstance(phrase, Advice) and phrase.tag == "allowed-velocities":
+            low, high = phrase.numbers
+            return float(f"{1.01 * low:.3g}"), float(f"{0.99 * high:.3g}")
+    return None

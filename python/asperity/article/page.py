@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
+from asperity.base.diagnostics import Note
 from asperity.io.table import Table
 from asperity.plot.curves import picture
 from asperity.plot.labels import legend_with_room
@@ -30,7 +31,9 @@ def page(
     """`name`.png and `name`.csv, which opens with the inputs and notes."""
     return {
         f"{name}.png": picture(figure, Path(f"{name}.png")),
-        f"{name}.csv": Table(f"article {name}", [inputs], notes, columns).csv().encode(),
+        f"{name}.csv": Table(f"article {name}", [inputs], [*map(Note, notes)], columns)
+        .csv()
+        .encode(),
     }
 
 

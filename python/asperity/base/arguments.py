@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal, valued
+from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]
 Shape = tuple[int, ...]
@@ -54,14 +56,6 @@ def shortened(text: str, most: int = 400) -> str:
     return text if len(text) <= most else f"{text[: most // 2]} ... {text[-most // 4 :]}"
 
 
-def brief(found: object) -> str:
-    """Return what was found, in one short line."""
-    try:
-        return " ".join(repr(found)[:60].split())
-    except Exception:  # a whole number of more digits than Python writes, or a class's own trouble
-        return f"a {type(found).__name__}"
-
-
 def quoted(text: str) -> str:
     """Return a text in quotation marks, in one short line, whatever characters it has."""
     return f'"{repr(text[:60])[1:-1][:60]}"'
@@ -76,12 +70,12 @@ def number(found: Any, name: str) -> float:
             return float(found)
         except OverflowError:
             allowed = "must be at most 1.8e308 in size"
-            raise InvalidInput(f"{name} = {brief(found)}: {allowed}") from None
+            raise InvalidInput(Argument(name), " = ", valued(found), f": {allowed}") from None
         except ValueError:  # a signalling NaN
-            raise InvalidInput(f"{name} = {brief(found)}: must be a number") from None
+            raise refusal(name, found, "a number") from None
     if getattr(found, "ndim", None) == 0:
         return float(real_array(found, name))
-    raise InvalidInput(f"{name} = {brief(found)}: must be a number")
+    raise refusal(name, found, "a number")
 
 
 def number_or_none(found: Any, name: str) -> float | None:
@@ -94,7 +88,7 @@ def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> in
     if isinstance(found, int | np.integer) and lowest <= found <= highest:
         return int(found)
     allowed = f"from {lowest} to {highest}" if highest != 2**62 else f"{lowest} or more"
-    raise InvalidInput(f"{name} = {brief(found)}: must be a whole number, {allowed}")
+    raise refusal(name, found, f"a whole number, {allowed}")
 
 
 def flag(found: Any, name: str) -> bool:
@@ -103,7 +97,7 @@ def flag(found: Any, name: str) -> bool:
         return found
     if isinstance(found, np.bool_):
         return bool(found)
-    raise InvalidInput(f"{name} = {brief(found)}: must be True or False")
+    raise refusal(name, found, "True or False")
 
 
 def choice(found: Any, name: str, allowed: Sequence[str | None]) -> int:
@@ -112,7 +106,7 @@ def choice(found: Any, name: str, allowed: Sequence[str | None]) -> int:
         return allowed.index(found)
     names = ", ".join("None" if option is None else f'"{option}"' for option in allowed)
     shown = quoted(found) if isinstance(found, str) else brief(found)
-    raise InvalidInput(f"{name} = {shown}: must be one of {names}")
+    raise refusal(name, found, f"one of {names}", text=shown)
 
 
 def real_array(found: Any, name: str) -> Array:
@@ -137,7 +131,7 @@ def real_numbers(found: Any, name: str) -> NDArray[Any]:
         array = np.array(None)
     if array.dtype.kind in "biuf":
         return array
-    raise InvalidInput(f"{name} = {brief(found)}: must be a number or an array of real numbers")
+    raise refusal(name, found, "a number or an array of real numbers")
 
 
 def is_masked(found: Any) -> bool:
@@ -149,7 +143,7 @@ def vector(found: Any, name: str) -> Array:
     """Return a copy of a one-dimensional array-like that nobody can write to."""
     array = real_array(found, name)
     if array.ndim != 1:
-        raise InvalidInput(f"{name} has {array.ndim} dimensions; it must have 1")
+        raise InvalidInput(Argument(name), f" has {array.ndim} dimensions; it must have 1")
     return frozen(np.array(array, order="C"))
 
 
@@ -162,11 +156,9 @@ def covariance_matrix(found: Any) -> Array:
     """Return the covariance of three parameters, read-only."""
     matrix = real_array(found, "covariance")
     if matrix.shape != (3, 3):
-        raise InvalidInput(f"covariance has shape {matrix.shape}: must be (3, 3)")
+        raise InvalidInput(Argument("covariance"), f" has shape {matrix.shape}", MUST_BE, "(3, 3)")
     if not np.isfinite(matrix).all() or np.diag(matrix).min() < 0:
-        raise InvalidInput(
-            f"covariance = {brief(found)}: must be finite, its diagonal not negative"
-        )
+        raise refusal("covariance", found, "finite, its diagonal not negative")
     return frozen(np.array(matrix, order="C"))
 
 
@@ -181,23 +173,23 @@ def of_kind(found: Any, name: str, *kinds: type) -> Any:
     if isinstance(found, kinds):
         return found
     names = [("an " if kind.__name__[0] in "AI" else "a ") + kind.__name__ for kind in kinds]
-    raise InvalidInput(f"{name} = {brief(found)}: must be {' or '.join(names)}")
+    raise refusal(name, found, f"{' or '.join(names)}")
 
 
 def many(found: Any, name: str, kind: type) -> list[Any]:
     """Return objects of one class of the package, given as an iterable."""
     if not isinstance(found, Iterable):
-        raise InvalidInput(f"{name} = {brief(found)}: must be an iterable")
+        raise refusal(name, found, "an iterable")
     return [of_kind(one, f"{name}[{at}]", kind) for at, one in enumerate(found)]
 
 
-def sentences(found: Any, name: str) -> tuple[str, ...]:
-    """Return a tuple of str."""
+def notes_of(found: Any, name: str) -> tuple[Note, ...]:
+    """Return a tuple of notes, of which some may be plain texts."""
     if isinstance(found, Iterable) and not isinstance(found, str | dict):
         given = tuple(found)
         if all(isinstance(one, str) for one in given):
-            return given
-    raise InvalidInput(f"{name} = {brief(found)}: must be a tuple of str")
+            return tuple(one if isinstance(one, Note) else Note(one) for one in given)
+    raise refusal(name, found, "a tuple of str")
 
 
 def path_of(found: Any, name: str) -> Path:
@@ -205,7 +197,7 @@ def path_of(found: Any, name: str) -> Path:
     if isinstance(found, str | os.PathLike):
         with suppress(TypeError):  # of a __fspath__ that gives bytes
             return FilePath(found)
-    raise InvalidInput(f"{name} = {brief(found)}: must be the path of a file")
+    raise refusal(name, found, "the path of a file")
 
 
 def broadcast(**given: Any) -> tuple[Shape, list[Any]]:

@@ -3,14 +3,15 @@
 from argparse import Namespace
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
-from asperity.base.arguments import FilePath, brief
-from asperity.base.notes import note_about
+from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.cli.friction_commands import (
     band_progress,
     check_outputs,
@@ -19,7 +20,7 @@ from asperity.cli.friction_commands import (
 )
 from asperity.cli.options import typed_options
 from asperity.io import plausible
-from asperity.io.fields import nearest
+from asperity.io.fields import in_keys, nearest
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
 from asperity.plot import fit as plot_fit
@@ -53,8 +54,9 @@ def fit(args: Namespace) -> None:
     experiment = Experiment(path, measured, pressures(scene, measured, path), held)
     models = [scene] if scene.correction is None else [scene, replace(scene, correction=None)]
     found_in = [experiment.fit_scene(model) for model in models]
-    if found_in[0][0] is None:
-        raise InvalidInput(found_in[0][1])
+    adhesion, problem = found_in[0]
+    if adhesion is None:
+        raise problem or AssertionError
     fits = [
         Fitted(model, adhesion, problem, experiment.curves(model, adhesion, band_progress(model)))
         for model, (adhesion, problem) in zip(models, found_in, strict=True)
@@ -64,7 +66,7 @@ def fit(args: Namespace) -> None:
         args,
         table,
         lambda picture: plot_fit.fit_figure(fits, experiment, picture),
-        found(found_in[0][0]),
+        found(adhesion),
     )
 
 
@@ -72,18 +74,18 @@ def _held(given: Mapping[str, str]) -> dict[str, float]:
     held = {}
     for key, text in given.items():
         if key not in PARAMETERS:
-            raise InvalidInput(f"--hold {key}: {nearest(key, PARAMETERS)}")
+            raise InvalidInput(Argument(f"--hold {key}"), f": {nearest(key, PARAMETERS)}")
         try:
             held[key] = float(text)
         except ValueError:
-            raise InvalidInput(f"--hold {key} = {brief(text)}: must be a number") from None
+            raise refusal(f"--hold {key}", text, "a number") from None
         if key in _HELD:
             plausible.check(f"--hold {key}", held[key], _HELD[key])
     return held
 
 
 def _table(
-    args: Namespace, experiment: Experiment, fits: list[Fitted], unusual: list[str]
+    args: Namespace, experiment: Experiment, fits: list[Fitted], unusual: list[Note]
 ) -> Table:
     scene = fits[0].scene
     pressure, velocity = scene.points
@@ -97,20 +99,24 @@ def _table(
     }
     notes = [*unusual, *fits[0].curves.notes]
     if "adhesion" in scene.inputs:
-        notes.append("the scene's [adhesion] gave way to the fitted one")
+        text = "the scene's [adhesion] gave way to the fitted one"
+        notes.append(Note(text, code="adhesion-replaced"))
     drawn_with = scene.pressure[nearest_pressure(scene, experiment.pressure)]
     if (np.abs(np.log(experiment.pressure / drawn_with)) > _APART).any():
-        notes.append(
+        text = (
             "some points were measured at pressures that the scene's do not come near: they are "
             "fitted at their own, and drawn beside the nearest"
         )
+        notes.append(Note(text, code="other-pressures"))
     known = set(notes)
     for fit, suffix in zip(fits, ("", "_original"), strict=False):
         columns |= {f"{name}{suffix}": getattr(fit.curves, name).ravel() for name in _COLUMNS}
         if fit.curves.band is not None:
             low, high = fit.curves.band
             columns |= {f"mu_low{suffix}": low.ravel(), f"mu_high{suffix}": high.ravel()}
-        said: tuple[str, ...] = (fit.problem,)
+        said: tuple[Note, ...] = (
+            () if fit.problem is None else (Note(f"{fit.problem}", code="no-adhesion"),)
+        )
         if fit.adhesion is not None:
             covariance = fit.adhesion.covariance.tolist()
             inputs[f"found{suffix}"] = {
@@ -119,7 +125,7 @@ def _table(
                 "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
             }
             said = fit.adhesion.notes
-        said = tuple(note.replace("see outliers", "see outlier_rows") for note in said)
-        new = [note for note in said if note not in known]
-        notes += [note_about("without the correction", note) for note in new] if suffix else new
+        named = partial(in_keys, names={"outliers": "outlier_rows"})
+        new = [note.said(named) for note in said if note not in known]
+        notes += [note.within("without the correction: ") for note in new] if suffix else new
     return Table("fit", [inputs], notes, {name: list(column) for name, column in columns.items()})

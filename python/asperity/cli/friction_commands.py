@@ -15,6 +15,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import Argument
 from asperity.base.extras import to_install
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
@@ -94,7 +95,7 @@ def area(args: Namespace) -> None:
         problem = (
             f"pressures, velocities and --points make {rows} rows: must be at most {MOST_ROWS}"
         )
-        raise InvalidInput(f"{scene.path}: {problem}")
+        raise InvalidInput(problem, where=scene.path)
     wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
     values = scene.contact_area(wavenumber, progress(f"{scene.path}"))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
@@ -111,7 +112,7 @@ def check_outputs(args: Namespace) -> list[Path]:
     if args.plot is not None:
         plot.check_plot(FilePath(args.plot))
     elif args.style is not None:
-        raise InvalidInput("--style: goes with --plot")
+        raise InvalidInput(Argument("--style"), ": goes with --plot")
     outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
     for path in outputs:
         check_output(path)
@@ -125,7 +126,7 @@ def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     taken = {os.path.realpath(path) for path in inputs}
     for path in outputs:
         if os.path.realpath(path) in taken:
-            raise InvalidInput(f"{path}: is an input: choose another name for the output")
+            raise InvalidInput("is an input: choose another name for the output", where=path)
 
 
 def write_outputs(

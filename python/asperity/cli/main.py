@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Sequence
+from functools import partial
 
 from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.base.begin import imported
@@ -20,8 +21,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             try:
                 args.run(args)
             except Error as error:
-                told = as_typed(str(error), typed_options(args))
-                return _fail(told, 2 if isinstance(error, InvalidInput | OutOfRange) else 1)
+                typed = error.said(partial(as_typed, given=typed_options(args)))
+                return _fail(typed, 2 if isinstance(error, InvalidInput | OutOfRange) else 1)
         except BrokenPipeError:  # the reader of our output has gone
             discard(sys.stdout)
             return 1

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.friction import friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.grid import check_export, grid_file
-from asperity.friction_map.look_up import FrictionMap
+from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
@@ -37,7 +38,7 @@ _TRUTH = 1e-9  # rtol of what a picture compares the map with
 def friction_map_of(args: Namespace) -> None:
     """Build, certify, write and draw the map of a scene, or tell what a file holds."""
     if (args.scene is None) == (args.info is None):
-        raise InvalidInput("map: must be given a SCENE.toml, or --info FILE")
+        raise InvalidInput(Argument("map"), MUST_BE, "given a SCENE.toml, or --info FILE")
     asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
     given = [
         name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
@@ -48,7 +49,9 @@ def friction_map_of(args: Namespace) -> None:
         check_output(exported)
     if args.info is not None:
         if given:
-            raise InvalidInput(f"--{given[0]}: goes with a SCENE.toml, not with --info")
+            raise InvalidInput(
+                Argument(f"--{given[0]}"), ": goes with a SCENE.toml, not with --info"
+            )
         source = FilePath(args.info)
         loaded = read_map(source)
         if exported is not None:
@@ -58,7 +61,7 @@ def friction_map_of(args: Namespace) -> None:
         return
     outputs = [*check_outputs(args), *([] if exported is None else [exported])]
     if len({os.path.realpath(path) for path in outputs}) < len(outputs):
-        raise InvalidInput(f"{exported}: --output, --plot and --export must be different files")
+        raise InvalidInput("--output, --plot and --export must be different files", where=exported)
     scene = load_scene(args.scene, for_friction=True)
     heat = heat_of_map(scene)
     refuse_overwrite(outputs, scene.sources)
@@ -76,7 +79,7 @@ def friction_map_of(args: Namespace) -> None:
         "solver": solver,
         "derived": scene.derived,
     }
-    lines = [*(f"note: {note}" for note in notes), *input_lines(inputs)]
+    lines = [*(f"note: {note.line}" for note in notes), *input_lines(inputs)]
     names = {"rtol": "[solver] rtol"} | {name: f"--{name}" for name in given}
     with rename_in_errors(scene.path, names, scene.typed):
         made = _shown_while_built(
@@ -161,7 +164,7 @@ def read_map(path: Path) -> FrictionMap:
     try:
         return FrictionMap.load(path)
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
 
 
 def _tell(args: Namespace, made: FrictionMap) -> None:
@@ -191,11 +194,12 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
     lines = [f"{name} = {_short(value)}" for name, value in found.items()]
     if args.info is not None:
         text = made.text.removesuffix("\n").split("\n") if made.text else []
-        lines += [printable(line) for line in text if not line.startswith("note: ")]
+        lines += [printable(line) for line in text if not line.startswith(NOTE_LINE)]
     print_stdout("".join(f"{line}\n" for line in lines))
     tell_notes(made.notes)
     if made.exceeded > 0:
-        tell_notes([f"{made.exceeded} of {made.checked} random points are beyond max_error"])
+        beyond = f"{made.exceeded} of {made.checked} random points are beyond max_error"
+        tell_notes([Note(beyond, code="map-error-exceeded")])
 
 
 def _plain(text: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import Note
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
@@ -99,21 +100,22 @@ def rubber(args: Namespace) -> None:
     write_outputs(args, table, draw, found)
 
 
-def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[str]]:
+def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[Note]]:
     """WLF and Prony fits where there are any, and what to say of them."""
-    notes = []
+    notes: list[Note] = []
     wlf = prony = None
     try:
         wlf = build.fit_wlf()
         follow = "follow" if wlf.residual < _FOLLOWS else "do not follow"
-        notes.append(f"the shift factors {follow} WLF: residual {wlf.residual:.2g} decades")
+        text = f"the shift factors {follow} WLF: residual {wlf.residual:.2g} decades"
+        notes.append(Note(text, code="wlf-fit"))
     except (InvalidInput, NotConverged) as error:
-        notes.append(f"no WLF fit: {error}")
+        notes.append(Note(f"no WLF fit: {error}", code="no-wlf-fit"))
     try:
         prony = quiet_prony(build)
         notes += prony.notes
     except (InvalidInput, NotConverged) as error:
-        notes.append(f"no Prony fit: {error}")
+        notes.append(Note(f"no Prony fit: {error}", code="no-prony-fit"))
     return wlf, prony, notes
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
@@ -51,7 +52,8 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
     velocity = np.array(args.velocities) if args.velocities else scene.velocity
     if velocity.size > _MOST_VELOCITIES and not args.velocities:
         kept = np.linspace(0, velocity.size - 1, _MOST_VELOCITIES).round().astype(int)
-        notes.append(f"{kept.size} of the scene's {velocity.size} velocities; see --velocities")
+        text = f"{kept.size} of the scene's {velocity.size} velocities; see --velocities"
+        notes.append(Note(text, code="fewer-velocities"))
         velocity = velocity[kept]
     found = compare(
         own_map() if given is None else given,
@@ -73,7 +75,7 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
     print_stdout(f"{found.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")
 
 
-def _scene(args: Namespace) -> tuple[Scene, list[str]]:
+def _scene(args: Namespace) -> tuple[Scene, list[Note]]:
     """The scene whose rubber, pressures and velocities are taken; the shipped one unless named."""
     if args.rubber is not None:
         scene = load_scene(FilePath(args.rubber))
@@ -88,7 +90,7 @@ def refuse_alone(args: Namespace) -> None:
     """Options of --sliding do nothing without it, and others nothing with it."""
     for name in ("rubber", "velocities"):
         if not args.sliding and getattr(args, name) is not None:
-            raise InvalidInput(f"--{name}: only goes with --sliding")
+            raise InvalidInput(Argument(f"--{name}"), ": only goes with --sliding")
     for name in ("rows", "q0", "loads"):
         if args.sliding and getattr(args, name) is not None:
-            raise InvalidInput(f"--{name}: must be left out where --sliding is given")
+            raise InvalidInput(Argument(f"--{name}"), MUST_BE, "left out where --sliding is given")

@@ -11,6 +11,7 @@ from typing import Any
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import Note, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.io import plausible
@@ -41,7 +42,7 @@ class Measured:
     statistics: Scan | HeightStatistics
     inputs: dict[str, Any]
     lay: float | None
-    notes: list[str]
+    notes: list[Note]
     raw: Scan  # of a map by tiles, both thinned out
     flat: Scan
 
@@ -86,18 +87,21 @@ def spectrum(args: Namespace) -> None:
         numbers["noise_from_per_m"] = floor
     notes = [*unusual, *fit_notes, *found.notes]
     if not reached:
-        notes.append(
+        text = (
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
             f"{whole.q1:.4g} 1/m, is {whole.rms_slope:.3g}"
         )
+        notes.append(Note(text, code="no-cutoff"))
     if floor is not None:
         slope = measured.truncated(q1=floor).rms_slope
-        notes.append(
+        text = (
             f"C(q) ends flat, as no surface does: from {floor:.3g} 1/m on noise of the instrument, "
             "or roughness finer than the pixels, is half of it or more; without what lies there "
             f"the rms slope is {slope:.3g} instead of {whole.rms_slope:.3g}"
         )
-    notes.append(_serves(band, floor))
+        step = f"end the spectrum there: q1_per_m = {floor:.3g}"
+        notes.append(Note(text, code="noise-in-spectrum", next_step=step))
+    notes.append(Note(_serves(band, floor), code="reliable-band"))
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
     draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn, floor)
@@ -129,7 +133,7 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
         if getattr(args, flag) is not None:
             raise InvalidInput(f"--{flag} {getattr(args, flag)}: goes with --tiles")
     if path.is_dir():
-        raise InvalidInput(f"{path}: is a folder; a Zarr array is read with --tiles 4096")
+        raise InvalidInput("is a folder; a Zarr array is read with --tiles 4096", where=path)
     with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):
         raw, filled = read_filled(
             path,
@@ -198,7 +202,7 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
             "max_dropouts": float(args.max_dropouts),
         },
         lay=ratio,
-        notes=[f"{note} (a tile in the middle)" for note in notes],
+        notes=[note.followed_by(" (a tile in the middle)") for note in notes],
         raw=raw,
         flat=scan.flat(filled, detrend),
     )
@@ -233,17 +237,13 @@ def _fitted(fit: SelfAffineFit) -> dict[str, float]:
     return found
 
 
-def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[str]]:
+def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[Note]]:
     """The self-affine fit, or a note that says why there is none."""
     q_min, q_max = args.q_min, args.q_max
     if q_min is not None and q_max is not None and q_min >= q_max:
-        raise InvalidInput(f"--q-max {q_max}: must be above --q-min {q_min}")
+        raise refusal("--q-max", q_max, f"above --q-min {q_min}")
     try:
         with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []
     except (InvalidInput, NotConverged) as error:
-        typed = [f"--q-min {q_min}"] * (q_min is not None) + [f"--q-max {q_max}"] * (
-            q_max is not None
-        )
-        problem = str(error).replace("--q-min, --q-max: ", f"{' '.join(typed)}: ")
-        return None, [f"no self-affine fit: {problem}"]
+        return None, [Note(f"no self-affine fit: {error}", code="no-self-affine-fit")]

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
-from asperity.base.notes import fatal_first
+from asperity.base.diagnostics import Note, fatal_first
 
 
 @contextmanager
@@ -52,7 +52,7 @@ def print_stderr(text: str) -> None:
         discard(sys.stderr)
 
 
-def tell_notes(notes: Sequence[str]) -> None:
+def tell_notes(notes: Sequence[Note]) -> None:
     """Write notes to standard error, a line each and each once, fatal ones first."""
     for note in fatal_first(notes):
         print_stderr(f"note: {printable(note)}\n")

@@ -13,9 +13,10 @@ from typing import Any
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.base.table import imported
 from asperity.cli.friction_commands import refuse_overwrite
-from asperity.cli.streams import print_stderr, print_stdout, tell_notes
+from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import nearest
 from asperity.io.files import check_output, write_whole
 from asperity.io.table import Table
@@ -27,7 +28,6 @@ from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.existing import open_store
 from asperity.sweep.look import choose, ranks
-from asperity.sweep.outcome import code_of
 from asperity.sweep.plan import cut_of
 from asperity.sweep.timing import estimated, timed
 
@@ -37,7 +37,7 @@ _RANK_NOTES = [
     "certain_share: the lead at a point exceeds the sum of the errors of the two: numerical "
     "error, model error, and half the band where there is one; nan where a model error is unknown",
 ]
-_TOLD = 20  # notes that go to the terminal: each of a hundred scans may have its own
+_SHOWN = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer
 
 
@@ -55,22 +55,26 @@ def _sweep(args: Namespace) -> None:
         check_plot(FilePath(args.plot))
         check_output(FilePath(args.plot))
     elif args.style is not None:
-        raise InvalidInput("--style: goes with --plot")
+        raise InvalidInput(Argument("--style"), ": goes with --plot")
     if args.at and not looks:
-        raise InvalidInput("--at: goes with --plot and --rank")
+        raise InvalidInput(Argument("--at"), ": goes with --plot and --rank")
     path = FilePath(args.sweep)
     if path.suffix in (".zarr", ".nc"):
         _look_at_store(args, path, looks)
         return
     if args.force and args.resume:
-        raise InvalidInput("--force, --resume: must be one of them")
+        raise InvalidInput("--force, --resume", MUST_BE, "one of them")
     for option, value in {"--force": args.force, "--resume": args.resume}.items():
         if value and args.dry_run:
-            raise InvalidInput(f"{option}: must be left out with --dry-run, which writes nothing")
+            raise InvalidInput(
+                Argument(option), MUST_BE, "left out with --dry-run, which writes nothing"
+            )
     if looks and args.dry_run:
-        raise InvalidInput("--dry-run: computes nothing that --plot or --rank could show")
+        raise InvalidInput(
+            Argument("--dry-run"), ": computes nothing that --plot or --rank could show"
+        )
     if args.output is None and not args.dry_run:
-        raise InvalidInput("--output: is missing: results.zarr or results.nc")
+        raise InvalidInput(Argument("--output"), ": is missing: results.zarr or results.nc")
     with _executor(args) as (executor, first):
         if first:
             _compute(args, executor)
@@ -99,7 +103,8 @@ def _compute(args: Namespace, executor: Any) -> None:
     )
     with found:
         _look(args, found)
-        _tell_notes(str(found.attrs["notes"]).splitlines(), output)
+        notes = (str(found.attrs[name]).splitlines() for name in ("notes", "note_labels"))
+        _tell_notes([*zip(*notes, strict=True)], output)
         points, failed = plan.points, int(found.attrs["failed"])
         messages = found["failure_message"].values.tolist()
     if failed:
@@ -109,16 +114,16 @@ def _compute(args: Namespace, executor: Any) -> None:
     print_stderr(f"{output}: {points} points, none failed\n")
 
 
-def _tell_notes(notes: list[str], output: Path) -> None:
-    """Tell notes, one of those that differ in their numbers alone."""
-    alike: dict[int, list[str]] = {}
-    for note in notes:
-        alike.setdefault(code_of(note), []).append(note)
-    told = list(alike.values())[:_TOLD]
-    tell_notes(
-        [f"{one} (and {len(rest)} with other numbers)" if rest else one for one, *rest in told]
-    )
-    if len(notes) > len(told):
+def _tell_notes(notes: list[tuple[str, str]], output: Path) -> None:
+    """Write notes, one of those of a kind."""
+    alike: dict[str, list[str]] = {}
+    for note, label in notes:
+        alike.setdefault(label, []).append(note)
+    shown = list(alike.values())[:_SHOWN]
+    for note, *others in shown:
+        more = f" (and {len(others)} with other numbers)" if others else ""
+        print_stderr(f"note: {printable(note + more)}\n")
+    if len(notes) > len(shown):
         print_stderr(f"note: all {len(notes)} notes are in the attribute notes of {output}\n")
 
 
@@ -135,18 +140,20 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     }
     for option, value in given.items():
         if value:
-            raise InvalidInput(f"{option}: {path} is a store: give a SWEEP.toml to compute")
+            raise InvalidInput(
+                Argument(option), f": {path} is a store: give a SWEEP.toml to compute"
+            )
     if not looks:
-        raise InvalidInput(f"{path}: is a store: look at it by --plot or --rank")
+        raise InvalidInput("is a store: look at it by --plot or --rank", where=path)
     if args.variables is not None and args.plot is None:
-        raise InvalidInput("--variables: goes with --plot, a rank is of mu")
+        raise InvalidInput(Argument("--variables"), ": goes with --plot, a rank is of mu")
     if args.variables is not None and "," in args.variables:
-        raise InvalidInput(f"--variables {args.variables}: must be one, the one to draw")
+        raise InvalidInput(f"--variables {args.variables}", MUST_BE, "one, the one to draw")
     if not path.exists():
-        raise InvalidInput(f"{path}: cannot be read: No such file or directory")
+        raise InvalidInput("cannot be read: No such file or directory", where=path)
     with open_store(path) as found:
         if "failure" not in found or "sweep" not in found.attrs:
-            raise InvalidInput(f"{path}: is no store of a sweep")
+            raise InvalidInput("is no store of a sweep", where=path)
         if not found.attrs["complete"]:
             print_stderr(f"note: {path} is not whole: points that are missing are left out\n")
         _look(args, found)
@@ -163,7 +170,7 @@ def _look(args: Namespace, found: Any) -> None:
     if args.rank is not None:
         columns = ranks(part, args.rank)
         inputs = [{"axis": args.rank, **{f"at {name}": one for name, one in args.at.items()}}]
-        print_stdout(Table("sweep --rank", inputs, _RANK_NOTES, columns).csv())
+        print_stdout(Table("sweep --rank", inputs, [*map(Note, _RANK_NOTES)], columns).csv())
 
 
 def _read(path: Path) -> tuple[Path, Any, Any]:
@@ -171,12 +178,14 @@ def _read(path: Path) -> tuple[Path, Any, Any]:
     given = read_toml(path)
     for key in given:
         if key not in _KEYS:
-            raise InvalidInput(f"{path}: {key}: unknown key, {nearest(key, _KEYS)}")
+            raise InvalidInput(Argument(key), f": unknown key, {nearest(key, _KEYS)}", where=path)
     scene, over = given.get("scene"), given.get("over")
     if not isinstance(scene, str):
-        raise InvalidInput(f'{path}: scene: must be the name of a file, as in scene = "scene.toml"')
+        raise InvalidInput(
+            Argument("scene"), MUST_BE, 'the name of a file, as in scene = "scene.toml"', where=path
+        )
     if not isinstance(over, dict):
-        raise InvalidInput(f"{path}: [over]: must be a table of keys with lists")
+        raise InvalidInput("[over]", MUST_BE, "a table of keys with lists", where=path)
     return FilePath(path.parent / scene), over, given.get("variables")
 
 
@@ -209,7 +218,7 @@ def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
     """The executor that is asked for, and whether this process is the one that sends tasks."""
     asked = [args.workers is not None, args.scheduler is not None, args.mpi]
     if sum(asked) > 1:
-        raise InvalidInput("--workers, --scheduler, --mpi: must be one of them")
+        raise InvalidInput("--workers, --scheduler, --mpi", MUST_BE, "one of them")
     if args.mpi:
         futures = imported("mpi4py.futures", "mpi")
         with futures.MPICommExecutor() as executor:
@@ -219,7 +228,7 @@ def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
             yield client, True
     elif args.workers is not None:
         if not 1 <= args.workers <= 10_000:
-            raise InvalidInput(f"--workers {args.workers}: must be from 1 to 10000")
+            raise InvalidInput(f"--workers {args.workers}", MUST_BE, "from 1 to 10000")
         with local_cluster(args.workers) as client:
             yield client, True
     else:

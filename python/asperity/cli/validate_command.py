@@ -8,6 +8,7 @@ from typing import Any
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.sliding_command import refuse_alone, validate_sliding
@@ -55,7 +56,7 @@ def validate(args: Namespace) -> None:
     print_stdout(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
 
 
-def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]]:
+def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note]]:
     """Contacts from rows or from a run of one's own surface, their origin, and what to know."""
     if args.surface is None:
         _no_map(args)
@@ -63,7 +64,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[str]
             return shipped(), {"rows": "bem_area.csv, shipped"}, []
         return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
     if args.rows is not None:
-        raise InvalidInput("--rows: must be left out where --surface is given")
+        raise InvalidInput(Argument("--rows"), MUST_BE, "left out where --surface is given")
     flat, told, unusual = _own_map(args)
     path = FilePath(args.surface)
     with rename_in_errors(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
@@ -91,11 +92,11 @@ def _no_map(args: Namespace) -> dict[str, Any]:
     """Refuse options of a map where there is none."""
     if given := _given(args):
         option = next(iter(given)).replace("_", "-")
-        raise InvalidInput(f"--{option}: only goes with --surface")
+        raise InvalidInput(Argument(f"--{option}"), ": only goes with --surface")
     return {}
 
 
-def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[str]]:
+def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[Note]]:
     """A map read from --surface without its trend, what was given, and what to know of it."""
     given = _given(args)
     path = FilePath(args.surface)
@@ -106,7 +107,7 @@ def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[str]]:
         read = {name: given[name] for name in flags if name in given}
         _, filled = read_filled(path, max_fraction=0.10, **read)
     if not isinstance(filled, HeightMap):
-        raise InvalidInput(f"{path}: is a line scan: contacts need a map")
+        raise InvalidInput("is a line scan: contacts need a map", where=path)
     detrend: Any = args.detrend or "plane"
     flat = filled if detrend == "none" else filled.detrend(detrend)
     return flat, {"surface": args.surface, **given, "detrend": detrend}, list(unusual)

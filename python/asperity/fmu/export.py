@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
-from asperity._core import InvalidInput
-from asperity.base.arguments import brief, choice, path_of, whole
+from asperity.base.arguments import choice, path_of, whole
+from asperity.base.diagnostics import refusal
 from asperity.fmu.description import build_description, description
 from asperity.fmu.variables import variables
 from asperity.friction_map.look_up import FrictionMap
@@ -72,10 +72,10 @@ def export_fmu(
     https://fmi-standard.org.
     """
     if not isinstance(map, FrictionMap):
-        raise InvalidInput(f"map = {brief(map)}: must be a FrictionMap")
+        raise refusal("map", map, "a FrictionMap")
     target = path_of(path, "path")
     if not (isinstance(name, str) and re.fullmatch("[A-Za-z_][A-Za-z0-9_]*", name)):
-        raise InvalidInput(f"name = {brief(name)}: must be an identifier of C, such as friction")
+        raise refusal("name", name, "an identifier of C, such as friction")
     choice(fmi, "fmi", ("2.0", "3.0"))
     if points is not None:
         points = whole(points, "points", lowest=1, highest=_MOST_POINTS)

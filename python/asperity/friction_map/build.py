@@ -8,7 +8,8 @@ import numpy as np
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
-from asperity.base.arguments import MOST_THREADS, brief, number, of_kind, real_array, whole
+from asperity.base.arguments import MOST_THREADS, number, of_kind, real_array, whole
+from asperity.base.diagnostics import Argument, refusal, valued
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.friction_map.look_up import FrictionMap
@@ -111,9 +112,9 @@ def friction_map(
     0.0205
     """
     if not isinstance(text, str):
-        raise InvalidInput(f"text = {brief(text)}: must be a str")
+        raise refusal("text", text, "a str")
     if progress is not None and not callable(progress):
-        raise InvalidInput(f"progress = {brief(progress)}: must be a function, or None")
+        raise refusal("progress", progress, "a function, or None")
     parts = surface_and_rubber(spectrum, rubber)
     model = contact_model(poisson_ratio, correction, form, 1e-6, method)
     added = adhesion_core(adhesion)
@@ -157,26 +158,36 @@ def _law(
     if temperature is None or law is None:
         if heating is not None:
             needs = "needs temperature= and shift=, from which the rubber is heated"
-            raise InvalidInput(f"heating: {needs}")
+            raise InvalidInput(Argument("heating"), f": {needs}")
         if temperature is None:
-            raise InvalidInput(f"shift = {brief(shift)}: needs temperature=, at which to take a_T")
-        raise InvalidInput(f"temperature = {brief(temperature)}: needs shift=, which gives a_T(T)")
+            raise InvalidInput(
+                Argument("shift"),
+                " = ",
+                valued(shift),
+                ": needs temperature=, at which to take a_T",
+            )
+        raise InvalidInput(
+            Argument("temperature"),
+            " = ",
+            valued(temperature),
+            ": needs shift=, which gives a_T(T)",
+        )
     sides = _temperatures(temperature)
     if heating is None and sides[0] != sides[1]:
         only = "must be a number where no heating is given; a look-up's a_T leads to others"
-        raise InvalidInput(f"temperature = {brief(temperature)}: {only}")
+        raise InvalidInput(Argument("temperature"), " = ", valued(temperature), f": {only}")
     return temperature_shift_core(law), sides
 
 
 def _temperatures(found: Any) -> list[float]:
     sides = real_array(found, "temperature")
     if sides.shape not in {(), (1,), (2,)}:
-        raise InvalidInput(f"temperature = {brief(found)}: must be a number or (lo, hi)")
+        raise refusal("temperature", found, "a number or (lo, hi)")
     return [float(sides.flat[0]), float(sides.flat[-1])]
 
 
 def _sides(found: Any, name: str) -> list[float]:
     sides = real_array(found, name)
     if sides.shape != (2,):
-        raise InvalidInput(f"{name} = {brief(found)}: must be (lo, hi)")
+        raise refusal(name, found, "(lo, hi)")
     return [float(side) for side in sides]

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, __version__
+from asperity.base.diagnostics import Argument
 from asperity.base.table import imported
-from asperity.friction_map.look_up import FrictionMap
+from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 
 _PRESSURES, _VELOCITIES, _TEMPERATURES = 41, 121, 9
 _PARTS = {
@@ -22,18 +23,15 @@ _PARTS = {
 _Axes = Mapping[str, NDArray[np.float64]]
 
 
-_FATAL = "note: fatal: "  # such lines of a map's text stand before the others
-
-
 def check_export(path: Path) -> None:
     """Refuse, before any work, a file of another kind, and one for which SciPy is missing."""
     if path.suffix not in (".mat", ".csv"):
-        raise InvalidInput(f"--export: {path}: must end in .mat or .csv")
+        raise InvalidInput(Argument("--export"), f": {path}: must end in .mat or .csv")
     if path.suffix == ".mat":
         try:
             imported("scipy.io", "io")
         except ImportError as error:
-            raise InvalidInput(f"--export: {path}: {error}") from error
+            raise InvalidInput(Argument("--export"), f": {path}: {error}") from error
 
 
 def grid_file(friction_map: FrictionMap, path: Path) -> tuple[bytes, float]:
@@ -47,7 +45,7 @@ def grid_file(friction_map: FrictionMap, path: Path) -> tuple[bytes, float]:
     if lowest < highest and path.suffix == ".csv":
         allowed = "a table has one; choose .mat, which has a third axis"
         raise InvalidInput(
-            f"--export: {path}: the map covers {lowest:g} to {highest:g} K, {allowed}"
+            Argument("--export"), f": {path}: the map covers {lowest:g} to {highest:g} K, {allowed}"
         )
     pressure, velocity = (
         np.geomspace(*sides, count)
@@ -103,8 +101,9 @@ def _csv(friction_map: FrictionMap, axes: _Axes, facts: Mapping[str, float]) -> 
     pressure, velocity = axes.values()
     lines = [f"# asperity {__version__} map --export: mu, a row a pressure, a column a velocity"]
     lines += [f"# {name} = {value:.6g}" for name, value in facts.items()]
-    text = sorted(friction_map.text.splitlines(), key=lambda one: not one.startswith(_FATAL))
-    lines += [f"# {line}" for line in text]
+    lines += [f"# note: {note}" for note in friction_map.notes]
+    text = friction_map.text.splitlines()
+    lines += [f"# {line}" for line in text if not line.startswith(NOTE_LINE)]
     lines.append(",".join(["pressure_pa / velocity_m_s", *map(repr, velocity.tolist())]))
     for p, row in zip(pressure.tolist(), mu.tolist(), strict=True):
         lines.append(",".join(map(repr, [p, *row])))

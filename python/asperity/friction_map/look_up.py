@@ -22,7 +22,7 @@ from asperity.base.arguments import (
     path_of,
     real_array,
 )
-from asperity.base.notes import fatal_first
+from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, refusal, valued
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.io.files import check_file, write_whole
@@ -37,6 +37,9 @@ _PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE, _TEMPERATURE_OUTSIDE = 1, 2, 4
 _MAGIC, _HEAD = b"ASPERMAP", 512
 # of a file's head, bytes from its beginning
 _TEXT_AT, _COLD_AT = 144, 176
+
+
+NOTE_LINE = "note: "  # such a line of the text holds a note
 
 
 @value
@@ -160,7 +163,7 @@ class FrictionMap(Table):
 
     def _read(self, name: str) -> None:
         if not isinstance(self.content, bytes):
-            raise InvalidInput(f"{name} = {brief(self.content)}: must be bytes")
+            raise refusal(name, self.content, "bytes")
         core = _core.FrictionMap(self.content, name)
         self._set(_core=core, **{key: one for key, one in core.info().items() if key in _SHOWN})
 
@@ -179,7 +182,7 @@ class FrictionMap(Table):
         try:
             check_file(file)
         except InvalidInput as error:
-            raise InvalidInput(f"{file}: {error}") from error
+            raise error.within(file) from error
         with file.open("rb") as opened:
             content = opened.read(_HEAD)
             if content.startswith(_MAGIC):  # else it is no map, however long
@@ -208,11 +211,11 @@ class FrictionMap(Table):
         return content.decode("utf-8", "replace")
 
     @property
-    def notes(self) -> tuple[str, ...]:
+    def notes(self) -> tuple[Note, ...]:
         """Where the theory or its input leaves its range, as `friction` notes it on 81 points;
         fatal notes first."""
-        lines = (line for line in self.text.split("\n") if line.startswith("note: "))
-        return tuple(fatal_first(line.removeprefix("note: ") for line in lines))
+        lines = (line for line in self.text.split("\n") if line.startswith(NOTE_LINE))
+        return tuple(fatal_first(Note.of_line(line.removeprefix(NOTE_LINE)) for line in lines))
 
     @property
     def adhesion_law(self) -> Adhesion | None:
@@ -341,20 +344,25 @@ class FrictionMap(Table):
         if self.temperature is None:
             if "temperature" in asked:
                 found = brief(asked["temperature"])
-                raise InvalidInput(
-                    f"temperature = {found}: must be left out, this map has no heat; give a_T"
+                raise refusal(
+                    "temperature",
+                    found,
+                    "left out, this map has no heat; give a_T",
+                    text=f"{found}",
                 )
             return
         if shifts:
-            raise InvalidInput("shift_adhesion = True: must be False on a map with heat")
+            raise refusal("shift_adhesion", "True", "False on a map with heat", text="True")
         a_T = asked["a_T"]  # noqa: N806
         if not (type(a_T) is float and a_T == 1) and np.any(real_array(a_T, "a_T") != 1):
             allowed = "must be 1 on a map with heat, which no a_T takes to another background"
-            raise InvalidInput(f"a_T = {brief(a_T)}: {allowed}; give temperature")
+            raise InvalidInput(
+                Argument("a_T"), " = ", valued(a_T), f": {allowed}; give temperature"
+            )
         lo, hi = self.temperature
         if "temperature" not in asked and lo != hi:
             raise InvalidInput(
-                f"temperature: must be given, the map covers [{lo:.12g}, {hi:.12g}] K"
+                Argument("temperature"), MUST_BE, f"given, the map covers [{lo:.12g}, {hi:.12g}] K"
             )
 
     def _refuse(self, point: dict[str, float], options: tuple[bool, int], index: str) -> None:
@@ -377,10 +385,10 @@ class FrictionMap(Table):
             )
         for name, found in point.items():
             if name != "a_T" and np.isnan(found):
-                raise InvalidInput(f"{name}{index} = nan: must be a number")
+                raise InvalidInput(f"{name}{index} = nan", MUST_BE, "a number")
         if heat[1] < 0:
-            raise InvalidInput(f"distance{index} = {heat[1]:.12g}: must be 0 or more")
-        raise InvalidInput(f"a_T{index} = {point['a_T']:.12g}: must be positive and finite")
+            raise InvalidInput(f"distance{index} = {heat[1]:.12g}", MUST_BE, "0 or more")
+        raise InvalidInput(f"a_T{index} = {point['a_T']:.12g}", MUST_BE, "positive and finite")
 
     def _summary(self) -> dict[str, Any]:
         return {

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE
 
 _RATIO = 100  # of inflated to stored bytes: heights have 2 to 20, zeros 1000
 _FREE = 2**24  # bytes that any archive may inflate to
@@ -27,7 +28,7 @@ class Archive:
     def open(self, member: zipfile.ZipInfo) -> "_Member":
         """Open a member for reading."""
         if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise InvalidInput("is compressed in an unusual way: must be stored or deflated")
+            raise InvalidInput("is compressed in an unusual way", MUST_BE, "stored or deflated")
         return _Member(self, self._archive.open(member))
 
     def count(self, inflated: int) -> None:

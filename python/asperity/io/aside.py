@@ -39,7 +39,7 @@ def folder_beside(path: Path) -> Iterator[Path]:
     try:
         folder, handle = locked_folder(_BESIDE, path.parent)
     except OSError as error:
-        raise InvalidInput(f"{FilePath(path)}: cannot be written: {error.strerror}") from error
+        raise InvalidInput(f"cannot be written: {error.strerror}", where=FilePath(path)) from error
     try:
         yield folder
     finally:

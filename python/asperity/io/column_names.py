@@ -25,9 +25,9 @@ def numbered_lines(path: Path) -> Lines:
         check_file(path)
         data = path.read_bytes()
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

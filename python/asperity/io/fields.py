@@ -1,7 +1,6 @@
 """Fields of a scene file: their types, and messages that name file, table and key."""
 
 import datetime
-import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass
@@ -12,6 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
+from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, valued
 from asperity.base.parameters import KEY_UNITS, Parameter, parameters
 from asperity.base.quantities import Quantity
 from asperity.io import plausible
@@ -42,22 +42,25 @@ class Field:
         return None if self.declared is None or self.required else self.declared.default
 
 
-class _WrongValueError(Exception):
+class _WrongValueError(InvalidInput):
     """Says what is wrong with a value, or what it must be."""
+
+
+_MUST = Must("must be ")
 
 
 def number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise _WrongValueError("must be a number")
+        raise _WrongValueError(_MUST, "a number")
     try:
         return float(value)
     except OverflowError:
-        raise _WrongValueError("must be a finite number") from None
+        raise _WrongValueError(_MUST, "a finite number") from None
 
 
 def one_temperature(value: object) -> float:
     if isinstance(value, list):
-        raise _WrongValueError("must be a number; several temperatures go into [conditions]")
+        raise _WrongValueError(_MUST, "a number; several temperatures go into [conditions]")
     return number(value)
 
 
@@ -65,12 +68,12 @@ def numbers(value: object) -> list[float]:
     try:
         return [number(entry) for entry in value]  # type: ignore[attr-defined]
     except (TypeError, _WrongValueError):
-        raise _WrongValueError("must be a list of numbers") from None
+        raise _WrongValueError(_MUST, "a list of numbers") from None
 
 
 def text(value: object) -> str:
     if not isinstance(value, str):
-        raise _WrongValueError("must be a text")
+        raise _WrongValueError(_MUST, "a text")
     return value
 
 
@@ -80,31 +83,31 @@ def text_or_true(value: object) -> str | bool:
 
 def truth(value: object) -> bool:
     if not isinstance(value, bool):
-        raise _WrongValueError("must be true or false")
+        raise _WrongValueError(_MUST, "true or false")
     return value
 
 
 def file_name(value: object) -> str:
     if not isinstance(value, str) or not value or "\0" in value:
-        raise _WrongValueError("must be the name of a file")
+        raise _WrongValueError(_MUST, "the name of a file")
     return value
 
 
 def file_names(value: object) -> list[str]:
     if not isinstance(value, list) or not value:
-        raise _WrongValueError("must be a list of names of files")
+        raise _WrongValueError(_MUST, "a list of names of files")
     return [file_name(entry) for entry in value]
 
 
 def texts(value: object) -> dict[str, str]:
     if not isinstance(value, dict) or not all(isinstance(entry, str) for entry in value.values()):
-        raise _WrongValueError('must be a table of texts, as in {frequency = "Hz"}')
+        raise _WrongValueError(_MUST, 'a table of texts, as in {frequency = "Hz"}')
     return dict(value)
 
 
 def count(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or abs(value) >= 2**63:
-        raise _WrongValueError("must be a whole number")
+        raise _WrongValueError(_MUST, "a whole number")
     return value
 
 
@@ -114,22 +117,22 @@ def pixel_size(value: object) -> float | tuple[float, float]:
             return number(value[0]), number(value[1])
         return number(value)
     except _WrongValueError:
-        raise _WrongValueError("must be a number or [dy, dx]") from None
+        raise _WrongValueError(_MUST, "a number or [dy, dx]") from None
 
 
 def sweep(value: object) -> Any:
     """Array of the values that a number, a list or a logarithmic sweep stands for."""
-    allowed = "must be a number, a list, or {from = 1e-6, to = 10, points = 60}"
+    allowed = "a number, a list, or {from = 1e-6, to = 10, points = 60}"
     if isinstance(value, dict):
         return _logarithmic(value)
     if isinstance(value, list):
         if not value:
-            raise _WrongValueError(f"{allowed}, and not empty")
+            raise _WrongValueError(_MUST, f"{allowed}, and not empty")
         return np.array(numbers(value))
     try:
         return np.array([number(value)])
     except _WrongValueError:
-        raise _WrongValueError(allowed) from None
+        raise _WrongValueError(_MUST, allowed) from None
 
 
 def _logarithmic(value: Mapping[str, object]) -> Any:
@@ -144,12 +147,12 @@ def _logarithmic(value: Mapping[str, object]) -> Any:
         try:
             entries.append(read(value[key]))
         except _WrongValueError as wrong:
-            raise _WrongValueError(f"{key} {wrong}") from None
+            raise _WrongValueError(f"{key} ", *wrong.sentence) from None
     low, high, points = entries
     if not (0 < low < np.inf and 0 < high < np.inf):
-        raise _WrongValueError("must be a sweep between two positive numbers")
+        raise _WrongValueError(_MUST, "a sweep between two positive numbers")
     if not 2 <= points <= MOST_POINTS:
-        raise _WrongValueError(f"points must be in 2..{MOST_POINTS}")
+        raise _WrongValueError("points ", _MUST, f"in 2..{MOST_POINTS}")
     return np.geomspace(low, high, points)
 
 
@@ -189,8 +192,9 @@ def required(fields: Mapping[str, Field]) -> tuple[str, ...]:
     return tuple(key for key, one in fields.items() if one.required)
 
 
-def refuse(path: Path, field: str, problem: str) -> NoReturn:
-    raise InvalidInput(f"{path}: {shortened(field)}: {problem}")
+def refuse(path: Path, field: str, problem: str, found: Value | None = None) -> NoReturn:
+    value = () if found is None else (" = ", found)
+    raise InvalidInput(Argument(shortened(field)), *value, f": {problem}", where=path)
 
 
 def require(
@@ -241,10 +245,12 @@ def read_table(
         try:
             values[key] = fields[key].read(value)
         except _WrongValueError as wrong:
-            raise InvalidInput(f"{path}: [{section}] {key} = {_shown(value)}: {wrong}") from None
+            found = valued(value, _shown(value))
+            about = Argument(f"[{section}] {key}"), " = ", found, ": "
+            raise InvalidInput(*about, *wrong.sentence, where=path) from None
         if (quantity := fields[key].quantity) is not None:
-            where = f"{path}: [{section}] {key}"
-            plausible.check(where, values[key], quantity, fields[key].unit)
+            name = f"[{section}] {key}"
+            plausible.check(name, values[key], quantity, fields[key].unit, path=path)
     return values
 
 
@@ -271,35 +277,36 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
 
 
 _ADVICE = {
-    r"\.truncated\(q1=([^)]+)\)": r"[surface] q1_per_m = \1",
-    r"extrapolation= of the master curve": '[rubber] extrapolation = "power-law" or "clamp"',
-    r'extrapolation="prony" of fit_prony': '[rubber] extrapolation = "prony"',
+    "give-macro-wavenumber": "give macro_wavenumber_per_m or macro_area",
+    "end-spectrum": "[surface] q1_per_m = {:.12g}",
+    "extrapolate-curve": '[rubber] extrapolation = "power-law" or "clamp"',
+    "extrapolate-series": '[rubber] extrapolation = "prony"',
 }
+
+
+def in_keys(sentence: Sentence, names: Mapping[str, str]) -> Sentence:
+    """A sentence with arguments as `names`, argument -> [table] key, and advice for a scene."""
+    said: list[str] = []
+    for phrase in sentence:
+        if isinstance(phrase, Argument):
+            phrase = phrase.saying(names.get(phrase, phrase))
+        elif isinstance(phrase, Advice) and phrase.tag in _ADVICE:
+            phrase = phrase.saying(_ADVICE[phrase.tag].format(*phrase.numbers))
+        said.append(phrase)
+    return tuple(said)
 
 
 @contextmanager
 def rename_in_errors(
     path: Path | None, names: Mapping[str, str], given: Mapping[str, Any] | None = None
 ) -> Iterator[None]:
-    """Let errors of the core name the file and its fields: `names` is argument -> [table] key.
-
-    Of a file, advice for Python becomes advice for a scene. Numbers of `given` are told as they
-    were typed (`as_typed`).
-    """
+    """Let errors of the core name the file and its fields, with numbers of `given` as they were
+    typed."""
     try:
         yield
     except (InvalidInput, OutOfRange, NotConverged) as error:
-        message = " ".join(str(error).split())
-        if names:  # at the head of a clause, and wherever a value is told
-            name = f"({'|'.join(names)})"
-            pattern = rf"(?:^|(?<=[:;,] )){name}(?!\w)|(?<![\w-]){name}(?= = | \(\d)"
-            message = re.sub(pattern, lambda found: names[found[1] or found[2]], message)
-        message = as_typed(message, given or {})
-        if path is not None:
-            for pattern, in_scene in _ADVICE.items():
-                message = re.sub(pattern, in_scene, message)
-            message = f"{path}: {message}"
-        raise type(error)(message) from error
+        renamed = error.said(lambda sentence: as_typed(in_keys(sentence, names), given or {}))
+        raise (renamed if path is None else renamed.within(path)) from error
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:

@@ -69,9 +69,9 @@ def sha256(path: Path) -> str:
         with path.open("rb") as content:
             return hashlib.file_digest(content, "sha256").hexdigest()
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
 
 
 def check_output(path: Path) -> None:
@@ -107,8 +107,9 @@ def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> No
     taken = [name for name in names if os.path.lexists(directory / name)]
     if taken and not force:
         raise InvalidInput(
-            f"{FilePath(directory)}: holds {', '.join(taken)} already; choose another --output, or "
-            "replace them with --force"
+            f"holds {', '.join(taken)} already; choose another --output, or replace them with "
+            "--force",
+            where=FilePath(directory),
         )
     for name in taken:
         check_output(directory / name)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import brief as shown
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.base.extras import to_install
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
@@ -30,7 +30,10 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
     """The map or line scan of heights in units of `metres`; float32 stays float32."""
     if heights.ndim not in (1, 2):
         raise InvalidInput(
-            f"heights has {heights.ndim} dimensions: must have 2 (a map) or 1 (a line scan)"
+            Argument("heights"),
+            f" has {heights.ndim} dimensions",
+            Must(": must have "),
+            "2 (a map) or 1 (a line scan)",
         )
     if metres != 1:
         kept = heights.dtype.kind == "f" and heights.dtype.itemsize == 4
@@ -41,9 +44,7 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
     if heights.ndim == 2:
         return HeightMap(heights, pixel_size=pixel_size)
     if isinstance(pixel_size, tuple) or np.ndim(pixel_size) > 0:
-        raise InvalidInput(
-            f"pixel_size = {shown(pixel_size)}: must be one number, the file holds a line scan"
-        )
+        raise refusal("pixel_size", pixel_size, "one number, the file holds a line scan")
     with rename_in_errors(None, {"spacing": "pixel_size"}):
         return LineScan(heights, spacing=pixel_size)
 
@@ -51,7 +52,7 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
 def check_channel(channel: int, available: int) -> None:
     if not (isinstance(channel, int | np.integer) and 0 <= channel < available):
         allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
-        raise InvalidInput(f"channel = {shown(channel)}: must be {allowed}")
+        raise refusal("channel", channel, allowed)
 
 
 def read_instrument(
@@ -100,7 +101,7 @@ def _read_channel(
     info = reader.channels[channel]
     if not info.is_height_channel:
         kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
-        raise InvalidInput(f"channel = {channel}: must be one of heights ({kinds})")
+        raise refusal("channel", channel, f"one of heights ({kinds})", text=f"{channel}")
     for name, given, stated in (
         ("unit", unit, info.unit),
         ("pixel_size", pixel_size, info.physical_sizes),
@@ -108,7 +109,7 @@ def _read_channel(
         if given is None and stated is None:
             raise InvalidInput(f"{name} is missing: the file does not state it")
         if given is not None and stated is not None:
-            raise InvalidInput(f"{name} = {given!r}: must be left out, the file states its own")
+            raise refusal(name, given, "left out, the file states its own", text=f"{given!r}")
 
     sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
     topography = reader.topography(channel_index=channel, **sizes)
@@ -137,7 +138,9 @@ def _check_equal_distances(positions: NDArray[Any]) -> None:
     if not strayed <= max(_UNEVEN * step, _ROUNDED * _last_digit(positions, step)):
         raise InvalidInput(
             f"holds a line scan whose points stray by up to {strayed / step:.3g} of their mean "
-            "distance: must be equally spaced"
+            "distance",
+            MUST_BE,
+            "equally spaced",
         )
 
 

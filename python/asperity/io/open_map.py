@@ -35,12 +35,11 @@ def open_map(
         array = _zarr(path, channel) if path.is_dir() else _npy(path, channel)
         metres, pixel = required(path, pixel_size, known)
         source = source_of(array, pixel, metres)
-        plausible.check_scan(f"{path}", _sample(source), min(source.pixel_size), known or "m")
+        plausible.check_scan(path, _sample(source), min(source.pixel_size), known or "m")
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except InvalidInput as error:
-        text = str(error)
-        raise InvalidInput(text if text.startswith(f"{path}") else f"{path}: {text}") from error
+        raise (error if error.where else error.within(path)) from error
     return source
 
 

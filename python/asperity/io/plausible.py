@@ -19,12 +19,15 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.base.diagnostics import MUST_BE, Argument, Note, Sentence, Value, valued
 from asperity.base.quantities import (
     LENGTH_UNITS,
     PRESSURE_ON_RUBBER,
@@ -36,44 +39,44 @@ from asperity.base.quantities import (
 )
 from asperity.io.typed import as_typed
 
-_notes: ContextVar[list[str] | None] = ContextVar("notes", default=None)
+_notes: ContextVar[list[Note] | None] = ContextVar("notes", default=None)
 
 
 @contextmanager
-def collected(given: Mapping[str, Any] | None = None) -> Iterator[list[str]]:
+def collected(given: Mapping[str, Any] | None = None) -> Iterator[list[Note]]:
     """Refuse absurd numbers, and collect the notes on unusual ones in a list.
 
     An error of the package that follows on a note may well be due to it, and repeats it. Both have
     the numbers of `given` as they were typed (`as_typed`).
     """
-    notes: list[str] = []
+    notes: list[Note] = []
+    typed = partial(as_typed, given=given or {})
     token = _notes.set(notes)
     try:
         yield notes
     except (InvalidInput, OutOfRange, NotConverged) as error:
-        message = "; note: ".join([str(error), *notes])
-        told = as_typed(message, given or {})
-        if told == str(error):
-            raise
-        raise type(error)(told) from error
+        more = [("; note: ", *note.where, *note.sentence) for note in notes]
+        raise error.followed_by(*chain.from_iterable(more)).said(typed) from error
     finally:
         _notes.reset(token)
-        notes[:] = [as_typed(note, given or {}) for note in notes]
+        notes[:] = [note.said(typed) for note in notes]
 
 
-def tell_again(notes: Sequence[str]) -> None:
+def tell_again(notes: Sequence[Note]) -> None:
     """Note what was noted when something was built that is now taken from a cache."""
     for note in notes:
-        _note(note)
+        _keep(note)
 
 
-def check(where: str, values: ArrayLike, quantity: Quantity, unit: str = "") -> None:
+def check(
+    name: str, values: ArrayLike, quantity: Quantity, unit: str = "", *, path: object = ()
+) -> None:
     """Refuse numbers that are absurd, note those that are unusual; note both for Python's callers.
 
     Parameters
     ----------
-    where : str
-        What a message begins with: file, key or option.
+    name : str
+        Whose values they are: a key or an option, of the file at `path`.
     values : array-like
         Zeros, infinite ones and NaN are left to whoever computes with them.
     unit : str
@@ -95,27 +98,29 @@ def check(where: str, values: ArrayLike, quantity: Quantity, unit: str = "") -> 
     size = _in_si(given, quantity, unit)
     lowest, highest = int(size.argmin()), int(size.argmax())
     for at, side, words, limit in (
-        (lowest, -1, "must be at least", quantity.least),
-        (highest, 1, "must be at most", quantity.most),
+        (lowest, -1, "at least", quantity.least),
+        (highest, 1, "at most", quantity.most),
     ):
         if _beyond(size[at], side, limit):
-            _refuse(_message(where, float(given[at]), quantity, unit, words, limit))
+            found = _sentence(name, float(given[at]), quantity, unit, (MUST_BE, words), limit)
+            _refuse(found, "absurd-value", path)
             return
     for at, side, words, unusual in (
-        (lowest, -1, "unusual, below", quantity.low),
-        (highest, 1, "unusual, above", quantity.high),
+        (lowest, -1, ": unusual, below", quantity.low),
+        (highest, 1, ": unusual, above", quantity.high),
     ):
         if unusual is not None and _beyond(size[at], side, unusual):
-            _note(_message(where, float(given[at]), quantity, unit, words, unusual))
+            found = _sentence(name, float(given[at]), quantity, unit, (words,), unusual)
+            _note(found, "unusual-value", path)
 
 
-def check_scan(where: str, heights: NDArray[Any], spacing: ArrayLike, unit: str) -> None:
+def check_scan(path: object, heights: NDArray[Any], spacing: ArrayLike, unit: str) -> None:
     """Refuse a scan that stands higher than it is long, as heights in a wrong unit make it.
 
     Measured surfaces have rms heights, tilt included, of 1e-5 to 0.1 of their longest side; a
     scan tilted by 45 degrees has 0.29.
     """
-    check(f"{where}: pixel_size", spacing, SPACING)
+    check("pixel_size", spacing, SPACING, path=path)
     step = max(1, heights.size // 50_000)  # an order of magnitude is enough
     with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
         sample = np.asarray(heights.ravel(order="K")[::step], dtype=np.float64)
@@ -129,7 +134,8 @@ def check_scan(where: str, heights: NDArray[Any], spacing: ArrayLike, unit: str)
         return
     if 5e-10 <= rms / length <= 0.5:
         return
-    shown = f"rms height {rms:.4g} m on a length of {length:.4g} m"
+    shown = f": rms height {rms:.4g} m on a length of {length:.4g} m"
+    about = Argument("unit"), " = ", valued(unit), shown
     factor = LENGTH_UNITS[unit][0]
     number = rms / factor
     guesses = [
@@ -139,14 +145,14 @@ def check_scan(where: str, heights: NDArray[Any], spacing: ArrayLike, unit: str)
     ]
     guess = f"; heights in {guesses[0]}? {number:.4g} {guesses[0]} would do" if guesses else ""
     if rms / length > 10:
-        allowed = "must be at most 10 times the length (no surface stands so high)"
-        _refuse(f"{where}: unit = {unit!r}: {shown}: {allowed}{guess}")
+        allowed = "at most 10 times the length (no surface stands so high)"
+        _refuse((*about, MUST_BE, allowed, guess), "absurd-heights", path)
         return
     known = "above half the length" if rms > length else "outside 5e-10 to 0.5 of the length"
-    _note(f"{where}: unit = {unit!r}: {shown}: unusual, {known}{guess}")
+    _note((*about, f": unusual, {known}{guess}"), "unusual-heights", path)
 
 
-def check_load(where: str, pressure: ArrayLike, stiffest: float) -> None:
+def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object = ()) -> None:
     """Hold pressures against the largest |E| [Pa] of the rubber that they press.
 
     Rubber under its own modulus is squeezed flat, and linear theory has nothing to say of ten
@@ -155,33 +161,39 @@ def check_load(where: str, pressure: ArrayLike, stiffest: float) -> None:
     """
     highest = float(np.max(pressure))
     if stiffest > RUBBER_FROM:
-        check(where, pressure, PRESSURE_ON_RUBBER)
+        check(name, pressure, PRESSURE_ON_RUBBER, path=path)
     if not 0 < stiffest < highest:
         return
-    found = f"{where} = {highest:.6g}: {highest / stiffest:.3g} times the rubber's largest modulus"
+    found = valued(highest, f"{highest:.6g}")
+    times = f": {highest / stiffest:.3g} times the rubber's largest modulus ({stiffest:.4g} Pa)"
     guess = "; moduli in MPa?" if 1e5 <= stiffest * 1e6 <= 2e10 else ""
+    about = Argument(name), " = ", found, times
     if highest > 10 * stiffest:
-        _refuse(
-            f"{found} ({stiffest:.4g} Pa): must be at most 10 times (it would be squashed){guess}"
-        )
+        allowed = "at most 10 times (it would be squashed)"
+        _refuse((*about, MUST_BE, allowed, guess), "absurd-pressure", path)
         return
-    _note(f"{found} ({stiffest:.4g} Pa), which squashes it{guess}")
+    _note((*about, f", which squashes it{guess}"), "squashed-rubber", path)
 
 
-def _refuse(message: str) -> None:
+def _refuse(sentence: Sentence, code: str, path: object) -> None:
     if _notes.get() is not None:
-        raise InvalidInput(message)
-    _note(message)
+        raise InvalidInput(*sentence, code=code, where=path)
+    _note(sentence, code, path)
 
 
-def _note(message: str) -> None:
+def _note(sentence: Sentence, code: str, path: object) -> None:
+    step = "check the unit of the number"
+    _keep(Note(*sentence, code=code, next_step=step, where=path))
+
+
+def _keep(note: Note) -> None:
     notes = _notes.get()
     if notes is None:
         import logging  # here: `import asperity` is to be quick
 
-        logging.getLogger("asperity").warning("%s", message)
-    elif message not in notes:
-        notes.append(message)
+        logging.getLogger("asperity").warning("%s", note)
+    elif note not in notes:
+        notes.append(note)
 
 
 def _in_si(given: NDArray[np.float64], quantity: Quantity, unit: str) -> NDArray[np.float64]:
@@ -194,13 +206,14 @@ def _beyond(size: float, side: int, limit: Limit) -> bool:
     return side * (size - limit.value) > 1e-9 * abs(limit.value)  # sweeps end on rounded numbers
 
 
-def _message(
-    where: str, value: float, quantity: Quantity, unit: str, words: str, limit: Limit
-) -> str:
+def _sentence(
+    name: str, value: float, quantity: Quantity, unit: str, words: Sentence, limit: Limit
+) -> Sentence:
     factor, offset = quantity.units[unit]
-    bound = f"{(limit.value - offset) / factor:.6g} {unit}".strip()
+    bound = f" {(limit.value - offset) / factor:.6g} {unit}".rstrip()
+    found = Value(f"{value:.6g}", (value,), unit if quantity.units is TEMPERATURE_UNITS else "")
     guess = _guess(value, quantity, unit)
-    return f"{where} = {value:.6g}: {words} {bound} ({limit.reason}){guess}"
+    return Argument(name), " = ", found, *words, f"{bound} ({limit.reason}){guess}"
 
 
 def _guess(value: float, quantity: Quantity, unit: str) -> str:

@@ -14,6 +14,7 @@ from asperity.base.arguments import brief as shown
 from asperity.base.arguments import choice, path_of, vector
 from asperity.base.arguments import number as real
 from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.io import plausible
 from asperity.io.column_names import Lines, cells_of, find_header, numbered_lines, separator_of
 from asperity.io.instrument import brief
@@ -99,8 +100,8 @@ def read_isotherms(
                 )
             except InvalidInput as error:
                 first, last = int(table["line"][rows[0]]), int(table["line"][rows[-1]])
-                problem = f"isotherm in lines {first} to {last}: {error}"
-                raise InvalidInput(f"{path}: {problem}") from error
+                lines = f"isotherm in lines {first} to {last}: "
+                raise error.within(lines).within(path) from error
             result.append(isotherm)
     return sorted(result, key=lambda isotherm: isotherm.temperature)
 
@@ -137,7 +138,7 @@ def read_strain_sweep(
             loss_modulus=factor * table["loss"][order],
         )
     except InvalidInput as error:
-        raise InvalidInput(f"{file}: {error}") from error
+        raise error.within(file) from error
 
 
 def read_shift_factors(
@@ -163,7 +164,7 @@ def read_shift_factors(
     columns = {"temperature": "temperature_k", "log10_a_T": "log10_a_t"}
     file = path_of(path, "path")
     table = _table(file, columns)
-    plausible.check(f"{file}: temperature_k", table["temperature"], quantities.TEMPERATURE)
+    plausible.check("temperature_k", table["temperature"], quantities.TEMPERATURE, path=file)
     order = np.argsort(table["temperature"], kind="stable")
     try:
         return ShiftFactors(
@@ -172,14 +173,14 @@ def read_shift_factors(
             log10_a_T=table["log10_a_T"][order],
         )
     except InvalidInput as error:
-        raise InvalidInput(f"{file}: {error}") from error
+        raise error.within(file) from error
 
 
 def _young(modulus: str, poisson_ratio: float) -> float:
     shear = choice(modulus, "modulus", ("E", "G")) == 1
     ratio = real(poisson_ratio, "poisson_ratio")
     if not 0 <= ratio <= 0.5:
-        raise InvalidInput(f"poisson_ratio = {ratio!r}: must be in [0, 0.5]")
+        raise refusal("poisson_ratio", ratio, "in [0, 0.5]", text=f"{ratio!r}")
     return 2 * (1 + ratio) if shear else 1.0
 
 
@@ -198,21 +199,28 @@ def _tables(
     wanted = tuple(wanted)
     for name, given in (("columns", columns), ("units", units)):
         if not isinstance(given, Mapping) or not all(isinstance(x, str) for x in given.values()):
-            raise InvalidInput(f"{name} = {shown(given)}: must be a dict of str")
+            raise refusal(name, given, "a dict of str")
         known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
         if name == "columns" and temperatures is not None:
             known.discard("temperature")
         for key in given:
             if key not in known:
                 allowed = ", ".join(sorted(known))
-                raise InvalidInput(f"{name}: {shown(key)} is unknown, must be of {allowed}")
+                raise InvalidInput(
+                    Argument(name),
+                    f": {shown(key)} is unknown",
+                    Must(", must be "),
+                    f"of {allowed}",
+                )
         for key in sorted(known):
             if key not in given:
-                raise InvalidInput(f"{name}: {key!r} is missing")
+                raise InvalidInput(Argument(name), f": {key!r} is missing")
     for key, unit in units.items():
         if unit not in _UNITS[key]:
             allowed = ", ".join(_UNITS[key])
-            raise InvalidInput(f"units: {key} = {shown(unit)}: must be one of {allowed}")
+            raise InvalidInput(
+                Argument("units"), f": {key} = {shown(unit)}", MUST_BE, f"one of {allowed}"
+            )
     one: Any = paths
     try:
         several = None if isinstance(one, str | os.PathLike) else list(one)
@@ -223,7 +231,7 @@ def _tables(
     else:
         files = [path_of(path, f"paths[{i}]") for i, path in enumerate(several)]
     if not files:
-        raise InvalidInput("paths: is empty, must have 1 file or more")
+        raise InvalidInput(Argument("paths"), ": is empty", Must(", must have "), "1 file or more")
     by_file = None if temperatures is None else vector(temperatures, "temperatures")
     if by_file is not None and by_file.size != len(files):
         raise InvalidInput(
@@ -238,7 +246,7 @@ def _tables(
             if name != "temperature" and not np.all(table[name] > 0):
                 row = int(np.argmin(table[name] > 0))
                 problem = f"{name} = {table[name][row]:g}: must be positive"
-                raise InvalidInput(f"{file}: line {table['line'][row]:.0f}: {problem}")
+                raise InvalidInput(f"line {table['line'][row]:.0f}: {problem}", where=file)
             kind = _KINDS.get(name, name)
             table[name] = table[name] * _UNITS[kind][units[kind]]
         _check_units(file, table, units, factor)
@@ -252,9 +260,8 @@ def _check_units(
     file: Path, table: Mapping[str, Column], units: Mapping[str, str], factor: float
 ) -> None:
     """Refuse what the declared units make absurd; temperatures are still in theirs."""
-    plausible.check(
-        f"{file}: temperature", table["temperature"], quantities.TEMPERATURE, units["temperature"]
-    )
+    unit = units["temperature"]
+    plausible.check("temperature", table["temperature"], quantities.TEMPERATURE, unit, path=file)
     _check(file, "frequency", table["frequency"], quantities.FREQUENCY, units)
     if "strain" in table:
         _check(file, "strain", table["strain"], quantities.STRAIN, units)
@@ -267,7 +274,7 @@ def _check(
 ) -> None:
     named = "largest |E|" if kind == "modulus" else kind
     declared = si / _UNITS[kind][units[kind]]
-    plausible.check(f"{file}: {named}", declared, quantity, units[kind])
+    plausible.check(named, declared, quantity, units[kind], path=file)
 
 
 def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
@@ -281,7 +288,7 @@ def _table(path: Path, columns: Mapping[str, str]) -> dict[str, Column]:
             return _numbers(path, numbered[at + 1 :], places, separator, most)
     missing = [c for c in columns.values() if not any(c in line for _, line in numbered)]
     named = ", ".join(map(repr, missing or columns.values()))
-    raise InvalidInput(f"{path}: no line names the columns {named}{_names_there(numbered)}")
+    raise InvalidInput(f"no line names the columns {named}{_names_there(numbered)}", where=path)
 
 
 def _names_there(numbered: Lines) -> str:
@@ -311,12 +318,12 @@ def _numbers(
         cells = line.split(separator if separator != "\t" or separator in line else None)
         if most is not None and any(cell.strip() for cell in cells[most:]):
             problem = f"has {len(cells)} cells, the names {most}: numbers have a decimal point"
-            raise InvalidInput(f"{path}: line {number} {problem}")
+            raise InvalidInput(f"line {number} {problem}", where=path)
         values: dict[str, Any] = {"line": number}
         for name, place in places.items():
             if place >= len(cells):
                 problem = f"has {len(cells)} cells, must have {place + 1} or more ({name})"
-                raise InvalidInput(f"{path}: line {number} {problem}")
+                raise InvalidInput(f"line {number} {problem}", where=path)
             cell = cells[place].strip()
             if separator != ",":
                 cell = cell.replace(",", ".")
@@ -329,11 +336,13 @@ def _numbers(
             skipped += 1  # units
             continue
         for name, value in wrong.items():
-            raise InvalidInput(f"{path}: line {number}: {name} = {value!r} is not a number")
+            raise InvalidInput(f"line {number}: {name} = {value!r} is not a number", where=path)
         for name, value in values.items():
             if not np.isfinite(value):
-                raise InvalidInput(f"{path}: line {number}: {name} = {value}: must be finite")
+                raise InvalidInput(
+                    f"line {number}: {name} = {value}", MUST_BE, "finite", where=path
+                )
             table[name].append(value)
     if not table["line"]:
-        raise InvalidInput(f"{path}: no numbers below the names of the columns")
+        raise InvalidInput("no numbers below the names of the columns", where=path)
     return {name: np.array(values) for name, values in table.items()}

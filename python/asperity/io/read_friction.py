@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import path_of
+from asperity.base.diagnostics import MUST_BE, Must
 from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
@@ -56,7 +57,10 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
     table = filled_lines(path)
     if len(table) < 2:
         raise InvalidInput(
-            f"{path}: has {max(0, len(table) - 1)} rows below its header: must have 1 or more"
+            f"has {max(0, len(table) - 1)} rows below its header",
+            Must(": must have "),
+            "1 or more",
+            where=path,
         )
     header = [name.strip() for name in table[0][1]]
     columns = {kind: _column(path, header, kind) for kind in _COLUMNS}
@@ -65,7 +69,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         values = [_value(path, number, cells, header, place) for number, cells in table[1:]]
         factor = 1.0
         if kind in _QUANTITIES:
-            plausible.check(f"{path}: {header[place]}", values, _QUANTITIES[kind], unit)
+            plausible.check(header[place], values, _QUANTITIES[kind], unit, path=path)
             factor = _QUANTITIES[kind].units[unit][0]
         found[kind] = np.array([value * factor for value in values])
     return MeasuredFriction(found["velocity"], found["mu"], found.get("pressure"))
@@ -76,7 +80,9 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
     known: Mapping[str, str] = _COLUMNS[kind]
     places = [(i, known[name]) for i, name in enumerate(header) if name in known]
     if len(places) > 1:
-        raise InvalidInput(f"{path}: has two columns of {kind}: must be one of {', '.join(known)}")
+        raise InvalidInput(
+            f"has two columns of {kind}", MUST_BE, f"one of {', '.join(known)}", where=path
+        )
     if places:
         return places[0]
     bare = [name for name in header if name.lower().startswith(kind)]
@@ -88,7 +94,7 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
         if bare
         else f"header {brief(','.join(header))!r} has no {kind}"
     )
-    raise InvalidInput(f"{path}: {problem}: must be {allowed}")
+    raise InvalidInput(problem, MUST_BE, allowed, where=path)
 
 
 def _value(path: Path, number: int, cells: list[str], header: list[str], place: int) -> float:
@@ -96,14 +102,14 @@ def _value(path: Path, number: int, cells: list[str], header: list[str], place: 
         problem = f"has {len(cells)} cells: must be {len(header)}, as the header"
         if len(cells) == 2 * len(header):  # which decimal commas among commas make
             problem += " (numbers have a decimal point)"
-        raise InvalidInput(f"{path}: line {number} {problem}")
+        raise InvalidInput(f"line {number} {problem}", where=path)
     try:
         value = cell(cells[place])
     except ValueError as error:
-        raise InvalidInput(f"{path}: line {number}: {header[place]}: {error}") from error
+        raise InvalidInput(f"line {number}: {header[place]}: {error}", where=path) from error
     if not 0 < value < math.inf:
         shown = cells[place].strip() or "nothing"
         raise InvalidInput(
-            f"{path}: line {number}: {header[place]} = {shown}: must be positive and finite"
+            f"line {number}: {header[place]} = {shown}", MUST_BE, "positive and finite", where=path
         )
     return value

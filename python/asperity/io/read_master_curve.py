@@ -7,6 +7,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
+from asperity.base.diagnostics import MUST_BE, Argument
 from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
@@ -23,17 +24,17 @@ def read_master_curve(
     header = ",".join(_MASTER_CURVE)
     if not table or [name.strip() for name in table[0][1]] != _MASTER_CURVE:
         found = brief(",".join(table[0][1])) if table else "nothing"
-        raise InvalidInput(f"{path}: header is {found!r}: must be {header!r}")
+        raise InvalidInput(Argument("header"), f" is {found!r}", MUST_BE, f"{header!r}", where=path)
     rows = []
     for number, cells in table[1:]:
         if len(cells) != len(_MASTER_CURVE):
             raise InvalidInput(
-                f"{path}: line {number} has {len(cells)} cells: must be 3 ({header})"
+                f"line {number} has {len(cells)} cells", MUST_BE, f"3 ({header})", where=path
             )
         try:
             rows.append([cell(text) for text in cells])
         except ValueError as error:
-            raise InvalidInput(f"{path}: line {number}: {error}") from error
+            raise InvalidInput(f"line {number}: {error}", where=path) from error
     columns = np.array(rows).reshape(-1, 3).T
     try:
         curve = MasterCurve(
@@ -43,7 +44,7 @@ def read_master_curve(
             extrapolation=extrapolation,
         )
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
     largest = np.max(np.hypot(curve.storage_modulus, curve.loss_modulus))
-    plausible.check(f"{path}: largest |E|", largest, quantities.MODULUS)
+    plausible.check("largest |E|", largest, quantities.MODULUS, path=path)
     return curve

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import brief as shown
 from asperity.base.arguments import path_of
+from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.io import plausible
 from asperity.io.archive import Archive, read_array
 from asperity.io.files import check_file
@@ -88,11 +88,11 @@ def read_surface(
         check_file(path)
         surface = _read(path, channel, pixel_size, unit)
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
     spacing = surface.pixel_size if isinstance(surface, HeightMap) else surface.spacing
-    plausible.check_scan(f"{path}", surface.heights, spacing, unit or "m")
+    plausible.check_scan(path, surface.heights, spacing, unit or "m")
     return surface
 
 
@@ -102,8 +102,9 @@ def _read(
     suffix = path.suffix.lower()
     if suffix == ".toml":
         raise InvalidInput(
-            "is a scene, not a surface: must be a scan (.npy, .npz, .csv, .txt or the file of an "
-            "instrument)"
+            "is a scene, not a surface",
+            MUST_BE,
+            "a scan (.npy, .npz, .csv, .txt or the file of an instrument)",
         )
     if suffix in (".csv", ".txt"):
         return _read_text(path, channel, pixel_size, unit)
@@ -117,7 +118,7 @@ def checked_unit(unit: str) -> str:
     """The unit, micro signs (there are two) written as u."""
     plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
     if plain not in METRES:
-        raise InvalidInput(f"unit = {shown(unit)}: must be one of {', '.join(METRES)}")
+        raise refusal("unit", unit, f"one of {', '.join(METRES)}")
     return plain
 
 
@@ -125,10 +126,10 @@ def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tupl
     """Metres per unit and pixel size, which files of numbers alone do not state."""
     if pixel_size is None:
         problem = f"a {path.suffix} file does not state the distance of its points [m]"
-        raise InvalidInput(f"pixel_size is missing: {problem}")
+        raise InvalidInput(Argument("pixel_size"), f" is missing: {problem}")
     if unit is None:
         problem = f"a {path.suffix} file does not state the unit of its heights"
-        raise InvalidInput(f"unit is missing: {problem}")
+        raise InvalidInput(Argument("unit"), f" is missing: {problem}")
     return METRES[unit], pixel_size
 
 
@@ -147,9 +148,9 @@ def _sound(kind: str) -> Iterator[None]:
 
 def _real(values: object) -> NDArray[Any]:
     if not isinstance(values, np.ndarray):
-        raise InvalidInput("holds something else: must be an array of real numbers")
+        raise InvalidInput("holds something else", MUST_BE, "an array of real numbers")
     if values.dtype.kind not in "fiu":
-        raise InvalidInput(f"holds {values.dtype} values: must be real numbers")
+        raise InvalidInput(f"holds {values.dtype} values", MUST_BE, "real numbers")
     return np.asarray(values)
 
 
@@ -254,9 +255,9 @@ def filled_lines(path: Path) -> list[tuple[int, list[str]]]:
         check_file(path)
         return [(number, cells) for number, cells in lines(path) if cells]
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
 
 
 def cell(text: str) -> float:

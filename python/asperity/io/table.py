@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import __version__
-from asperity.base.notes import fatal_first
+from asperity.base.diagnostics import Note, fatal_first
 
 # Endings of columns that are no pure numbers; the first that fits holds.
 UNITS = {
@@ -34,7 +34,7 @@ class Table:
 
     command: str
     inputs: Sequence[Mapping[str, Any]]  # one for each scene or file
-    notes: Sequence[str]
+    notes: Sequence[Note]
     columns: Mapping[str, Sequence[Any]]
 
     def csv(self) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import Must
 
 _MOST_BYTES = 2**24
 _MOST_PARTS = 32
@@ -24,7 +25,9 @@ _DOT = re.compile(rf"{_PART}|(?P<dot>\.)")
 def read_toml_text(content: bytes, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
     """The tables of a TOML file; InvalidInput says what is wrong with it."""
     if len(content) > _MOST_BYTES:
-        raise InvalidInput(f"has {len(content)} bytes: must have at most {_MOST_BYTES}")
+        raise InvalidInput(
+            f"has {len(content)} bytes", Must(": must have "), f"at most {_MOST_BYTES}"
+        )
     try:
         text = content.decode("utf-8")
         line = _long_key(text)

@@ -1,13 +1,10 @@
-"""Numbers that keep the text they were typed as, and messages that tell them so."""
+"""Numbers that keep the text they were typed as, and sentences that have them so."""
 
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import Any
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|inf|nan)"
-_TOLD = rf"{_NUMBER}|\({_NUMBER}, {_NUMBER}\)"
-_DIGITS = range(4, 18)  # significant ones that messages have
+from asperity.base.diagnostics import Argument, Sentence, Value
 
 
 class Typed(float):
@@ -41,25 +38,23 @@ class TypedWhole(int):
         return self.text
 
 
-def as_typed(message: str, given: Mapping[str, Any]) -> str:
-    """A message with its numbers as they were typed.
+def as_typed(sentence: Sentence, given: Mapping[str, Any]) -> Sentence:
+    """A sentence with its numbers as they were typed.
 
-    `given` has what was typed by what messages call it, as in "--q-max" or "[rubber] moduli_pa":
-    a number, or numbers in lists and tables. A number, or a pair of them in parentheses, is told
-    after that name, with an index or not. It is known by its value, of which messages have few
-    digits. A number that nobody typed has the digits that a scene is written with.
+    `given` has what was typed by the names of arguments, as in "--q-max" or "[rubber] moduli_pa":
+    a number, or numbers in lists and tables. A value, which may be a pair of numbers, is known
+    behind its argument. A number that nobody typed has the digits that a scene is written with.
     """
-    for name, value in given.items():
-        if name not in message:
-            continue
-        texts = [*_texts(value)]
-        told = re.compile(rf"((?<![\w-]){re.escape(name)}(?:\[\d+\])?(?: =)? )({_TOLD})(?![\w.])")
-
-        def typed(found: re.Match[str], texts: list[tuple[float, str]] = texts) -> str:
-            return found[1] + _typed(found[2], texts)
-
-        message = told.sub(typed, message)
-    return message
+    said = []
+    texts: dict[float, str] = {}
+    for phrase in sentence:
+        if isinstance(phrase, Argument):
+            texts = dict(_texts(given.get(phrase)))
+        elif isinstance(phrase, Value) and phrase.numbers and texts.keys() >= {*phrase.numbers}:
+            typed = [texts[number] for number in phrase.numbers]
+            phrase = phrase.saying(",".join(typed[:1] if len(texts) == 1 else typed))
+        said.append(phrase)
+    return tuple(said)
 
 
 def typed_in(tables: Mapping[str, Any]) -> dict[str, Any]:
@@ -72,18 +67,6 @@ def typed_in(tables: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _typed(told: str, texts: list[tuple[float, str]]) -> str:
-    """A number or a pair as it was typed, or as it is told where none of `texts` is meant."""
-    one_by_one = [
-        next((text for number, text in texts if _tells(one, number)), None)
-        for one in told.strip("()").split(", ")
-    ]
-    known = [text for text in one_by_one if text is not None]
-    if len(known) < len(one_by_one):
-        return told
-    return ",".join(known[:1] if len(texts) == 1 else known)
-
-
 def _texts(value: Any) -> Iterator[tuple[float, str]]:
     if isinstance(value, Mapping):
         value = list(value.values())
@@ -93,9 +76,3 @@ def _texts(value: Any) -> Iterator[tuple[float, str]]:
     elif isinstance(value, int | float) and not isinstance(value, bool):
         with suppress(OverflowError):
             yield float(value), str(value)
-
-
-def _tells(told: str, number: float) -> bool:
-    return any(float(f"{number:.{digits}g}") == float(told) for digits in _DIGITS) or (
-        number != number and told == "nan"
-    )

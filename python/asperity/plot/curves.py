@@ -35,12 +35,12 @@ PRESSURE, VELOCITY = "Nominal pressure $\\sigma_0$ [Pa]", "Sliding velocity $v$ 
 def check_plot(path: Path) -> None:
     """Refuse, before any work, a picture that cannot be drawn."""
     if path.suffix.lower() not in FORMATS:
-        raise InvalidInput(f"{path}: must end in {', '.join(FORMATS)}")
+        raise InvalidInput(f"must end in {', '.join(FORMATS)}", where=path)
     try:
         import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:
         raise InvalidInput(
-            f"{path}: pictures are drawn by matplotlib: {to_install('plot')}"
+            f"pictures are drawn by matplotlib: {to_install('plot')}", where=path
         ) from error
 
 
@@ -179,11 +179,11 @@ def _warn(figure: "Figure") -> None:
     notes = fatal_notes()
     if not notes:
         return
-    told = [*notes[:_MOST_FATAL]]
-    if len(notes) > len(told):
-        told.append(f"and {len(notes) - len(told)} more fatal notes")
+    shown: list[str] = [*notes[:_MOST_FATAL]]
+    if len(notes) > len(shown):
+        shown.append(f"and {len(notes) - len(shown)} more fatal notes")
     letters = int(figure.get_size_inches()[0] * (_LETTERS_NARROW if narrow() else _LETTERS))
-    lines = [line for note in told for line in textwrap.wrap(note, letters)]
+    lines = [line for note in shown for line in textwrap.wrap(note, letters)]
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + _LINE * len(lines))  # the panels keep theirs
     how = {"fontsize": "small", "color": palette()[1]}

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.base.notes import FATAL, fatal_first
+from asperity.base.codes import FATAL
+from asperity.base.diagnostics import Note, fatal_first
 
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
@@ -22,14 +23,14 @@ _DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
 _DARK_PAPER = 0.1  # the same as a grey
 _NARROW = {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4}
 _style: ContextVar[str] = ContextVar("style", default="print")
-_fatal: ContextVar[Sequence[str]] = ContextVar("fatal", default=())
+_fatal: ContextVar[Sequence[Note]] = ContextVar("fatal", default=())
 
 
 @contextmanager
-def drawn_in(style: str | None, notes: Sequence[str] = ()) -> Iterator[None]:
+def drawn_in(style: str | None, notes: Sequence[Note] = ()) -> Iterator[None]:
     """Let the pictures that are drawn meanwhile have a style, and below them the fatal ones of the
     notes: a picture goes on its way without the terminal that told them."""
-    token = _fatal.set([note for note in fatal_first(notes) if note.startswith(FATAL)])
+    token = _fatal.set([note for note in fatal_first(notes) if note.severity == FATAL])
     try:
         with _in_style(style):
             yield
@@ -37,7 +38,7 @@ def drawn_in(style: str | None, notes: Sequence[str] = ()) -> Iterator[None]:
         _fatal.reset(token)
 
 
-def fatal_notes() -> Sequence[str]:
+def fatal_notes() -> Sequence[Note]:
     """Those of the picture that is being drawn."""
     return _fatal.get()
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE, Argument
 from asperity.io.fields import without_unit
 from asperity.plot.curves import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture, pressure_text
 from asperity.plot.style import colours, grey, narrow, shades
@@ -59,7 +60,7 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
 def _squeezed(dataset: Any, name: str) -> tuple[Any, list[str]]:
     """The dataset without axes of one value, and what these were."""
     if name not in dataset:
-        raise InvalidInput(f"{name}: the store does not have it: it was not kept")
+        raise InvalidInput(Argument(name), ": the store does not have it: it was not kept")
     left = set(dataset[name].dims)
     for axis in list(left):
         if dataset.sizes[axis] == 1:
@@ -74,22 +75,27 @@ def _roles(dataset: Any, name: str) -> list[Any]:
     numbers = [axis for axis in left if dataset[axis].dtype.kind in "fiu"]
     if not numbers:
         raise InvalidInput(
-            "--plot: there is no axis of numbers with two values or more to draw over"
+            Argument("--plot"), ": there is no axis of numbers with two values or more to draw over"
         )
     x = "conditions.velocity_m_s" if "conditions.velocity_m_s" in numbers else numbers[-1]
     left.remove(x)
     if len(left) > 3:
         names = ", ".join(left)
-        raise InvalidInput(f"--plot: {names}: must be at most 3 beside {x}: fix the others by --at")
+        raise InvalidInput(
+            Argument("--plot"),
+            f": {names}",
+            MUST_BE,
+            f"at most 3 beside {x}: fix the others by --at",
+        )
     lines = left.pop() if left else None
     panels = left[::-1]
     for axis in panels:
         if dataset.sizes[axis] > _MOST_PANELS:
             problem = f"has {dataset.sizes[axis]} values: must be at most {_MOST_PANELS} for panels"
-            raise InvalidInput(f"--plot: {axis} {problem}: fix it by --at")
+            raise InvalidInput(Argument("--plot"), f": {axis} {problem}: fix it by --at")
     if lines is not None and dataset.sizes[lines] > MOST_ENTRIES and lines not in numbers:
         problem = f"has {dataset.sizes[lines]} values: must be at most {MOST_ENTRIES} for colours"
-        raise InvalidInput(f"--plot: {lines} {problem}: fix it by --at")
+        raise InvalidInput(Argument("--plot"), f": {lines} {problem}: fix it by --at")
     return [x, lines, *panels, None, None][:4]
 
 

@@ -26,7 +26,9 @@ def check_unchanged(sources: Sequence[Source]) -> None:
     """Refuse files that have changed since: the report would tell of others."""
     for source in sources:
         if _digest(source.path) != source:
-            raise InvalidInput(f"{source.path}: has changed while the report was made: start again")
+            raise InvalidInput(
+                "has changed while the report was made: start again", where=source.path
+            )
 
 
 def _digest(path: Path) -> Source:

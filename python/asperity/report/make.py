@@ -10,6 +10,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
+from asperity.base.diagnostics import MUST_BE, Argument, Must
 from asperity.base.table import imported
 from asperity.io.files import check_output, write_whole
 from asperity.report.comparison import compared, differing_inputs
@@ -53,9 +54,14 @@ def report_page(
     jinja = imported("jinja2", "plot")
     imported("matplotlib", "plot")
     if not 1 <= len(paths) <= _MOST_SCENES:
-        raise InvalidInput(f"scenes has {len(paths)} entries: must have 1 to {_MOST_SCENES}")
+        raise InvalidInput(
+            Argument("scenes"),
+            f" has {len(paths)} entries",
+            Must(": must have "),
+            f"1 to {_MOST_SCENES}",
+        )
     if len({os.path.realpath(path) for path in paths}) < len(paths):
-        raise InvalidInput("scenes: must be different files")
+        raise InvalidInput(Argument("scenes"), MUST_BE, "different files")
     # their names are known once they are read; what is computed is read after the digests
     sources = [digests(load_scene(path, for_friction=True).sources) for path in paths]
     all_sources = [source for of_one in sources for source in of_one]
@@ -150,5 +156,5 @@ def _now() -> str:
         return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
     except (ValueError, OverflowError, OSError):
         raise InvalidInput(
-            f"SOURCE_DATE_EPOCH = {brief(stated)}: must be seconds since 1970"
+            f"SOURCE_DATE_EPOCH = {brief(stated)}", MUST_BE, "seconds since 1970"
         ) from None

@@ -3,8 +3,8 @@
 import os
 from collections.abc import Iterable
 
-from asperity._core import InvalidInput
-from asperity.base.arguments import brief, path_of
+from asperity.base.arguments import path_of
+from asperity.base.diagnostics import refusal
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
@@ -40,11 +40,11 @@ def report(scenes: Paths, path: str | os.PathLike[str], *, title: str | None = N
 
     output = path_of(path, "path")
     if title is not None and not isinstance(title, str):
-        raise InvalidInput(f"title = {brief(title)}: must be a text")
+        raise refusal("title", title, "a text")
     try:
         if isinstance(scenes, dict):
             raise TypeError
         names = [scenes] if isinstance(scenes, str | os.PathLike) else list(scenes)
     except TypeError:
-        raise InvalidInput(f"scenes = {brief(scenes)}: must be paths of scene files") from None
+        raise refusal("scenes", scenes, "paths of scene files") from None
     write_report([path_of(one, f"scenes[{i}]") for i, one in enumerate(names)], output, title)

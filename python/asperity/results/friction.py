@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, brief, broadcast, real_array
+from asperity.base.arguments import Array, broadcast, real_array
+from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 
@@ -67,7 +68,7 @@ class Friction(Table):
         q1/q0 is above 128).
     temperature : float or ndarray, or None
         As given, broadcast [K]; with heating that of the roughness at q1. None without.
-    notes : tuple of str
+    notes : tuple of Note
         Where the theory or its input leaves its range.
     wavenumber : ndarray, shape (n,), or None
         Where the contributions were asked for [1/m]; None without contributions=True, as the others
@@ -109,7 +110,7 @@ class Friction(Table):
     extrapolated_share: Any = column("1", "share of the hysteresis beyond the measured frequencies")
     model_error: Any = column("1", "relative error of mu seen in exact sliding contacts")
     temperature: Any = None
-    notes: Any = _WhenAsked(())
+    notes: tuple[Note, ...] = ()
     wavenumber: Array | None = None
     dmu_dlnq: Array | None = None
     decade_edges: Array | None = None
@@ -120,12 +121,6 @@ class Friction(Table):
     branches: Any = None
     temperature_profile: Array | None = None
     sliding_length: Any = _WhenAsked(None)
-
-    def _plain_notes(self) -> tuple[str, ...]:
-        """Return the notes without the size of the heat, which takes a computation of its own."""
-        found: Any = self.__dict__["notes"]
-        plain: tuple[str, ...] = found.plain if callable(found) else found
-        return plain
 
     def mu_at(self, distance: ArrayLike) -> Any:
         """Return the friction coefficient [-] after a `distance` s [m] slid from rest.
@@ -138,13 +133,14 @@ class Friction(Table):
         """
         s = real_array(distance, "distance")
         if not (s >= 0).all():
-            raise InvalidInput(f"distance = {brief(distance)}: must be 0 or more")
+            raise refusal("distance", distance, "0 or more")
         broadcast(distance=s, mu=self.mu)  # refuses shapes that do not
         if self.cold is None:
             mu = self.mu + 0 * s
         elif self.sliding_length is None:
             raise InvalidInput(
-                "distance: needs the sliding_length, which friction gives with method = gauss alone"
+                Argument("distance"),
+                ": needs the sliding_length, which friction gives with method = gauss alone",
             )
         else:
             mu = self.mu + (self.cold.mu - self.mu) * np.exp(-s / self.sliding_length)

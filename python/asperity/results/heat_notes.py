@@ -1,18 +1,17 @@
 """Notes of a result on heat: how much is left out, and laws of the shift used beyond their fit."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity._core import Error
+from asperity.base.diagnostics import Note
 from asperity.heating import Heating
 from asperity.shift_factors import ArrheniusFit, WlfFit
 
 _LITTLE = 0.02  # of mu, less than any model error
-_LEFT_OUT = "flash heating, which is not modelled"  # in the core's note
 
 
 def _tread(adhesive: bool) -> Heating:
@@ -28,11 +27,11 @@ def _tread(adhesive: bool) -> Heating:
 
 
 def with_size_of_heat(
-    notes: Sequence[str],
+    notes: Sequence[Note],
     velocity: ArrayLike,
     adhesive: bool,
     heated_at: Callable[[int, Heating], Any],
-) -> tuple[str, ...]:
+) -> tuple[Note, ...]:
     """Return notes of which the one on heat that is left out says its size.
 
     `heated_at` gives the friction of one of the points with the heat of a typical tread compound:
@@ -41,7 +40,7 @@ def with_size_of_heat(
     """
     found = list(notes)
     for i, note in enumerate(found):
-        if _LEFT_OUT not in note:
+        if note.code != "heat-left-out":
             continue
         fastest = int(np.argmax(np.ravel(velocity)))
         try:
@@ -51,32 +50,19 @@ def with_size_of_heat(
         rise = hot.temperature - hot.cold.temperature
         small = abs(hot.mu - hot.cold.mu) < _LITTLE * hot.cold.mu
         size = "changes little here, though it" if small else "matters, which"
-        found[i] = (
+        text = (
             f"above 0.01 m/s flash heating {size} is not modelled without heating: at "
             f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from "
             f"{hot.cold.temperature:.5g} K and take mu from {hot.cold.mu:.3g} to {hot.mu:.3g}, "
             "with the constants of a tread compound in contacts of 1 mm (Persson 2006, J. Phys.: "
             "Condens. Matter 18, 7789)"
         )
+        code = "little-heat-left-out" if small else note.code
+        found[i] = Note(text, code=code, next_step=note.next_step_phrases)
     return tuple(found)
 
 
-@dataclass(frozen=True, eq=False)
-class NotesWithHeat:
-    """Notes that say how much heat is left out when they are first asked for."""
-
-    plain: tuple[str, ...]
-    velocity: ArrayLike
-    adhesive: bool
-    heated_at: Callable[[int, Heating], Any]
-    more: tuple[str, ...] = ()
-
-    def __call__(self) -> tuple[str, ...]:
-        sized = with_size_of_heat(self.plain, self.velocity, self.adhesive, self.heated_at)
-        return (*sized, *self.more)
-
-
-def law_notes(shift: Any, temperature: ArrayLike) -> tuple[str, ...]:
+def law_notes(shift: Any, temperature: ArrayLike) -> tuple[Note, ...]:
     """Return a note where a fitted law of the shift was asked beyond the temperatures of it."""
     if not isinstance(shift, WlfFit | ArrheniusFit):
         return ()
@@ -87,7 +73,9 @@ def law_notes(shift: Any, temperature: ArrayLike) -> tuple[str, ...]:
     if fitted[0] <= lowest and highest <= fitted[1]:
         return ()
     name = "WLF law" if isinstance(shift, WlfFit) else "Arrhenius law"
-    return (
+    text = (
         f"the {name} is used from {lowest:.5g} to {highest:.5g} K, it was fitted on "
-        f"{fitted[0]:.5g} to {fitted[1]:.5g} K",
+        f"{fitted[0]:.5g} to {fitted[1]:.5g} K"
     )
+    step = "measure the modulus at these temperatures"
+    return (Note(text, code="law-beyond-fit", next_step=step),)

@@ -1,6 +1,5 @@
 """A scene held against measured friction: the adhesion that the measurement asks for."""
 
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
+from asperity.base.diagnostics import Advice, Argument, Must, Sentence
 from asperity.base.parameters import parameters
 from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
@@ -21,6 +21,11 @@ from asperity.uncertainty.draws import Generator
 
 # arguments of Adhesion by the names that files give them
 PARAMETERS = {one.key: one.name for one in parameters(Adhesion)}
+_HOLD = {
+    "hold-some": "--hold keeps some",
+    "hold-width": "--hold width=0.1",
+    "hold-velocity": "--hold reference_velocity_m_s=6e-3",
+}
 _TRIES = 20  # fits of one draw
 
 
@@ -30,7 +35,7 @@ class Fitted:
 
     scene: Scene
     adhesion: AdhesionFit | None
-    problem: str  # why there is none
+    problem: InvalidInput | None  # why there is none
     curves: Curves
 
 
@@ -40,8 +45,10 @@ def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[n
         return measured.pressure
     if scene.pressure.size > 1:
         raise InvalidInput(
-            f"{path}: has no column of pressure: must have pressure_pa where [conditions] "
-            f"pressure_pa of {scene.path} has {scene.pressure.size}"
+            "has no column of pressure",
+            Must(": must have "),
+            f"pressure_pa where [conditions] pressure_pa of {scene.path} has {scene.pressure.size}",
+            where=path,
         )
     return np.full(measured.mu.shape, scene.pressure[0])
 
@@ -76,12 +83,12 @@ class Experiment:
             **scene.options,
         )
 
-    def fit_scene(self, scene: Scene) -> tuple[AdhesionFit | None, str]:
+    def fit_scene(self, scene: Scene) -> tuple[AdhesionFit | None, InvalidInput | None]:
         """The fit, or why there is none in words of the command line."""
         try:
-            return self.fit(scene, scene.spectrum, scene.rubber, self.measured.mu), ""
+            return self.fit(scene, scene.spectrum, scene.rubber, self.measured.mu), None
         except InvalidInput as error:
-            return None, f"{self.path}: {_in_options(str(error))}"
+            return None, error.said(_in_options).within(self.path)
 
     def curves(self, scene: Scene, adhesion: AdhesionFit | None, progress: Progress) -> Curves:
         """mu at the scene's points, with a band where anything has errors. Of a drawn surface or
@@ -108,22 +115,25 @@ class Experiment:
             with suppress(InvalidInput):  # a draw that leaves a parameter open
                 return self.fit(scene, spectrum, rubber, self.measured.mu * noise)
         raise NotConverged(
-            f"{self.path}: the points determine no adhesion on {_TRIES} draws of the surface and "
-            "rubber in a row: no band"
+            f"the points determine no adhesion on {_TRIES} draws of the surface and rubber in a "
+            "row: no band",
+            where=self.path,
         )
 
 
-def _in_options(problem: str) -> str:
-    """Python's `fixed = {...}` as the option of the command line."""
-    problem = problem.replace('fixed = {"width": 0.1}', "--hold width=0.1")
-    problem = problem.replace(
-        'fixed = {"reference_velocity": 6e-3}', "--hold reference_velocity=6e-3"
-    )
-    problem = problem.replace("fixed = {...} holds some", "--hold keeps some")
-    problem = re.sub(r"^fixed: ", "--hold ", problem)
-    for key, name in PARAMETERS.items():
-        problem = re.sub(rf"\b{name}\b", key, problem)
-    return problem
+def _in_options(sentence: Sentence) -> Sentence:
+    """Python's `fixed = {...}` as the option of the command line, parameters as files name them."""
+    names = {name: key for key, name in PARAMETERS.items()}
+    names |= {f"fixed: {name}": f"--hold {key}" for name, key in names.items()}
+    names["fixed"] = "--hold"
+    said: list[str] = []
+    for phrase in sentence:
+        if isinstance(phrase, Argument):
+            phrase = phrase.saying(names.get(phrase, phrase))
+        elif isinstance(phrase, Advice):
+            phrase = phrase.saying(_HOLD.get(phrase.tag, phrase))
+        said.append(phrase)
+    return tuple(said)
 
 
 def found(adhesion: AdhesionFit) -> dict[str, float]:

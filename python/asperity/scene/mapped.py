@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.rubber import Rubber
 from asperity.scene.model import Scene
 
@@ -16,8 +17,10 @@ def heat_of_map(scene: Scene) -> dict[str, Any]:
     temperatures = [one.temperature for one in (scene, *scene.others)]
     if scene.heating is None:
         if len(temperatures) > 1:
-            problem = "must be one temperature where no [heating] is given; a_T leads to others"
-            raise InvalidInput(f"{scene.path}: [conditions] temperature: {problem}")
+            allowed = "one temperature where no [heating] is given; a_T leads to others"
+            raise InvalidInput(
+                Argument("[conditions] temperature"), MUST_BE, allowed, where=scene.path
+            )
         return {}
     lowest, highest = min(map(_known, temperatures)), max(map(_known, temperatures))
     law = scene.built_rubber.shift
@@ -38,7 +41,7 @@ def rubber_of_map(scene: Scene) -> Rubber:
 
 
 def side_of_map(
-    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[str]
+    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[Note]
 ) -> tuple[float, float]:
     """The sides of the map: as asked for, else as the scene sweeps."""
     if given is not None:
@@ -46,5 +49,6 @@ def side_of_map(
     lowest, highest = float(swept.min()), float(swept.max())
     if lowest < highest:
         return lowest, highest
-    notes.append(f"{name}: the scene has one; the map goes from a tenth to ten times of it")
+    text = ": the scene has one; the map goes from a tenth to ten times of it"
+    notes.append(Note(Argument(name), text, code="side-of-map"))
     return lowest / 10, highest * 10

@@ -10,23 +10,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import OutOfRange
+from asperity._core import OutOfRange, extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.celsius import temperature_text
-from asperity.base.notes import FATAL, fatal_first
+from asperity.base.codes import FATAL
+from asperity.base.diagnostics import Note, fatal_first
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import ROUGHLY, Friction, friction
 from asperity.heating import Heating
 from asperity.io.fields import (
+    in_keys,
     names_of,
     rename_in_errors,
 )
-from asperity.results.extrapolation_notes import with_velocities
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scene.celsius import celsius_in_errors
-from asperity.scene.keys import NAMES, UNCERTAINTY
+from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
 from asperity.scene.parts import (
     HEATING_NAMES,
 )
@@ -40,9 +41,7 @@ COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "erro
 _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
-_OF_FREQUENCIES = "ask for the modulus from"  # in the core's words on a range
-# a note of the core in the keys of a scene
-_IN_KEYS = "give macro_wavenumber or macro_area", "give macro_wavenumber_per_m or macro_area"
+_OF_MODULUS = {"modulus-extrapolated", "modulus-unmeasured"}  # notes on all points together
 
 Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 
@@ -51,7 +50,7 @@ Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 class Curves:
     """Results of a scene, arrays of shape (pressures, velocities)."""
 
-    notes: list[str]
+    notes: list[Note]
     mu: NDArray[np.float64]
     hysteresis: NDArray[np.float64]
     adhesion: NDArray[np.float64]
@@ -88,7 +87,7 @@ class Scene:
     inputs: Mapping[str, Mapping[str, Any]]
     sampling: Mapping[str, Any]  # samples, seed and level of a band
     stated_rtol: float | None  # of [solver], None where the default holds
-    unusual: Sequence[str]  # numbers that their units make unlikely
+    unusual: Sequence[Note]  # numbers that their units make unlikely
     typed: Mapping[str, Any]  # what the file has, by the names that messages use
     temperature: float | None = None  # of [conditions] [K]
     heating: Heating | None = None
@@ -103,7 +102,7 @@ class Scene:
         return self.built_rubber.rubber
 
     @property
-    def notes(self) -> list[str]:
+    def notes(self) -> list[Note]:
         """What the inputs give to note, before anything is computed."""
         return [*self.unusual, *self.surface.notes, *self.built_rubber.notes]
 
@@ -141,11 +140,11 @@ class Scene:
         """Friction at every pressure and velocity; `progress` sees the chunks of points."""
         parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
-        found = dict.fromkeys(note for part in parts for note in part.notes)
         share = np.concatenate([part.extrapolated_share for part in parts])
-        told = with_velocities([*found], self.points[1], share)
-        told = [note.replace(*_IN_KEYS) for note in told]
-        notes = fatal_first([*self.notes, *self._with_size_of_heat(told)])
+        found = [note for part in parts for note in part.notes if note.code not in _OF_MODULUS]
+        found = [*self._with_size_of_heat(found), *extrapolation_notes(self.points[1], share)]
+        named = partial(in_keys, names=NOTED)
+        notes = fatal_first([*self.notes, *(note.said(named) for note in found)])
         columns = {
             name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
             for name in (*COLUMNS, "model_error", "extrapolated_share")
@@ -171,7 +170,7 @@ class Scene:
             result: Friction = self._at(self._friction, pressure, velocity)
             return result
 
-    def _with_size_of_heat(self, notes: Sequence[str]) -> Sequence[str]:
+    def _with_size_of_heat(self, notes: Sequence[Note]) -> Sequence[Note]:
         """Let the note on heat that is left out say how much that is, where a_T is known."""
         built = self.built_rubber
         shift, rubber, temperature = built.shift, built.at_reference, built.temperature
@@ -265,11 +264,12 @@ class Scene:
         parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
         return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
 
-    def contact_notes(self) -> list[str]:
+    def contact_notes(self) -> list[Note]:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
-        parts: list[tuple[str, ...]] = self._at_points(compute, nullcontext)
-        return fatal_first([*self.notes, *(note for part in parts for note in part)])
+        parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
+        named = partial(in_keys, names=NOTED)
+        return fatal_first([*self.notes, *(note.said(named) for part in parts for note in part)])
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""
@@ -281,7 +281,7 @@ class Scene:
                 with progress(chunks) as shown:
                     return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
             except OutOfRange as error:  # of a chunk: it is to offer what serves all velocities
-                if _OF_FREQUENCIES not in str(error):
+                if error.code != "unknown-modulus":
                     raise
                 ends = np.array([self.velocity.min(), self.velocity.max()])
                 self._at(compute, pressure[[0, 0]], ends)
@@ -294,13 +294,14 @@ class Scene:
         try:
             yield
         except OutOfRange as error:
-            if _OF_FREQUENCIES not in str(error):
+            if error.code != "unknown-modulus":
                 raise
-            said = [f"{error} (these differ in mu, see 'Choose where the spectrum ends')"]
+            more = [" (these differ in mu, see 'Choose where the spectrum ends')"]
             if self.temperature is not None:
-                said.append(f"this is at {self.temperature_text}")
-            said += [n.removeprefix(FATAL) for n in self.surface.notes if n.startswith(FATAL)]
-            raise OutOfRange("; ".join(said)) from error
+                more.append(f"; this is at {self.temperature_text}")
+            for note in self.surface.notes:
+                more += ["; ", *note.sentence] if note.severity == FATAL else []
+            raise error.followed_by(*more) from error
 
     @property
     def _names(self) -> Mapping[str, str]:

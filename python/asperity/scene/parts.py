@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from asperity.adhesion import Adhesion
+from asperity.base.diagnostics import valued
 from asperity.correction import CORRECTIONS as CLASSES
 from asperity.correction import Correction
 from asperity.heating import Heating
@@ -78,7 +79,7 @@ def build_correction(
         refuse(path, "[correction] kind", "missing, " + nearest("", CORRECTIONS))
     if not isinstance(kind, str) or kind not in CORRECTIONS:
         known = f"{nearest(str(kind), CORRECTIONS)}; a scene without [correction] has none"
-        refuse(path, f"[correction] kind = {kind!r}", known)
+        refuse(path, "[correction] kind", known, valued(kind))
     fields = CORRECTIONS[kind]
     values = read_table(path, "correction", table, fields)
     if "z_max_m" in fields:

@@ -1,17 +1,15 @@
 """Friction of scenes as a table: one set of digits for the shell, the report and the app."""
 
-import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from asperity.base.notes import fatal_first, note_about
+from asperity.base.diagnostics import Note, fatal_first
 from asperity.io.table import Table
 from asperity.scene.model import COLUMNS, Curves, Progress, Scene
 
-_NUMBER = re.compile(r"-?\d[\d.e+-]*")
 Bar = Callable[[str], Progress]  # shows how far the work of that title is
 
 
@@ -58,28 +56,29 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
     return Table("friction", inputs, notes_of_all(scenes, curves), columns)
 
 
-def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[str]:
+def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[Note]:
     """Every note once, fatal ones first; of several scenes with the names of those it is about.
 
-    What there is to say of a file's inputs is said at every temperature, with other numbers. It is
-    told with those of the first.
+    A file's inputs have the same notes at every temperature, with other numbers. They are said with
+    those of the first.
     """
-    about: dict[str, list[Scene]] = {}
-    first: dict[tuple[Path, str], str] = {}
-    alike: Counter[str] = Counter()
+    about: dict[Note, list[Scene]] = {}
+    first: dict[tuple[Path, tuple[str, str]], Note] = {}
+    alike: Counter[Note] = Counter()
+    first_of = {scene.path: scene for scene in reversed(scenes)}
     for scene, result in zip(scenes, curves, strict=True):
         of_inputs = set(scene.notes)
         for note in dict.fromkeys(result.notes):
-            told = first.setdefault((scene.path, _NUMBER.sub("", note)), note)
-            if note != told and note in of_inputs:
-                alike[told] += 1
+            same = first.setdefault((scene.path, note.identity), note)
+            if note != same and note in of_inputs and scene is not first_of[scene.path]:
+                alike[same] += 1
             else:
                 about.setdefault(note, []).append(scene)
-    named = ((_told_of(its, scenes, alike[note]), note) for note, its in about.items())
-    return fatal_first(note_about(name, note) if name else note for name, note in named)
+    named = ((_name_of(its, scenes, alike[note]), note) for note, its in about.items())
+    return fatal_first(note.within(name, ": ") if name else note for name, note in named)
 
 
-def _told_of(its: Sequence[Scene], scenes: Sequence[Scene], alike: int) -> str:
+def _name_of(its: Sequence[Scene], scenes: Sequence[Scene], alike: int) -> str:
     """Which scenes a note is about: their files where there are several, and the temperatures of
     a file unless it is about all of them, with the number of those that have one alike."""
     files = {scene.path for scene in scenes}

@@ -4,6 +4,7 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,8 @@ import numpy as np
 from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
-from asperity.base.notes import FATAL
+from asperity.base.codes import FATAL
+from asperity.base.diagnostics import Note, valued
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import (
@@ -20,6 +22,7 @@ from asperity.io.fields import (
     fields_of,
     file_name,
     file_names,
+    in_keys,
     names_of,
     number,
     numbers,
@@ -93,7 +96,7 @@ class BuiltRubber:
 
     rubber: Rubber
     values: Values  # the table as it was used
-    notes: Sequence[str]
+    notes: Sequence[Note]
     drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
     shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
     at_reference: Rubber | None = None
@@ -145,8 +148,8 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
         require(path, "rubber", values, tuple(_PRONY), alternatives)
         with rename_in_errors(path, names_of("rubber", _PRONY)):
             rubber = PronySeries(**arguments(values, _PRONY))
-        where = f"{path}: [rubber] equilibrium_modulus_pa and moduli_pa together"
-        plausible.check(where, stiffest(rubber), quantities.MODULUS)
+        where = "[rubber] equilibrium_modulus_pa and moduli_pa together"
+        plausible.check(where, stiffest(rubber), quantities.MODULUS, path=path)
     shifts = shift_of(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
@@ -184,13 +187,15 @@ def _naming_temperature(values: Values) -> Iterator[None]:
     try:
         yield
     except (InvalidInput, OutOfRange) as error:
-        message = str(error)
+        named = {"[rubber] reference_temperature_k": "[rubber] temperature_k"}
         if "reference_temperature_k" not in values:
-            message = message.replace("[rubber] reference_temperature_k", "[rubber] temperature_k")
+            error = error.said(partial(in_keys, names=named))
         if isinstance(error, OutOfRange) and "shift" not in values:
-            message += "; beyond them a scene needs their master curve, wlf_c1 and wlf_c2_k, which "
-            message += "asperity rubber gives"
-        raise type(error)(message) from error
+            error = error.followed_by(
+                "; beyond them a scene needs their master curve, wlf_c1 and wlf_c2_k, which "
+                "asperity rubber gives"
+            )
+        raise error from error.__cause__
 
 
 @contextmanager
@@ -199,8 +204,8 @@ def _blaming_conditions() -> Iterator[None]:
     try:
         yield
     except (InvalidInput, OutOfRange) as error:
-        message = str(error).replace("[rubber] temperature_k", "[conditions] temperature_k")
-        raise type(error)(message) from error
+        named = {"[rubber] temperature_k": "[conditions] temperature_k"}
+        raise error.said(partial(in_keys, names=named)) from error
 
 
 def stiffest(rubber: Rubber) -> float:
@@ -246,7 +251,7 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
     if extrapolation is not None and fitted != (extrapolation == "prony"):
         allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
-        refuse(path, f"[rubber] extrapolation = {extrapolation}", allowed)
+        refuse(path, "[rubber] extrapolation", allowed, valued(extrapolation, extrapolation))
     at_any = {key: one for key, one in values.items() if key != "temperature_k"}
     isotherms, build = measure(path, at_any)
     rubber, notes = _at_temperature(path, values, build, extrapolation)
@@ -275,10 +280,10 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
 
 
-def _contradictions(build: MasterCurveBuild) -> list[str]:
+def _contradictions(build: MasterCurveBuild) -> list[Note]:
     """What a Prony series would say of E' and E'' that are not of one material."""
     try:
-        return [note for note in quiet_prony(build).notes if note.startswith(FATAL)]
+        return [note for note in quiet_prony(build).notes if note.severity == FATAL]
     except Error:  # nobody asked for the series
         return []
 
@@ -289,7 +294,7 @@ def _at_reference(values: Values) -> Values:
 
 def _at_temperature(
     path: Path, values: Values, build: MasterCurveBuild, beyond: str | None
-) -> tuple[Rubber, Sequence[str]]:
+) -> tuple[Rubber, Sequence[Note]]:
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
     curve = build.master_curve.shifted(shift_factor(path, build, values))
     if values.get("vertical_shift") == "T/T_ref":

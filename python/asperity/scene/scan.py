@@ -11,6 +11,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import Note
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import Window, anisotropy, line_spectrum, power_spectrum
 from asperity.spectrum import TabulatedSpectrum
@@ -37,7 +38,7 @@ def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Sc
     try:
         return scan, scan.fill_dropouts(max_fraction=max_fraction)
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
 
 
 def surface_spectrum(scan: Scan, *, window: Window, detrend: Detrend | None) -> TabulatedSpectrum:
@@ -74,16 +75,19 @@ def lay(scan: Scan, *, window: Window, detrend: Detrend | None) -> float | None:
     return found.ratio if found.along > 0 else None
 
 
-def scan_notes(scan: Scan, ratio: float | None) -> list[str]:
+def scan_notes(scan: Scan, ratio: float | None) -> list[Note]:
     """What a reader of the spectrum must know of the scan."""
     notes = []
     if isinstance(scan, LineScan):
-        notes.append("of a line scan: C(q) is that of the isotropic surface with such profiles")
+        text = "of a line scan: C(q) is that of the isotropic surface with such profiles"
+        notes.append(Note(text, code="line-scan"))
     if ratio is not None and ratio > _LAY:
-        notes.append(
+        text = (
             f"the slope across the lay is {ratio:.3g} times that along it: the spectrum is an "
             "average over directions, and stands for none"
         )
+        step = "measure friction along and across the lay"
+        notes.append(Note(text, code="lay", next_step=step))
     return notes
 
 

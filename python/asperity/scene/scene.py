@@ -8,6 +8,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
+from asperity.base.diagnostics import valued
 from asperity.correction import Correction
 from asperity.io import plausible
 from asperity.io.fields import (
@@ -114,8 +115,8 @@ def build_scene(
             )
     rubbers = [builders.rubber(path, tables["rubber"], t) for t in temperatures]
     rubber = rubbers[0]
-    where = f"{path}: [conditions] pressure_pa"
-    plausible.check_load(where, points["pressure_pa"], stiffest(rubber.rubber))
+    hardest = stiffest(rubber.rubber)
+    plausible.check_load("[conditions] pressure_pa", points["pressure_pa"], hardest, path=path)
     inputs = {
         "surface": surface.values,
         "rubber": rubber.values,
@@ -188,11 +189,11 @@ def _list_isotherms(path: Path, rubber: Any) -> None:
             names.append(name)
         elif "temperatures" in rubber:
             problem = "must name its files one by one, as temperatures gives one to each"
-            refuse(path, f"[rubber] isotherms = {name!r}", problem)
+            refuse(path, "[rubber] isotherms", problem, valued(name))
         elif found := sorted(glob(name.replace("[", "[[]"), root_dir=path.parent)):
             names += found
         else:
-            refuse(path, f"[rubber] isotherms = {name!r}", "no file has such a name")
+            refuse(path, "[rubber] isotherms", "no file has such a name", valued(name))
     rubber["isotherms"] = names
 
 
@@ -213,7 +214,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     except OSError as error:
         refuse(path, "cannot be read", error.strerror or str(error))
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise error.within(path) from error
 
 
 def check_tables(path: Path, tables: Mapping[str, Any]) -> None:

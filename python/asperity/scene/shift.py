@@ -5,6 +5,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
+from asperity.base.diagnostics import Argument, valued
 from asperity.dma import MasterCurveBuild
 from asperity.io.fields import (
     Field,
@@ -80,5 +81,10 @@ def shift_factor(
         else:
             a_t = float(shifts.shift_factor(at))
         if not 0 < a_t < float("inf"):
-            raise InvalidInput(f"temperature = {values['temperature_k']}: a_T = {a_t}")
+            raise InvalidInput(
+                Argument("temperature"),
+                " = ",
+                valued(values["temperature_k"], f"{values['temperature_k']}"),
+                f": a_T = {a_t}",
+            )
         return a_t

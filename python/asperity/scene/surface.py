@@ -8,6 +8,7 @@ from typing import Any
 
 from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
+from asperity.base.diagnostics import Argument, Note, valued
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,
@@ -76,7 +77,7 @@ class Surface:
     scan: Scan | None  # it was measured on
     values: Values  # the table with its defaults
     derived: Values
-    notes: Sequence[str]
+    notes: Sequence[Note]
     drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
     fit: SelfAffineFit | None = None  # to the scan's spectrum, where the scene asks for one
 
@@ -104,7 +105,7 @@ def build_surface(path: Path, table: object) -> Surface:
         with rename_in_errors(path, names_of("surface", fields)):
             spectrum = SelfAffineSpectrum(**arguments(values, fields))
     spectrum = _cut(path, spectrum, values)
-    plausible.check(f"{path}: [surface]: rms slope", spectrum.rms_slope, quantities.SLOPE)
+    plausible.check("[surface] rms slope", spectrum.rms_slope, quantities.SLOPE, path=path)
     derived |= {
         "q0_per_m": spectrum.q0,
         "q1_per_m": spectrum.q1,
@@ -149,7 +150,7 @@ def _measure(
     band = arguments(values, _BAND)
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
-        refuse(path, f"[surface] fit = {wanted!r}", 'must be "self-affine", or left out')
+        refuse(path, "[surface] fit", 'must be "self-affine", or left out', valued(wanted))
     with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
         spectrum = surface_spectrum(scan, **settings)
         if wanted is not None:
@@ -159,16 +160,14 @@ def _measure(
             floor = noise_floor(spectrum, nyquist(scan)) if isinstance(scan, HeightMap) else None
             return spectrum.truncated(**band), None, floor
         except OutOfRange as error:
-            raise OutOfRange(f'{error}; fit = "self-affine" goes on beyond it') from error
+            raise error.followed_by('; fit = "self-affine" goes on beyond it') from error
 
 
 def _fitted(spectrum: TabulatedSpectrum) -> SelfAffineFit:
     try:
         return fit_self_affine(spectrum)
     except InvalidInput as error:
-        raise InvalidInput(
-            f"{error}; without fit the measured rows are taken as they are"
-        ) from error
+        raise error.followed_by("; without fit the measured rows are taken as they are") from error
 
 
 def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:
@@ -181,7 +180,7 @@ def _draw_fit(fit: SelfAffineFit, q0: float, q1: float, rng: Generator) -> Spect
     return draw_fit(fit, rng, q1).extended(q0=q0, q1=q1)
 
 
-def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
+def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
     beyond = [
         f"{side} {q:.4g} 1/m"
         for side, q, outside in (
@@ -193,26 +192,34 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[str]:
     if not beyond:
         return []
     where = " and ".join(beyond)
-    return [f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"]
+    text = f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"
+    return [Note(text, code="law-beyond-rows", next_step="measure finer, or state it with mu")]
 
 
-def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[str]:
+def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:
     if floor is None or spectrum.q1 <= floor:
         return []
-    return [
+    text = (
         f"from {floor:.3g} 1/m on noise of the instrument, or roughness finer than the pixels, is "
         f"half of C(q) or more: q1 is {spectrum.q1:.3g}"
-    ]
+    )
+    step = f"end the spectrum there: q1_per_m = {floor:.3g}"
+    return [Note(text, code="noise-in-spectrum", next_step=step)]
 
 
-def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[str]:
+def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[Note]:
     wanted = values.get("slope_cutoff")
     if wanted is None or "contamination_size_m" in values:
         return []
     if spectrum.rms_slope >= wanted * (1 - 1e-9):
         return []
-    found = f"the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
-    return [f"fatal: slope_cutoff = {typed['slope_cutoff']} is not reached: {found}"]
+    found = (
+        f" is not reached: the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
+    )
+    value = valued(wanted, f"{typed['slope_cutoff']}")
+    step = "leave slope_cutoff out, or measure with finer pixels"
+    about = Argument("slope_cutoff"), " = ", value, found
+    return [Note(*about, code="slope-not-reached", next_step=step)]
 
 
 def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
@@ -230,6 +237,6 @@ def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
     if cutoffs[key] < _NARROWEST * spectrum.q0:
         found = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
         problem = f"must leave a band, cuts at {found}: are the heights in another unit?"
-        refuse(path, f"[surface] {key} = {values[key]}", problem)
+        refuse(path, f"[surface] {key}", problem, valued(values[key]))
     with rename_in_errors(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])

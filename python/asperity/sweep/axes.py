@@ -11,6 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
 from asperity.io import plausible
 from asperity.io.fields import Field, nearest, read_table, sweep
 from asperity.scene.known import KEYS, KEYS_OF_KIND
@@ -54,7 +55,9 @@ def axes_of(path: Path, over: object, tables: Mapping[str, Any]) -> list[Axis]:
     for axis in axes:
         for key in axis.values:
             if key in taken:
-                raise InvalidInput(f"{path}: {key} is in two axes, {taken[key]} and {axis.name}")
+                raise InvalidInput(
+                    f"{key} is in two axes, {taken[key]} and {axis.name}", where=path
+                )
             taken[key] = axis.name
     own = {
         key: values for key in _LISTS if key not in taken and (values := _listed(path, tables, key))
@@ -67,10 +70,12 @@ def axes_of(path: Path, over: object, tables: Mapping[str, Any]) -> list[Axis]:
 def _entries(path: Path, over: object) -> Iterator[tuple[str, Any]]:
     """Names with what was given for each; keys of TOML may be dotted without quotation marks."""
     if not isinstance(over, Mapping):
-        raise InvalidInput(f"{path}: over = {brief(over)}: must be a table of keys with lists")
+        raise refusal("over", over, "a table of keys with lists", where=path)
     for name, given in over.items():
         if not isinstance(name, str):
-            raise InvalidInput(f"{path}: over: {brief(name)}: must be the name of a key")
+            raise InvalidInput(
+                Argument("over"), f": {brief(name)}", MUST_BE, "the name of a key", where=path
+            )
         if name in KEYS and isinstance(given, Mapping):
             yield from _flat(name, given).items()
         else:
@@ -90,12 +95,16 @@ def _axis(path: Path, name: str, given: object) -> Axis:
         nested = key in KEYS and isinstance(values, Mapping)
         zipped |= _flat(key, values) if nested else {key: values}
     if not zipped:
-        raise InvalidInput(f"{path}: over {name}: has no keys: must be keys with lists")
+        raise InvalidInput(
+            Argument(f"over {name}"), ": has no keys", MUST_BE, "keys with lists", where=path
+        )
     values = {key: _values(path, key, one, name) for key, one in zipped.items()}
     lengths = {key: len(one) for key, one in values.items()}
     if len(set(lengths.values())) > 1:
         found = ", ".join(f"{key} has {length}" for key, length in lengths.items())
-        raise InvalidInput(f"{path}: over {name}: {found}: must be equally long")
+        raise InvalidInput(
+            Argument(f"over {name}"), f": {found}", MUST_BE, "equally long", where=path
+        )
     return Axis(name, values)
 
 
@@ -107,7 +116,7 @@ def _check_name(path: Path, name: str) -> None:
     elif name.partition(".")[2] in KEYS.get(name.partition(".")[0], ()):
         problem = "is a key of a scene, which has values alone: must be a name of your own"
     if problem:
-        raise InvalidInput(f"{path}: over {brief(name)}: {problem}")
+        raise InvalidInput(Argument(f"over {brief(name)}"), f": {problem}", where=path)
 
 
 def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
@@ -115,20 +124,26 @@ def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
     table, _, field = key.partition(".")
     if field not in KEYS.get(table, ()):
         inside = "" if axis == key else f"{axis}: "
-        raise InvalidInput(f"{path}: over {inside}{key}: is no key of a scene, {_meant(key)}")
+        raise InvalidInput(f"over {inside}{key}: is no key of a scene, {_meant(key)}", where=path)
     fields = KEYS[table]
     if isinstance(given, Mapping):
         one = read_table(path, table, {field: given}, {field: Field(sweep)})
         given = one[field]
     if isinstance(given, str | bytes) or not hasattr(given, "__iter__"):
-        raise InvalidInput(f"{path}: over {key} = {brief(given)}: must be a list")
+        raise refusal(f"over {key}", given, "a list", where=path)
     if not isinstance(given, np.ndarray):
         given = tuple(given)
     if fields[field].read is sweep and (numbers := _numbers(given)):
         return _checked(path, key, numbers, fields[field])
     values = tuple(map(_plain, given))
     if not values:
-        raise InvalidInput(f"{path}: over {key}: is empty: must have one value or more")
+        raise InvalidInput(
+            Argument(f"over {key}"),
+            ": is empty",
+            Must(": must have "),
+            "one value or more",
+            where=path,
+        )
     for value in values:
         if value is None and key not in POINTS:
             continue
@@ -136,9 +151,11 @@ def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
             continue
         if key == "correction.kind" and value not in KEYS_OF_KIND:
             allowed = nearest(str(value), {**KEYS_OF_KIND, _WITHOUT: {}})
-            raise InvalidInput(f"{path}: over {key} = {brief(value)}: {allowed}")
+            raise InvalidInput(
+                Argument(f"over {key}"), " = ", valued(value), f": {allowed}", where=path
+            )
         if fields[field].read is sweep and not isinstance(value, int | float):
-            raise InvalidInput(f"{path}: over {key} = {brief(value)}: must be a number")
+            raise refusal(f"over {key}", value, "a number", where=path)
         read_table(path, table, {field: value}, fields)
     return values
 
@@ -161,10 +178,10 @@ def _checked(path: Path, key: str, numbers: "array[float]", field: Field) -> "ar
     values = np.asarray(numbers)
     if field.quantity is not None:
         table, _, name = key.partition(".")
-        plausible.check(f"{path}: [{table}] {name}", values, field.quantity, field.unit)
+        plausible.check(f"[{table}] {name}", values, field.quantity, field.unit, path=path)
     if key in POINTS and not (sound := (values > 0) & (values < np.inf)).all():
         wrong = values[~sound][0]
-        raise InvalidInput(f"{path}: over {key} = {wrong}: must be positive and finite")
+        raise refusal(f"over {key}", wrong, "positive and finite", text=wrong, where=path)
     return numbers
 
 

@@ -34,12 +34,14 @@ def open_store(path: Path) -> Any:
     try:
         return xarray.open_dataset(str(path), engine=engine, chunks=None)
     except Exception as error:
-        raise InvalidInput(f"{FilePath(path)}: cannot be read as a store: {error}") from error
+        raise InvalidInput(f"cannot be read as a store: {error}", where=FilePath(path)) from error
 
 
 def refuse_taken(path: Path) -> None:
     if os.path.lexists(path):
-        raise InvalidInput(f"{FilePath(path)}: exists already: resume it, or choose another store")
+        raise InvalidInput(
+            "exists already: resume it, or choose another store", where=FilePath(path)
+        )
 
 
 def refuse_another(path: Path, attributes: Mapping[str, Any], asked: Mapping[str, Any]) -> None:
@@ -47,14 +49,14 @@ def refuse_another(path: Path, attributes: Mapping[str, Any], asked: Mapping[str
     try:
         known = json.loads(str(attributes["sweep"]))
     except (KeyError, ValueError):
-        raise InvalidInput(f"{FilePath(path)}: is no store of a sweep: choose another") from None
+        raise InvalidInput("is no store of a sweep: choose another", where=FilePath(path)) from None
     for key in dict.fromkeys(itertools.chain(asked, known)):
         there, here = (json.dumps(inputs.get(key)) for inputs in (known, asked))
         if there != here:
             problem = (
                 f"is the store of another sweep: {key} is {_cut(there)} there and {_cut(here)} here"
             )
-            raise InvalidInput(f"{FilePath(path)}: {problem}")
+            raise InvalidInput(problem, where=FilePath(path))
 
 
 def _cut(text: str) -> str:
@@ -64,7 +66,7 @@ def _cut(text: str) -> str:
 def refuse_foreign(path: Path) -> None:
     """Refuse to remove what is there but no store of a sweep."""
     if os.path.lexists(path) and (path.is_symlink() or "sweep" not in attributes_of(path)):
-        raise InvalidInput(f"{FilePath(path)}: is no store of a sweep: remove it yourself")
+        raise InvalidInput("is no store of a sweep: remove it yourself", where=FilePath(path))
 
 
 def remove_store(path: Path) -> None:

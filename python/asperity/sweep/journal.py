@@ -22,11 +22,11 @@ class Journal:
         except OSError as error:
             reason = error.strerror or error
             raise InvalidInput(
-                f"{FilePath(store)}: is damaged: {JOURNAL} cannot be opened: {reason}"
+                f"is damaged: {JOURNAL} cannot be opened: {reason}", where=FilePath(store)
             ) from error
         if not _locked(self._file):
             self._file.close()
-            raise InvalidInput(f"{FilePath(store)}: another sweep is writing to it")
+            raise InvalidInput("another sweep is writing to it", where=FilePath(store))
 
     def read(self, meaning: Callable[[bytes], Entry | None]) -> Iterator[Entry]:
         """What every line means. The next one is written after them, over a last one that means
@@ -38,7 +38,7 @@ class Journal:
                 if entry is None:
                     if file.read(1):
                         problem = f"line {number} of {JOURNAL} is none of this sweep"
-                        raise InvalidInput(f"{FilePath(self._store)}: is damaged: {problem}")
+                        raise InvalidInput(f"is damaged: {problem}", where=FilePath(self._store))
                     break
                 whole += len(line)
                 yield entry

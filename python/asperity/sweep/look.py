@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE, Must
 from asperity.io.fields import nearest
 
 _BLOCK = 1_000_000  # numbers of a variable that are looked at together
@@ -29,7 +30,7 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
         try:
             wanted = float(text)
         except ValueError:
-            raise InvalidInput(f"{option} {name} = {text}: must be a number") from None
+            raise InvalidInput(f"{option} {name} = {text}", MUST_BE, "a number") from None
         found = int(np.abs(values - wanted).argmin())
         if abs(values[found] - wanted) <= _AGREE * abs(wanted):
             return found
@@ -60,7 +61,7 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
             raise InvalidInput(f"--rank {axis}: the store has no {name}: it was not kept")
     count = dataset.sizes[axis]
     if count < 2:
-        raise InvalidInput(f"--rank {axis}: has one value: must have two or more")
+        raise InvalidInput(f"--rank {axis}: has one value", Must(": must have "), "two or more")
     others = [str(name) for name in dataset["mu"].dims if name != axis]
     total, known, points = np.zeros(count), 0, 0
     best, certain = np.zeros(count, int), np.zeros(count, int)

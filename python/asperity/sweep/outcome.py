@@ -2,7 +2,6 @@
 
 import hashlib
 import math
-import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Error
+from asperity.base.diagnostics import Note
 
 Numbers = NDArray[np.float64]
-_NUMBER = re.compile(r"(?<!\w)(?<!\w\.)[-+]?\d+(\.\d+)?(e[-+]?\d+)?(?!\w|\.\w)", re.IGNORECASE)
 
 
 @dataclass
@@ -28,7 +27,7 @@ class Outcome:
     refused: int = 0  # scenes that could not be built of such values
     messages: dict[int, str] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
-    notes: dict[str, int] = field(default_factory=dict)  # with the first scene that has it
+    notes: dict[Note, int] = field(default_factory=dict)  # with the first scene that has it
     seconds: float = 0.0  # of the processor: what else the machine does cuts no tasks
 
     @property
@@ -49,7 +48,7 @@ class Outcome:
     def fail(self, where: Any, error: Error) -> None:
         """Note why there is nothing at `where`, an index of the box; what failed before stays."""
         message = str(error)
-        code = code_of(message)
+        code = code_of(error)
         if self.failure is None:
             self.failure = np.zeros(self.box, np.int64)
         kind = type(error).__name__
@@ -62,13 +61,13 @@ class Outcome:
         keep_message(self.messages, code, message)
 
 
-def code_of(message: str) -> int:
-    """The code of a message, which its numbers do not change: there may be one for every point.
+def code_of(error: Error) -> int:
+    """A number for errors of one kind, whatever values they have: there may be one a point.
 
-    It has 48 bits, so that no two of a sweep's messages share it, and a double holds it.
+    It has 48 bits, so that no two kinds of a sweep share it, and a double holds it.
     """
-    text = _NUMBER.sub("#", message).encode(errors="backslashreplace")
-    return int.from_bytes(hashlib.blake2b(text, digest_size=6).digest(), "big") or 1
+    kind = "/".join((type(error).__name__, *error.identity)).encode()
+    return int.from_bytes(hashlib.blake2b(kind, digest_size=6).digest(), "big") or 1
 
 
 def keep_message(messages: dict[int, str], code: int, message: str) -> None:

@@ -10,6 +10,7 @@ from threading import Lock
 from typing import Any
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import Note
 from asperity.io import plausible
 from asperity.io.files import sha256
 from asperity.scene.known import FILES
@@ -112,7 +113,7 @@ class ChangedFile(InvalidInput):
     """A file is not what it was when the sweep began: no failure of a scene, the sweep ends."""
 
 
-def _with_notes(made: tuple[Any, tuple[str, ...]]) -> Any:
+def _with_notes(made: tuple[Any, tuple[Note, ...]]) -> Any:
     part, notes = made
     plausible.tell_again(notes)
     return part
@@ -123,7 +124,7 @@ def digest(file: str) -> str:
     try:
         return sha256(Path(file))
     except InvalidInput as error:
-        raise ChangedFile(str(error)) from error
+        raise ChangedFile(*error.sentence, code=error.code, where=error.where) from error
 
 
 def files_of(tables: Mapping[str, Any]) -> list[str]:

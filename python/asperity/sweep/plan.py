@@ -12,6 +12,7 @@ from typing import Any
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
 from asperity.io.fields import nearest
 from asperity.results.friction import COLUMNS, HEAT, Friction
 from asperity.scene.known import FILES
@@ -49,7 +50,7 @@ class Plan:
     axes: tuple[Axis, ...]  # as they were written
     variables: tuple[str, ...]
     task: Task  # the whole sweep as one: with files found, and what the axes set left out
-    notes: tuple[str, ...] = ()  # numbers that their units make unlikely
+    notes: tuple[Note, ...] = ()  # numbers that their units make unlikely
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -143,14 +144,14 @@ def plan_of(
 
 def _plain_tables(path: Path, tables: object) -> dict[str, Any]:
     if not isinstance(tables, Mapping):
-        raise InvalidInput(f"scene = {brief(tables)}: must be the path of a scene, or its tables")
+        raise refusal("scene", tables, "the path of a scene, or its tables")
     for name, table in tables.items():
         if not isinstance(table, Mapping):
-            raise InvalidInput(f"{path}: [{name}] must be a table")
+            raise InvalidInput(f"[{name}] must be a table", where=path)
     try:
         plain: dict[str, Any] = json.loads(json.dumps(tables, default=_listed))
     except (TypeError, ValueError) as error:
-        raise InvalidInput(f"{path}: {error}: must be what a scene file can hold") from None
+        raise InvalidInput(f"{error}", MUST_BE, "what a scene file can hold", where=path) from None
     return plain
 
 
@@ -196,7 +197,9 @@ def _pressures(path: Path, axes: Sequence[Axis], tables: Mapping[str, Any]) -> t
         if not any(key in axis.values for axis in axes):
             name = key.partition(".")[2]
             if not isinstance(tables["conditions"].get(name), int | float):
-                raise InvalidInput(f"{path}: [conditions] {name}: missing: must be a number")
+                raise InvalidInput(
+                    Argument(f"[conditions] {name}"), ": missing", MUST_BE, "a number", where=path
+                )
     given = float(tables["conditions"][PRESSURE.partition(".")[2]])
     return given, given
 
@@ -217,7 +220,7 @@ def _variables(
     if wanted is None:
         return tuple(every)
     if not isinstance(wanted, list | tuple) or not wanted:
-        raise InvalidInput(f"variables = {brief(wanted)}: must be a list of names")
+        raise refusal("variables", wanted, "a list of names")
     for name in wanted:
         if name not in every:
             raise InvalidInput(

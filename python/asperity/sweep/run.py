@@ -11,7 +11,8 @@ from queue import SimpleQueue
 from typing import Any
 
 from asperity._core import Error, InvalidInput
-from asperity.base.arguments import FilePath, brief, flag, path_of
+from asperity.base.arguments import FilePath, flag, path_of
+from asperity.base.diagnostics import Argument, refusal, valued
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.scene.scene import read_scene
@@ -106,7 +107,12 @@ def sweep(
     resumes = flag(resume, "resume")
     report = _progress(progress)
     if resumes and store is None:
-        raise InvalidInput("resume = True: needs store=, the store of the earlier run")
+        raise InvalidInput(
+            Argument("resume"),
+            " = ",
+            valued("True", "True"),
+            ": needs store=, the store of the earlier run",
+        )
     plan = planned(scene, over, variables)
     return computed(plan, executor, store, resume=resumes, progress=report)
 
@@ -172,16 +178,16 @@ def planned(scene: Any, over: Any, variables: Any = None, where: Path | None = N
     try:
         pickle.dumps(plan.task)
     except Exception as error:
-        raise InvalidInput(f"{plan.path}: cannot be sent to workers: {error}") from error
+        raise InvalidInput(f"cannot be sent to workers: {error}", where=plan.path) from error
     return plan
 
 
 def store_path(given: Any) -> Path:
     path = path_of(given, "store")
     if path.suffix not in (".zarr", ".nc"):
-        raise InvalidInput(f"store = {brief(given)}: must end in .zarr or .nc")
+        raise InvalidInput(Argument("store"), " = ", valued(given), ": must end in .zarr or .nc")
     if not path.parent.is_dir():
-        raise InvalidInput(f"{path}: the directory {FilePath(path.parent)} does not exist")
+        raise InvalidInput(f"the directory {FilePath(path.parent)} does not exist", where=path)
     return path
 
 
@@ -234,7 +240,7 @@ def _progress(given: Any) -> Progress | None:
     if callable(given):
         found: Progress = given
         return found
-    raise InvalidInput(f"progress = {brief(given)}: must be a function, True, False or None")
+    raise refusal("progress", given, "a function, True, False or None")
 
 
 def bar(title: str) -> Progress:

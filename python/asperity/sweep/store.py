@@ -12,6 +12,7 @@ import numpy as np
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import Note
 from asperity.base.executors import in_one_line
 from asperity.base.table import imported
 from asperity.io.aside import folder_beside
@@ -70,15 +71,15 @@ class ZarrStore:
             for name in (*described.variables, FAILURE):
                 array = self.group[name]
                 if (array.shape, array.chunks) != form:
-                    raise InvalidInput(f"{FilePath(path)}: is damaged: the shape of {name}")
+                    raise InvalidInput(f"is damaged: the shape of {name}", where=FilePath(path))
         except InvalidInput:
             raise
         except Exception as error:  # whatever Zarr finds wrong
             problem = in_one_line(error)
-            raise InvalidInput(f"{FilePath(path)}: is damaged: {problem}") from error
+            raise InvalidInput(f"is damaged: {problem}", where=FilePath(path)) from error
         token = token_of(path)
         if not token:
-            raise InvalidInput(f"{FilePath(path)}: is damaged: {TOKEN} cannot be read")
+            raise InvalidInput(f"is damaged: {TOKEN} cannot be read", where=FilePath(path))
         self.place = Place(str(path.absolute()), token, self.cut)
         self.tally = Tally.of(described)
         along = zip(described.shape, self.cut, strict=True)
@@ -112,7 +113,7 @@ class ZarrStore:
             box = tuple(min(c, size - s) for s, c, size in along)
             outcome = Outcome(start, box, sums=list(entry["sums"]))
             outcome.kinds = {str(kind): int(n) for kind, n in entry["kinds"].items()}
-            outcome.notes = {str(note): int(n) for note, n in entry["notes"].items()}
+            outcome.notes = {Note.of_line(line): int(n) for line, n in entry["notes"].items()}
             outcome.messages = {int(code): str(one) for code, one in entry["messages"].items()}
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None
@@ -130,7 +131,7 @@ class ZarrStore:
             "sums": outcome.sums,
             "kinds": outcome.kinds,
             "messages": outcome.messages,
-            "notes": outcome.notes,
+            "notes": {note.line: n for note, n in outcome.notes.items()},
         }
         try:
             self._journal.add(json.dumps(line).encode())

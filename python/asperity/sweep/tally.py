@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity.base.notes import fatal_first
+from asperity.base.diagnostics import Note, fatal_first
 from asperity.sweep.describe import Described
 from asperity.sweep.outcome import Outcome, keep_message
 
@@ -18,7 +18,7 @@ class Tally:
     points: int = 0
     kinds: dict[str, int] = field(default_factory=dict)
     messages: dict[int, str] = field(default_factory=dict)
-    notes: dict[str, int] = field(default_factory=dict)
+    notes: dict[Note, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, described: Described) -> "Tally":
@@ -39,7 +39,8 @@ class Tally:
 
     def attributes(self) -> dict[str, Any]:
         notes = fatal_first(sorted(self.notes, key=lambda note: (self.notes[note], note)))
-        return {"notes": "\n".join(notes), "failed": self.failed}
+        labels = "\n".join(note.label for note in notes)
+        return {"notes": "\n".join(notes), "note_labels": labels, "failed": self.failed}
 
 
 class Memory:

@@ -135,7 +135,7 @@ def _compute_scene(
                 where[i] = int(index)
             outcome.fail(tuple(where), result)
             continue
-        for note in result._plain_notes():
+        for note in result.notes:
             outcome.notes[note] = min(number, outcome.notes.get(note, number))
         for name in task.variables:
             if name not in BAND:
@@ -205,8 +205,8 @@ def _scene(
     with plausible.collected() as notes:
         scene = build_scene(path, placed, for_friction=True, builders=builders)
         with suppress(InvalidInput):  # of some of the points, which fail on their own
-            where = f"{path}: [conditions] pressure_pa"
-            plausible.check_load(where, highest, stiffest(scene.rubber))
+            name = "[conditions] pressure_pa"
+            plausible.check_load(name, highest, stiffest(scene.rubber), path=path)
     for note in (*notes, *scene.notes):
         outcome.notes[note] = min(number, outcome.notes.get(note, number))
     return scene
@@ -222,12 +222,12 @@ def _results(
     """
     pending = [slice(0, pressure.size)]
     hardest = stiffest(scene.rubber)
-    where = f"{scene.path}: [conditions] pressure_pa"
     while pending:
         part = pending.pop()
         try:
             with plausible.collected():
-                plausible.check_load(where, pressure[part], hardest)
+                name = "[conditions] pressure_pa"
+                plausible.check_load(name, pressure[part], hardest, path=scene.path)
             yield part, scene.friction_at(pressure[part], velocity[part])
         except _FAILURES as error:
             if part.stop - part.start == 1:

@@ -58,7 +58,7 @@ class FileArray:
         try:
             return open(self.path, "rb", buffering=0)
         except OSError as error:
-            raise InvalidInput(f"{self}: cannot be read: {error.strerror or error}") from error
+            raise InvalidInput(f"cannot be read: {error.strerror or error}", where=self) from error
 
     def _fill(self, file: Any, into: Any) -> None:
         got, view = 0, memoryview(into)
@@ -66,14 +66,16 @@ class FileArray:
             try:
                 count = file.readinto(view[got:])
             except OSError as error:
-                raise InvalidInput(f"{self}: cannot be read: {error.strerror or error}") from error
+                raise InvalidInput(
+                    f"cannot be read: {error.strerror or error}", where=self
+                ) from error
             if not count:
-                raise InvalidInput(f"{self}: ends before its heights do; was it cut short?")
+                raise InvalidInput("ends before its heights do; was it cut short?", where=self)
             got += count
 
     def _check(self, now: os.stat_result) -> None:
         if stamp_of(now) != self.stamp:
-            raise InvalidInput(f"{self}: was changed while it was read")
+            raise InvalidInput("was changed while it was read", where=self)
 
     def __str__(self) -> str:
         return f"{FilePath(self.path)}"
@@ -102,9 +104,9 @@ def file_behind(array: NDArray[Any]) -> FileArray | None:
             same = _is_mapped(file, mapping._mmap)
     except OSError as error:
         problem = f"cannot be read: {error.strerror or error}"
-        raise InvalidInput(f"{FilePath(path)}: {problem}") from error
+        raise InvalidInput(problem, where=FilePath(path)) from error
     if not same:
-        raise InvalidInput(f"{FilePath(path)}: was replaced after it was mapped: load it again")
+        raise InvalidInput("was replaced after it was mapped: load it again", where=FilePath(path))
     ny, nx = array.shape
     down, along = array.strides
     return FileArray(path, place, (ny, nx), (down, along), array.dtype, stamp)

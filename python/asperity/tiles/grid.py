@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, brief, number, whole
+from asperity.base.arguments import Array, number, whole
+from asperity.base.diagnostics import Argument, refusal, valued
 from asperity.tiles.source import Box, Shape
 
 SMALLEST = 512  # points a side: the coarsened map, which gives what a tile is too short for, has
@@ -78,18 +79,23 @@ def tile_shape(found: Any, shape: Shape, pixel_size: tuple[float, float]) -> Sha
     except TypeError:
         ny = nx = found
     except ValueError:
-        raise InvalidInput(f"tiles = {brief(found)}: must be a number or (ny, nx)") from None
+        raise refusal("tiles", found, "a number or (ny, nx)") from None
     sides = whole(ny, "tiles"), whole(nx, "tiles")
     for side, whole_side in zip(sides, shape, strict=True):
         if side > whole_side:
             allowed = f"must be at most {shape}, the map"
-            raise InvalidInput(f"tiles = {sides}: {allowed}")
+            raise InvalidInput(Argument("tiles"), " = ", valued(sides, f"{sides}"), f": {allowed}")
         if side < SMALLEST and sides != shape:
-            raise InvalidInput(f"tiles = {sides}: must be {SMALLEST} points or more a side")
+            raise refusal("tiles", sides, f"{SMALLEST} points or more a side", text=f"{sides}")
     shortest = min(n * d for n, d in zip(sides, pixel_size, strict=True))
     if sides != shape and shortest * (1 + 1e-9) < SMALLEST / 2 * max(pixel_size):
         allowed = f"must be as long as {SMALLEST // 2} of the coarser pixels on either side"
-        raise InvalidInput(f"tiles = {sides}: {allowed}, pixel_size = {pixel_size}")
+        raise InvalidInput(
+            Argument("tiles"),
+            " = ",
+            valued(sides, f"{sides}"),
+            f": {allowed}, pixel_size = {pixel_size}",
+        )
     return sides
 
 
@@ -97,7 +103,7 @@ def grid_of(shape: Shape, tile: Shape, overlap: Any) -> Grid:
     """Return the fewest tiles of a shape that cover the map and overlap at least by that share."""
     share = 0.5 if overlap is None else number(overlap, "overlap")
     if not 0 <= share <= MOST_OVERLAP:
-        raise InvalidInput(f"overlap = {share:.6g}: must be from 0 to {MOST_OVERLAP}")
+        raise refusal("overlap", share, f"from 0 to {MOST_OVERLAP}", text=f"{share:.6g}")
     down, along = (_starts(side, part, share) for side, part in zip(shape, tile, strict=True))
     return Grid(tile, (down, along))
 

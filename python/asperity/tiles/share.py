@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import MOST_THREADS, whole
+from asperity.base.diagnostics import Argument, valued
 from asperity.base.executors import accepted, in_one_line, worker_count
 
 Outcome = TypeVar("Outcome")
@@ -19,7 +20,12 @@ class Workers:
         self.threads = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
         self.executor = None if executor is None else accepted(executor)
         if self.executor is not None and self.threads > 1:
-            raise InvalidInput(f"threads = {threads}: an executor brings its own workers")
+            raise InvalidInput(
+                Argument("threads"),
+                " = ",
+                valued(threads, f"{threads}"),
+                ": an executor brings its own workers",
+            )
 
     def outcomes(
         self, function: Callable[..., Outcome], works: Iterable[tuple[Any, ...]]

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput
-from asperity.base.arguments import brief, is_masked
+from asperity.base.arguments import is_masked
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
 from asperity.base.executors import in_one_line
 from asperity.surface import HeightMap, LineScan, pixel_sizes
 from asperity.tiles.file_array import FileArray, file_behind
@@ -41,10 +42,14 @@ class Piece:
         except (Error, MemoryError):
             raise
         except Exception as error:
-            raise InvalidInput(f"heights: cannot be read: {in_one_line(error)}") from error
+            raise InvalidInput(
+                Argument("heights"), f": cannot be read: {in_one_line(error)}"
+            ) from error
         wanted = tuple(part.stop - part.start for part in self.box)
         if found.shape != wanted:
-            raise InvalidInput(f"heights: gave {found.shape} points where {wanted} were asked for")
+            raise InvalidInput(
+                Argument("heights"), f": gave {found.shape} points where {wanted} were asked for"
+            )
         single = found.dtype.kind == "f" and found.dtype.itemsize == 4
         real = np.dtype(np.float32 if single else np.float64)
         if self.fill:
@@ -78,19 +83,25 @@ class Source:
 def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
     """Return the heights of a HeightMap or of an array, checked but not read."""
     if isinstance(surface, LineScan):
-        raise InvalidInput("surface = a LineScan: must be a map; a line scan has no tiles")
+        raise InvalidInput(
+            Argument("surface"), " = a LineScan", MUST_BE, "a map; a line scan has no tiles"
+        )
     if isinstance(surface, HeightMap):
         if pixel_size is not None:
-            raise InvalidInput("pixel_size: a HeightMap has its own; give it with an array only")
+            raise InvalidInput(
+                Argument("pixel_size"), ": a HeightMap has its own; give it with an array only"
+            )
         return Source(_held(surface.heights), _shape(surface.heights.shape), surface.pixel_size)
     array = _array(surface)
     fill = fill_values(array)
     if pixel_size is None:
-        raise InvalidInput("pixel_size is missing: an array does not state the distance [m]")
+        raise InvalidInput(
+            Argument("pixel_size"), " is missing: an array does not state the distance [m]"
+        )
     sizes = pixel_sizes(pixel_size)
     for size in sizes:
         if not (math.isfinite(size) and size > 0):
-            raise InvalidInput(f"pixel_size = {size}: must be positive and finite")
+            raise refusal("pixel_size", size, "positive and finite", text=f"{size}")
     held = _held(array) if isinstance(array, np.ndarray) else array
     return Source(held, _shape(array.shape), sizes, scale, fill)
 
@@ -101,18 +112,23 @@ def _array(found: Any) -> Any:
         found = np.array(found)
     if _is_group(found):
         names = ", ".join(sorted(map(str, found))) or "none"
-        raise InvalidInput(f"surface = a group of arrays: give one of them ({names})")
+        raise InvalidInput(Argument("surface"), f" = a group of arrays: give one of them ({names})")
     dtype, shape = getattr(found, "dtype", None), getattr(found, "shape", None)
     if dtype is None or shape is None or not hasattr(found, "__getitem__"):
         allowed = "must be a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
-        raise InvalidInput(f"surface = {brief(found)}: {allowed}")
+        raise InvalidInput(Argument("surface"), " = ", valued(found), f": {allowed}")
     if len(shape) != 2:
-        raise InvalidInput(f"surface has shape {tuple(shape)}: must have two axes, (ny, nx)")
+        raise InvalidInput(
+            Argument("surface"),
+            f" has shape {tuple(shape)}",
+            Must(": must have "),
+            "two axes, (ny, nx)",
+        )
     if not all(isinstance(side, int | np.integer) and side > 0 for side in shape):
         allowed = "must be known and not empty"
-        raise InvalidInput(f"surface has shape {tuple(shape)}: {allowed}")
+        raise InvalidInput(Argument("surface"), f" has shape {tuple(shape)}: {allowed}")
     if getattr(dtype, "kind", "?") not in "biuf":
-        raise InvalidInput(f"surface holds {dtype} values: must be real numbers")
+        raise InvalidInput(Argument("surface"), f" holds {dtype} values", MUST_BE, "real numbers")
     return found
 
 
@@ -142,7 +158,9 @@ def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:
         y, x = np.unravel_index(int(endless.argmax()), heights.shape)
         place = f"heights[{corner[0] + int(y)}, {corner[1] + int(x)}]"
         allowed = "must be finite, or NaN for a drop-out"
-        raise InvalidInput(f"{place} = {heights[y, x]}: {allowed}")
+        raise InvalidInput(
+            Argument(place), " = ", valued(heights[y, x], f"{heights[y, x]}"), f": {allowed}"
+        )
 
 
 def corner_of(box: Box) -> Shape:

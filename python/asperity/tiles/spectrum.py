@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, number
+from asperity.base.diagnostics import Argument, refusal, valued
 from asperity.spectrum import TabulatedSpectrum
 from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid
@@ -37,10 +38,10 @@ def tiled_spectrum(
     """Return the spectrum of a map by tiles."""
     if window == _NONE:
         allowed = "must be one that ends at 0, as no tile is periodic"
-        raise InvalidInput(f'window = "none": {allowed}')
+        raise InvalidInput(Argument("window"), " = ", valued("none", '"none"'), f": {allowed}")
     most = 0.10 if max_dropouts is None else number(max_dropouts, "max_dropouts")
     if not 0 <= most < 1:
-        raise InvalidInput(f"max_dropouts = {most:.6g}: must be in [0, 1)")
+        raise refusal("max_dropouts", most, "in [0, 1)", text=f"{most:.6g}")
     how = window, detrend, most
     if len(grid.boxes) == 1:
         return _single(source, grid, how, workers)
@@ -76,7 +77,7 @@ def _single(
     (columns,) = workers.outcomes(tile_columns, [(piece, source.pixel_size, how)])
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
-        raise InvalidInput("heights: every point is a drop-out (NaN)")
+        raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
     wavenumber, density, count, error, flag, correlation = columns
     return TabulatedSpectrum(
         wavenumber=wavenumber,
@@ -90,10 +91,10 @@ def _single(
 
 def _check_dropouts(share: float, most: float) -> None:
     if share == 1:
-        raise InvalidInput("heights: every point is a drop-out (NaN)")
+        raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
     if share > most:
         allowed = f"must be at most {100 * most:.4g} %, max_dropouts = {most:.4g}"
-        raise InvalidInput(f"heights has {100 * share:.4g} % drop-outs: {allowed}")
+        raise InvalidInput(Argument("heights"), f" has {100 * share:.4g} % drop-outs: {allowed}")
 
 
 def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Rows:
@@ -111,7 +112,7 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
             density, square = density + columns[1], square + columns[3] ** 2
     if same is None:
         problem = f"have more than {100 * most:.4g} % drop-outs each, max_dropouts = {most:.4g}"
-        raise InvalidInput(f"heights: all {len(used)} tiles {problem}")
+        raise InvalidInput(Argument("heights"), f": all {len(used)} tiles {problem}")
     tiles = sum(used)
     alone = _core.tile_covariances(window, grid.tile, source.pixel_size, (0, 0))
     together = grid.covariances(window, source.pixel_size, np.array(used))

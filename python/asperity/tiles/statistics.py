@@ -11,6 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number
+from asperity.base.diagnostics import Argument
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
@@ -134,7 +135,7 @@ def statistics_of(
     workers = Workers(threads, executor)
     if min(source.shape) < 3:
         allowed = "must be 3 x 3 or more for central differences"
-        raise InvalidInput(f"heights has shape {source.shape}: {allowed}")
+        raise InvalidInput(Argument("heights"), f" has shape {source.shape}: {allowed}")
     boxes = list(_boxes(source.shape))
     anchor = _anchor(source, boxes)
     works = ((source.piece(box), source.shape, corner_of(box), anchor) for box in boxes)
@@ -189,7 +190,7 @@ def _anchor(source: Any, boxes: list[Box]) -> float:
             known = heights[np.isfinite(heights)]
             if known.size:
                 return float(known[0])
-    raise InvalidInput("heights: every point is a drop-out (NaN)")
+    raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
 
 
 def _coordinates(side: int, first: int, count: int) -> Array:
@@ -285,7 +286,7 @@ def _from_moments(
     for part, _, _ in parts:
         sums += part
     if not (sums[6] and sums[8]):
-        raise InvalidInput("heights: no point has both neighbours measured")
+        raise InvalidInput(Argument("heights"), ": no point has both neighbours measured")
     offset, *raw = sums[1:5] / sums[0]  # what rounding leaves of the mean
     second = max(raw[0] - offset**2, 0.0)
     third = raw[1] - 3 * offset * raw[0] + 2 * offset**3

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
 from asperity.base.arguments import MOST_THREADS, broadcast, number, of_kind, shaped, whole
+from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.in_order import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
@@ -44,7 +45,7 @@ class Bounds(NamedTuple):
 
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
 
 @value
@@ -61,7 +62,7 @@ class FrictionBand(Table):
         In (0, 1) [-].
     samples : int
         How many draws there were.
-    notes : tuple of str
+    notes : tuple of Note
         How many of them failed and were left out, if any.
     """
 
@@ -71,7 +72,7 @@ class FrictionBand(Table):
     velocity: Any
     level: float
     samples: int
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     def _columns(self) -> Columns:
         axes = tuple(f"axis_{i}" for i in range(np.ndim(self.lower)))
@@ -159,7 +160,8 @@ def friction_band(
     adhesion_core(adhesion)
     if isinstance(rubber, PronyFit):
         raise InvalidInput(
-            "rubber: a PronyFit does not know its errors, give the MasterCurveBuild behind it"
+            Argument("rubber"),
+            ": a PronyFit does not know its errors, give the MasterCurveBuild behind it",
         )
     surface, solid = drawn_spectrum(spectrum), drawn_rubber(rubber)
     if surface.draw is None and solid.draw is None and not isinstance(adhesion, AdhesionFit):
@@ -226,7 +228,7 @@ def relative_band(
     whole(seed, "seed")
     whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     if not 0 < number(level, "level") < 1:
-        raise InvalidInput(f"level = {level}: must be in (0, 1)")
+        raise refusal("level", level, "in (0, 1)", text=f"{level}")
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
 
@@ -261,8 +263,10 @@ def relative_band(
     return Bounds(lower, upper, notes)
 
 
-def _left_out(failed: int, samples: int, problem: Exception) -> str:
-    return f"the band leaves out {failed} of {samples} draws that failed, the last with: {problem}"
+def _left_out(failed: int, samples: int, problem: Exception) -> Note:
+    text = f"the band leaves out {failed} of {samples} draws that failed, the last with: {problem}"
+    step = "truncate the spectrum, or leave out velocities, at whose ends draws fail"
+    return Note(text, code="failed-draws", next_step=step)
 
 
 def swept_band(

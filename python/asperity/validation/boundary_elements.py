@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.diagnostics import Argument, Must, refusal
 from asperity.rubber import PronySeries
 from asperity.scene.model import Progress
 from asperity.surface import HeightMap
@@ -115,7 +116,12 @@ def contact(
     heights -= heights.mean()
     slope, lowest, energy = _full_contact(heights, (dy, dx))
     if not 0 < slope < math.inf:
-        raise InvalidInput(f"surface has an rms slope of {slope:.3g}: must have roughness")
+        raise InvalidInput(
+            Argument("surface"),
+            f" has an rms slope of {slope:.3g}",
+            Must(": must have "),
+            "roughness",
+        )
 
     level = HeightMap(heights, pixel_size=(dy, dx))
     rows = []
@@ -148,12 +154,17 @@ def _loads(p_over_Eh: Sequence[float]) -> _Array:
     try:
         loads = np.array(p_over_Eh, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InvalidInput(f"p_over_Eh = {p_over_Eh!r}: must be a list of numbers") from error
+        raise refusal("p_over_Eh", p_over_Eh, "a list of numbers", text=f"{p_over_Eh!r}") from error
     if loads.ndim != 1 or loads.size == 0:
-        raise InvalidInput(f"p_over_Eh has shape {loads.shape}: must have one axis, and a load")
+        raise InvalidInput(
+            Argument("p_over_Eh"),
+            f" has shape {loads.shape}",
+            Must(": must have "),
+            "one axis, and a load",
+        )
     for load in loads:
         if not 0 < load < math.inf:
-            raise InvalidInput(f"p_over_Eh = {load:g}: must be positive and finite")
+            raise refusal("p_over_Eh", load, "positive and finite", text=f"{load:g}")
     return loads
 
 
@@ -161,13 +172,17 @@ def _check(surface: HeightMap) -> None:
     ny, nx = surface.heights.shape
     if min(ny, nx) < _FEWEST:
         raise InvalidInput(
-            f"surface has {ny} x {nx} points: must have {_FEWEST} or more along both sides, "
-            "fewer resolve no contact"
+            Argument("surface"),
+            f" has {ny} x {nx} points",
+            Must(": must have "),
+            f"{_FEWEST} or more along both sides, fewer resolve no contact",
         )
     if surface.dropout_fraction > 0:
         raise InvalidInput(
-            f"surface has {surface.dropout_fraction:.3g} of its points dropped out: must have "
-            "none, see fill_dropouts"
+            Argument("surface"),
+            f" has {surface.dropout_fraction:.3g} of its points dropped out",
+            Must(": must have "),
+            "none, see fill_dropouts",
         )
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity.base.diagnostics import Note
 from asperity.correction import Correction, NayakSFactor, PartialContact, SFactor
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
@@ -51,7 +52,7 @@ class Comparison:
     predicted: dict[str, tuple[_Array, _Array]]  # hysteresis and area by the correction's name
     between: _Array  # velocities at which curves are drawn
     curves: dict[str, tuple[_Array, _Array]]  # predictions there
-    notes: list[str]
+    notes: list[Note]
 
     def columns(self) -> dict[str, list[float]]:
         """Columns of a table, a row a pressure and velocity."""
@@ -152,13 +153,14 @@ def compare(
     between = np.geomspace(speeds.min(), speeds.max(), _POINTS)
     between = np.clip(between, speeds.min(), speeds.max())  # whatever rounding made of the ends
     faded = "the map was made periodic: its end is blended into its beginning over two short waves"
-    notes = [] if periodic else [faded]
+    notes = [] if periodic else [Note(faded, code="map-continued")]
     apart = float(np.abs(slopes / mu - 1).max())
     if apart > _COARSE:
-        notes.append(
+        text = (
             f"the work of the slopes and the dissipation differ by up to {100 * apart:.0f} %: the "
             "shortest waves are a few pixels long, or what dissipates are waves across the way"
         )
+        notes.append(Note(text, code="coarse-map", next_step="take a finer map"))
     return Comparison(
         *(loads, speeds, mu, slopes, area),
         predicted={name: theory(name, speeds) for name in CORRECTIONS},

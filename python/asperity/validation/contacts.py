@@ -9,6 +9,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.io.files import check_file
 from asperity.io.read_surface import cell
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
@@ -78,13 +79,15 @@ def read_contacts(path: Path) -> list[Contact]:
                 raise InvalidInput(f"header {brief(there)} has no column {', '.join(missing)}")
             contacts = [_contact(reader.line_num, row) for row in reader]
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
     except UnicodeDecodeError as error:
-        raise InvalidInput(f"{path}: is not text: {error}") from error
-    except (InvalidInput, csv.Error) as error:
-        raise InvalidInput(f"{path}: {error}") from error
+        raise InvalidInput(f"is not text: {error}", where=path) from error
+    except InvalidInput as error:
+        raise error.within(path) from error
+    except csv.Error as error:
+        raise InvalidInput(f"{error}", where=path) from error
     if not contacts:
-        raise InvalidInput(f"{path}: has 0 rows: must have 1 or more")
+        raise InvalidInput("has 0 rows", Must(": must have "), "1 or more", where=path)
     return contacts
 
 
@@ -93,16 +96,16 @@ def _contact(line: int, row: Mapping[str, str | None]) -> Contact:
         values = {name: _value(name, row[name]) for name in _NUMBERS}
         if values["A_over_A0_corrected"] > 1:
             raise InvalidInput(
-                f"A_over_A0_corrected = {row['A_over_A0_corrected']}: must be at most 1"
+                f"A_over_A0_corrected = {row['A_over_A0_corrected']}", MUST_BE, "at most 1"
             )
         for name in ("peak_mean_lambda0", "peak_mean_half_lambda0"):
             if values[name] >= values["z_max"]:
-                raise InvalidInput(f"{name} = {row[name]}: must be below z_max = {row['z_max']}")
+                raise refusal(name, row[name], f"below z_max = {row['z_max']}", text=f"{row[name]}")
         spectrum = SelfAffineSpectrum(
             rms_height=values["h_rms"], hurst=values["H"], q0=values["q0"], q1=values["q1"]
         )
     except InvalidInput as error:
-        raise InvalidInput(f"line {line}: {error}") from error
+        raise error.within(f"line {line}: ") from error
     return Contact(
         case=str(row["case"]),
         # a map has a few per cent less slope than the continuous spectrum
@@ -127,8 +130,8 @@ def _value(name: str, text: str | None) -> float:
     try:
         value = cell(text or "")
     except ValueError as error:
-        raise InvalidInput(f"{name}: {error}") from error
+        raise InvalidInput(Argument(name), f": {error}") from error
     sign, allowed = (-1, "negative") if name == "z_min" else (1, "positive")
     if not math.isfinite(value) or sign * value <= 0:
-        raise InvalidInput(f"{name} = {text or 'nothing'}: must be {allowed} and finite")
+        raise refusal(name, text or "nothing", f"{allowed} and finite", text=f"{text or 'nothing'}")
     return value

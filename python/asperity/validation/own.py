@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from contextlib import nullcontext
 
+from asperity.base.diagnostics import Note
 from asperity.measured_spectrum import power_spectrum
 from asperity.scene.model import Progress
 from asperity.surface import HeightMap
@@ -21,7 +22,7 @@ def own_contacts(
     q0: float | None = None,
     periodic: bool = False,
     progress: Progress = nullcontext,
-) -> tuple[list[Contact], list[str]]:
+) -> tuple[list[Contact], list[Note]]:
     """A map of one's own pressed by boundary elements at loads p / (E* h'), and what to know of it.
 
     The theory is given the spectrum of the very map that is solved, all its modes, at its rms
@@ -59,9 +60,11 @@ def own_contacts(
     notes = []
     coarse = found.p_over_Eh[found.area_raw > _COARSE * found.area]
     if coarse.size:
-        notes.append(
+        text = (
             f"at p* up to {coarse.max():.3g} the points touch in patches of few pixels: their area "
             "is uncertain by some per cent, and so are the errors found; a map that holds no waves "
             "below 5 to 10 pixels has none of this"
         )
+        step = "take a map without waves below 5 to 10 pixels"
+        notes.append(Note(text, code="coarse-map", next_step=step))
     return contacts, notes

@@ -7,8 +7,8 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 
 from asperity import _core
-from asperity._core import InvalidInput
-from asperity.base.arguments import Array, brief, frozen, number, of_kind
+from asperity.base.arguments import Array, frozen, number, of_kind
+from asperity.base.diagnostics import Note, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.rubber import MasterCurve, PronySeries, Rubber
@@ -67,7 +67,7 @@ class SlidingContact(Table):
         (dy, dx) [m].
     nominal_pressure, velocity : float
         As given [Pa], [m/s].
-    notes : tuple of str
+    notes : tuple of Note
         How the map was made periodic.
     """
 
@@ -83,7 +83,7 @@ class SlidingContact(Table):
     pixel_size: tuple[float, float]
     nominal_pressure: float
     velocity: float
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     def _summary(self) -> dict[str, Any]:
         names = ("contact_area", "hysteresis", "work_of_slopes", "error")
@@ -242,7 +242,7 @@ def _told(progress: Callable[[SlidingStep], object] | None) -> Callable[..., obj
     if progress is None:
         return None
     if not callable(progress):
-        raise InvalidInput(f"progress = {brief(progress)}: must be callable, or None")
+        raise refusal("progress", progress, "callable, or None")
 
     def tell(ny: int, nx: int, step: int, error: float) -> None:
         progress(SlidingStep((ny, nx), step, error))
@@ -258,4 +258,4 @@ def continued(height_map: HeightMap, periodic: Periodic) -> HeightMap:
 def _continuation(periodic: object) -> int:
     if periodic is True or (isinstance(periodic, str) and periodic in _CONTINUATIONS):
         return _CONTINUATIONS.index(periodic)
-    raise InvalidInput(f'periodic = {brief(periodic)}: must be True, "blend", "mirror" or "fade"')
+    raise refusal("periodic", periodic, 'True, "blend", "mirror" or "fade"')

@@ -105,8 +105,11 @@ TEST_CASE("notes say where the theory is left, and only there") {
     return friction(s, rubber, {.pressure = 81e3}, std::span(&v, 1)).notes;
   };
   CHECK(notes(mild, slow).empty());
-  CHECK(notes(mild, fast).front().find("flash heating") != std::string::npos);
-  CHECK(notes(steep, slow).front().find("rms slope is 2.76") != std::string::npos);
+  CHECK(notes(mild, fast).front().code == "heat-left-out");
+  const Diagnostic note = notes(steep, slow).front();
+  CHECK(note.code == "steep-spectrum");
+  CHECK(note.severity == Severity::warning);
+  CHECK(note.text().find("rms slope is 2.76") != std::string::npos);
 }
 
 TEST_CASE("an integrand that itself integrates does not disturb the integral it stands in") {

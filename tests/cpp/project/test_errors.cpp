@@ -44,3 +44,26 @@ TEST_CASE("all errors are caught as one") {
   CHECK_THROWS_AS((void)PronySeries(1, {1, 2}, {1}), Error);
   CHECK_THROWS_AS((void)MasterCurve({1, 1}, {1, 1}, {1, 1}), Error);
 }
+
+TEST_CASE("an error has what its message says as data") {
+  const double velocity = 1;
+  try {
+    (void)friction(road, rubber, {.pressure = 1e5, .rtol = 0}, std::span(&velocity, 1));
+    FAIL("rtol = 0 was taken");
+  } catch (const Error& error) {
+    CHECK(error.code() == "invalid-value");
+    CHECK(error.argument() == "rtol");
+    CHECK(std::get<double>(error.value()) == 0);
+    CHECK(error.allowed() == "in [1e-12, 0.1]");
+  }
+  const MasterCurve curve({1, 10}, {1e6, 2e6}, {1e5, 1e5});
+  try {
+    (void)friction(road, curve, {.pressure = 1e5}, std::span(&velocity, 1));
+    FAIL("frequencies beyond the curve were taken");
+  } catch (const OutOfRange& error) {
+    CHECK(error.code() == "unknown-modulus");
+    CHECK(error.argument() == "velocity");
+    CHECK(std::get<double>(error.value()) == velocity);
+    CHECK(error.diagnostic().next_step.size() == 1);
+  }
+}

@@ -7,6 +7,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
+from asperity.results.heat_notes import with_size_of_heat
 from helpers import scenes
 from helpers.cases import case, each
 from helpers.examples import BUILD, ROAD, RUBBER, TREAD
@@ -20,56 +21,44 @@ FIT = asperity.ShiftFactors(
 AT = {"pressure": 1e5, "temperature": 290.0, "shift": LAW}
 
 
-def note_of(result, text):
-    return next((note for note in result.notes if text in note), None)
+def note_of(result, code):
+    return next((note for note in result.notes if note.code == code), None)
 
 
 def test_the_note_on_heat_says_its_size():
     """That of the fastest point, by the model itself with typical constants."""
     v = [1e-3, 10.0, 0.1]
+    heating = asperity.Heating(**TREAD)
     cold = asperity.friction(ROAD, RUBBER, velocity=v, **AT)
-    hot = asperity.friction(ROAD, RUBBER, velocity=v, heating=asperity.Heating(**TREAD), **AT)
+    hot = asperity.friction(ROAD, RUBBER, velocity=v, heating=heating, **AT)
     rise = hot.temperature[1] - 290.0
     assert rise > 1
-    told = note_of(cold, "not modelled")
-    assert f"at 10 m/s it would warm the rubber by {rise:.2g} K from 290 K" in told
-    assert f"take mu from {hot.cold.mu[1]:.3g} to {hot.mu[1]:.3g}" in told
-    assert note_of(hot, "not modelled") is None
-    single = asperity.friction(ROAD, RUBBER, velocity=10.0, **AT)
-    assert note_of(single, "not modelled") == told
+
+    def heated_at(i, heat):
+        return asperity.friction(ROAD, RUBBER, velocity=v[i], heating=heat, **AT)
+
+    (note,) = with_size_of_heat(cold.notes, v, False, heated_at)
+    assert f"at 10 m/s it would warm the rubber by {rise:.2g} K from 290 K" in note
+    assert f"take mu from {hot.cold.mu[1]:.3g} to {hot.mu[1]:.3g}" in note
+    assert note.next_step == note_of(cold, "heat-left-out").next_step
+    assert note_of(hot, "heat-left-out") is None
 
 
-def test_nothing_is_computed_for_a_note_that_nobody_reads(monkeypatch):
-    calls = []
-    whole = asperity._core.flash_friction
-    monkeypatch.setattr(
-        asperity._core, "flash_friction", lambda *given: calls.append(1) or whole(*given)
-    )
+def test_reading_notes_computes_nothing(monkeypatch):
     found = asperity.friction(ROAD, RUBBER, velocity=[1e-3, 10.0], **AT)
-    assert found.mu.shape == (2,)
-    assert not calls
-    assert found.notes == found.notes
-    assert len(calls) == 1
+    monkeypatch.setattr(asperity._core, "flash_friction", None)
+    assert [note.code for note in found.notes] == ["heat-left-out"]
     slow = asperity.friction(ROAD, RUBBER, velocity=1e-3, **AT)
     assert slow.notes == ()
-    assert len(calls) == 1
 
 
 def test_where_heat_cannot_be_computed_the_note_stays_as_it_was():
-    without = asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=10.0)
-    refused = asperity.friction(
-        ROAD,
-        RUBBER,
-        velocity=10.0,
-        shift=asperity.ShiftFactors(
-            reference_temperature=290.0,
-            temperature=[289.9, 290.0, 290.1],
-            log10_a_T=[1e-2, 0.0, -1e-2],
-        ),
-        **{name: AT[name] for name in ("pressure", "temperature")},
-    )
-    for found in (without, refused):
-        assert note_of(found, "flash heating, which is not modelled") is not None
+    cold = asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=10.0)
+
+    def refused(i, heat):
+        raise asperity.OutOfRange("beyond the shift")
+
+    assert with_size_of_heat(cold.notes, [10.0], False, refused) == cold.notes
 
 
 def test_a_scene_says_the_size_once(folder, capsys):
@@ -88,14 +77,14 @@ def test_a_fitted_law_beyond_its_temperatures_is_noted(heated):
     more = {"heating": asperity.Heating(**TREAD)} if heated else {}
     assert (FIT.lowest_temperature, FIT.highest_temperature) == (263.0, 303.0)
     inside = asperity.friction(ROAD, RUBBER, temperature=280.0, **given, **more)
-    assert note_of(inside, "the WLF law") is None
+    assert note_of(inside, "law-beyond-fit") is None
     outside = asperity.friction(ROAD, RUBBER, temperature=[280.0, 310.0], **given, **more)
-    assert "it was fitted on 263 to 303 K" in note_of(outside, "the WLF law")
+    assert "it was fitted on 263 to 303 K" in note_of(outside, "law-beyond-fit")
     if heated:  # from inside of them out, by its own heat
         given["velocity"] = 1.0
         warm = asperity.friction(ROAD, RUBBER, temperature=290.0, **given, **more)
-        assert note_of(warm, f"from 290 to {warm.temperature:.5g} K") is not None
-        assert note_of(warm.cold, "the WLF law") is None
+        assert f"from 290 to {warm.temperature:.5g} K" in note_of(warm, "law-beyond-fit")
+        assert note_of(warm.cold, "law-beyond-fit") is None
 
 
 def test_a_fitted_law_knows_both_ends_or_none():

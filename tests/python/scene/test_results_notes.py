@@ -3,16 +3,22 @@
 from pathlib import Path
 from types import SimpleNamespace
 
+from asperity.base.diagnostics import Note
 from asperity.scene.results import notes_of_all
+
+
+def note(text: str) -> Note:
+    """One whose code is its first words."""
+    return Note(text, code="-".join(text.split()[:2]))
 
 
 def told(*said: tuple[str, str, list[str], list[str]]) -> list[str]:
     """What is told of scenes, each a file, a temperature, notes of its inputs and of its curve."""
     scenes = [
-        SimpleNamespace(path=Path(file), notes=inputs, temperature_text=at)
+        SimpleNamespace(path=Path(file), notes=[*map(note, inputs)], temperature_text=at)
         for file, at, inputs, _ in said
     ]
-    curves = [SimpleNamespace(notes=[*inputs, *more]) for _, _, inputs, more in said]
+    curves = [SimpleNamespace(notes=[*map(note, [*one, *more])]) for _, _, one, more in said]
     return notes_of_all(scenes, curves)  # type: ignore[arg-type]
 
 
@@ -30,7 +36,7 @@ def test_notes_of_inputs_are_told_once_whatever_their_numbers() -> None:
 def test_notes_of_curves_are_told_with_all_their_numbers() -> None:
     assert told(
         ("a.toml", "5 °C", ["rough"], ["guessed from 1 m/s"]),
-        ("a.toml", "20 °C", ["rough"], ["guessed from 2 m/s", "fatal: no contact"]),
+        ("a.toml", "20 °C", ["rough"], ["guessed from 2 m/s", "no contact"]),
     ) == [
         "fatal: 20 °C: no contact",
         "rough",

@@ -11,6 +11,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput
+from asperity.base.diagnostics import Note
 from helpers.cases import case
 from helpers.examples import (
     ALL,
@@ -48,6 +49,10 @@ def bits(value):
         return [bits(one) for one in value]
     if isinstance(value, dict):
         return {key: bits(one) for key, one in value.items()}
+    if isinstance(value, Note):
+        return value.line, {name: bits(one) for name, one in vars(value).items()}
+    if isinstance(value, str):  # phrases too
+        return str(value)
     if type(value).__module__.startswith("asperity"):
         return type(value), {name: bits(getattr(value, name)) for name in attributes(value)}
     assert isinstance(value, str | bytes | int | None), type(value)
@@ -158,9 +163,9 @@ def test_copies_compute_the_same_bits():
 
 def test_errors_survive_pickle():
     for kind in (asperity.Error, InvalidInput, asperity.OutOfRange, asperity.NotConverged):
-        made = kind("velocity = -1: must be positive", 3)
+        made = kind("velocity = -1: must be positive", code="a-code")
         again = pickle.loads(pickle.dumps(made))
-        assert (type(again), again.args) == (kind, made.args)
+        assert (type(again), again.args, again.code) == (kind, made.args, "a-code")
 
 
 def test_functions_and_bound_methods_survive_pickle():

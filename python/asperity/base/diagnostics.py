@@ -1,0 +1,288 @@
+"""Errors and notes as data: sentences in phrases, which every edge may say in words of its own.
+
+The library says them as its callers write: arguments by their names, SI units. A scene puts its
+keys there, and temperatures as they were given; the app what a reader sees who does not program.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import Any, Self
+
+from asperity.base.codes import FATAL, NOTE, NOTES
+
+
+class Phrase(str):
+    """A phrase of a sentence that is more than its text."""
+
+    numbers: tuple[float, ...]  # with all digits
+    tag: str
+
+    def __new__(cls, text: str, numbers: tuple[float, ...] = (), tag: str = "") -> Self:
+        """Make a phrase of the text as a caller of the library reads it."""
+        phrase = super().__new__(cls, text)
+        phrase.numbers, phrase.tag = numbers, tag
+        return phrase
+
+    def saying(self, text: str) -> Self:
+        """Return the same in other words."""
+        return type(self)(text, self.numbers, self.tag)
+
+
+class Argument(Phrase):
+    """The name of an argument."""
+
+
+class Value(Phrase):
+    """What was found for the argument before it; the tag is its unit where that matters."""
+
+
+class Unit(Phrase):
+    """The unit behind a value, which is its tag."""
+
+
+class Must(Phrase):
+    """Stands before what is allowed."""
+
+
+class Advice(Phrase):
+    """What would help; the tag is its code."""
+
+
+class File(Phrase):
+    """The name of a file."""
+
+
+MUST_BE = Must(": must be ")
+PHRASES: tuple[type, ...] = (str, Argument, Value, Unit, Must, Advice)  # in the order of the core
+Sentence = tuple[str, ...]
+Words = Callable[[Sentence], Sentence]  # says a sentence in words of an edge
+
+
+def _first(sentence: Sentence, kind: type[Phrase]) -> Any:
+    return next((phrase for phrase in sentence if isinstance(phrase, kind)), None)
+
+
+class _Diagnostic:
+    """What errors and notes share.
+
+    Attributes
+    ----------
+    code : str
+        Stable, words joined by hyphens.
+    argument : str
+        What it is about, by its name; empty where it is about none.
+    value : float, str or None
+        What was found.
+    allowed : str
+        What must be there instead, empty where the sentence says it otherwise.
+    unit : str
+        Of the value, empty for the SI unit or none.
+    sentence, where, after : tuple of str
+        The phrases, those before them that say what it is about, and what else there is to say.
+    """
+
+    code: str
+    argument: str
+    value: float | str | None
+    allowed: str
+    unit: str
+    sentence: Sentence
+    where: Sentence
+    after: Sentence
+
+    def _tell(self, sentence: Sentence, where: Sentence, after: Sentence) -> None:
+        self.sentence, self.where, self.after = sentence, where, after
+        self.argument = str(_first(sentence, Argument) or "")
+        value = _first(sentence, Value)
+        self.value = None if value is None else str(value)
+        if value is not None and len(value.numbers) == 1:
+            self.value = value.numbers[0]
+        self.unit = "" if value is None else value.tag
+        kinds = [type(phrase) for phrase in sentence]
+        start = kinds.index(Must) + 1 if Must in kinds else len(kinds)
+        end = kinds.index(Advice, start) if Advice in kinds[start:] else len(kinds)
+        self.allowed = "".join(sentence[start:end])
+
+    def _made_of(self, sentence: Sentence, where: Sentence, after: Sentence) -> Self:
+        raise NotImplementedError
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """What it shares with the same on other numbers."""
+        return self.code, self.argument
+
+    def within(self, *where: object) -> Self:
+        """Return the same with what it is about before it: phrases, or a file."""
+        about: Any = where
+        if len(where) == 1 and not isinstance(where[0], str):
+            about = File(f"{where[0]}"), ": "
+        return self._made_of(self.sentence, (*about, *self.where), self.after)
+
+    def followed_by(self, *more: str) -> Self:
+        """Return the same with more to say."""
+        return self._made_of(self.sentence, self.where, (*self.after, *more))
+
+    def said(self, words: Words) -> Self:
+        """Return the same in words of an edge."""
+        return self._made_of(words(self.sentence), words(self.where), words(self.after))
+
+
+class Error(_Diagnostic, Exception):
+    """Base of all errors of asperity: `code`, `argument`, `value` and `allowed` say what is wrong.
+
+    Its text names the argument, the value found and what is allowed.
+    """
+
+    code = "error"
+
+    def __init__(
+        self, *sentence: str, code: str = "", where: object = (), after: Sentence = ()
+    ) -> None:
+        """Take the phrases of the sentence, at least one, and the file that it is about."""
+        about = where if isinstance(where, tuple) else (File(f"{where}"), ": ")
+        super().__init__("".join((*about, *sentence, *after)))
+        if code:
+            self.code = code
+        self._tell(sentence, about, after)
+
+    def _made_of(self, sentence: Sentence, where: Sentence, after: Sentence) -> Self:
+        return type(self)(*sentence, code=self.code, where=where, after=after)
+
+
+class InvalidInput(Error, ValueError):
+    """An argument that cannot be used; the text names it, the value found and what is allowed."""
+
+    code = "invalid-input"
+
+
+class OutOfRange(Error):
+    """Asked outside of what was measured; nothing is extrapolated silently."""
+
+    code = "out-of-range"
+
+
+class NotConverged(Error):
+    """The tolerance was not reached; the message has the estimate and its error."""
+
+    code = "not-converged"
+
+
+for _kind in (Error, InvalidInput, OutOfRange, NotConverged):
+    _kind.__module__ = "asperity"
+
+
+class Note(_Diagnostic, str):
+    """A note on a result: a text, which knows what it is about.
+
+    Attributes
+    ----------
+    severity : {"fatal", "warning", "note"}
+        A fatal one makes the result wrong or empty, a warning may make it so.
+    next_step : str
+        What to do about it.
+    code, argument, value, allowed, unit
+        As those of an error.
+    """
+
+    severity: str
+    next_step: str
+    next_step_phrases: Sentence
+
+    def __new__(
+        cls,
+        *sentence: str,
+        code: str = "note",
+        severity: str = "",
+        next_step: Sentence | str = (),
+        where: object = (),
+        after: Sentence = (),
+    ) -> Self:
+        """Take the phrases of the sentence; a fatal one says so in its first word.
+
+        The severity is that of the code.
+        """
+        severity = severity or NOTES.get(code, (NOTE,))[0]
+        about = where if isinstance(where, tuple) else (File(f"{where}"), ": ")
+        text = "".join((*about, *sentence, *after))
+        note = super().__new__(cls, f"{FATAL}: {text}" if severity == FATAL else text)
+        note.code, note.severity = code, severity
+        note._tell(sentence, about, after)
+        if isinstance(next_step, str):
+            next_step = (next_step,) if next_step else ()
+        advice = _first(sentence, Advice)
+        note.next_step_phrases = next_step or ((advice,) if advice else ())
+        note.next_step = "".join(note.next_step_phrases)
+        return note
+
+    def _made_of(self, sentence: Sentence, where: Sentence, after: Sentence) -> Self:
+        return type(self)(
+            *sentence,
+            code=self.code,
+            severity=self.severity,
+            next_step=self.next_step_phrases,
+            where=where,
+            after=after,
+        )
+
+    def said(self, words: Words) -> Self:
+        """Return the same in words of an edge, what to do too."""
+        made = super().said(words)
+        made.next_step_phrases = words(self.next_step_phrases)
+        made.next_step = "".join(made.next_step_phrases)
+        return made
+
+    @property
+    def label(self) -> str:
+        """Severity, code and argument, as files have them beside the text."""
+        return " ".join(filter(None, (self.severity, self.code, self.argument)))
+
+    @property
+    def line(self) -> str:
+        """The note in a line of a file, for `of_line`."""
+        return f"{self.label}: {''.join((*self.where, *self.sentence, *self.after))}"
+
+    @classmethod
+    def of_line(cls, line: str) -> Self:
+        """Return the note of such a line."""
+        label, _, text = line.partition(": ")
+        severity, code, argument = (*label.split(" ", 2), "", "")[:3]
+        note = cls(text, code=code, severity=severity)
+        note.argument = argument
+        return note
+
+
+def fatal_first(notes: Iterable[Note]) -> list[Note]:
+    """Each note once, those that make the result wrong or empty before the others."""
+    return sorted(dict.fromkeys(notes), key=lambda note: note.severity != FATAL)
+
+
+def brief(found: object) -> str:
+    """Return what was found, in one short line."""
+    try:
+        return " ".join(repr(found)[:60].split())
+    except Exception:  # a whole number of more digits than Python writes, or a class's own trouble
+        return f"a {type(found).__name__}"
+
+
+def valued(found: Any, text: str = "") -> Value:
+    """Return what was found as a phrase, shown as `text`."""
+    several = found if isinstance(found, tuple) else (found,)
+    known = all(isinstance(one, int | float) and not isinstance(one, bool) for one in several)
+    try:
+        return Value(text or brief(found), tuple(map(float, several)) if known else ())
+    except OverflowError:
+        return Value(text or brief(found))
+
+
+def refusal(
+    argument: str, found: Any, allowed: str, *, text: str = "", where: object = ()
+) -> InvalidInput:
+    """Return the error "where: argument = found: must be allowed", `found` shown as `text`."""
+    return InvalidInput(
+        Argument(argument),
+        " = ",
+        valued(found, text),
+        MUST_BE,
+        allowed,
+        code="invalid-value",
+        where=where,
+    )
