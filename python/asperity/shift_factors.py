@@ -21,7 +21,7 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import DECADES, TEMPERATURE
 from asperity.base.table import Column, Columns, Table
@@ -321,8 +321,8 @@ def shift_factors_of(found: Any) -> ShiftFactors:
         return found
     if isinstance(found, HasShiftFactors):
         return found.shift_factors  # type: ignore[attr-defined, no-any-return]
-    allowed = "must be a ShiftFactors or what build_master_curve returned"
-    raise InvalidInput(Argument("shift_factors"), " = ", valued(found), f": {allowed}")
+    allowed = "a ShiftFactors or what build_master_curve returned"
+    raise refusal("shift_factors", found, allowed)
 
 
 TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
 from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]
@@ -69,8 +69,8 @@ def number(found: Any, name: str) -> float:
         try:
             return float(found)
         except OverflowError:
-            allowed = "must be at most 1.8e308 in size"
-            raise InvalidInput(Argument(name), " = ", valued(found), f": {allowed}") from None
+            allowed = "at most 1.8e308 in size"
+            raise refusal(name, found, allowed) from None
         except ValueError:  # a signalling NaN
             raise refusal(name, found, "a number") from None
     if getattr(found, "ndim", None) == 0:

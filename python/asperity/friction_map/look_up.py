@@ -355,9 +355,9 @@ class FrictionMap(Table):
             raise refusal("shift_adhesion", "True", "False on a map with heat", text="True")
         a_T = asked["a_T"]  # noqa: N806
         if not (type(a_T) is float and a_T == 1) and np.any(real_array(a_T, "a_T") != 1):
-            allowed = "must be 1 on a map with heat, which no a_T takes to another background"
+            allowed = "1 on a map with heat, which no a_T takes to another background"
             raise InvalidInput(
-                Argument("a_T"), " = ", valued(a_T), f": {allowed}; give temperature"
+                Argument("a_T"), " = ", valued(a_T), MUST_BE, f"{allowed}; give temperature"
             )
         lo, hi = self.temperature
         if "temperature" not in asked and lo != hi:

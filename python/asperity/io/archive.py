@@ -35,8 +35,8 @@ class Archive:
         """InvalidInput where more has been inflated than an archive of this size should hold."""
         self._left -= inflated
         if self._left < 0:
-            allowed = f"must be at most {_RATIO} times as much, beyond {_FREE >> 20} MB"
-            raise InvalidInput(f"inflates to far more than its own size: {allowed}")
+            allowed = f"at most {_RATIO} times as much, beyond {_FREE >> 20} MB"
+            raise InvalidInput("inflates to far more than its own size", MUST_BE, allowed)
 
 
 class _Member:

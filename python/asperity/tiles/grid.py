@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, number, whole
-from asperity.base.diagnostics import Argument, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
 from asperity.tiles.source import Box, Shape
 
 SMALLEST = 512  # points a side: the coarsened map, which gives what a tile is too short for, has
@@ -83,18 +83,21 @@ def tile_shape(found: Any, shape: Shape, pixel_size: tuple[float, float]) -> Sha
     sides = whole(ny, "tiles"), whole(nx, "tiles")
     for side, whole_side in zip(sides, shape, strict=True):
         if side > whole_side:
-            allowed = f"must be at most {shape}, the map"
-            raise InvalidInput(Argument("tiles"), " = ", valued(sides, f"{sides}"), f": {allowed}")
+            allowed = f"at most {shape}, the map"
+            raise InvalidInput(
+                Argument("tiles"), " = ", valued(sides, f"{sides}"), MUST_BE, allowed
+            )
         if side < SMALLEST and sides != shape:
             raise refusal("tiles", sides, f"{SMALLEST} points or more a side", text=f"{sides}")
     shortest = min(n * d for n, d in zip(sides, pixel_size, strict=True))
     if sides != shape and shortest * (1 + 1e-9) < SMALLEST / 2 * max(pixel_size):
-        allowed = f"must be as long as {SMALLEST // 2} of the coarser pixels on either side"
+        allowed = f"as long as {SMALLEST // 2} of the coarser pixels on either side"
         raise InvalidInput(
             Argument("tiles"),
             " = ",
             valued(sides, f"{sides}"),
-            f": {allowed}, pixel_size = {pixel_size}",
+            MUST_BE,
+            f"{allowed}, pixel_size = {pixel_size}",
         )
     return sides
 

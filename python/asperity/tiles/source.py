@@ -115,8 +115,8 @@ def _array(found: Any) -> Any:
         raise InvalidInput(Argument("surface"), f" = a group of arrays: give one of them ({names})")
     dtype, shape = getattr(found, "dtype", None), getattr(found, "shape", None)
     if dtype is None or shape is None or not hasattr(found, "__getitem__"):
-        allowed = "must be a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
-        raise InvalidInput(Argument("surface"), " = ", valued(found), f": {allowed}")
+        allowed = "a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
+        raise refusal("surface", found, allowed)
     if len(shape) != 2:
         raise InvalidInput(
             Argument("surface"),
@@ -125,8 +125,8 @@ def _array(found: Any) -> Any:
             "two axes, (ny, nx)",
         )
     if not all(isinstance(side, int | np.integer) and side > 0 for side in shape):
-        allowed = "must be known and not empty"
-        raise InvalidInput(Argument("surface"), f" has shape {tuple(shape)}: {allowed}")
+        allowed = "known and not empty"
+        raise InvalidInput(Argument("surface"), f" has shape {tuple(shape)}", MUST_BE, allowed)
     if getattr(dtype, "kind", "?") not in "biuf":
         raise InvalidInput(Argument("surface"), f" holds {dtype} values", MUST_BE, "real numbers")
     return found
@@ -157,9 +157,9 @@ def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:
     if endless.any():
         y, x = np.unravel_index(int(endless.argmax()), heights.shape)
         place = f"heights[{corner[0] + int(y)}, {corner[1] + int(x)}]"
-        allowed = "must be finite, or NaN for a drop-out"
+        allowed = "finite, or NaN for a drop-out"
         raise InvalidInput(
-            Argument(place), " = ", valued(heights[y, x], f"{heights[y, x]}"), f": {allowed}"
+            Argument(place), " = ", valued(heights[y, x], f"{heights[y, x]}"), MUST_BE, allowed
         )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, number
-from asperity.base.diagnostics import Argument, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
 from asperity.spectrum import TabulatedSpectrum
 from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid
@@ -37,8 +37,8 @@ def tiled_spectrum(
 ) -> TabulatedSpectrum:
     """Return the spectrum of a map by tiles."""
     if window == _NONE:
-        allowed = "must be one that ends at 0, as no tile is periodic"
-        raise InvalidInput(Argument("window"), " = ", valued("none", '"none"'), f": {allowed}")
+        allowed = "one that ends at 0, as no tile is periodic"
+        raise InvalidInput(Argument("window"), " = ", valued("none", '"none"'), MUST_BE, allowed)
     most = 0.10 if max_dropouts is None else number(max_dropouts, "max_dropouts")
     if not 0 <= most < 1:
         raise refusal("max_dropouts", most, "in [0, 1)", text=f"{most:.6g}")
@@ -93,8 +93,10 @@ def _check_dropouts(share: float, most: float) -> None:
     if share == 1:
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
     if share > most:
-        allowed = f"must be at most {100 * most:.4g} %, max_dropouts = {most:.4g}"
-        raise InvalidInput(Argument("heights"), f" has {100 * share:.4g} % drop-outs: {allowed}")
+        allowed = f"at most {100 * most:.4g} %, max_dropouts = {most:.4g}"
+        raise InvalidInput(
+            Argument("heights"), f" has {100 * share:.4g} % drop-outs", MUST_BE, allowed
+        )
 
 
 def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Rows:

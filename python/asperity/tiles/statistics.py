@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number
-from asperity.base.diagnostics import Argument
+from asperity.base.diagnostics import MUST_BE, Argument
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
@@ -134,8 +134,8 @@ def statistics_of(
     order = DETRENDS[choice(detrend, "detrend", DETRENDS)]
     workers = Workers(threads, executor)
     if min(source.shape) < 3:
-        allowed = "must be 3 x 3 or more for central differences"
-        raise InvalidInput(Argument("heights"), f" has shape {source.shape}: {allowed}")
+        allowed = "3 x 3 or more for central differences"
+        raise InvalidInput(Argument("heights"), f" has shape {source.shape}", MUST_BE, allowed)
     boxes = list(_boxes(source.shape))
     anchor = _anchor(source, boxes)
     works = ((source.piece(box), source.shape, corner_of(box), anchor) for box in boxes)
