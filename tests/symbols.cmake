@@ -1,4 +1,5 @@
-# Lists every symbol of LIBRARY that is in no namespace of ours, and fails where there is one.
+# Lists every symbol of LIBRARY that is in no namespace of ours, and fails where there is one; fails too where a
+# PERMISSIVE library has a symbol of GSL or FFTW.
 cmake_minimum_required(VERSION 3.25)
 if(SHARED)
   set(table -D)
@@ -28,6 +29,13 @@ foreach(line IN LISTS found)
     endif()
   endif()
 endforeach()
+# hidden ones too: a build under a permissive licence has none of GSL's and FFTW's, and the other shows that they are seen
+execute_process(COMMAND ${NM} ${LIBRARY} OUTPUT_VARIABLE all ERROR_QUIET)
+if(PERMISSIVE AND all MATCHES " [A-Za-z] (gsl|cblas|fftwf?)_[^\n]*")
+  message(FATAL_ERROR "a symbol of GSL or FFTW in a library that is to be without:${CMAKE_MATCH_0}")
+elseif(NOT PERMISSIVE AND NOT all MATCHES " [A-Za-z] gsl_integration_qag\n")
+  message(FATAL_ERROR "${NM} does not show GSL's symbols, which are in the library")
+endif()
 if(number LESS 50)
   message(FATAL_ERROR "only ${number} symbols in ${LIBRARY}: nm could not read it")
 endif()

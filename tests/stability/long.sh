@@ -20,6 +20,8 @@
 #   memcheck     the C++ tests under valgrind
 #   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
 #   browser      the app, the report and the documentation, if it is built, in Chromium; wants Debian's chromium and playwright
+#   permissive   the build without GSL and FFTW: its C++ tests, its wheel, spectra beside FFTW's; takes pocketfft's header
+#                from a wheel that ships it where none is installed
 #   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
 # JOBS at once (1), with the python of PYTHON (.venv/bin/python). What each step ends with is said at the end.
 set -u
@@ -128,15 +130,35 @@ browser() {
   "$python" -m pytest -q -p no:cacheprovider -n0 -m long tests/python/project/test_site.py
 }
 
+permissive() {
+  if ! printf '#include <pocketfft_hdronly.h>\n' | c++ -E -x c++ - >/dev/null 2>&1; then
+    mkdir -p build/pocketfft &&
+      "$python" -m pip download -q --no-deps -d "$scratch" mlx-cpu==0.32.4 &&
+      "$python" -c 'import sys, zipfile; sys.stdout.buffer.write(
+        zipfile.ZipFile(sys.argv[1]).read("mlx/include/mlx/3rdparty/pocketfft.h"))' \
+        "$scratch"/mlx_cpu-*.whl >build/pocketfft/pocketfft_hdronly.h || return
+    CMAKE_INCLUDE_PATH=$PWD/build/pocketfft
+    export CMAKE_INCLUDE_PATH
+  fi
+  built permissive && ctest --preset permissive -j "$jobs" || return
+  rm -rf build/permissive-site
+  SKBUILD_BUILD_DIR=build/permissive-py "$python" -m pip install -q --no-deps --no-build-isolation \
+    --target build/permissive-site -C cmake.define.ASPERITY_PERMISSIVE=ON . || return
+  PYTHONPATH=$PWD/build/permissive-site "$python" -m pytest -q -p no:cacheprovider tests/python/spectrum \
+    tests/python/surface tests/python/sliding tests/python/project/test_licence.py \
+    tests/python/friction/test_permissive.py &&
+    "$python" tests/stability/permissive.py build/permissive-site
+}
+
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
 
 [ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings partial heat maps tests properties files interrupts fuzz \
-  sanitize threads memcheck wine browser
+  sanitize threads memcheck wine browser permissive
 for step; do
   case $step in
     catalogue | isotherms | coverage | scenes | rings | partial | heat | maps | tests | properties | files | interrupts | fuzz) ;;
-    sanitize | threads | memcheck | wine | browser | aarch64) ;;
-    *) sed -n '2,21s/^# //p' "$0" >&2; exit 2 ;;
+    sanitize | threads | memcheck | wine | browser | permissive | aarch64) ;;
+    *) sed -n '2,27s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -10,14 +10,24 @@
 
 #include "asperity/contact.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/libraries.hpp"
 #include "numerics/shown_range.hpp"
 
 namespace asperity {
+
+/// Refuses GSL's methods where only ours do; `where` goes on after "must be gauss".
+inline void check_gauss(Method method, const std::string& where) {
+  constexpr std::array<const char*, 4> names{"gauss", "qag", "qags", "cquad"};
+  if (method != Method::gauss)
+    throw InvalidInput(argument("method") + " = " + word(names[static_cast<std::size_t>(method)]) + must_be() +
+                       "gauss " + where);
+}
 
 inline void check_contact(const ContactModel& model, std::span<const double> pressure,
                           std::span<const double> velocity) {
   require_poisson("poisson_ratio", model.poisson_ratio);
   require_rtol(model.rtol);
+  if (!has_gsl_and_fftw) check_gauss(model.method, "in a build without GSL, as ASPERITY_PERMISSIVE makes it");
   validate(model.correction);
   const bool by_rule =
       std::holds_alternative<PartialContact>(model.correction) || std::holds_alternative<ScanContact>(model.correction);
@@ -30,14 +40,6 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
                        "1 or more");
   for (const double p : pressure) require_positive("pressure", p);
   for (const double v : velocity) require_positive("velocity", v);
-}
-
-/// Refuses GSL's methods where only ours do; `where` goes on after "must be gauss".
-inline void check_gauss(Method method, const std::string& where) {
-  constexpr std::array<const char*, 4> names{"gauss", "qag", "qags", "cquad"};
-  if (method != Method::gauss)
-    throw InvalidInput(argument("method") + " = " + word(names[static_cast<std::size_t>(method)]) + must_be() +
-                       "gauss " + where);
 }
 
 /// Whether products of a number keep all their digits.

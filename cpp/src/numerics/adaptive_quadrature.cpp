@@ -1,134 +1,70 @@
-// GSL's quadrature behind functions that throw: QAG, QAGS and CQUAD, and single Gauss rules.
-// R. Piessens et al., QUADPACK (1983); P. Gonnet, ACM Trans. Math. Softw. 37, 26 (2010).
+// Adaptive bisection with a Gauss rule, and the choice between it and GSL's routines.
 #include "numerics/adaptive_quadrature.hpp"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_integration.h>
-
-#include <cfenv>
+#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <mutex>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/gauss_legendre.hpp"
+#include "numerics/libraries.hpp"
 
-namespace asperity {
-
-namespace detail {
+namespace asperity::detail {
 
 namespace {
 
-constexpr std::size_t most_intervals = 1000;
+constexpr std::size_t nodes = 20, most_parts = 1000;
 
-/// GSL's default handler ends the process. Ours is a private copy of GSL (its symbols are hidden), so that the
-/// host's handler stays as it is; return codes are checked instead.
-void silence_private_gsl() {
-  static std::once_flag once;
-  std::call_once(once, [] { gsl_set_error_handler_off(); });
-}
-
-/// A workspace for the time of one integral. An integrand may itself integrate: each depth has a workspace of its
-/// own, kept by the thread for the next call.
-template <class Workspace, Workspace* allocate(std::size_t), void release(Workspace*)>
-class Borrowed {
- public:
-  Borrowed() {
-    if (depth_ == pool_.size()) pool_.emplace_back(allocate(most_intervals), release);
-    if (!pool_[depth_]) {
-      pool_.pop_back();
-      throw std::bad_alloc();
-    }
-    mine_ = pool_[depth_++].get();
-  }
-  ~Borrowed() { --depth_; }
-  Borrowed(const Borrowed&) = delete;
-  Borrowed& operator=(const Borrowed&) = delete;
-  Borrowed(Borrowed&&) = delete;
-  Borrowed& operator=(Borrowed&&) = delete;
-  [[nodiscard]] Workspace* get() const { return mine_; }
-
- private:
-  static inline thread_local std::vector<std::unique_ptr<Workspace, void (*)(Workspace*)>> pool_;
-  static inline thread_local std::size_t depth_ = 0;
-  Workspace* mine_;
+struct Part {
+  double lower, upper;
+  Integral of;
 };
-using Intervals = Borrowed<gsl_integration_workspace, gsl_integration_workspace_alloc, gsl_integration_workspace_free>;
-using Polynomials = Borrowed<gsl_integration_cquad_workspace, gsl_integration_cquad_workspace_alloc,
-                             gsl_integration_cquad_workspace_free>;
-
-/// GSL divides by zero on its way (CQUAD), which ends a process whose host has floating-point traps on: off meanwhile.
-/// The flags are left as they were found too.
-class Untrapped {
- public:
-  Untrapped() { std::feholdexcept(&host_); }
-  ~Untrapped() { std::fesetenv(&host_); }
-  Untrapped(const Untrapped&) = delete;
-  Untrapped& operator=(const Untrapped&) = delete;
-  Untrapped(Untrapped&&) = delete;
-  Untrapped& operator=(Untrapped&&) = delete;
-
- private:
-  std::fenv_t host_;
-};
-
-int call(Adaptive rule, const gsl_function& f, double lower, double upper, double atol, double rtol, Integral& result) {
-  switch (rule) {
-    case Adaptive::qag:
-      return gsl_integration_qag(&f, lower, upper, atol, rtol, most_intervals, GSL_INTEG_GAUSS21, Intervals().get(),
-                                 &result.value, &result.error);
-    case Adaptive::qags:
-      return gsl_integration_qags(&f, lower, upper, atol, rtol, most_intervals, Intervals().get(), &result.value,
-                                  &result.error);
-    case Adaptive::cquad:
-      return gsl_integration_cquad(&f, lower, upper, atol, rtol, Polynomials().get(), &result.value, &result.error,
-                                   nullptr);
-  }
-  return GSL_EINVAL;
-}
 
 }  // namespace
 
-Integral kronrod(const Callback& f, double lower, double upper) {
-  gsl_function function{f.call, f.self};
-  Integral result{};
-  double about_mean = 0;
-  gsl_integration_qk21(&function, lower, upper, &result.value, &result.error, &result.magnitude, &about_mean);
-  return result;
+/// The last two Legendre coefficients c_k of f bound its error amply: a Gauss rule integrates twice as high degrees.
+Integral one_rule(const Callback& f, double lower, double upper) {
+  static const LegendreRule& rule = legendre_rule(nodes);
+  const double half = (upper - lower) / 2, middle = lower + half;
+  double sum = 0, last = 0, before = 0;
+  for (std::size_t i = 0; i < rule.n; ++i) {
+    const double value = f.call(middle + half * rule.node[i], f.self);
+    sum += rule.weight[i] * value;
+    last += rule.tail[i][0] * value;
+    before += rule.tail[i][1] * value;
+  }
+  return {half * sum, std::fabs(half) * (std::fabs(last) + std::fabs(before))};
+}
+
+/// Halves the part with the largest error until the sum of errors is small enough.
+Integral by_bisection(const Callback& f, double lower, double upper, double atol, double rtol) {
+  std::vector<Part> parts{{lower, upper, one_rule(f, lower, upper)}};
+  const auto smaller = [](const Part& a, const Part& b) { return a.of.error < b.of.error; };
+  for (;;) {
+    Integral sum{0, 0};
+    for (const Part& part : parts) sum = {sum.value + part.of.value, sum.error + part.of.error};
+    const double allowed = std::fmax(atol, rtol * std::fabs(sum.value));
+    if (sum.error <= allowed && std::isfinite(sum.value)) return sum;
+    std::ranges::pop_heap(parts, smaller);
+    const Part worst = parts.back();
+    const double middle = worst.lower + (worst.upper - worst.lower) / 2;
+    if (parts.size() == most_parts || !std::isfinite(sum.value) || middle == worst.lower || middle == worst.upper)
+      throw NotConverged("integral over [" + show(lower) + ", " + show(upper) + "] = " + show(sum.value) +
+                         " with error " + show(sum.error) + " where " + show(allowed) + " was asked for");
+    parts.back() = {worst.lower, middle, one_rule(f, worst.lower, middle)};
+    std::ranges::push_heap(parts, smaller);
+    parts.push_back({middle, worst.upper, one_rule(f, middle, worst.upper)});
+    std::ranges::push_heap(parts, smaller);
+  }
 }
 
 Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule) {
   heed();
-  silence_private_gsl();
-  const Untrapped here;
-  Integral result{};
-  const int status = call(rule, gsl_function{f.call, f.self}, lower, upper, atol, rtol, result);
-  const double allowed = std::fmax(atol, rtol * std::fabs(result.value));
-  // CQUAD may miss the tolerance and report success, and says of what diverges that it is infinite
-  if (!(result.error <= allowed && std::isfinite(result.value)))
-    throw NotConverged("integral over [" + show(lower) + ", " + show(upper) + "] = " + show(result.value) +
-                       " with error " + show(result.error) + " where " + show(allowed) + " was asked for" +
-                       (status == GSL_SUCCESS ? "" : std::string(": ") + gsl_strerror(status)));
-  return result;
+  if (rule == Adaptive::bisection) return by_bisection(f, lower, upper, atol, rtol);
+  if constexpr (has_gsl_and_fftw) return by_gsl(f, lower, upper, atol, rtol, rule);
+  throw Error("GSL's integration was called in a build without it");  // its methods are refused before
 }
 
-}  // namespace detail
-
-const GaussRule& gauss_rule() {
-  static const GaussRule rule = [] {
-    detail::silence_private_gsl();
-    GaussRule r{};
-    gsl_integration_glfixed_table* const table = gsl_integration_glfixed_table_alloc(GaussRule::size);
-    if (!table) throw std::bad_alloc();
-    for (std::size_t i = 0; i < GaussRule::size; ++i)
-      gsl_integration_glfixed_point(-1, 1, i, &r.node[i], &r.weight[i], table);
-    gsl_integration_glfixed_table_free(table);
-    return r;
-  }();
-  return rule;
-}
-
-}  // namespace asperity
+}  // namespace asperity::detail

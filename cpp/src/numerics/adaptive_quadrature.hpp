@@ -1,4 +1,4 @@
-// Adaptive integration: the one place that knows GSL's quadrature.
+// Adaptive integration, our own and GSL's (gsl_quadrature.cpp, the one place that knows it).
 #pragma once
 
 #include <cstddef>
@@ -8,25 +8,26 @@ namespace asperity {
 
 struct Integral {
   double value;
-  double error;      // absolute, GSL's estimate
-  double magnitude;  // integral of |f|; only the fixed rule gives it, 0 otherwise
+  double error;  // absolute, an estimate
 };
 
-/// GSL's adaptive routines: QAG with the 21-point Gauss-Kronrod rule, QAGS, which extrapolates as well (Wynn's epsilon
-/// algorithm), and CQUAD, doubly adaptive Clenshaw-Curtis rules (Gonnet, ACM TOMS 37, 26 (2010)).
-enum class Adaptive { qag, qags, cquad };
+/// Bisection with a Gauss rule, and GSL's adaptive routines: QAG with the 21-point Gauss-Kronrod rule, QAGS, which
+/// extrapolates as well (Wynn's epsilon algorithm), and CQUAD, doubly adaptive Clenshaw-Curtis rules (Gonnet, ACM TOMS
+/// 37, 26 (2010)).
+enum class Adaptive { bisection, qag, qags, cquad };
 
 namespace detail {
 
-/// A callable that C can call: exceptions wait in `failure` until GSL has returned.
+/// A callable that C can call: exceptions wait in `failure` until the routine has returned.
 struct Callback {
   double (*call)(double x, void* self) noexcept;
   void* self;
 };
-/// One 21-point Gauss-Kronrod rule.
-Integral kronrod(const Callback& f, double lower, double upper);
-/// Throws NotConverged where neither tolerance is reached.
+/// One Gauss rule of 20 nodes.
+Integral one_rule(const Callback& f, double lower, double upper);
+/// Throw NotConverged where neither tolerance is reached.
 Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule);
+Integral by_gsl(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule);
 
 template <class F>
 struct Guarded {
@@ -54,22 +55,16 @@ Integral run(F& f, Rule rule) {
 
 }  // namespace detail
 
-/// Gauss-Legendre nodes and weights on [-1, 1], good to rounding where a piece is analytic far around.
-struct GaussRule {
-  static constexpr std::size_t size = 12;
-  double node[size], weight[size];
-};
-const GaussRule& gauss_rule();
-
 /// int_lower^upper f(x) dx by one rule, for pieces known to be smooth.
 template <class F>
 Integral integrate_smooth(F&& f, double lower, double upper) {
-  return detail::run(f, [&](const detail::Callback& c) { return detail::kronrod(c, lower, upper); });
+  return detail::run(f, [&](const detail::Callback& c) { return detail::one_rule(c, lower, upper); });
 }
 
-/// int_lower^upper f(x) dx to the looser of an absolute and a relative tolerance, by bisection.
+/// int_lower^upper f(x) dx to the looser of an absolute and a relative tolerance.
 template <class F>
-Integral integrate(F&& f, double lower, double upper, double rtol, double atol = 0, Adaptive rule = Adaptive::qag) {
+Integral integrate(F&& f, double lower, double upper, double rtol, double atol = 0,
+                   Adaptive rule = Adaptive::bisection) {
   return detail::run(f, [&](const detail::Callback& c) { return detail::adaptive(c, lower, upper, atol, rtol, rule); });
 }
 

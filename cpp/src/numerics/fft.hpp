@@ -1,4 +1,5 @@
-// Transforms of real grids: the one place that knows FFTW.
+// Transforms of real grids, by FFTW (fft_fftw.cpp) or by pocketfft (fft_pocketfft.cpp): the one place that knows
+// either.
 #pragma once
 
 #include <array>
@@ -7,27 +8,32 @@
 #include <memory>
 #include <vector>
 
+#include "numerics/libraries.hpp"
 #include "numerics/scratch.hpp"
 
 namespace asperity {
 
 using Grid = std::array<std::size_t, 2>;  // ny, nx
 
-/// One-dimensional transforms of length n, planned once (FFTW_ESTIMATE), run from any thread. Every pointer must
-/// be aligned as Scratch is.
+enum class Direction { forward, backward };
+
+/// One-dimensional transforms of length n, planned once, run from any thread. Every pointer must be aligned as Scratch
+/// is.
 template <class T>
 class RealTransform {  // n real numbers to n / 2 + 1 modes; the input is overwritten
  public:
+  /// Rows that are transformed at once: pocketfft takes for all of them little longer than for one.
+  static constexpr std::size_t together = has_gsl_and_fftw ? 1 : 32 / sizeof(T);
   explicit RealTransform(std::size_t n);
   void operator()(T* in, std::complex<T>* out) const;
+  /// `together` rows at once, `row` numbers and `modes` modes from one to the next.
+  void operator()(T* in, std::size_t row, std::complex<T>* out, std::size_t modes) const;
 
  private:
   std::size_t n_;
   std::shared_ptr<void> plan_;
   std::vector<std::complex<T>> twiddles_;  // where it goes by a complex transform of half the length
 };
-
-enum class Direction { forward, backward };
 
 template <class T>
 class ComplexTransform {  // `count` transforms at once, `distance` from one to the next; the input is overwritten
@@ -36,6 +42,8 @@ class ComplexTransform {  // `count` transforms at once, `distance` from one to 
   void operator()(std::complex<T>* in, std::complex<T>* out) const;
 
  private:
+  std::size_t count_, distance_;
+  Direction direction_;
   std::shared_ptr<void> plan_;
 };
 
@@ -60,6 +68,7 @@ class ColumnsTransform {
   void operator()(std::complex<T>* columns) const;
 
  private:
+  Direction direction_;
   std::shared_ptr<void> plan_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 struct AngularLoops {
   void (*add_series)(const Pair* moment, std::size_t terms, double edge, const double* w, double* i1, double* i2);
   void (*add_far)(const AngularPanel& panel, const double* w, double* i1, double* i2);
-  void (*add_near)(const GaussRule& rule, const AngularPanel& panel, double low, double high, const double* w,
+  void (*add_near)(const LegendreRule& rule, const AngularPanel& panel, double low, double high, const double* w,
                    double* i1, double* i2);
 };
 
@@ -63,7 +63,7 @@ AngularSums::AngularSums(std::span<const ModulusPiece> pieces) {
 }
 
 void AngularSums::add_up() {
-  const GaussRule& rule = gauss_rule();
+  const LegendreRule& rule = legendre_rule(AngularPanel::nodes);
   const std::complex<double> lowest = (*panels_.front().piece)(edges_.front());
   const Pair storage{0, lowest.real() * lowest.real()}, loss{lowest.imag(), lowest.imag() * lowest.imag()};
   double b[AngularPanel::terms] = {1};
@@ -79,8 +79,8 @@ void AngularSums::add_up() {
     panel.middle = low + (high - low) / 2;
     panel.storage = panel.piece->storage.about(std::log(panel.middle / panel.piece->origin));
     panel.loss = panel.piece->loss.about(std::log(panel.middle / panel.piece->origin));
-    Pair power[GaussRule::size], square[GaussRule::size];
-    for (std::size_t i = 0; i < GaussRule::size; ++i) {
+    Pair power[AngularPanel::nodes], square[AngularPanel::nodes];
+    for (std::size_t i = 0; i < AngularPanel::nodes; ++i) {
       const double w = (low + high + (high - low) * rule.node[i]) / 2, u = w / high;
       const double weight = 2 * ((high - low) / panel.unit) * rule.weight[i];
       const std::complex<double> e = (*panel.piece)(w);
@@ -95,7 +95,7 @@ void AngularSums::add_up() {
     Pair carried{ratio * ratio, ratio};
     for (std::size_t m = 0; m < AngularPanel::terms; ++m) {
       Pair sum{};
-      for (std::size_t i = 0; i < GaussRule::size; ++i) {
+      for (std::size_t i = 0; i < AngularPanel::nodes; ++i) {
         sum += power[i];
         power[i] *= square[i];
       }
@@ -107,7 +107,7 @@ void AngularSums::add_up() {
 
 /// The share of one panel up to each w, from the definition.
 void AngularSums::add_near(const double (&w)[together], std::size_t p, Values& sum) const {
-  loops().add_near(gauss_rule(), panels_[p], edges_[p], edges_[p + 1], w, sum.i1, sum.i2);
+  loops().add_near(legendre_rule(AngularPanel::nodes), panels_[p], edges_[p], edges_[p + 1], w, sum.i1, sum.i2);
 }
 
 /// The share of all frequencies below a panel that begins at or below each w.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asperity/rubber.hpp"
-#include "numerics/adaptive_quadrature.hpp"
+#include "numerics/gauss_legendre.hpp"
 #include "numerics/simd.hpp"
 #include "rubber/modulus_piece.hpp"
 
@@ -15,13 +15,14 @@ namespace asperity {
 /// A stretch of w', on which E' and E'' change by less than e.
 struct AngularPanel {
   static constexpr std::size_t terms = 48;  // far^(2 terms) b_terms = 1e-16
+  static constexpr std::size_t nodes = 12;  // of a Gauss rule
   const ModulusPiece* piece;
-  double unit;                   // a power of 2 near its frequencies: |E|^2 times one could over- or underflow
-  double middle;                 // of w'
-  LogCubic storage, loss;        // in ln(w' / middle)
-  double node[GaussRule::size];  // w'
-  Pair weight[GaussRule::size];  // of the kernel in I1 and in I2, over unit
-  Pair moment[terms];            // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
+  double unit;             // a power of 2 near its frequencies: |E|^2 times one could over- or underflow
+  double middle;           // of w'
+  LogCubic storage, loss;  // in ln(w' / middle)
+  double node[nodes];      // w'
+  Pair weight[nodes];      // of the kernel in I1 and in I2, over unit
+  Pair moment[terms];      // of all below: 4 b_m / low int {u^(2m + 1) E'', u^2m |E|^2} dw' with u = w' / low
 };
 
 /// With w' = w cos(phi) and u = w' / w

@@ -34,24 +34,34 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
   const bool past_cache = ny * pitch * sizeof(std::complex<T>) > std::size_t{12} << 20;
   const std::vector<T> wx(prepared.wx.begin(), prepared.wx.end());
   const RealTransform<T> along_rows(nx);
-  in_parts(threads, ny, [&](unsigned, std::size_t begin, std::size_t end) {
-    const Scratch<T> row(nx);
-    const Scratch<std::complex<T>> modes(pitch);
+  constexpr std::size_t rows = RealTransform<T>::together;
+  const std::size_t length_of_row = Scratch<T>::aligned(nx) + (rows > 1 ? 8 : 0);
+  in_parts(threads, (ny + rows - 1) / rows, [&](unsigned, std::size_t begin, std::size_t end) {
+    const Scratch<T> row(length_of_row * rows);
+    std::fill_n(row.data(), length_of_row * rows, T());  // those beyond the last one are transformed too
+    const Scratch<std::complex<T>> modes(pitch * rows);
     RowReader<T> read(map);
-    for (std::size_t y = begin; y < end; ++y) {
+    const std::size_t last = std::min(end * rows, ny);
+    for (std::size_t first = begin * rows; first < last; first += rows) {
       heed();
-      const T* const heights = read(y);
-      const T wy = static_cast<T>(prepared.wy[y]);
-      if (prepared.trend)
-        prepared.trend->subtract_and_weigh(y, heights, wy, wx.data(), row.data());
-      else
-        for (std::size_t x = 0; x < nx; ++x) row.data()[x] = heights[x] * (wy * wx[x]);
-      if (y + 1 < end) read.fetch(y + 1);  // on its way from memory while this one is transformed
-      std::complex<T>* const to = plane.data() + y * pitch;
-      std::complex<T>* const at = past_cache ? modes.data() : to;
-      along_rows(row.data(), at);
-      std::fill(at + half, at + pitch, std::complex<T>());
-      if (past_cache) store_past_cache(at, pitch * sizeof *at, to);
+      const std::size_t behind = std::min(first + rows, last);
+      for (std::size_t y = first; y < behind; ++y) {
+        const T* const heights = read(y);
+        const T wy = static_cast<T>(prepared.wy[y]);
+        T* const weighed = row.data() + (y - first) * length_of_row;
+        if (prepared.trend)
+          prepared.trend->subtract_and_weigh(y, heights, wy, wx.data(), weighed);
+        else
+          for (std::size_t x = 0; x < nx; ++x) weighed[x] = heights[x] * (wy * wx[x]);
+        if (y + 1 < last) read.fetch(y + 1);  // on its way from memory while this one is transformed
+      }
+      const bool apart = past_cache || behind < first + rows;
+      std::complex<T>* const to = plane.data() + first * pitch;
+      std::complex<T>* const at = apart ? modes.data() : to;
+      along_rows(row.data(), length_of_row, at, pitch);
+      for (std::size_t y = 0; y < behind - first; ++y)
+        std::fill(at + y * pitch + half, at + (y + 1) * pitch, std::complex<T>());
+      if (apart) store_past_cache(at, (behind - first) * pitch * sizeof *at, to);
     }
   });
 

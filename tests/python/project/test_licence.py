@@ -17,18 +17,21 @@ ROOT = Path(__file__).parents[3]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 NOTICE = (ROOT / "NOTICE").read_text(encoding="utf-8")
 SOURCE, BINARY = "BSD-3-Clause", "GPL-3.0-or-later"
+GPL, POCKETFFT = "LICENSES/GPL-3.0-or-later.txt", "LICENSES/BSD-3-Clause-pocketfft.txt"
 SHIPPED = {
     "LICENSE",
     "NOTICE",
     "LICENSES/0BSD.txt",
     "LICENSES/BSD-3-Clause-pybind11.txt",
-    "LICENSES/GPL-3.0-or-later.txt",
     "LICENSES/MPL-2.0.txt",
+    GPL,
+    POCKETFFT,
 }
 
 
 def provider_and_settings():
     """The provider as pyproject.toml names it, and its settings there."""
+    pytest.importorskip("scikit_build_core")
     entries = PROJECT["tool"]["dynamic-metadata"]
     (entry,) = [entry for entry in entries if isinstance(entry["provider"], dict)]
     settings = {key: value for key, value in entry.items() if key != "provider"}
@@ -37,42 +40,64 @@ def provider_and_settings():
     spec = importlib.util.spec_from_file_location(module, path)
     loaded = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(loaded)
-    return getattr(loaded, name)(), settings
+    return loaded, getattr(loaded, name)(), settings
 
 
 @pytest.mark.parametrize(
-    ("state", "licence"),
+    ("state", "permissive", "licence", "lacking"),
     [
-        ("sdist", SOURCE),
-        ("wheel", BINARY),
-        ("editable", BINARY),
-        ("metadata_wheel", BINARY),
-        ("metadata_editable", BINARY),
+        ("sdist", None, SOURCE, set()),
+        ("sdist", "ON", SOURCE, set()),
+        ("wheel", None, BINARY, {POCKETFFT}),
+        ("editable", "OFF", BINARY, {POCKETFFT}),
+        ("metadata_wheel", None, BINARY, {POCKETFFT}),
+        ("metadata_editable", None, BINARY, {POCKETFFT}),
+        ("wheel", "ON", SOURCE, {GPL}),
+        ("metadata_wheel", "on", SOURCE, {GPL}),
+        ("editable", "1", SOURCE, {GPL}),
     ],
 )
-def test_the_provider_tells_a_source_from_a_wheel(state, licence):
-    provider, settings = provider_and_settings()
+def test_the_licence_is_that_of_what_is_built(state, permissive, licence, lacking, monkeypatch):
+    module, provider, settings = provider_and_settings()
+    define = {} if permissive is None else {"cmake.define.ASPERITY_PERMISSIVE": permissive}
+    monkeypatch.setattr(module, "_settings", define)
+    monkeypatch.setenv("ASPERITY_LICENCE_OF_BUILD", "")  # it is set
     provider.build_state(state)
-    assert provider.dynamic_metadata(settings, PROJECT["project"]) == {"license": licence}
-    assert provider.dynamic_wheel(settings) == {"license": True}
+    said = provider.dynamic_metadata(settings, PROJECT["project"])
+    assert said["license"] == licence
+    assert set(said["license-files"]) == SHIPPED - lacking
+    assert provider.dynamic_wheel(settings).keys() == said.keys()
+
+
+def test_the_backend_remembers_its_settings(monkeypatch):
+    module, _, _ = provider_and_settings()
+    heard = []
+    hook = module._remembering(lambda *arguments: heard.append(arguments) or "a name")
+    monkeypatch.setattr(module, "_settings", {})
+    assert hook("folder", {"a": "b"}, "metadata") == "a name"
+    assert heard == [("folder", {"a": "b"}, "metadata")]
+    assert module._settings == {"a": "b"}
+    hook("folder")
+    assert module._settings == {}
 
 
 @pytest.mark.parametrize("change", [{"sources": SOURCE}, {}])
 def test_the_provider_refuses_other_settings(change):
-    provider, settings = provider_and_settings()
+    _, provider, settings = provider_and_settings()
     provider.build_state("wheel")
     wrong = {"binary": settings["binary"], **change}
-    with pytest.raises(ValueError, match="needs source and binary"):
+    with pytest.raises(ValueError, match="needs source, binary and permissive"):
         provider.dynamic_metadata(wrong, PROJECT["project"])
 
 
 def test_the_installed_distribution_says_it_and_has_the_notices():
     installed = importlib.metadata.distribution("asperity")
     said = installed.metadata
-    assert said["License-Expression"] == BINARY
-    assert set(said.get_all("License-File")) == SHIPPED
+    lacking = POCKETFFT if said["License-Expression"] == BINARY else GPL
+    assert said["License-Expression"] == (SOURCE if lacking == GPL else BINARY)
+    assert set(said.get_all("License-File")) == SHIPPED - {lacking}
     files = {str(path): path for path in installed.files}
-    for name in SHIPPED:
+    for name in SHIPPED - {lacking}:
         (found,) = [path for path in files if path.endswith(f".dist-info/licenses/{name}")]
         assert files[found].read_text("utf-8") == (ROOT / name).read_text("utf-8"), name
 
@@ -121,15 +146,16 @@ def linked() -> set[str]:
     text = "\n".join(path.read_text(encoding="utf-8") for path in files)
     archives = re.findall(r"^\s*asperity_find_archive\((\w+)", text, re.MULTILINE)
     packages = re.findall(r"^\s*find_package\((\w+)", text, re.MULTILINE)
+    fetched = re.findall(r"^\s*FetchContent_Declare\((\w+)", text, re.MULTILINE)
     # Nothing is linked by another way that this test would not see.
     assert re.findall(r"find_library\((\S+)", text) == ["ASPERITY_${library}_ARCHIVE"]
-    assert not re.search(r"FetchContent|ExternalProject|pkg_check_modules", text)
-    return {f"lib{name}.a" for name in archives} | set(packages) - {"Python"}
+    assert not re.search(r"ExternalProject|pkg_check_modules", text)
+    return {f"lib{name}.a" for name in archives} | set(packages) - {"Python"} | set(fetched)
 
 
 def test_the_notice_names_everything_that_is_linked():
     names = linked()
-    assert len(names) >= 6, "GSL's and FFTW's archives, Eigen and pybind11"
+    assert len(names) >= 7, "GSL's and FFTW's archives, pocketfft, Eigen and pybind11"
     missing = {name for name in names if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", NOTICE)}
     assert missing == set()
 

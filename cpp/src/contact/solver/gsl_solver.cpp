@@ -88,7 +88,7 @@ double GslSolver::front(const Segment& segment) const {
 }
 
 double front_width(std::span<const Segment> surface, const Rubber& rubber, const GslSolver::Point& point) {
-  return GslSolver(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::qag).front(surface.front());
+  return GslSolver(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::bisection).front(surface.front());
 }
 
 double GslSolver::g_rate(const Segment& segment, double s) const {
@@ -168,7 +168,7 @@ GslSolver::Hysteresis GslSolver::hysteresis(Form form, const std::optional<SFunc
 
 Integral GslSolver::weighted_hysteresis(Form form, const std::optional<SFunction>& factor,
                                         const std::function<double(double)>& weight) const {
-  Integral result{0, 0, 0};
+  Integral result{0, 0};
   for (const Panel& panel : panels_) {
     const auto rate = [&](double s) {
       return weight(panel.segment->a * std::exp(s)) * hysteresis_rate(panel, s, form, factor, nullptr);
