@@ -96,9 +96,7 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
         Friction warms the rubber to T(q) above `temperature`, and its modulus follows, as roughness
         of each wavenumber feels it: the fixed point of the model of B. N. J. Persson, J. Phys.:
         Condens. Matter 18, 7789 (2006). The error estimate covers quadrature, T(q) and fixed point.
-        Greenwood-Williamson's model takes the modulus at T(q0). GSL's methods integrate the heat
-        anew at every temperature point, in hundredths of a second; not with PartialContact, and
-        without the sliding length.
+        Greenwood-Williamson's model takes the modulus at T(q0). Not with GSL's methods.
     branch : {"cold", "hot"}
         Where the heat has several steady states, the one that sliding from rest reaches, or the
         hottest.
@@ -174,9 +172,8 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
     result = _made(hot, shape)
     if result.wavenumber is not None:
         given["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
-    if method == "gauss":
-        length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
-        given["sliding_length"] = lambda: _shaped(length(), shape)
+    length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
+    given["sliding_length"] = lambda: _shaped(length(), shape)
     given["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
     return _with(result, **given)
 

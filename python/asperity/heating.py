@@ -11,7 +11,6 @@ from asperity.base.quantities import SPACING, WAVENUMBER
 from asperity.base.value import CoreValue, value
 
 Residence = Literal["disc", "box"]
-HeatModel = Literal["profile", "one-temperature"]
 
 
 @value
@@ -42,11 +41,6 @@ class Heating(CoreValue):
     interface_share : float
         chi in [0, 1], the share of the adhesion's heat that enters the rubber; 1 for a road that
         insulates.
-    model : {"profile", "one-temperature"}
-        "profile": roughness of each wavenumber has its temperature T(q). "one-temperature": all of
-        it has the mean over the hysteresis, a scalar root. On the rubbery side of the loss peak mu
-        is off by up to a fifth, on the glassy one by a factor of 2 to 3 (docs/explanation/heat.md).
-        The sliding length is that of the profile in both.
 
     Raises
     ------
@@ -61,7 +55,6 @@ class Heating(CoreValue):
     macro_area: float | None = None
     residence: Residence = "disc"
     interface_share: float = 1.0
-    model: HeatModel = "profile"
 
 
 def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: ArrayLike, heating: Heating) -> Any:

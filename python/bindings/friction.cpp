@@ -75,7 +75,7 @@ void bind_friction(py::module_& m) {
   py::classh<Heating>(m, "Heating")
       .def(py::init([](double density, double heat_capacity, double conductivity, double diameter,
                        std::optional<double> macro_wavenumber, std::optional<double> macro_area, int residence,
-                       double share, int model) {
+                       double share) {
         const Heating heating{density,
                               heat_capacity,
                               conductivity,
@@ -83,8 +83,7 @@ void bind_friction(py::module_& m) {
                               macro_wavenumber,
                               macro_area,
                               static_cast<Residence>(residence),
-                              share,
-                              static_cast<HeatModel>(model)};
+                              share};
         validate(heating);
         return heating;
       }));

@@ -3,8 +3,8 @@
     python tests/benchmarks/heat.py [--output DIR]
 
 Errors are those against the steady states of tests/reference/flash.csv, on which two other programs
-agree, at 0.2 MPa and from 1 mm/s on: without heat, with one temperature for all roughness, and with
-one for each wavenumber at four tolerances. The cost is that of a velocity among the 60 of a curve
+agree, at 0.2 MPa and from 1 mm/s on: without heat, and with a temperature for each wavenumber at
+four tolerances. The cost is that of a velocity among the 60 of a curve
 from 1e-6 to 10 m/s, with 20 Prony terms, by one thread.
 """
 
@@ -93,11 +93,7 @@ def scenes() -> Mapping[str, Scene]:
 
 
 def methods() -> Mapping[str, dict[str, Any]]:
-    one = asperity.Heating(**TREAD, model="one-temperature")
-    found: dict[str, dict[str, Any]] = {
-        "without heat": {"rtol": 1e-6},
-        "one temperature": {"rtol": 1e-6, "heating": one},
-    }
+    found: dict[str, dict[str, Any]] = {"without heat": {"rtol": 1e-6}}
     full = asperity.Heating(**TREAD)
     return found | {f"{PROFILE}, rtol {rtol:g}": {"rtol": rtol, "heating": full} for rtol in RTOL}
 
@@ -123,7 +119,7 @@ def draw(lines: Sequence[Line], path: Path) -> bytes:
     figure, (axes,) = new_figure(1)
     figure.set_size_inches(7.2, 4.2)
     marks = dict(zip(SCENES.values(), "os^", strict=True))
-    kinds = {"without heat": COLOURS[1], "one temperature": COLOURS[2], PROFILE: COLOURS[0]}
+    kinds = {"without heat": COLOURS[1], PROFILE: COLOURS[0]}
     for scene in marks:
         full = [line for line in lines if line.name.startswith(PROFILE)]
         x, y = (

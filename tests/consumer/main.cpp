@@ -55,12 +55,6 @@ int main() {
               heated.hot.temperature[1]);
   fine &= check(heated.cold.mu[0] == f.mu[0] && heated.hot.temperature[1] > 293.15 && heated.branches[0] == 1,
                 "friction heats its rubber");
-  asperity::Heating uniform = tread;
-  uniform.model = asperity::HeatModel::one_temperature;
-  const asperity::FlashFriction one = asperity::friction(road, rubber, asperity::WLF{8.86, 101.6, 293.15}, uniform, {},
-                                                         {}, pressure, velocity, temperature);
-  fine &= check(one.hot.temperature[1] > 293.15 && one.hot.temperature[1] < heated.hot.temperature[1],
-                "one temperature is below the hottest");
 
   (void)asperity::power_spectrum(asperity::synthesize(road, {64, 64}, {1e-4, 1e-4}, 1));
 

@@ -100,7 +100,7 @@ struct FlashFriction {
   std::vector<int> branches;                // solutions at the point, 1 but for a thermal runaway
   std::vector<double> temperature_profile;  // with contributions: points x wavenumbers [K]
   // relative, of the hot mu_H and A/A0, the larger of both; error_estimate is of their sum, of which mu_H may be a
-  // small part. Empty for GSL's methods and for one temperature, where they are not told apart
+  // small part
   std::vector<double> parts_error;
 };
 
@@ -108,7 +108,7 @@ struct FlashFriction {
 /// the fixed point of Persson's model of 2006. `rubber` is the one at the reference of `shift`, `temperature` [K] that
 /// of the background. Corrections by Greenwood-Williamson's model follow the modulus at the temperature that q0 feels,
 /// and PartialContact's rule has the temperature of each wave, beyond the end of the spectrum too. InvalidInput for
-/// GSL's methods with PartialContact, one temperature or contributions.
+/// GSL's methods.
 ASPERITY_EXPORT FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
                                        const Heating& heating, const ContactModel& model,
                                        const std::optional<Adhesion>& adhesion, std::span<const double> pressure,

@@ -12,11 +12,6 @@ namespace asperity {
 /// How long a spot of rubber is heated: as two discs of the contact's diameter overlap, or for R / v throughout.
 enum class Residence { disc, box };
 
-/// A temperature for roughness of each wavenumber, or one for all of it: their mean over the hysteresis, which is
-/// simpler, and off by up to a fifth of mu on the rubbery side of the loss peak, by a factor of 2 to 3 on the glassy
-/// one.
-enum class HeatModel { profile, one_temperature };
-
 /// Which of several solutions: the coldest, which sliding from rest reaches, or the hottest.
 enum class Branch { coldest, hottest };
 
@@ -32,7 +27,6 @@ struct Heating {
   std::optional<double> macro_area = std::nullopt;        // P_m [-]
   Residence residence = Residence::disc;
   double interface_share = 1;  // chi, share of the adhesion's heat that enters the rubber
-  HeatModel model = HeatModel::profile;
   bool operator==(const Heating&) const = default;
 };
 

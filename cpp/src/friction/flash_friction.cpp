@@ -17,9 +17,7 @@
 #include "friction/large_friction.hpp"
 #include "friction/scan_friction.hpp"
 #include "heat/flash_solver.hpp"
-#include "heat/heat_check.hpp"
 #include "heat/history.hpp"
-#include "heat/one_temperature.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
@@ -33,16 +31,6 @@ void check_heating(const Heating& heating, const TemperatureShift& shift, const 
   if (const auto* const law = std::get_if<WLF>(&shift)) validate(*law);
   if (heating.interface_share != 1 && !adhesion)
     refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
-}
-
-/// What GSL's rules check.
-void check_method(const Heating& heating, const ContactModel& model, bool contributions) {
-  const auto refused = [&](const std::string& what) {
-    check_gauss(model.method, "where heating is given " + what + ", for which GSL's methods have no temperatures");
-  };
-  if (std::holds_alternative<PartialContact>(model.correction)) refused("with PartialContact");
-  if (heating.model != HeatModel::profile) refused("with one temperature");
-  if (contributions) refused("with contributions");
 }
 
 /// What there is to say of the points, a bit each.
@@ -164,56 +152,6 @@ bool begins(std::span<const std::size_t> order, std::size_t k, std::span<const d
   return k == 0 || pressure[order[k - 1]] != pressure[order[k]] || temperature[order[k - 1]] != temperature[order[k]];
 }
 
-/// One temperature for all roughness: friction without heat of its own at the temperatures found, whose errors come to
-/// its own.
-void heat_to_one_temperature(const HeatScene& scene, const std::optional<Adhesion>& adhesion, Branch branch,
-                             unsigned threads, FlashFriction& f) {
-  const Friction& cold = f.cold;
-  const std::size_t n = cold.velocity.size();
-  const std::vector<std::size_t> order = by_curve(cold.pressure, cold.velocity, cold.temperature);
-  ContactModel half = scene.model;  // of the tolerance, the other half is the temperature's
-  half.rtol /= 2;
-  const HeatScene halved{scene.spectrum, scene.surface, scene.rubber,          scene.shift,
-                         scene.heating,  half,          scene.macro_wavenumber};
-  std::vector<OneRise> found(n);
-  constexpr std::size_t block = 64;
-  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
-  std::vector<std::optional<OneTemperatureSolver>> solvers(workers);
-  in_blocks(workers, n, block, [&](unsigned worker, std::size_t begin, std::size_t end) {
-    if (!solvers[worker]) solvers[worker].emplace(halved, branch);
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = order[k];
-      if (k == begin || begins(order, k, cold.pressure, cold.temperature)) solvers[worker]->forget();
-      const double p = cold.pressure[i], v = cold.velocity[i];
-      const double per_area = adhesion ? adhesion_per_share(*adhesion, p, v) : 0;
-      at_point(p, v, cold.temperature[i], [&] {
-        found[i] = (*solvers[worker])({p, v, cold.temperature[i], per_area});
-      });
-    }
-  });
-  std::vector<double> hot = cold.temperature;
-  HeatNotes notes;
-  for (std::size_t i = 0; i < n; ++i) {
-    hot[i] += found[i].rise;
-    f.macro_area[i] = found[i].macro_area;
-    f.gain[i] = found[i].gain;
-    f.branches[i] = found[i].branches;
-    notes.add(notes_of(found[i].rise, cold.velocity[i], found[i].branches, found[i].macro_area, scene.heating));
-  }
-  const bool contributions = cold.contributions.has_value();
-  f.hot = friction_before_heating(scene.spectrum, scene.rubber, scene.shift, half, adhesion, cold.pressure,
-                                  cold.velocity, hot, contributions, threads, true);
-  f.hot.model_error.assign(n, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < n; ++i) f.hot.error_estimate[i] += std::fabs(found[i].slope_of_mu) * found[i].error;
-  std::ranges::move(texts(notes, scene.heating, scene.spectrum), std::back_inserter(f.hot.notes));
-  note_extrapolated_modulus(f.hot);
-  note_large_friction(f.hot);
-  if (!contributions) return;
-  const std::size_t columns = f.hot.contributions->wavenumber.size();
-  f.temperature_profile.assign(n * columns, 0.0);
-  for (std::size_t i = 0; i < n; ++i) std::fill_n(&f.temperature_profile[i * columns], columns, hot[i]);
-}
-
 }  // namespace
 
 FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
@@ -221,7 +159,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                        std::span<const double> pressure, std::span<const double> velocity,
                        std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
   check_heating(heating, shift, adhesion);
-  check_method(heating, model, contributions);
+  check_gauss(model.method, "where heating is given, as GSL's methods have one temperature for all waves");
   const double q_m = macro_wavenumber(heating, spectrum);
   const std::size_t n = velocity.size();
   FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
@@ -230,13 +168,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
   ScanFriction scan(spectrum, rubber, model);
   const SurfaceSegments kept(scan.spectrum());
   const HeatScene scene{scan.spectrum(), kept.get(), rubber, shift, heating, scan.model(), q_m};
-  if (heating.model == HeatModel::one_temperature) {
-    if (scan.of_scan())
-      throw InvalidInput(argument("model") + " = " + word("one-temperature") + must_be() + "profile with ScanContact");
-    heat_to_one_temperature(scene, adhesion, branch, threads, f);
-    return f;
-  }
-  if (model.method == Method::gauss) f.parts_error.assign(n, 0.0);
+  f.parts_error.assign(n, 0.0);
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
   constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
   const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
@@ -259,7 +191,6 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       HotPoint at;
       at_point(p, v, t, [&] {
         at = solve({p, v, t, per_area});
-        if (model.method != Method::gauss) at = GslHeat(scene)({p, v, t, per_area}, at, solve);
         if (scan.of_scan()) take_scan(scan, solve, shift, p, v, at);
       });
       if (scan.of_scan()) f.hot.model_error[i] = f.cold.model_error[i];
@@ -269,7 +200,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       f.hot.contact_area[i] = at.contact_area;
       f.hot.shift_factor[i] = at.shift.p;
       f.hot.error_estimate[i] = at.error_estimate;
-      if (!f.parts_error.empty()) f.parts_error[i] = at.parts_error;
+      f.parts_error[i] = at.parts_error;
       f.hot.extrapolated_share[i] = at.extrapolated_share;
       f.hot.temperature[i] = at.temperature;
       f.macro_area[i] = at.macro_area;

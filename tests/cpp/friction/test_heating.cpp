@@ -94,11 +94,11 @@ TEST_CASE("a refusal of heat names the argument, its value and what is allowed")
   Asked celsius;
   celsius.shift = WLF{8.86, 101.6, 20};
   check_refused(celsius, "reference_temperature = 20: must be finite and at least 150; its unit is kelvin");
-  Asked checked = heated([](Heating& h) { h.model = HeatModel::one_temperature; });
+  Asked checked;
   checked.model.method = Method::qag;
-  check_refused(checked,
-                "method = qag: must be gauss where heating is given with one temperature, for which GSL's methods have "
-                "no temperatures");
+  check_refused(
+      checked,
+      "method = qag: must be gauss where heating is given, as GSL's methods have one temperature for all waves");
 }
 
 TEST_CASE("heat beyond what is known is out of range") {

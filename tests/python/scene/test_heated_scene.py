@@ -181,7 +181,7 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
         ),
         (scene(more=HEATING + "width = 1\n"), "[heating] width: unknown key"),
         (
-            scene(more=HEATING + 'model = "one-temperature"\n[solver]\nmethod = "qag"\n'),
+            scene(more=HEATING + '[solver]\nmethod = "qag"\n'),
             "[solver] method = qag: must be gauss where",
         ),
     ],

@@ -9,7 +9,6 @@
 
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/roots.hpp"
 
 namespace asperity {
 
@@ -44,25 +43,8 @@ GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, con
 
 /// Where the frequency passes through a knot of a modulus that is measured.
 void GslSolver::add_knots(const Segment& segment, std::span<const double> knots, std::vector<double>& edges) const {
-  const double end = segment.length();
-  if (!point_.frequency) {
-    for (const double w : knots)
-      if (const double s = std::log(w / (point_.velocity * segment.a)); s > 0 && s < end) edges.push_back(s);
-    return;
-  }
-  constexpr double step = 0.1;  // over which temperatures change by little
-  const auto steps = static_cast<std::size_t>(std::ceil(end / step));
-  const auto log_frequency = [&](double s) { return std::log(point_(segment.a * std::exp(s))); };
-  double lower = 0, at_lower = log_frequency(0);
-  for (std::size_t i = 1; i <= steps; ++i) {
-    const double upper = end * static_cast<double>(i) / static_cast<double>(steps), at_upper = log_frequency(upper);
-    for (const double w : knots)
-      if ((at_lower < std::log(w)) != (at_upper < std::log(w)))
-        edges.push_back(
-            bracketed_root([&](double s) { return log_frequency(s) - std::log(w); }, lower, upper, 1e-9 * upper));
-    lower = upper;
-    at_lower = at_upper;
-  }
+  for (const double w : knots)
+    if (const double s = std::log(w / (point_.velocity * segment.a)); s > 0 && s < segment.length()) edges.push_back(s);
 }
 
 /// Adds the panels between `edges` of a segment, with G at each of them.
@@ -83,7 +65,7 @@ void GslSolver::add_segment(const Segment& segment, std::vector<double> edges) {
 double GslSolver::front(const Segment& segment) const {
   if (!segment.straight || segment.at_a > 0) return 1 / g_rate(segment, 0);
   const double q = segment.a, ramp = segment.at_b * (q / (segment.b - q));  // dC / ds at the start
-  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_(q)).i2;
+  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_.velocity * q).i2;
   return std::sqrt(2 / curvature);
 }
 
@@ -95,7 +77,7 @@ double GslSolver::g_rate(const Segment& segment, double s) const {
   const double c = segment.density_at(s);
   if (c == 0) return 0;
   const double q = segment.a * std::exp(s);
-  return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_(q)).i2;
+  return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_.velocity * q).i2;
 }
 
 const GslSolver::Panel& GslSolver::panel_at(double wavenumber) const {
@@ -126,7 +108,7 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
   const double c = panel.segment->density_at(s);
   if (c == 0) return 0;
   const double q = panel.segment->a * std::exp(s);
-  const AngularIntegrals angular = angular_integrals(rubber_, point_(q));
+  const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q);
   if (angular.i1 == 0) return 0;
   const double share = contact_share(g_inside(panel, s), form);
   const double weight = mu_factor_ * q * q * q * q * c * share * (factor ? (*factor)(share) : 1);
@@ -138,7 +120,7 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
 bool GslSolver::reaches_outside(const Panel& panel) const {
   constexpr double least_share = 1e-7;
   return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
-    const AngularIntegrals angular = angular_integrals(rubber_, point_(panel.segment->a * std::exp(s)));
+    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * (panel.segment->a * std::exp(s)));
     return angular.i1_outside > least_share * angular.i1;
   });
 }

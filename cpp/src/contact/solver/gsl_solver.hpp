@@ -21,11 +21,6 @@ class GslSolver {
  public:
   struct Point {
     double poisson_ratio, pressure, velocity, shift;
-    /// Angular frequency at a wavenumber of which each has its own temperature; v q without.
-    std::function<double(double)> frequency = nullptr;
-    [[nodiscard]] double operator()(double wavenumber) const {
-      return frequency ? frequency(wavenumber) : velocity * wavenumber;
-    }
   };
   /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
   /// `rule` computes all of them.
