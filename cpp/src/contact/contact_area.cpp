@@ -13,7 +13,6 @@
 #include "contact/conditions.hpp"
 #include "contact/model_error.hpp"
 #include "contact/scan_ratio.hpp"
-#include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
@@ -73,7 +72,7 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
   check_frequencies(spectrum, rubber, velocity);
   Solver solver(surface, rubber, model, false, {});
   const double q1 = band(spectrum)[1];
-  if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_rings_of(spectrum);
+  if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_levels_of(spectrum);
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
@@ -103,7 +102,8 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   check_frequencies(spectrum, rubber, velocity);
   const SurfaceSegments whole(spectrum);
   const double q1 = band(spectrum)[1];
-  const std::unique_ptr<PartialSolver> solver = partial_solver(whole.get(), rubber, model, spectrum);
+  Solver solver(whole.get(), rubber, model, true, std::nullopt);
+  solver.use_levels_of(spectrum);
   ContactModel persson = model;
   persson.correction = NoCorrection{};
   std::optional<Solver> along;
@@ -112,12 +112,12 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     at_point(pressure[i], velocity[i], [&] {
-      solver->solve(pressure[i], velocity[i]);
-      const double end = solver->kappa() * solver->g();
+      solver.solve(pressure[i], velocity[i], 1);
+      const double end = solver.kappa() * solver.g(q1);
       if (along) along->solve(pressure[i], velocity[i], 1);
       for (std::size_t j = 0; j < wavenumber.size(); ++j) {
         if (wavenumber[j] == q1) {
-          visit(i, j, end, solver->area());
+          visit(i, j, end, solver.partial_area());
         } else {
           heed_at(j);
           const double g = end * (along->g(wavenumber[j]) / along->g(q1));
@@ -195,7 +195,9 @@ std::vector<Diagnostic> contact_notes(const Spectrum& spectrum, const Rubber& ru
   ValidityRange validity(surface, model.form, q1);
   ModelError model_error(model.correction, spectrum, rubber);
   double last = 0;
-  visit_g(spectrum, surface, rubber, model, pressure, velocity, {&q1, 1},
+  ContactModel persson = model;  // by whose G the regimes of PartialContact are told
+  if (by_partial_contact(model)) persson.correction = NoCorrection{};
+  visit_g(spectrum, surface, rubber, persson, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
             ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
             if (velocity[i] != last) model_error.start(last = velocity[i]);
@@ -226,12 +228,12 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
     check_contact(model, pressure, velocity);
     check_frequencies(spectrum, rubber, velocity);
     const SurfaceSegments whole(spectrum);
-    const auto solver = partial_profile_solver(whole.get(), rubber, model);
+    Solver solver(whole.get(), rubber, model, true, std::nullopt);
     for (const std::size_t i : by_velocity(velocity)) {
-      at_point(pressure[i], velocity[i], [&] { solver->solve(pressure[i], velocity[i]); });
+      at_point(pressure[i], velocity[i], [&] { solver.solve(pressure[i], velocity[i], 1); });
       for (std::size_t j = 0; j < q.size(); ++j) {
         heed();
-        result[i * q.size() + j] = solver->stress(q[j]);
+        result[i * q.size() + j] = solver.stress(q[j]);
       }
     }
     return result;

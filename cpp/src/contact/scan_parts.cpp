@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/conditions.hpp"
-#include "contact/solver/partial_solver.hpp"
+#include "contact/solver/solver.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -41,10 +41,11 @@ void MissingContacts::solve(unsigned threads) {
 void MissingContacts::add_rule(SolvedContact& contact) const {
   const auto map = scan_.part({contact.q0, contact.q1}, contact.part, contact.coarse);
   const SurfaceSegments surface(map->rings);
-  const auto solver = partial_solver(surface.get(), rubber_, rule_, map->rings);
-  at_point(contact.pressure, contact.velocity, [&] { solver->solve(contact.pressure, contact.velocity); });
-  contact.rule_area = solver->area();
-  contact.rule_hysteresis = solver->hysteresis().value;
+  Solver solver(surface.get(), rubber_, rule_, true, std::nullopt);
+  solver.use_levels_of(map->rings);
+  at_point(contact.pressure, contact.velocity, [&] { solver.solve(contact.pressure, contact.velocity, 1); });
+  contact.rule_area = solver.partial_area();
+  contact.rule_hysteresis = solver.hysteresis().value;
 }
 
 LogRatios log_ratios(const SolvedContact& c) {

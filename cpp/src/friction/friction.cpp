@@ -15,7 +15,6 @@
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/model_error.hpp"
-#include "contact/solver/partial_solver.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/validity.hpp"
@@ -85,15 +84,7 @@ class PointSolver {
         validity_(scene.surface, scene.model.form, q1_),
         model_error_(scene.model.correction, scene.spectrum, scene.rubber),
         solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
-    if (scene.stops.empty()) solver_.use_rings_of(scene.spectrum);
-    if (!std::holds_alternative<PartialContact>(scene.model.correction)) return;
-    if (scene.stops.empty()) {
-      partial_ = partial_solver(scene.surface, scene.rubber, scene.model, scene.spectrum);
-    } else {
-      auto made = partial_profile_solver(scene.surface, scene.rubber, scene.model, scene.stops);
-      profile_ = made.get();
-      partial_ = std::move(made);
-    }
+    if (scene.stops.empty()) solver_.use_levels_of(scene.spectrum);
   }
 
   Point operator()(double pressure, double velocity, const Shift& shift);
@@ -108,23 +99,19 @@ class PointSolver {
   ModelError model_error_;
   double velocity_ = 0;  // of the point before
   Solver solver_;
-  std::unique_ptr<PartialSolver> partial_;         // instead of it
-  const PartialProfileSolver* profile_ = nullptr;  // the same, where contributions are asked for
+  bool partial_ = std::holds_alternative<PartialContact>(scene_.model.correction);
 };
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
   Point at;
-  if (partial_)
-    partial_->solve(pressure, velocity);
-  else
-    solver_.solve(pressure, velocity, shift.p);
-  const Solver::Hysteresis& hysteresis = partial_ ? partial_->hysteresis() : solver_.hysteresis();
+  solver_.solve(pressure, velocity, shift.p);
+  const Solver::Hysteresis& hysteresis = solver_.hysteresis();
   at.hysteresis = hysteresis.value;
   // both are integrals with errors of their own, which may carry a share of all above one
   if (hysteresis.value > 0) at.extrapolated_share = std::min(1.0, hysteresis.outside / hysteresis.value);
 
-  const double g = partial_ ? partial_->g() : solver_.g(q1_);
-  at.contact_area = partial_ ? partial_->area() : contact_share(area_g_(g), scene_.model.form);
+  const double g = solver_.g(q1_);
+  at.contact_area = partial_ ? solver_.partial_area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
   if (velocity != velocity_) model_error_.start(velocity_ = velocity);
   at.model_error = model_error_(g);
@@ -140,9 +127,10 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
   const bool tabulated = std::holds_alternative<MasterCurve>(scene_.rubber);
   const double angular_error = tabulated ? 3e-13 : 1e-15;
-  // hysteresis.error of PartialContact has the error of G in it
-  const double g_error = (partial_ ? 0 : solver_.relative_error()) + 2 * shift.relative_error + angular_error;
-  const double area_error = partial_ ? partial_->area_error() + angular_error : sensitivity(false) * g_error;
+  const double of_g = solver_.relative_error(), others = 2 * shift.relative_error + angular_error;
+  const double g_error = (solver_.g_error_is_in_hysteresis() ? 0 : of_g) + others;
+  const double area_error =
+      partial_ ? solver_.partial_area_error() + angular_error : sensitivity(false) * (of_g + others);
   at.error_estimate = hysteresis.error +
                       at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error +
                                        2 * shift.relative_error + angular_error) +
@@ -160,12 +148,10 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
 
 void PointSolver::add_contributions(Contributions& c, std::size_t i, double velocity) const {
   const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
-  for (std::size_t j = 0; j < n; ++j)
-    c.dmu_dlnq[i * n + j] =
-        profile_ ? profile_->hysteresis_density(c.wavenumber[j]) : solver_.hysteresis_density(c.wavenumber[j]);
-  const double whole = (partial_ ? partial_->hysteresis() : solver_.hysteresis()).value;
+  for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver_.hysteresis_density(c.wavenumber[j]);
+  const double whole = solver_.hysteresis().value;
   if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : profile_ ? profile_->shares() : solver_.shares()) {
+  for (const auto& [lower, upper, hysteresis] : solver_.shares()) {
     const double w = velocity * std::sqrt(lower * upper);
     const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
     const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;

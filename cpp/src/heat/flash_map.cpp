@@ -26,13 +26,13 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
       at_macro_(grid.row_at(scene.macro_wavenumber)) {
   const auto n = static_cast<Index>(grid.size());
   reduced_.resize(grid.size());
-  for (auto* column : {&rate_, &modulus_.i2, &modulus_.ratio}) column->setZero(n);
+  rate_.setZero(n);
 }
 
 void FlashMap::start(const HeatPoint& point) {
   const bool moved = point.velocity != point_.velocity;
   point_ = point;
-  contact_->start([this] { return cold_modulus(); });
+  contact_->start([this] { return cold_i2(); });
   const double stiffening = 1 / (1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio);
   mu_factor_ = 4 * point.pressure / stiffening;
   per_flux_ = point.velocity * point.pressure / (scene_.heating.density * scene_.heating.heat_capacity);
@@ -94,30 +94,22 @@ double FlashMap::macro_share(const ContactHeat& contact) const {
   return heat_at(at_macro_ * kernel_, at_macro_.dot(surface_), contact) / last_heat(contact);
 }
 
-void FlashMap::take_modulus(NodeModulus& modulus) {
-  angular_.values(reduced_, columns_);
-  for (Index j = 0; j < rate_.size(); ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    modulus.i2[j] = columns_.i2[at];
-    modulus.ratio[j] = columns_.i1[at] / columns_.i2[at];
-  }
-}
-
-NodeModulus FlashMap::cold_modulus() {
-  const std::vector<double> reduced = reduced_;
-  const VectorXd rate = rate_;
+/// I2 of all nodes at T0.
+VectorXd FlashMap::cold_i2() {
+  std::vector<double> reduced = reduced_;
+  VectorXd rate = rate_;
   const ShiftValue shift = held_shift(scene_.shift, point_.temperature);
   for (std::size_t j = 0; j < reduced_.size(); ++j) take_frequency(j, shift);
-  NodeModulus cold = modulus_;
-  take_modulus(cold);
-  reduced_ = reduced;
-  rate_ = rate;
-  return cold;
+  AngularColumns cold;
+  angular_.values(reduced_, cold);
+  reduced_.swap(reduced);
+  rate_.swap(rate);
+  return Eigen::Map<const VectorXd>(cold.i2.data(), rate_.size());
 }
 
 void FlashMap::pass(const ShiftValue& also_felt, std::optional<double> log_kappa) {
   differentiated_ = sloped_ = false;
-  take_modulus(modulus_);
+  angular_.values(reduced_, columns_);
   shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, also_felt, scene_.model.poisson_ratio,
                      point_.pressure, point_.velocity);
   heat(log_kappa);
@@ -131,7 +123,9 @@ void FlashMap::heat(std::optional<double> log_kappa) {
     return;
   }
   const double root = 1 / (point_.pressure * shift_.shift.p);
-  contact_->evaluate(modulus_, root * root, log_kappa);
+  const std::size_t n = reduced_.size();  // columns are padded
+  contact_->take({{columns_.i1.data(), n}, {columns_.i2.data(), n}});
+  contact_->evaluate(root * root, log_kappa);
   hysteresis_ = mu_factor_ * contact_->part().sum();
   macro_area_ = scene_.heating.macro_area.value_or(contact_->macro_area());
   rise_ = 2 * per_flux_ * mu_factor_ / macro_area_ * (kernel_ * contact_->part()) + heat_of_surface() * surface_;

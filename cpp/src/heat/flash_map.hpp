@@ -100,8 +100,7 @@ class FlashMap {
 
  private:
   void take_frequency(std::size_t node, const ShiftValue& shift);
-  void take_modulus(NodeModulus& modulus);
-  [[nodiscard]] NodeModulus cold_modulus();
+  [[nodiscard]] Eigen::VectorXd cold_i2();
   void pass(const Eigen::VectorXd& theta, std::optional<double> log_kappa);
   void pass(const ShiftValue& also_felt, std::optional<double> log_kappa = {});
   void heat(std::optional<double> log_kappa);
@@ -128,7 +127,6 @@ class FlashMap {
   std::vector<double> reduced_;
   Eigen::VectorXd rate_;  // d ln a_T / dT at the nodes, 0 where the frequency is held
   AngularColumns columns_;
-  NodeModulus modulus_;
   HotShift shift_;
   Eigen::VectorXd rise_;
   double hysteresis_ = 0, macro_area_ = 1;

@@ -60,10 +60,6 @@ struct Kernels {
   /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`. Below 0 they go on as they begin,
   /// with F = G and F2 = G^2 / 2.
   void (*contact_integral)(const ContactTable& table, const double* g, std::size_t n, double* f, double* f2);
-  /// F less f_lower at n nodes whose roots of G are `root`, at unit load, times `scale`; n as before. Those below 0 are
-  /// the roots of a G below 0, by size.
-  void (*contact_integral_of_roots)(const ContactTable& table, const double* root, double scale, double f_lower,
-                                    std::size_t n, double* f);
   /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
   void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
   /// How much the last coefficients of dG and of R matter, F / G being a bound of P S. Takes f_lower from f: a constant
@@ -72,11 +68,6 @@ struct Kernels {
                            double* by_g, double* by_r);
   /// The sum of n columns times their factors.
   void (*combine)(const RowsOf24* columns, std::size_t n, const double* factor, double* result);
-  /// Sums of n and of the next m numbers times a, and then times b; n and m are multiples of `lanes`.
-  void (*sums_of_two)(const double* f, const double* a, const double* b, std::size_t n, std::size_t m, double* sums);
-  /// Adds the products of `count` rows of n numbers, n a multiple of `lanes`, that lie `apart`, with a and with b.
-  void (*dots)(const double* rows, std::size_t apart, std::size_t count, std::size_t n, const double* a,
-               const double* b, double* by_a, double* by_b);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

@@ -2,15 +2,12 @@
 // and threads.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
 #include "asperity/spectrum.hpp"
-#include "spectrum/ring_blocks.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -21,9 +18,6 @@ class TableSurface {
   std::span<const Segment> segments(const TabulatedSpectrum& table);
   double rms_slope(const TabulatedSpectrum& table);
   double nayak_parameter(const TabulatedSpectrum& table);
-  /// On one of so many grids, each finer than the one before.
-  static constexpr std::size_t grids = 7;
-  const RingSurface& rings(const TabulatedSpectrum& table, std::size_t grid);
   /// What a later folder derives from the rows; all of a table's is one T.
   struct Derived {
     Derived() = default;
@@ -40,12 +34,9 @@ class TableSurface {
   }
 
  private:
-  std::once_flag segments_made_, slope_made_, nayak_made_, rows_made_, derived_made_;
-  std::array<std::once_flag, grids> rings_made_;
+  std::once_flag segments_made_, slope_made_, nayak_made_, derived_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
-  std::unique_ptr<const RingRows> rows_;
-  std::array<std::unique_ptr<const RingSurface>, grids> rings_;
   std::unique_ptr<Derived> derived_;
 };
 

@@ -1,15 +1,13 @@
-// Blocks of rings: their matrices against sums over fine grids, friction on random tables against GSL, and that what is
-// kept with a table changes nothing but the time.
+// Rings of a scan on levels of pieces: friction on random tables against GSL, and that what is kept with a table
+// changes nothing but the time.
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <thread>
 #include <vector>
 
 #include "asperity/friction.hpp"
-#include "spectrum/ring_blocks.hpp"
 
 using namespace asperity;
 
@@ -79,133 +77,7 @@ Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& 
 
 }  // namespace
 
-TEST_CASE("the matrices of a block of rings") {
-  // most of the last rows are so near to each other that two nodes are taken between them
-  for (const auto& [cells, rows] : {std::pair{1, 60}, {3, 60}, {2, 900}, {2, 2}, {-1, 60}, {-3, 60}, {-2, 900}}) {
-    CAPTURE(cells);
-    CAPTURE(rows);
-    std::mt19937_64 dice(4);
-    const TabulatedSpectrum table = random_rings(dice, static_cast<std::size_t>(rows));
-    const std::vector<Segment> surface = segments(table);
-    const double q0 = surface.front().a;
-    const RingRows kept(surface);
-    const auto wanted = static_cast<std::size_t>(std::abs(cells));
-    const RingSurface finer(kept, {2, 2 * wanted});  // of which pairs of cells are taken
-    const RingSurface rings(kept, {2, wanted}, cells < 0 ? &finer : nullptr);
-    constexpr std::size_t nodes = RingBlock::nodes, fine = RingBlock::fine, end = RingBlock::end;
-    std::vector<const RingBlock*> blocks;
-    std::vector<const RingSurface::Group*> groups;
-    for (const auto& group : rings.groups())
-      for (const RingTree* tree : {&rings.root(group), &rings.halves(group, rings.root(group))[0],
-                                   &rings.halves(group, rings.root(group))[1]}) {
-        groups.push_back(&group);
-        blocks.push_back(&tree->block);
-      }
-    REQUIRE(blocks.size() >= 3);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const RingBlock& block = *blocks[b];
-      const double* const points = &groups[b]->wavenumber[nodes * block.first_cell];
-      const std::size_t columns = block.to_g.size();
-      REQUIRE(block.to_slope.size() == columns);
-      // by midpoints in each interval between rows: int c, int c y, int m dy, int 2 y u dy
-      double of_c = 0, of_cy = 0, of_m = 0, of_yu = 0, m = 0;
-      for (const Segment& s : surface) {
-        const int steps = 240000 / rows;
-        const double begin = std::log(s.a / q0), length = s.length(), h = length / steps;
-        for (int i = 0; i < steps; ++i) {
-          const double t = (i + 0.5) * h, y = begin + t, q = s.a * std::exp(t), c = std::pow(q, 4) * s.density_at(t);
-          if (y > block.lower && y < block.upper) {
-            of_c += c * h;
-            of_cy += c * y * h;
-            of_m += (m + c * h / 2) * h;
-            of_yu += 2 * y * std::sqrt(m + c * h / 2) * h;
-          }
-          m += c * h;
-        }
-      }
-      double found_c = 0, found_cy = 0, found_m = 0, found_yu = 0, measure = 0, squares = 0, lines = 0;
-      for (std::size_t k = 0; k < columns; ++k) {
-        found_c += block.to_g[k].data[end];
-        found_cy += block.to_g[k].data[end] * std::log(points[k] / q0);
-      }
-      for (std::size_t i = 0; i < fine; ++i) {
-        double g = block.of_lower.data[i] * block.m_lower, slope = 0, straight = 0;
-        for (std::size_t k = 0; k < columns; ++k) {
-          const double y = std::log(points[k] / q0);
-          g += block.to_g[k].data[i];
-          straight += y * block.to_slope[k].data[i];
-          slope += y * y * block.to_slope[k].data[i];
-        }
-        CHECK(straight == doctest::Approx(block.measure[i]).epsilon(1e-9));
-        measure += block.measure[i];
-        found_m += block.measure[i] * g;  // G is m where I2 is 1
-        squares += slope;
-        found_yu += slope * std::sqrt(g);
-        lines += straight;
-      }
-      // R is 1 up to the end of a cell and 0 from there on: int u^2 dR is m there, but for its sign
-      double m_there = block.m_lower;
-      std::vector<double> g(fine), of_jump(fine);
-      for (std::size_t i = 0; i < fine; ++i) {
-        g[i] = block.of_lower.data[i] * block.m_lower;
-        for (std::size_t k = 0; k < columns; ++k) g[i] += block.to_g[k].data[i];
-      }
-      for (std::size_t k = 0; k < columns; ++k) {
-        m_there += block.to_g[k].data[end];
-        for (std::size_t i = 0; i < fine; ++i) of_jump[i] += block.to_slope[k].data[i];
-        if ((k + 1) % nodes != 0 || k + 1 == columns) continue;
-        const double found = -std::inner_product(g.begin(), g.end(), of_jump.begin(), 0.0);
-        CHECK(found == doctest::Approx(m_there).epsilon(1e-7));
-      }
-      const double length = block.upper - block.lower;
-      CHECK(found_c == doctest::Approx(of_c).epsilon(1e-4));
-      CHECK(found_c == doctest::Approx(block.m_part).epsilon(1e-12));
-      CHECK(found_cy == doctest::Approx(of_cy).epsilon(1e-4));
-      CHECK(measure == doctest::Approx(length).epsilon(1e-12));
-      CHECK(lines == doctest::Approx(length).epsilon(1e-9));
-      CHECK(found_m == doctest::Approx(of_m).epsilon(1e-4));
-      CHECK(squares == doctest::Approx(block.upper * block.upper - block.lower * block.lower).epsilon(1e-9));
-      CHECK(found_yu == doctest::Approx(of_yu).epsilon(1e-4));
-    }
-  }
-}
-
-TEST_CASE("a grid of pairs of cells is the grid made by itself") {
-  // rows so near to each other that the rules between them are the same on both, but where cells end
-  std::mt19937_64 dice(4);
-  std::normal_distribution<> normal;
-  std::vector<double> q, c;
-  for (int i = 0; i < 1000; ++i) {
-    q.push_back(1e3 * std::exp(0.004 * i));
-    c.push_back(1e-13 * std::exp(-0.0144 * i + 0.1 * normal(dice)));
-  }
-  const std::vector<Segment> surface = segments(TabulatedSpectrum(q, c));
-  const RingRows rows(surface);
-  const RingSurface finer(rows, {2, 6}), pairs(rows, {2, 3}, &finer), alone(rows, {2, 3});
-  REQUIRE(pairs.groups().size() >= 2);
-  for (std::size_t i = 0; i < pairs.groups().size(); ++i) {
-    const RingSurface::Group &group = pairs.groups()[i], &same = alone.groups()[i];
-    REQUIRE(group.cells.size() == 3);
-    CHECK(group.m_lower == doctest::Approx(same.m_lower).epsilon(1e-9));
-    for (std::size_t cell = 0; cell < group.cells.size(); ++cell) {
-      CHECK(group.cells[cell].roughness_of_m == doctest::Approx(same.cells[cell].roughness_of_m).epsilon(1e-8));
-      CHECK(group.cells[cell].roughness_of_u == doctest::Approx(same.cells[cell].roughness_of_u).epsilon(1e-8));
-    }
-    const RingBlock &of_group = pairs.root(group).block, &half = pairs.halves(group, pairs.root(group))[1].block;
-    const RingBlock &its = alone.root(same).block, &its_half = alone.halves(same, alone.root(same))[1].block;
-    for (const auto& [found, made] : {std::pair{&of_group, &its}, {&half, &its_half}}) {
-      REQUIRE(found->to_g.size() == made->to_g.size());
-      CHECK(found->first_cell == made->first_cell);
-      for (std::size_t k = 0; k < made->to_g.size(); ++k)
-        for (std::size_t row = 0; row <= RingBlock::end; ++row) {
-          CHECK(std::fabs(found->to_g[k].data[row] - made->to_g[k].data[row]) < 1e-8 * made->m_part);
-          CHECK(std::fabs(found->to_slope[k].data[row] - made->to_slope[k].data[row]) < 1e-8);
-        }
-    }
-  }
-}
-
-TEST_CASE("the stated error of blocks of rings holds against GSL") {
+TEST_CASE("the stated error on rings holds against GSL") {
   std::uniform_real_distribution<> uniform;
   for (std::uint64_t scene = 0; scene < 240; ++scene) {
     CAPTURE(scene);

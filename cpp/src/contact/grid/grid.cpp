@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/grid/gauss_of_measure.hpp"
 #include "contact/grid/panel_nodes.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
-#include "spectrum/ring_gauss.hpp"
 
 namespace asperity {
 
@@ -18,7 +18,10 @@ constexpr double same = 1e-12;  // relative distance of two wavenumbers that are
 }  // namespace
 
 ContactGrid::ContactGrid(std::span<const Segment> surface, const ContactGridOptions& options)
-    : lowest_(std::log(surface.front().a)), highest_(std::log(surface.back().b)), end_of_band_(surface.back().b) {
+    : lowest_(std::log(surface.front().a)),
+      highest_(std::log(surface.back().b)),
+      end_of_band_(surface.back().b),
+      pieces_(options.pieces) {
   const double stiffening = 1 / (1 - options.poisson_ratio * options.poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
   std::size_t first = 0;
@@ -137,16 +140,58 @@ void ContactGrid::add_panel(const Segment& segment, double lower, double upper, 
 
 void ContactGrid::add_pieces(const RoughnessPieces& pieces) {
   const RoughnessPieces::Nodes& nodes = pieces.nodes();
-  for (std::size_t i = 0; i < nodes.wavenumber.size(); i += 2) {
-    Cell cell{i, 2, nullptr, 0, 0, end_of_band_, nullptr, Eigen::MatrixXd(2, 2)};
-    for (const std::size_t k : {i, i + 1}) {
-      wavenumber_.push_back(nodes.wavenumber[k]);
-      weights_.push_back(g_factor_ * nodes.weight[k]);
-      const auto row = static_cast<Eigen::Index>(k - i);
-      cell.to_g(row, 0) = g_factor_ * nodes.of_first[k];
-      cell.to_g(row, 1) = g_factor_ * nodes.of_second[k];
+  wavenumber_ = nodes.wavenumber;
+  for (const double weight : nodes.weight) weights_.push_back(g_factor_ * weight);
+  for (std::size_t i = 0; i < nodes.wavenumber.size(); i += 2)
+    cells_.push_back({i, 2, nullptr, 0, 0, end_of_band_, nullptr, {}});
+}
+
+void ContactGrid::integrate(const Eigen::VectorXd& i2, Eigen::VectorXd& at_nodes, std::vector<double>& at_ends) const {
+  at_nodes.resize(static_cast<Eigen::Index>(band_size_));
+  at_ends.resize(cells_.size() + 1);
+  double g = at_ends[0] = 0;
+  if (pieces_) {
+    const RoughnessPieces::Nodes& nodes = pieces_->nodes();
+    const double *const to_first = nodes.of_first.data(), *const to_second = nodes.of_second.data();
+    double* const at = at_nodes.data();
+    constexpr double least = 1e-300;  // an interpolated G may be lost at the first nodes
+    for (std::size_t i = 0; i < band_size_; i += 2) {
+      const double a = g_factor_ * i2.data()[i], b = g_factor_ * i2.data()[i + 1];
+      at[i] = std::max(least, g + to_first[i] * a + to_second[i] * b);
+      at[i + 1] = std::max(least, g + to_first[i + 1] * a + to_second[i + 1] * b);
+      g += nodes.weight[i] * a + nodes.weight[i + 1] * b;
+      at_ends[i / 2 + 1] = g;
     }
-    cells_.push_back(std::move(cell));
+    return;
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto first = static_cast<Eigen::Index>(cells_[c].first), count = static_cast<Eigen::Index>(cells_[c].count);
+    const auto here = i2.segment(first, count);
+    at_nodes.segment(first, count).noalias() = cells_[c].to_g * here;
+    at_nodes.segment(first, count).array() += g;
+    at_ends[c + 1] = g += weight_.segment(first, count).dot(here);
+  }
+}
+
+void ContactGrid::integrate(const Eigen::MatrixXd& i2, Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& at_ends) const {
+  at_nodes.resize(static_cast<Eigen::Index>(band_size_), i2.cols());
+  at_ends.setZero(static_cast<Eigen::Index>(cells_.size()) + 1, i2.cols());
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto first = static_cast<Eigen::Index>(cells_[c].first), count = static_cast<Eigen::Index>(cells_[c].count);
+    const auto end = static_cast<Eigen::Index>(c);
+    const auto here = i2.middleRows(first, count);
+    auto nodes = at_nodes.middleRows(first, count);
+    if (pieces_) {
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const auto at = static_cast<std::size_t>(first + i);
+        nodes.row(i) = g_factor_ * pieces_->nodes().of_first[at] * here.row(0) +
+                       g_factor_ * pieces_->nodes().of_second[at] * here.row(1);
+      }
+    } else {
+      nodes.noalias() = cells_[c].to_g * here;
+    }
+    nodes.rowwise() += at_ends.row(end);
+    at_ends.row(end + 1) = at_ends.row(end) + weight_.segment(first, count).transpose() * here;
   }
 }
 
@@ -160,6 +205,7 @@ void ContactGrid::add_beyond(const ContactGridOptions& options) {
   }
   const double q_e = beyond_.end.emplace(window, g_factor_).wavenumber, end = q_e * partial_contact::tail_end;
   beyond_.first = wavenumber_.size();
+  if (!options.edge_nodes) return;
   std::vector<double> ends{q_e, end};
   for (const double q : options.stops)
     if (q > q_e * (1 + same) && q < end * (1 - same)) ends.push_back(q);
@@ -227,11 +273,10 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface, const Contac
         }
     }
     if (x.empty()) continue;
-    std::vector<double> rows(Jacobi::most * x.size());
-    const NodeRule nodes = gauss(orthonormal(weight, x, rows), most_nodes);
-    for (std::size_t j = 0; j < nodes.count; ++j) {
+    const NodeRule nodes = gauss_rule(weight, x, most_nodes);
+    for (std::size_t j = 0; j < nodes.x.size(); ++j) {
       wavenumber_.push_back(std::exp((lower + upper + nodes.x[j] * (upper - lower)) / 2));
-      macro_weights_.push_back(g_factor_ * nodes.measure[j]);
+      macro_weights_.push_back(g_factor_ * nodes.weight[j]);
     }
   }
 }

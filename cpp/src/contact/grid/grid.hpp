@@ -22,6 +22,7 @@ struct ContactGridOptions {
   double macro_wavenumber = 0;                     // at which G is asked for [1/m]
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
   bool beyond_end = false;                         // PartialContact carries stress beyond the end of the roughness
+  bool edge_nodes = true;                          // which has nodes then
   std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
 };
@@ -38,7 +39,7 @@ class ContactGrid {
     double lower, upper;       // of a panel, in t
     double end;                // q at its upper end [1/m]
     const Segment* segment;
-    Eigen::MatrixXd to_g;  // from I2 at the nodes to G there at unit pressure, less that at the lower end
+    Eigen::MatrixXd to_g;  // of a panel: from I2 at the nodes to G there at unit load, less that at the lower end
   };
 
   ContactGrid(std::span<const Segment> surface, const ContactGridOptions& options);
@@ -47,7 +48,13 @@ class ContactGrid {
   [[nodiscard]] std::size_t band_size() const { return band_size_; }
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }  // [1/m], of the nodes
-  /// dG at I2 = 1 and unit pressure of each node of the band, with the weights of the rule.
+  /// G at the nodes of the band and at the ends of cells, the first where G is 0, from I2 of the nodes, at unit load.
+  void integrate(const Eigen::VectorXd& i2, Eigen::VectorXd& at_nodes, std::vector<double>& at_ends) const;
+  /// The same of as many columns of I2.
+  void integrate(const Eigen::MatrixXd& i2, Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& at_ends) const;
+  /// What the cells are made of, none with panels.
+  [[nodiscard]] const RoughnessPieces* pieces() const { return pieces_; }
+  /// dG at I2 = 1 and unit load of each node of the band, with the weights of the rule.
   [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
   /// G at q_m as a sum over I2 of all nodes.
   [[nodiscard]] const Eigen::VectorXd& macro_weight() const { return macro_weight_; }
@@ -87,6 +94,7 @@ class ContactGrid {
   double lowest_, highest_;
   double end_of_band_;  // [1/m]
   std::size_t band_size_ = 0;
+  const RoughnessPieces* pieces_;
   std::vector<Cell> cells_;
   std::vector<double> wavenumber_;
   Eigen::VectorXd weight_, macro_weight_;

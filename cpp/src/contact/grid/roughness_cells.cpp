@@ -1,17 +1,34 @@
 // Lagrange's polynomials of Chebyshev's points in their barycentric form: J.-P. Berrut, L. N. Trefethen, SIAM Rev. 46,
 // 501 (2004). With singularities pi / 2 off the real axis an interpolant through n points of a cell of length L misses
-// some 2 r^-n, r = pi / L + sqrt(1 + (pi / L)^2): 1e-10 for L = 0.8 and n = 12.
+// some 2 r^-n, r = pi / L + sqrt(1 + (pi / L)^2): 4e-10 for L = 1 and n = 12.
 #include "contact/grid/roughness_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "numerics/kernels.hpp"
+#include "numerics/simd.hpp"
+
 namespace asperity {
 
-RoughnessCells::RoughnessCells(std::size_t points, double lower, double upper, std::span<const double> nodes)
+namespace {
+
+#define ASPERITY_LOOPS "contact/grid/cell_loops.inc"
+#include "numerics/vector_units.inc"
+
+/// As many as the loop takes for n nodes.
+constexpr std::size_t padded(std::size_t n) {
+  constexpr std::size_t taken = RoughnessCells::excess + 1;
+  static_assert(taken == 2 * lanes);
+  return (n + taken - 1) / taken * taken;
+}
+
+}  // namespace
+
+RoughnessCells::RoughnessCells(std::size_t points, double longest, double lower, double upper,
+                               std::span<const double> nodes)
     : points_(points) {
-  constexpr double longest = 0.8;
   std::vector<double> zeros(points);
   for (std::size_t k = 0; k < points; ++k)
     zeros[k] = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(points));
@@ -25,9 +42,9 @@ RoughnessCells::RoughnessCells(std::size_t points, double lower, double upper, s
     const std::size_t first = node;
     while (node < nodes.size() && (cell + 1 == cells || std::log(nodes[node]) < middle + half)) ++node;
     end_.push_back(node);
-    const std::size_t row = weight_.size(), n = node - first;
+    const std::size_t row = weight_.size(), n = padded(node - first);
     weight_.resize(row + points * n);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < node - first; ++i) {
       const double z = (std::log(nodes[first + i]) - middle) / half;
       double sum = 0;
       for (std::size_t k = 0; k < points; ++k) {
@@ -41,15 +58,21 @@ RoughnessCells::RoughnessCells(std::size_t points, double lower, double upper, s
   }
 }
 
-void RoughnessCells::at_nodes(std::span<const double> at_points, std::span<double> at_nodes) const {
-  const double *weight = weight_.data(), *value = at_points.data();
+void RoughnessCells::at_nodes(const double* first, const double* second, double* first_at_nodes,
+                              double* second_at_nodes) const {
+#ifdef __x86_64__
+  static const auto loop = vector_unit() == VectorUnit::baseline ? baseline::at_nodes_of_cell : avx2::at_nodes_of_cell;
+#else
+  constexpr auto loop = baseline::at_nodes_of_cell;
+#endif
+  const double* weight = weight_.data();
   std::size_t begin = 0;
   for (const std::size_t end : end_) {
-    const std::size_t n = end - begin;
-    double* const sum = at_nodes.data() + begin;
-    std::fill_n(sum, n, 0.0);
-    for (std::size_t k = 0; k < points_; ++k, weight += n, ++value)
-      for (std::size_t i = 0; i < n; ++i) sum[i] += weight[i] * *value;
+    const std::size_t n = padded(end - begin);
+    loop(weight, points_, n, first, second, first_at_nodes + begin, second_at_nodes + begin);
+    weight += points_ * n;
+    first += points_;
+    second += points_;
     begin = end;
   }
 }

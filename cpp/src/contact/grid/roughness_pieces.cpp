@@ -91,8 +91,8 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
   } while (nodes_.wavenumber.size() % 4 != 0);
   take_differences();
-  cells_ = RoughnessCells(12, foot_, surface.back().b, nodes_.wavenumber);
-  coarse_cells_ = RoughnessCells(4, foot_, surface.back().b, nodes_.wavenumber);
+  cells_ = RoughnessCells(12, 1, foot_, surface.back().b, nodes_.wavenumber);
+  coarse_cells_ = RoughnessCells(4, 0.4, foot_, surface.back().b, nodes_.wavenumber);
 }
 
 /// The sizes of five coefficients sum to 16, as those of equal steps do. The first of the nodes without weight is at

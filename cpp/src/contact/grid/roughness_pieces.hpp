@@ -40,7 +40,7 @@ class RoughnessPieces {
   [[nodiscard]] const Nodes& nodes() const { return nodes_; }
   /// Over the band from where roughness begins.
   [[nodiscard]] const RoughnessCells& cells() const { return cells_; }
-  /// With a third of the points.
+  /// Shorter ones with fewer points, for functions with kinks.
   [[nodiscard]] const RoughnessCells& coarse_cells() const { return coarse_cells_; }
   [[nodiscard]] const RoughnessWindow& window() const { return window_; }
 

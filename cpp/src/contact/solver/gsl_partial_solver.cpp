@@ -30,7 +30,7 @@ GslPartialSolver::GslPartialSolver(std::span<const Segment> surface, const Rubbe
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
       end_(window_, stiffening_ * stiffening_ / 8) {}
 
-Integral GslPartialSolver::over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const {
+Integral GslPartialSolver::over_band(const ContactSums& root, Of of, std::vector<double>* by_panel) const {
   Integral sum{};
   const auto ratio = [&](double q) {
     const AngularIntegrals at = angular_integrals(rubber_, velocity_ * q);

@@ -24,7 +24,7 @@ class GslPartialSolver : public PartialProfileSolver {
  private:
   /// Over the band at some root: R dG times 1, I1 / I2, or the part of it from outside of the measured range.
   enum class Of { variance, friction, outside };
-  [[nodiscard]] Integral over_band(const PartialRoot& root, Of of, std::vector<double>* by_panel) const;
+  [[nodiscard]] Integral over_band(const ContactSums& root, Of of, std::vector<double>* by_panel) const;
   [[nodiscard]] Integral beyond(double lower, double upper, Of of) const;
 
   std::span<const Segment> surface_;

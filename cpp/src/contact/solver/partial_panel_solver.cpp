@@ -8,8 +8,8 @@
 #include <string>
 
 #include "contact/conditions.hpp"
-#include "contact/solver/partial_error.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "contact/theory/rule_error.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -232,7 +232,7 @@ std::vector<PanelSolver::PanelShare> PartialPanelSolver::shares() const {
   if (active_.empty()) return result;
   const double q_e = panels_.end().wavenumber;
   for (const auto& [lower, upper] : tail_stretches(q_e, stop_wavenumbers_)) {
-    const TailIntegrals part = tail_(velocity_ * q_e, lower / q_e, upper / q_e);
+    const EdgeIntegrals part = tail_(velocity_ * q_e, lower / q_e, upper / q_e);
     result.push_back({lower, upper, mu_factor_ * root_.edges * end_.window * part.i1});
   }
   return result;

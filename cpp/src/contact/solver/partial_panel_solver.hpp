@@ -37,7 +37,7 @@ class PartialPanelSolver : public PartialProfileSolver {
   std::span<const Segment> surface_;
   const Rubber& rubber_;
   PartialPanels panels_;
-  PartialTail tail_;
+  Edges tail_;
   double stiffening_, rtol_, velocity_ = 0;
   std::span<const double> stops_;
   std::vector<double> stop_wavenumbers_;

@@ -5,19 +5,9 @@
 
 #include "contact/solver/gsl_partial_solver.hpp"
 #include "contact/solver/partial_panel_solver.hpp"
-#include "contact/solver/partial_ring_solver.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 
 namespace asperity {
-
-std::unique_ptr<PartialSolver> partial_solver(std::span<const Segment> surface, const Rubber& rubber,
-                                              const ContactModel& model, const Spectrum& spectrum) {
-  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  if (table && model.method == Method::gauss && table->wavenumber().size() >= PartialRingSolver::least_rows &&
-      model.rtol >= PartialRingSolver::least_rtol)
-    return std::make_unique<PartialRingSolver>(*table, surface, rubber, model);
-  return partial_profile_solver(surface, rubber, model);
-}
 
 std::unique_ptr<PartialProfileSolver> partial_profile_solver(std::span<const Segment> surface, const Rubber& rubber,
                                                              const ContactModel& model, std::span<const double> stops) {
@@ -38,12 +28,12 @@ std::vector<std::array<double, 2>> tail_stretches(double q_e, std::span<const do
   return result;
 }
 
-double partial_stress(const PartialRoot& root, double g, double steepness) {
+double partial_stress(const ContactSums& root, double g, double steepness) {
   const double share = g > 0 ? std::erf(0.5 / std::sqrt(root.kappa * g)) : 1;
   return partial_contact::stress(share, root.obstacle * share * share * steepness);
 }
 
-double partial_edges(const PartialRoot& root, const Rubber& rubber, double frequency, double x) {
+double partial_edges(const ContactSums& root, const Rubber& rubber, double frequency, double x) {
   if (!(x >= 1 && x <= partial_contact::tail_end)) return 0;
   double w = frequency * x, end = frequency;
   if (const auto known = known_range(rubber)) {

@@ -1,5 +1,6 @@
-// Chooses the solver of a point: panels (panel_solver.hpp), or GSL's adaptive rules (gsl_solver.hpp) as the independent
-// check. Both solve Eqs 7 and 22. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
+// Chooses the solver of a point: levels of pieces (level_solver.hpp), panels (panel_solver.hpp), or GSL's adaptive
+// rules (gsl_solver.hpp) as the independent check. All solve Eqs 7 and 22. B. N. J. Persson, J. Chem. Phys. 115, 3840
+// (2001).
 #include "contact/solver/solver.hpp"
 
 #include <algorithm>
@@ -48,15 +49,14 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
       panel_solver_(surface, rubber, model.poisson_ratio, model.rtol),
       stops_(stops) {
   check_scales(surface);
-  if (with_hysteresis && model.method == Method::gauss) contact_.emplace(model.form, factor);
+  if (std::holds_alternative<PartialContact>(model.correction))
+    partial_ = partial_profile_solver(surface, rubber, model, stops);
+  else if (with_hysteresis && model.method == Method::gauss)
+    contact_.emplace(model.form, factor);
 }
 
-// Below the tolerances for which blocks of rings hold, and on few rows, panels are the better way.
-void Solver::use_rings_of(const Spectrum& spectrum) {
-  const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
-  if (table && table->wavenumber().size() >= RingSolvers::least_rows && model_.method == Method::gauss &&
-      model_.form == Form::exact && model_.rtol >= RingSolvers::least_rtol)
-    rings_.emplace(*table, rubber_, model_.poisson_ratio, model_.rtol);
+void Solver::use_levels_of(const Spectrum& spectrum) {
+  if (LevelSolver::serves(spectrum, model_)) levels_.emplace(spectrum, rubber_, model_);
 }
 
 void Solver::start(double velocity) {
@@ -66,10 +66,14 @@ void Solver::start(double velocity) {
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
+  by_levels_ = levels_ && levels_->solve(pressure, velocity, shift);
+  if (by_levels_) return;
+  if (partial_) {
+    partial_->solve(pressure, velocity);
+    return;
+  }
   if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
-    by_rings_ = rings_ && rings_->solve(pressure, velocity, shift, contact_ ? &*contact_ : nullptr);
-    if (by_rings_) return;
     if (panel_velocity_ != velocity) panel_solver_.start(velocity, stop_wavenumbers_);
     panel_velocity_ = velocity;
     panel_solver_.solve(pressure, shift, contact_ ? &*contact_ : nullptr);
@@ -85,16 +89,21 @@ void Solver::solve(double pressure, double velocity, double shift) {
 }
 
 double Solver::g(double wavenumber) const {
-  return gsl_solver_ ? gsl_solver_->g(wavenumber) : g_by_rings() ? rings_->g() : panel_solver_.g(wavenumber);
+  return by_levels_    ? levels_->g()
+         : partial_    ? partial_->g()
+         : gsl_solver_ ? gsl_solver_->g(wavenumber)
+                       : panel_solver_.g(wavenumber);
 }
 
 double Solver::relative_error() const {
-  return gsl_solver_    ? gsl_solver_->relative_error()
-         : g_by_rings() ? rings_->relative_error()
-                        : panel_solver_.relative_error();
+  return by_levels_    ? levels_->relative_error()
+         : partial_    ? partial_->area_error()
+         : gsl_solver_ ? gsl_solver_->relative_error()
+                       : panel_solver_.relative_error();
 }
 
 double Solver::hysteresis_density(double wavenumber) const {
+  if (partial_) return partial_->hysteresis_density(wavenumber);
   if (gsl_solver_) return gsl_solver_->hysteresis_density(wavenumber, model_.form, factor_);
   const double full = panel_solver_.full_density(wavenumber);
   if (full == 0) return 0;
@@ -103,6 +112,7 @@ double Solver::hysteresis_density(double wavenumber) const {
 }
 
 std::vector<PanelSolver::PanelShare> Solver::shares() const {
+  if (partial_) return partial_->shares();
   if (!gsl_solver_) return panel_solver_.shares();
   std::vector<PanelSolver::PanelShare> result;
   const auto panels = gsl_solver_->panels();

@@ -1,14 +1,16 @@
-// Area and hysteresis at a point by the method asked for: Gauss-Legendre panels, or GSL's adaptive integration as the
-// independent check.
+// Area and hysteresis at a point by the method asked for: levels of pieces on the rings of a table, Gauss-Legendre
+// panels elsewhere and where a result is wanted part by part, or GSL's adaptive integration as the independent check.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/solver/gsl_solver.hpp"
+#include "contact/solver/level_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
-#include "contact/solver/ring_solvers.hpp"
+#include "contact/solver/partial_solver.hpp"
 
 namespace asperity {
 
@@ -21,24 +23,35 @@ class Solver {
   Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
          const std::optional<SFunction>& factor, std::span<const double> stops = {});
 
-  /// Takes a table of rings in blocks where that holds: G is known at the upper end of the spectrum alone then, which
+  /// Takes a table of rings in pieces where that holds: G is known at the upper end of the spectrum alone then, which
   /// the surface is to reach up to, and nothing part by part.
-  void use_rings_of(const Spectrum& spectrum);
+  void use_levels_of(const Spectrum& spectrum);
 
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
   void solve(double pressure, double velocity, double shift);
 
   [[nodiscard]] const Hysteresis& hysteresis() const {
-    return gsl_solver_ ? hysteresis_ : by_rings_ ? rings_->hysteresis() : panel_solver_.hysteresis();
+    return by_levels_    ? levels_->hysteresis()
+           : partial_    ? partial_->hysteresis()
+           : gsl_solver_ ? hysteresis_
+                         : panel_solver_.hysteresis();
   }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
-  [[nodiscard]] double relative_error() const;  // of every G
+  /// Of every G; `hysteresis` has what that makes of it where the second holds.
+  [[nodiscard]] double relative_error() const;
+  [[nodiscard]] bool g_error_is_in_hysteresis() const { return by_levels_ || partial_; }
+  /// Of PartialContact: kappa, A / A0 at the upper end of the spectrum with its relative error, and R at a wavenumber.
+  [[nodiscard]] double kappa() const { return by_levels_ ? levels_->sums().kappa : partial_->kappa(); }
+  [[nodiscard]] double partial_area() const { return by_levels_ ? levels_->sums().share : partial_->area(); }
+  [[nodiscard]] double partial_area_error() const {
+    return by_levels_ ? levels_->relative_error() : partial_->area_error();
+  }
+  [[nodiscard]] double stress(double wavenumber) const { return partial_->stress(wavenumber); }
   [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
 
  private:
   void start(double velocity);
-  [[nodiscard]] bool g_by_rings() const { return rings_ && rings_->has_g(); }
 
   std::span<const Segment> surface_;
   const Rubber& rubber_;
@@ -49,8 +62,9 @@ class Solver {
   PanelSolver panel_solver_;
   std::span<const double> stops_;
   double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
-  std::optional<RingSolvers> rings_;
-  bool by_rings_ = false;  // mu_H of the point
+  std::optional<LevelSolver> levels_;
+  bool by_levels_ = false;                         // the point
+  std::unique_ptr<PartialProfileSolver> partial_;  // instead of panel_solver_
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;

@@ -24,12 +24,16 @@ namespace {
 class PartialContactTheory final : public Theory {
  public:
   explicit PartialContactTheory(const ContactGrid& grid) : Theory(grid) {}
-  void start(std::function<NodeModulus()> cold) override {
+  void start(std::function<VectorXd()> cold) override {
     kappa_ = usual_kappa;
     cold_ = std::move(cold);
     cold_excess_.reset();
   }
-  void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) override;
+  void take(const NodeModulus& modulus) override;
+  void take_edges(const EdgeIntegrals& edges) override { end_.tail = edges; }
+  const ContactSums& solve(double scale, double rtol, double start) override;
+  void evaluate(double scale, std::optional<double> log_kappa) override;
+  [[nodiscard]] double area() override { return area_; }
   [[nodiscard]] std::optional<double> log_kappa() const override { return std::log(kappa_); }
   [[nodiscard]] double off_rule() const override { return off_rule_; }
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
@@ -40,29 +44,31 @@ class PartialContactTheory final : public Theory {
 
  private:
   [[nodiscard]] partial_contact::AtEnd rule(double log_g, double excess) const {
-    return {std::exp(log_g) * kappa_ * g_unit_ * scale_, kappa_, {grid_.beyond().end->factor, excess}};
+    return {std::exp(log_g) * kappa_ * g(), kappa_, {grid_.beyond().end->factor, excess}};
   }
   [[nodiscard]] Index end_node() const { return static_cast<Index>(grid_.beyond().first + grid_.beyond().count); }
   /// 1 - 1 / rho, which raises T where stiff waves beyond q_e have most of G. With heat long waves are colder and may
   /// have it, too: then it is not below that at T0, by which the limit of no heat is the contact without heat.
   [[nodiscard]] double excess() {
     const RoughnessEnd& end = *grid_.beyond().end;
-    const double hot = end.band(g_unit_, i2_[end_node()]).excess;
+    const double hot = end.band(unit_g(), end_.tail.i2_at_end).excess;
     held_ = false;
-    if (partial_contact::last * (1 - hot) <= 1) return hot;
+    if (!cold_ || partial_contact::last * (1 - hot) <= 1) return hot;
     if (!cold_excess_) {
-      const NodeModulus cold = cold_();
-      const double g = grid_.weight().dot(cold.i2.head(grid_.weight().size()));
-      cold_excess_ = end.band(g, cold.i2[end_node()]).excess;
+      const VectorXd cold = cold_();
+      const double g = grid_.weight().dot(cold.head(grid_.weight().size()));
+      cold_excess_ = end.band(g, cold[end_node()]).excess;
     }
     held_ = *cold_excess_ > hot;
     return std::clamp(*cold_excess_, hot, 0.0);
   }
 
-  std::function<NodeModulus()> cold_;
+  std::function<VectorXd()> cold_;
   std::optional<double> cold_excess_;
   bool held_ = false;  // excess_ is that at T0, or 0
-  double kappa_ = usual_kappa, g_unit_ = 0, excess_ = 0, edges_ = 0, obstacle_ = 0, off_rule_ = 0;
+  double kappa_ = usual_kappa, area_ = 1, excess_ = 0, edges_ = 0, obstacle_ = 0, off_rule_ = 0;
+  PartialEnd end_;
+  VectorXd weight_, steepness_;          // dG and g' of the band's nodes, at unit load
   VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q_e) of the edges'
 };
 
@@ -75,61 +81,69 @@ double share_slope(double g, double share) {
   return -s * std::exp(-s * s) * std::numbers::inv_sqrtpi / share;
 }
 
-void PartialContactTheory::evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) {
-  add_up(modulus, 1);
-  scale_ = scale;
+void PartialContactTheory::take(const NodeModulus& modulus) {
+  Theory::take(modulus);
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
-  const double i2_at_end = i2_[end_node()];
-  g_unit_ = g_edge_.back();
+  if (!grid_.pieces()) g_ = g_.cwiseMax(1e-300);
+  weight_ = grid_.weight().cwiseProduct(i2_.head(n));
+  steepness_ = Eigen::Map<const VectorXd>(beyond.window.data(), n).cwiseProduct(i2_.head(n));
+  stress_.resize(n);
+  end_.g = unit_g();
+  end_.window = beyond.end->window;
+  if (count == 0) return;
+  end_.tail = {};
+  end_.tail.i2_at_end = i2_[static_cast<Index>(beyond.first + beyond.count)];
+  static_assert(partial_contact::tail_excess == 0.25);
+  in_tail_ = beyond.weight.cwiseProduct(i2_.segment(first, count))
+                 .cwiseProduct((i2_.segment(first, count) / end_.tail.i2_at_end).cwiseSqrt().cwiseSqrt());
+  end_.tail.i2 = in_tail_.sum();
+  end_.tail.i1 = in_tail_.dot(ratio_.segment(first, count));
+}
+
+const ContactSums& PartialContactTheory::solve(double scale, double rtol, double start) {
+  scale_ = scale;
+  end_.band = {grid_.beyond().end->factor, excess_ = excess()};
+  const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(),
+                           static_cast<std::size_t>(g_.size())};
+  return sums_ = partial_root(nodes, end_, scale, rtol, start, stress_.data());
+}
+
+void PartialContactTheory::evaluate(double scale, std::optional<double> log_kappa) {
+  const ContactGrid::Beyond& beyond = grid_.beyond();
+  const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
+  scale_ = scale;
   part_.setZero(i2_.size());
-  if (g_unit_ == 0) {
+  if (unit_g() == 0) {
     area_ = macro_ = 1;
     off_rule_ = 0;
     return;
   }
-  excess_ = excess();
-  in_tail_.resize(count);
-  for (Index t = 0; t < count; ++t)
-    in_tail_[t] =
-        beyond.weight[t] * i2_[first + t] * std::pow(i2_[first + t] / i2_at_end, partial_contact::tail_excess);
-
-  VectorXd floored = g_.cwiseMax(1e-300 / scale);
-  const VectorXd weight = grid_.weight().cwiseProduct(i2_.head(n));
-  VectorXd steepness(n), stress(n);
-  for (Index j = 0; j < n; ++j) steepness[j] = beyond.window[static_cast<std::size_t>(j)] * i2_[j];
-  PartialEnd end;
-  end.g = g_unit_;
-  end.window = beyond.end->window;
-  end.band = {beyond.end->factor, excess_};
-  end.tail.i2 = in_tail_.sum();
-  end.tail.i1 = in_tail_.dot(ratio_.segment(first, count));
-  const PartialNodes nodes{floored.data(), steepness.data(), weight.data(), ratio_.data(), static_cast<std::size_t>(n)};
   constexpr double to_rounding = 1e-15;
-  kappa_ = log_kappa ? std::exp(*log_kappa) : partial_root(nodes, end, scale, to_rounding, kappa_, stress.data()).kappa;
+  if (log_kappa) {
+    kappa_ = std::exp(*log_kappa);
+    excess_ = excess();
+  } else {
+    kappa_ = solve(scale, to_rounding, kappa_).kappa;
+  }
 
   const partial_contact::AtEnd at = rule(0, excess_);
   edges_ = at.edges.value;
   obstacle_ = at.obstacle.value;
   share_.resize(n);
   of_waves_.resize(n);
-  double variance = edges_ * beyond.end->window * end.tail.i2;
+  double variance = edges_ * end_.window * end_.tail.i2;
   for (Index j = 0; j < n; ++j) {
     const double a = share_[j] = share_of(kappa_ * scale * g_[j]);
-    of_waves_[j] = obstacle_ * scale * steepness[j] * a * a;
-    const double stressed = weight[j] * partial_contact::stress(a, of_waves_[j]);
+    of_waves_[j] = obstacle_ * scale * steepness_[j] * a * a;
+    const double stressed = weight_[j] * partial_contact::stress(a, of_waves_[j]);
     part_[j] = scale * stressed * ratio_[j];
     variance += stressed;
   }
   off_rule_ = std::log(at.integral * at.spread.value / (scale * variance));
-  part_.segment(first, count) =
-      scale * edges_ * beyond.end->window * in_tail_.cwiseProduct(ratio_.segment(first, count));
+  part_.segment(first, count) = scale * edges_ * end_.window * in_tail_.cwiseProduct(ratio_.segment(first, count));
   area_ = at.share;
   macro_ = share_of(kappa_ * scale * g_macro_);
-  // as the others have it, at the load
-  g_ *= scale;
-  g_macro_ *= scale;
-  for (double& g : g_edge_) g *= scale;
 }
 
 void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
@@ -139,11 +153,11 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   result.part.setZero(part_.size(), directions);
   result.area = result.macro = RowVectorXd::Zero(directions);
   result.rule = along.log_kappa.value_or(result.area);
-  if (g_unit_ == 0) return;
+  if (unit_g() == 0) return;
   GSlopes slopes;
   add_up(along, slopes);
-  const double g1 = kappa_ * g_edge_.back();
-  const RowVectorXd log_g1 = slopes.edge.bottomRows(1) / g_edge_.back(), at_end = along.i2.row(end_node());
+  const double g1 = kappa_ * g();
+  const RowVectorXd log_g1 = slopes.edge.bottomRows(1) / g(), at_end = along.i2.row(end_node());
   const RowVectorXd excess = (held_ ? 0 : excess_ - 1) * (log_g1 - along.scale - at_end);
 
   // the rule at a fixed kappa, by differences over ln G1 and the excess
@@ -165,10 +179,11 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   RowVectorXd variance = RowVectorXd::Zero(directions);
   double sum = 0, variance_by_kappa = 0;
   for (Index j = 0; j < n; ++j) {
-    const double slope = share_slope(kappa_ * g_[j], share_[j]), z = of_waves_[j], passed = 2 * z / (1 + z);
+    const double g = scale_ * g_[j], slope = share_slope(kappa_ * g, share_[j]), z = of_waves_[j],
+                 passed = 2 * z / (1 + z);
     by_kappa[j] = slope - passed * (at.obstacle.log_slope + 2 * slope);
-    if (g_[j] > 0)
-      log_stress.row(j) = (slope * (1 - 2 * passed) / g_[j]) * slopes.node.row(j);
+    if (g > 0)
+      log_stress.row(j) = (slope * (1 - 2 * passed) / g) * slopes.node.row(j);
     else
       log_stress.row(j).setZero();
     log_stress.row(j) -= passed * (obstacle_by_g * log_g1 + along.i2.row(j));
@@ -199,13 +214,13 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
     result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end + log_edges +
                                      at.edges.log_slope * log_kappa);
   result.area = at.share_slope * (log_g1 + log_kappa);
-  if (g_macro_ > 0)
-    result.macro = macro_ * share_slope(kappa_ * g_macro_, macro_) * (slopes.macro / g_macro_ + log_kappa);
+  if (const double g = scale_ * g_macro_; g > 0)
+    result.macro = macro_ * share_slope(kappa_ * g, macro_) * (slopes.macro / g + log_kappa);
 }
 
 double PartialContactTheory::density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                      double rate) const {
-  if (g_unit_ == 0) return 0;
+  if (unit_g() == 0) return 0;
   const double a = share_of(kappa_ * g_on(panel, u));
   return rate * (i1 / i2) *
          partial_contact::stress(a, obstacle_ * scale_ * grid_.beyond().window_at(wavenumber) * i2 * a * a);
@@ -214,7 +229,7 @@ double PartialContactTheory::density(std::size_t panel, double u, double wavenum
 double PartialContactTheory::density_of_edges(double wavenumber, double i1, double i2) const {
   const RoughnessEnd& end = *grid_.beyond().end;
   const double x = wavenumber / end.wavenumber;
-  if (g_unit_ == 0 || !(x >= 1 && x <= partial_contact::tail_end)) return 0;
+  if (unit_g() == 0 || !(x >= 1 && x <= partial_contact::tail_end)) return 0;
   return scale_ * edges_ * end.window * i1 * std::pow(i2 / i2_[end_node()], partial_contact::tail_excess) *
          std::pow(x, -partial_contact::tail_power);
 }

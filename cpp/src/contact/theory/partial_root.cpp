@@ -19,7 +19,7 @@ namespace {
 
 struct Residual {
   double value;  // ln (F spread) - ln variance
-  PartialRoot at;
+  ContactSums at;
 };
 
 Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale, double kappa, double* stress) {
@@ -30,7 +30,7 @@ Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale
   const double in_tail = rule.edges.value * end.window;
   const double variance = sums.variance + in_tail * end.tail.i2, friction = sums.friction + in_tail * end.tail.i1;
   Residual result{};
-  PartialRoot& at = result.at;
+  ContactSums& at = result.at;
   at.kappa = kappa;
   at.share = rule.share;
   at.variance = variance;
@@ -49,7 +49,7 @@ Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale
 
 }  // namespace
 
-PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
+ContactSums partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
                          double* stress) {
   constexpr double longest_step = 1.5;
   const double good = std::fmin(1e-4, 0.03 * std::sqrt(rtol));
@@ -64,7 +64,7 @@ PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, doubl
     if (std::fabs(step) <= good) {
       // the step's own error is its square, and so is what is left out here
       found.at.missed = step * step;
-      PartialRoot& at = found.at;
+      ContactSums& at = found.at;
       at.kappa *= std::exp(step);
       at.share = partial_contact::AtEnd(at.kappa * scale * end.g, at.kappa, end.band).share;
       at.friction *= 1 + at.friction_slope * step;

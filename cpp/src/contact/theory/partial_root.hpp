@@ -1,7 +1,7 @@
 // The root of PartialContact's rule, from sums over nodes and what lies beyond the end of the roughness.
 #pragma once
 
-#include "contact/solver/partial_tail.hpp"
+#include "contact/theory/edges.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/theory/partial_loops.hpp"
 #include "spectrum/roughness_window.hpp"
@@ -9,7 +9,7 @@
 namespace asperity {
 
 /// kappa, with the areas and sums that belong to it (contact/theory/partial_contact_rule.hpp).
-struct PartialRoot {
+struct ContactSums {
   double kappa = 1;
   double share = 1;                   // A1
   double variance = 0, friction = 0;  // int R dG + int T d ln x, and with I1 / I2 in them; over those of unit load
@@ -31,13 +31,13 @@ struct RoughnessEnd {
 struct PartialEnd {
   double g = 0, window = 0;
   partial_contact::Band band;
-  TailIntegrals tail;
+  EdgeIntegrals tail;
 };
 
 /// A kappa to start from that knows no other point: it is 0.3 to 2 where it was seen.
 inline constexpr double usual_kappa = 0.75;
 /// NotConverged where there is no root. `stress` has room for R at each node.
-PartialRoot partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
+ContactSums partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
                          double* stress);
 
 }  // namespace asperity

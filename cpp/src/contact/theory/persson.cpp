@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/theory/partial_loops.hpp"
 #include "contact/theory/theory.hpp"
 
 namespace asperity {
@@ -15,43 +16,23 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-void Theory::add_up(const NodeModulus& modulus, double scale) {
-  scale_ = scale;
-  i2_ = modulus.i2;
-  ratio_ = modulus.ratio;
-  const auto& cells = grid_.cells();
-  const auto n = static_cast<Index>(grid_.band_size());
-  g_.resize(n);
-  g_edge_.assign(cells.size() + 1, 0.0);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
-    const auto i2 = i2_.segment(first, count);
-    g_.segment(first, count).noalias() = scale * (cells[c].to_g * i2);
-    g_.segment(first, count).array() += g_edge_[c];
-    g_edge_[c + 1] = g_edge_[c] + scale * grid_.weight().segment(first, count).dot(i2);
-  }
-  g_macro_ = scale * grid_.macro_weight().dot(i2_);
+void Theory::take(const NodeModulus& modulus) {
+  const auto n = static_cast<Index>(modulus.i2.size());
+  i2_ = Eigen::Map<const VectorXd>(modulus.i2.data(), n);
+  ratio_ = Eigen::Map<const VectorXd>(modulus.i1.data(), n).cwiseQuotient(i2_);
+  grid_.integrate(i2_, g_, g_edge_);
+  g_macro_ = grid_.macro_weight().dot(i2_);
 }
 
 void Theory::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
-  const auto& cells = grid_.cells();
-  const Index directions = along.i2.cols();
-  slopes.node.resize(g_.size(), directions);
-  slopes.edge.setZero(static_cast<Index>(cells.size()) + 1, directions);
   const MatrixXd di2 = scale_ * (i2_.asDiagonal() * along.i2);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
-    const auto edge = static_cast<Index>(c);
-    const auto here = di2.middleRows(first, count);
-    slopes.node.middleRows(first, count).noalias() = cells[c].to_g * here;
-    slopes.node.middleRows(first, count).rowwise() += slopes.edge.row(edge);
-    slopes.edge.row(edge + 1) = slopes.edge.row(edge) + grid_.weight().segment(first, count).transpose() * here;
-  }
+  grid_.integrate(di2, slopes.node, slopes.edge);
   slopes.macro = grid_.macro_weight().transpose() * di2;
   if (along.scale.isZero(0)) return;
-  slopes.node += g_ * along.scale;
-  for (std::size_t c = 0; c < g_edge_.size(); ++c) slopes.edge.row(static_cast<Index>(c)) += g_edge_[c] * along.scale;
-  slopes.macro += g_macro_ * along.scale;
+  slopes.node += scale_ * g_ * along.scale;
+  for (std::size_t c = 0; c < g_edge_.size(); ++c)
+    slopes.edge.row(static_cast<Index>(c)) += scale_ * g_edge_[c] * along.scale;
+  slopes.macro += scale_ * g_macro_ * along.scale;
 }
 
 double Theory::g_on(std::size_t panel, double u) const {
@@ -60,9 +41,9 @@ double Theory::g_on(std::size_t panel, double u) const {
   integrals_to(*cell.rule, u, weights);
   for (std::size_t j = 0; j < cell.count; ++j) {
     const auto at = static_cast<Index>(cell.first + j);
-    sum += weights[j] * scale_ * grid_.weight()[at] / cell.rule->weight[j] * i2_[at];
+    sum += weights[j] * grid_.weight()[at] / cell.rule->weight[j] * i2_[at];
   }
-  return std::fmax(sum, 0);
+  return scale_ * std::fmax(sum, 0);
 }
 
 namespace {
@@ -87,7 +68,9 @@ class PerssonTheory final : public Theory {
         contact_(model.form, factor_),
         area_g_(model, spectrum, surface, surface.back().b) {}
 
-  void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) override;
+  const ContactSums& solve(double scale, double rtol, double start) override;
+  void evaluate(double scale, std::optional<double> log_kappa) override;
+  [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
@@ -102,13 +85,14 @@ class PerssonTheory final : public Theory {
     return g <= 0 ? 0 : (p_s(g * (1 + step)) - p_s(g * (1 - step))) / (2 * step * g);
   }
   void integral_of(const double* g, Index n, double* f) const;
+  void take_stress();
 
   Form form_;
   std::optional<SFunction> factor_, inside_;
   ContactIntegral contact_;
   AreaG area_g_;
-  VectorXd f_, measure_;
-  std::vector<double> f_edge_;
+  VectorXd g_at_load_, f_, measure_;
+  std::vector<double> edge_, f_edge_;  // G and F at the ends of cells, at the load
 };
 
 /// F at values of G; their number is a multiple of `lanes`.
@@ -118,38 +102,66 @@ void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-void PerssonTheory::evaluate(const NodeModulus& modulus, double scale, std::optional<double> /*log_kappa*/) {
-  add_up(modulus, scale);
+/// P S at the nodes.
+void PerssonTheory::take_stress() {
+  const Index n = g_at_load_.size();
+  stress_.resize(n);
+  if (form_ == Form::exact)
+    contact_shares(g_at_load_.data(), static_cast<std::size_t>(n), stress_.data());
+  else
+    for (Index i = 0; i < n; ++i) stress_[i] = p_of(g_at_load_[i], form_);
+  const double gamma = contact_.gamma;
+  if (factor_)
+    for (Index i = 0; i < n; ++i) stress_[i] *= gamma + (1 - gamma) * (stress_[i] * stress_[i]);
+}
+
+void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) {
+  scale_ = scale;
   const auto& cells = grid_.cells();
   const Index n = g_.size();
-  f_.resize(n);
-  measure_.resize(n);
-  std::vector<double> g = g_edge_;
-  g.resize((g.size() + lanes - 1) / lanes * lanes, 1.0);
-  f_edge_.resize(g.size());
-  integral_of(g.data(), static_cast<Index>(g.size()), f_edge_.data());
-  const bool panels = !cells.empty() && cells.front().rule != nullptr;
-  if (panels) integral_of(g_.data(), n, f_.data());
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
-    const double lower = f_edge_[c], rise = f_edge_[c + 1] - lower;
-    if (panels) {
+  edge_.resize((g_edge_.size() + lanes - 1) / lanes * lanes, 1.0);
+  for (std::size_t i = 0; i < g_edge_.size(); ++i) edge_[i] = scale * g_edge_[i];
+  f_edge_.resize(edge_.size());
+  integral_of(edge_.data(), static_cast<Index>(edge_.size()), f_edge_.data());
+  part_.resize(i2_.size());
+  part_.tail(i2_.size() - n).setZero();
+  if (grid_.pieces()) {
+    g_at_load_ = scale * g_;
+    take_stress();
+    for (Index i = 0; i + 1 < n; i += 2) {
+      const auto end = static_cast<std::size_t>(i / 2 + 1);
+      const double first = grid_.weight()[i] * i2_[i] * stress_[i],
+                   second = grid_.weight()[i + 1] * i2_[i + 1] * stress_[i + 1];
+      const double sum = first + second, factor = sum > 0 ? (f_edge_[end] - f_edge_[end - 1]) / sum : 0;
+      part_[i] = ratio_[i] * (first * factor);
+      part_[i + 1] = ratio_[i + 1] * (second * factor);
+    }
+  } else {
+    g_at_load_ = scale * g_;
+    f_.resize(n);
+    measure_.resize(n);
+    integral_of(g_at_load_.data(), n, f_.data());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto first = static_cast<Index>(cells[c].first);
+      const double lower = f_edge_[c], rise = f_edge_[c + 1] - lower;
       const LegendreRule& rule = *cells[c].rule;
       for (std::size_t j = 0; j < rule.n; ++j) {
         double sum = rise * rule.at_upper[j];
         for (std::size_t i = 0; i < rule.n; ++i) sum -= rule.slope[j][i] * (f_[first + static_cast<Index>(i)] - lower);
         measure_[first + static_cast<Index>(j)] = sum;
       }
-      continue;
     }
-    double sum = 0;
-    for (Index i = first; i < first + count; ++i) sum += measure_[i] = scale_ * grid_.weight()[i] * i2_[i] * p_s(g_[i]);
-    if (sum > 0) measure_.segment(first, count) *= rise / sum;
+    part_.head(n) = ratio_.head(n).cwiseProduct(measure_);
   }
-  part_.setZero(i2_.size());
-  part_.head(n) = ratio_.head(n).cwiseProduct(measure_);
-  area_ = p_of(area_g_(g_edge_.back()), form_);
-  macro_ = p_of(g_macro_, form_);
+  macro_ = p_of(scale * g_macro_, form_);
+}
+
+const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*start*/) {
+  evaluate(scale, {});
+  sums_.slope = 1;
+  sums_.variance = g_edge_.back();
+  sums_.friction = part_.sum() / scale;
+  return sums_;
 }
 
 void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
@@ -168,26 +180,27 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
       const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
       VectorXd share(count);
-      for (Index i = 0; i < count; ++i) share[i] = p_s(g_[first + i]);
+      for (Index i = 0; i < count; ++i) share[i] = p_s(g_at_load_[first + i]);
       const MatrixXd df = share.asDiagonal() * slopes.node.middleRows(first, count);
       part.noalias() = -(slope.transpose() * df);
-      part += at_upper * (p_s(g_edge_[c + 1]) * slopes.edge.row(edge + 1)) -
-              at_lower * (p_s(g_edge_[c]) * slopes.edge.row(edge));
+      part += at_upper * (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1)) -
+              at_lower * (p_s(edge_[c]) * slopes.edge.row(edge));
       part = ratio_.segment(first, count).asDiagonal() * part;
     } else {
       for (Index i = 0; i < count; ++i) {
         const Index at = first + i;
-        const double share = p_s(g_[at]);
+        const double g = g_at_load_[at], share = p_s(g);
         if (!(share > 0)) continue;
-        part.row(i) = part_[at] * (along.i2.row(at) + along.scale + (p_s_slope(g_[at]) / share) * slopes.node.row(at));
+        part.row(i) = part_[at] * (along.i2.row(at) + along.scale + (p_s_slope(g) / share) * slopes.node.row(at));
       }
     }
   }
   result.part.topRows(n) += part_.head(n).asDiagonal() * along.ratio.topRows(n);
-  const double area_g = area_g_(g_edge_.back());
-  const double area_slope = p_slope(area_g, form_) * (inside_ ? (*inside_)(area_) : 1);  // dG = S dG(uncorrected)
+  const double area_g = area_g_(g());
+  const double area_slope =
+      p_slope(area_g, form_) * (inside_ ? (*inside_)(p_of(area_g, form_)) : 1);  // dG = S dG(uncorrected)
   result.area = area_slope * slopes.edge.bottomRows(1);
-  result.macro = p_slope(g_macro_, form_) * slopes.macro;
+  result.macro = p_slope(scale_ * g_macro_, form_) * slopes.macro;
 }
 
 double PerssonTheory::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {

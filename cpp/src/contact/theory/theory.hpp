@@ -1,26 +1,28 @@
-// Which part each node has in the friction, by the theory of the contact.
+// Which part each node has in area and friction, by the theory of the contact.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "asperity/contact.hpp"
 #include "contact/grid/grid.hpp"
 #include "contact/theory/contact_integral.hpp"
+#include "contact/theory/partial_root.hpp"
 #include "contact/theory/s_factor.hpp"
 
 namespace asperity {
 
-/// What the nodes' temperatures make of the rubber there.
+/// I1 [Pa] and I2 [Pa^2] of the rubber at each node.
 struct NodeModulus {
-  Eigen::VectorXd i2, ratio;  // I2 [Pa^2], I1 / I2 [1/Pa]
+  std::span<const double> i1, i2;
 };
 
-/// Slopes of their logarithms along directions in which the temperature changes, a column each, and that of the scale
-/// of G; and those of ln kappa, unless it goes along as the root of its rule.
+/// Slopes of the logarithms of I2 and of I1 / I2 along directions in which the temperature changes, a column each, and
+/// that of the scale of G; and those of ln kappa, unless it goes along as the root of its rule.
 struct ModulusSlopes {
   Eigen::MatrixXd i2, ratio;
   Eigen::RowVectorXd scale;
@@ -44,12 +46,18 @@ class Theory {
   Theory& operator=(Theory&&) = delete;
   virtual ~Theory() = default;
 
-  /// A new point, whose numbers shall not depend on the one before. `cold` has the rubber at T0 at all nodes; it may be
+  /// A new point, whose numbers shall not depend on the one before. `cold` has I2 at T0 of all nodes; it may be
   /// asked for until the next point.
-  virtual void start(std::function<NodeModulus()> /*cold*/) {}
-  /// `scale` is 1 / (sigma0 p_T)^2. PartialContact takes kappa as it is given, or the root of its rule to which steps
-  /// from the kappa before lead: where long waves are colder than short ones there may be several.
-  virtual void evaluate(const NodeModulus& modulus, double scale, std::optional<double> log_kappa) = 0;
+  virtual void start(std::function<Eigen::VectorXd()> /*cold*/) {}
+  /// The rubber at the nodes, from which G at unit load follows; any number of loads may follow.
+  virtual void take(const NodeModulus& modulus);
+  /// What PartialContact has of the edges of contacts then, where the grid has no nodes for them.
+  virtual void take_edges(const EdgeIntegrals& /*edges*/) {}
+  /// At a load, the sums alone, to `rtol` and from a kappa to start at. `scale` is 1 / (sigma0 p_T)^2.
+  virtual const ContactSums& solve(double scale, double rtol, double start) = 0;
+  /// At a load, with the part of each node. PartialContact takes kappa as it is given, or the root of its rule to
+  /// which steps from the kappa before lead: where long waves are colder than short ones there may be several.
+  virtual void evaluate(double scale, std::optional<double> log_kappa) = 0;
   /// ln kappa of the last evaluation, and by how much its rule is off; none without PartialContact.
   [[nodiscard]] virtual std::optional<double> log_kappa() const { return {}; }
   [[nodiscard]] virtual double off_rule() const { return 0; }
@@ -63,26 +71,34 @@ class Theory {
   [[nodiscard]] virtual double density_of_edges(double /*wavenumber*/, double /*i1*/, double /*i2*/) const { return 0; }
 
   [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
-  [[nodiscard]] double area() const { return area_; }                              // A / A0 at q1
-  [[nodiscard]] double macro_area() const { return macro_; }                       // P at q_m
-  [[nodiscard]] double g() const { return g_edge_.empty() ? 0 : g_edge_.back(); }  // at q1
+  [[nodiscard]] virtual double area() = 0;                    // A / A0 at q1
+  [[nodiscard]] double macro_area() const { return macro_; }  // P at q_m
+  [[nodiscard]] double g() const { return scale_ * unit_g(); }
+  [[nodiscard]] double unit_g() const { return g_edge_.empty() ? 0 : g_edge_.back(); }  // at q1 and unit load
+  /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
+  [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
+  [[nodiscard]] const Eigen::VectorXd& stress() const { return stress_; }
+  /// Of all nodes: I1 / I2.
+  [[nodiscard]] const Eigen::VectorXd& ratio() const { return ratio_; }
 
  protected:
-  /// G at the nodes, the ends of cells and q_m.
-  void add_up(const NodeModulus& modulus, double scale);
-  /// The same of slopes of ln I2; its own scale's are added.
+  /// Slopes of G at the load by those of ln I2 and of the scale.
   struct GSlopes {
     Eigen::MatrixXd node;  // of the band
     Eigen::MatrixXd edge;  // a row an end of a cell, the first at G = 0
     Eigen::RowVectorXd macro;
   };
   void add_up(const ModulusSlopes& along, GSlopes& slopes) const;
-  /// G at u on a panel.
+  /// G at u on a panel, at the load.
   [[nodiscard]] double g_on(std::size_t panel, double u) const;
 
   const ContactGrid& grid_;
-  double scale_ = 0, area_ = 0, macro_ = 1, g_macro_ = 0;
-  Eigen::VectorXd i2_, ratio_, g_, part_;
+  double scale_ = 0, macro_ = 1;
+  ContactSums sums_;
+  Eigen::VectorXd i2_, ratio_, part_, stress_;
+  // at unit load: at the nodes of the band, at q_m and at the ends of cells
+  Eigen::VectorXd g_;
+  double g_macro_ = 0;
   std::vector<double> g_edge_;
 };
 

@@ -1,6 +1,6 @@
 // int I (I2 / I2(v q_e))^(1/4) x^-3 d ln x for I = I1 and I2, x = q / q_e, on Gauss-Legendre panels of ln x that end at
 // the knots of a master curve and are halved until both are known well enough.
-#include "contact/solver/partial_tail.hpp"
+#include "contact/theory/edges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/solver/partial_error.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "contact/theory/rule_error.hpp"
 #include "numerics/kernels.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
@@ -32,14 +32,14 @@ double factor(double of_i2, double x) {
   return std::sqrt(std::sqrt(of_i2)) / (x * x * x);
 }
 
-TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
+EdgeIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
   std::array<double, nodes> w, i1, i2, weight;
   for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
   (void)angular_integrals(rubber, w, i1, i2, {});
   for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / i2_at_end, w[k] / frequency);
-  TailIntegrals result;
+  EdgeIntegrals result;
   double tail[LegendreRule::kept];
   for (std::size_t k = 0; k < nodes; ++k) {
     i1[k] *= weight[k];
@@ -53,7 +53,7 @@ TailIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end,
   return result;
 }
 
-void add(TailIntegrals& to, const TailIntegrals& part) {
+void add(EdgeIntegrals& to, const EdgeIntegrals& part) {
   to.i1 += part.i1;
   to.i2 += part.i2;
   to.i1_error += part.i1_error;
@@ -62,14 +62,14 @@ void add(TailIntegrals& to, const TailIntegrals& part) {
 
 }  // namespace
 
-PartialTail::PartialTail(const Rubber& rubber, double rtol)
+Edges::Edges(const Rubber& rubber, double rtol)
     : rubber_(rubber), unlimited_(unlimited(rubber)), highest_(std::numeric_limits<double>::infinity()), rtol_(rtol) {
   limited_ = unlimited_ || std::holds_alternative<MasterCurve>(rubber);
   if (const auto known = known_range(rubber)) highest_ = known->highest;
 }
 
 /// By the Gauss rule of four nodes in x^-3.
-double PartialTail::outside(double frequency, double lower, double upper, double i2_at_end) const {
+double Edges::outside(double frequency, double lower, double upper, double i2_at_end) const {
   constexpr std::array node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
       weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
   const double from = std::pow(upper, -power), to = std::pow(lower, -power);
@@ -82,11 +82,11 @@ double PartialTail::outside(double frequency, double lower, double upper, double
   return sum * (to - from) / (2 * power);
 }
 
-TailIntegrals PartialTail::operator()(double frequency, double lower, double upper) const {
+EdgeIntegrals Edges::operator()(double frequency, double lower, double upper) const {
   const Rubber& rubber = unlimited_ ? *unlimited_ : rubber_;
   double from = std::log(lower), to = std::log(upper);
   const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest_)).i2;
-  TailIntegrals held;
+  EdgeIntegrals held;
   held.i2_at_end = i2_at_end;
   if (highest_ < frequency * upper) {
     const double at = std::fmax(lower, highest_ / frequency);
@@ -115,13 +115,13 @@ TailIntegrals PartialTail::operator()(double frequency, double lower, double upp
     }
   }
   add_pieces_to(to);
-  std::vector<TailIntegrals> values;
+  std::vector<EdgeIntegrals> values;
   for (const Piece& piece : pieces) values.push_back(on_piece(rubber, frequency, i2_at_end, piece));
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   constexpr std::size_t most_pieces = 20000;
   for (;;) {
-    TailIntegrals sum = held;
-    for (const TailIntegrals& value : values) add(sum, value);
+    EdgeIntegrals sum = held;
+    for (const EdgeIntegrals& value : values) add(sum, value);
     const double allowed1 = rtol_ * sum.i1, allowed2 = rtol_ * sum.i2;
     if ((sum.i1_error <= allowed1 && sum.i2_error <= allowed2) || pieces.size() > most_pieces) return sum;
     const auto share = 0.5 / static_cast<double>(pieces.size());
