@@ -99,7 +99,7 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
         Relative tolerance, 1e-12 to 0.1.
     method : {"gauss", "qag", "qags", "cquad"}
         Gauss-Legendre panels, or GSL's adaptive integration of that name to check them with, slower
-        by hundreds of times.
+        by hundreds of times; not with PartialContact or ScanContact.
 
     Returns
     -------

@@ -82,7 +82,7 @@ GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
         Also give dmu/dlnq and the share of each decade of frequency.
     method : {"gauss", "qag", "qags", "cquad"}
         "gauss" is as above; the others are GSL's adaptive integration of that name, to check it
-        with, slower by hundreds of times.
+        with, slower by hundreds of times; not with PartialContact, ScanContact or heating.
     threads : int
         As many at most share the points, a hundred or more each. The numbers are the same for any
         of them.

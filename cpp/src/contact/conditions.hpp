@@ -34,6 +34,7 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   if (model.form != Form::exact && by_rule)
     throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
                        "exact with PartialContact and ScanContact, whose rule has the exact A / A0 in it");
+  if (by_rule) check_gauss(model.method, "with PartialContact and ScanContact, whose rule GSL's methods do not know");
   require_same_size("velocity", velocity.size(), "pressure", pressure.size());
   if (velocity.empty())
     throw InvalidInput(argument("pressure") + ", " + argument("velocity") + ": have 0 entries" + must(", must have ") +

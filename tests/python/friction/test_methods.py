@@ -27,8 +27,6 @@ SCENES = {
     "Table 1": (ROAD, RUBBER, {}),
     "weak contact": (ROAD, RUBBER, {"pressure": 1e2, "correction": asperity.SFactor()}),
     "nearly full contact": (ROAD, RUBBER, {"pressure": 1e9, "form": "interpolated"}),
-    "partial contact": (ROAD, RUBBER, {"correction": asperity.PartialContact()}),
-    "partial contact, measured": (ROAD, MEASURED, {"correction": asperity.PartialContact()}),
     "steps in the modulus": (ROAD, MEASURED, {"correction": asperity.AffineShift(2)}),
     "gaps in the spectrum": (SCAN, RUBBER, {"correction": asperity.NayakSFactor()}),
     "both measured": (SCAN, MEASURED, {"correction": IGW, "pressure": 1e6}),

@@ -4,6 +4,7 @@
 #include "contact/solver/partial_panel_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -30,6 +31,39 @@ double foot_error(double g, double s) {
   const double beside_zero = 6 * std::exp(-exponent) * partial_contact::stress(share_at_1, s * share_at_1 * share_at_1);
   const double passed = std::fmin(1, 10 * g / std::fmax(s, 1e-300)), square = passed * passed;
   return beside_zero + (s > 1 ? 1.5 * std::sqrt(s) * square * square : 0);
+}
+
+/// What lies beyond the end q_e of the roughness, cut at those of the rising `stops` that lie there [1/m].
+std::vector<std::array<double, 2>> tail_stretches(double q_e, std::span<const double> stops) {
+  const double end = q_e * partial_contact::tail_end;
+  std::vector<std::array<double, 2>> result;
+  double from = q_e;
+  for (const double q : stops) {
+    if (!(q > from && q < end)) continue;
+    result.push_back({from, q});
+    from = q;
+  }
+  result.push_back({from, end});
+  return result;
+}
+
+/// R at a place of a band.
+double partial_stress(const ContactSums& root, double g, double steepness) {
+  const double share = g > 0 ? std::erf(0.5 / std::sqrt(root.kappa * g)) : 1;
+  return partial_contact::stress(share, root.obstacle * share * share * steepness);
+}
+
+/// d mu_H / dln q of the edges at unit load and window roughness 1, at x = q / q_e; `frequency` is v q_e.
+double partial_edges(const ContactSums& root, const Rubber& rubber, double frequency, double x) {
+  if (!(x >= 1 && x <= partial_contact::tail_end)) return 0;
+  double w = frequency * x, end = frequency;
+  if (const auto known = known_range(rubber)) {
+    w = std::fmin(w, known->highest);
+    end = std::fmin(end, known->highest);
+  }
+  const AngularIntegrals here = angular_integrals(rubber, w);
+  return root.edges * here.i1 * std::pow(here.i2 / angular_integrals(rubber, end).i2, partial_contact::tail_excess) *
+         std::pow(x, -partial_contact::tail_power);
 }
 
 }  // namespace

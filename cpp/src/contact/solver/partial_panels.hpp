@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "asperity/rubber.hpp"
-#include "contact/solver/partial_solver.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "contact/theory/partial_root.hpp"
 #include "contact/theory/rule_error.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/roughness_window.hpp"

@@ -50,7 +50,7 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
       stops_(stops) {
   check_scales(surface);
   if (std::holds_alternative<PartialContact>(model.correction))
-    partial_ = partial_profile_solver(surface, rubber, model, stops);
+    partial_.emplace(surface, rubber, model, stops);
   else if (with_hysteresis && model.method == Method::gauss)
     contact_.emplace(model.form, factor);
 }

@@ -2,7 +2,6 @@
 // panels elsewhere and where a result is wanted part by part, or GSL's adaptive integration as the independent check.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,7 +9,7 @@
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/level_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
-#include "contact/solver/partial_solver.hpp"
+#include "contact/solver/partial_panel_solver.hpp"
 
 namespace asperity {
 
@@ -63,8 +62,8 @@ class Solver {
   std::span<const double> stops_;
   double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
   std::optional<LevelSolver> levels_;
-  bool by_levels_ = false;                         // the point
-  std::unique_ptr<PartialProfileSolver> partial_;  // instead of panel_solver_
+  bool by_levels_ = false;                     // the point
+  std::optional<PartialPanelSolver> partial_;  // instead of panel_solver_
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;
