@@ -5,6 +5,7 @@
 
 #include "arrays.hpp"
 #include "topics.hpp"
+#include "value.hpp"
 #include "variants.hpp"
 
 namespace asperity::python {
@@ -80,42 +81,25 @@ void add_contacts(ScanContact& scan, const Array& rows) {
   }
 }
 
-/// A correction whose numbers are in their ranges.
-template <class C>
-C valid(C correction) {
-  validate(Correction(correction));
-  return correction;
-}
-
 void bind_corrections(py::module_& m) {
-  using Optional = std::optional<double>;
   py::classh<ScanContact>(m, "ScanContact")
       .def(py::init([](const HeightMap& map, int continuation, double tolerance) {
         return released([&] { return ScanContact(map, static_cast<Continuation>(continuation), tolerance); });
       }))
       .def("contacts", &contact_rows)
       .def("add", &add_contacts);
-  py::classh<SFactor>(m, "SFactor").def(py::init([](double gamma, int applies_to) {
-    return valid(SFactor{gamma, static_cast<SFactor::AppliesTo>(applies_to)});
-  }));
-  py::classh<NayakSFactor>(m, "NayakSFactor").def(py::init([](double gamma) { return valid(NayakSFactor{gamma}); }));
-  py::classh<PartialContact>(m, "PartialContact").def(py::init<>());
-  py::classh<AffineShift>(m, "AffineShift").def(py::init([](double p) { return valid(AffineShift{p}); }));
-  py::classh<LocalPeaks>(m, "LocalPeaks")
-      .def(py::init([](const Array& heights, Optional z_max) {
-        return valid(LocalPeaks{vector_of(heights), z_max});
-      }))
+  bind_value(m, "SFactor", &SFactor::gamma, &SFactor::applies_to);
+  bind_value(m, "NayakSFactor", &NayakSFactor::friction_gamma);
+  bind_value<PartialContact>(m, "PartialContact");
+  bind_value(m, "AffineShift", &AffineShift::p);
+  bind_value(m, "LocalPeaks", &LocalPeaks::heights, &LocalPeaks::z_max)
       .def("shift_factor", [](const LocalPeaks& peaks) { return shift_factor(peaks); });
-  py::classh<GreenwoodWilliamson>(m, "GreenwoodWilliamson")
-      .def(py::init([](double z_max, double z_min, const Array& peaks, int reading, Optional rms_height, Optional q0) {
-        return valid(
-            GreenwoodWilliamson{z_max, z_min, vector_of(peaks), static_cast<Reading>(reading), rms_height, q0});
-      }));
-  py::classh<PeaksThenGreenwoodWilliamson>(m, "PeaksThenGreenwoodWilliamson")
-      .def(py::init([](const LocalPeaks& peaks, double z_max, double z_min, int reading, Optional rms_height,
-                       Optional q0) {
-        return valid(PeaksThenGreenwoodWilliamson{peaks, z_max, z_min, static_cast<Reading>(reading), rms_height, q0});
-      }));
+  using Model = GreenwoodWilliamson;
+  bind_value(m, "GreenwoodWilliamson", &Model::z_max, &Model::z_min, &Model::peaks, &Model::reading, &Model::rms_height,
+             &Model::q0);
+  using Both = PeaksThenGreenwoodWilliamson;
+  bind_value(m, "PeaksThenGreenwoodWilliamson", &Both::peaks, &Both::z_max, &Both::z_min, &Both::reading,
+             &Both::rms_height, &Both::q0);
 }
 
 }  // namespace

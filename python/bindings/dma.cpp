@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "topics.hpp"
+#include "value.hpp"
 #include "variants.hpp"
 
 namespace asperity::python {
@@ -42,11 +43,7 @@ void bind_shift_factors(py::module_& m) {
 }
 
 void bind_laws(py::module_& m) {
-  py::classh<WLF>(m, "WLF").def(py::init([](double c1, double c2, double reference) {
-    const WLF law{c1, c2, reference};
-    validate(law);
-    return law;
-  }));
+  bind_value(m, "WLF", &WLF::c1, &WLF::c2, &WLF::reference);
   py::classh<WlfFit>(m, "WlfFit").def(py::init([](double c1, double c2, double reference) {
     return WlfFit{c1, c2, reference, 0, 0, 0};
   }));

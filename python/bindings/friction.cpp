@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "asperity/heating.hpp"
 #include "topics.hpp"
+#include "value.hpp"
 #include "variants.hpp"
 
 namespace asperity::python {
@@ -72,29 +73,13 @@ py::tuple fit(const Spectrum& spectrum, const Rubber& rubber, const ContactModel
 void bind_friction(py::module_& m) {
   m.attr("NOTED_EXTRAPOLATION") = asperity::noted_extrapolation;
   m.attr("FATAL_EXTRAPOLATION") = asperity::fatal_extrapolation;
-  py::classh<Heating>(m, "Heating")
-      .def(py::init([](double density, double heat_capacity, double conductivity, double diameter,
-                       std::optional<double> macro_wavenumber, std::optional<double> macro_area, int residence,
-                       double share) {
-        const Heating heating{density,
-                              heat_capacity,
-                              conductivity,
-                              diameter,
-                              macro_wavenumber,
-                              macro_area,
-                              static_cast<Residence>(residence),
-                              share};
-        validate(heating);
-        return heating;
-      }));
+  bind_value(m, "Heating", &Heating::density, &Heating::heat_capacity, &Heating::conductivity,
+             &Heating::contact_diameter, &Heating::macro_wavenumber, &Heating::macro_area, &Heating::residence,
+             &Heating::interface_share);
   m.def("heat_kernel", [](const Array& q, const Array& q_prime, const Array& velocity, const Heating& heating) {
     return computed([&] { return heat_kernel(span_of(q), span_of(q_prime), span_of(velocity), heating); });
   });
-  py::classh<Adhesion>(m, "Adhesion").def(py::init([](double tau, double v0, double c) {
-    const Adhesion adhesion{tau, v0, c};
-    validate(adhesion);
-    return adhesion;
-  }));
+  bind_value(m, "Adhesion", &Adhesion::shear_stress, &Adhesion::reference_velocity, &Adhesion::width);
   m.def("friction", &friction_of);
   m.def("flash_friction", &flash_friction_of);
   m.def("sliding_length", [](const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,

@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "asperity/tiles.hpp"
 #include "topics.hpp"
+#include "value.hpp"
 #include "variants.hpp"
 
 namespace asperity::python {
@@ -118,12 +119,8 @@ void bind_measured(py::module_& m) {
 }  // namespace
 
 void bind_spectrum(py::module_& m) {
-  py::classh<SelfAffineSpectrum>(m, "SelfAffineSpectrum")
-      .def(py::init([](double rms_height, double hurst, double q0, double q1, Optional rolloff) {
-        const SelfAffineSpectrum spectrum{rms_height, hurst, q0, q1, rolloff};
-        validate(spectrum);
-        return spectrum;
-      }))
+  using Law = SelfAffineSpectrum;
+  bind_value(m, "SelfAffineSpectrum", &Law::rms_height, &Law::hurst, &Law::q0, &Law::q1, &Law::rolloff)
       .def_static("from_article", &SelfAffineSpectrum::from_article)
       .def_readonly("rms_height", &SelfAffineSpectrum::rms_height)
       .def_readonly("hurst", &SelfAffineSpectrum::hurst)
