@@ -32,26 +32,25 @@ TABLES = ("correction", *_OF)
 
 def table(name: str) -> list[str]:
     """The lines of a table in Markdown."""
-    rows = [_HEAD, ["---"] * len(_HEAD), *_rows(name)]
-    if name == "correction":
-        kinds = {key: [k for k in KINDS if key in CORRECTIONS[k]] for key, *_ in rows}
-        for row in rows[2:]:
-            of_scan = "z_max_m" in CORRECTIONS[kinds[row[0]][0]]
-            row[2] = row[2].replace("required", "from the scan") if of_scan else row[2]
-            row[3] = f"{', '.join(kinds[row[0]])}: {row[3]}"
-    shown = [[f"`{key}`", *rest] for key, *rest in rows[2:]]
-    return [f"| {' | '.join(row)} |" for row in (*rows[:2], *shown)]
+    rows = _corrections() if name == "correction" else _rows_of(*_OF[name])
+    shown = [_HEAD, ["---"] * len(_HEAD), *([f"`{key}`", *rest] for key, *rest in rows)]
+    return [f"| {' | '.join(row)} |" for row in shown]
 
 
-def _rows(name: str) -> Rows:
-    if name in _OF:
-        yield from _rows_of(*_OF[name])
-        return
-    told = {"kind"}
+def _corrections() -> Rows:
+    """A row for each key, or more where kinds have other defaults, with the kinds it goes with."""
+    rows: dict[tuple[str, Any], list[str]] = {}
+    kinds: dict[tuple[str, Any], list[str]] = {}
     for kind, fields in CORRECTIONS.items():
-        new = {key: one for key, one in fields.items() if key not in told}
-        yield from _rows_of(new, KINDS[kind])
-        told |= new.keys()
+        named = {key: one for key, one in fields.items() if key != "kind"}
+        for row in _rows_of(named, KINDS[kind]):
+            if "z_max_m" in fields:
+                row[2] = row[2].replace("required", "from the scan")
+            at = row[0], fields[row[0]].default
+            rows.setdefault(at, row)
+            kinds.setdefault(at, []).append(kind)
+    for at, (*cells, meaning) in rows.items():
+        yield [*cells, f"{', '.join(kinds[at])}: {meaning}"]
 
 
 def _rows_of(fields: Mapping[str, Field], of: Callable[..., Any]) -> Rows:
@@ -60,7 +59,7 @@ def _rows_of(fields: Mapping[str, Field], of: Callable[..., Any]) -> Rows:
         assert field.declared is not None
         default = "" if field.default is None else _shown(field.default)
         default = "required" if field.required else default
-        meaning = _UNITS.sub("", meanings[field.argument])
+        meaning = _UNITS.sub("", meanings.get(field.argument, ""))
         choices = ", ".join(map(_shown, field.declared.choices))
         text = f"{choices}. {meaning}" if choices else meaning
         yield [

@@ -87,8 +87,8 @@ def contact_area(
         sigma0 [Pa] and v [m/s], positive; they broadcast.
     poisson_ratio : float
         In [0, 0.5].
-    correction : SFactor, NayakSFactor, PartialContact, AffineShift, LocalPeaks, \
-GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
+    correction : object or None
+        One of the classes in `asperity.correction`, for instance `PartialContact()`.
         None is plain Persson.
     form : {"exact", "interpolated"}
         "interpolated" is Eq. 7, (1 + (pi G)^1.5)^(-1/3), which differs by -2.8 to +2.6 %.

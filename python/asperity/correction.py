@@ -19,6 +19,7 @@ from asperity.surface import HeightMap
 __all__ = [
     "AffineShift",
     "GreenwoodWilliamson",
+    "ImplicitSFactor",
     "LocalPeaks",
     "NayakSFactor",
     "PartialContact",
@@ -88,6 +89,34 @@ class NayakSFactor(CoreValue):
 
     _title = "S-factor after Nayak"
     friction_gamma: float = parameter(default=0.4, usual=(0, 1))
+
+
+@value
+class ImplicitSFactor(CoreValue):
+    """S of the area that results: A = erf(1 / (2 sqrt(G (gamma + (1 - gamma) A)))).
+
+    For `contact_area` and the adhesion, as `SFactor(applies_to="area")`; Eq. 22 is left alone.
+    The right side falls as A grows, so that there is one A. gamma = 1 is Persson's theory; at small
+    loads A is 1 / sqrt(gamma) times Persson's, and in full contact it is Persson's. The law is that
+    of Y. Xu and others, J. Mech. Phys. Solids (2024), there with 0.42 to 0.45.
+
+    Parameters
+    ----------
+    gamma : float
+        In [0, 1]; 0.42 to 0.45 in its source.
+
+    Notes
+    -----
+    On the contacts of SFactor, mean error of the area and the worst: 4.4 %, +14 % with gamma =
+    0.45, 6.1 %, +18 % with 0.42, 2.5 %, -12 % with 0.50; elastic energy as without correction. Its
+    source fitted areas whose edges count as whole pixels, which makes them larger: on 12 of them
+    (github.com/xylcsi/PerssonModelFudgeFactor, H = 0.8, q1/q0 = 100, p / E* from 1e-4 to 0.5, with
+    the rms slope of 0.279 that they imply) 0.45 is off by 2.7 % rms and 4 % at worst, no correction
+    by 22 % rms. It does not know the bandwidth: `NayakSFactor` is nearer.
+    """
+
+    _title = "implicit S-factor"
+    gamma: float = parameter(default=0.45, usual=(0, 1))
 
 
 @value
@@ -341,6 +370,7 @@ Correction = (
     | GreenwoodWilliamson
     | PeaksThenGreenwoodWilliamson
     | ScanContact
+    | ImplicitSFactor
 )
 CORRECTIONS: tuple[type, ...] = Correction.__args__
 

@@ -69,8 +69,8 @@ def friction(
         sigma0 [Pa] and v [m/s], positive; they broadcast.
     poisson_ratio : float
         In [0, 0.5].
-    correction : SFactor, NayakSFactor, PartialContact, AffineShift, LocalPeaks, \
-GreenwoodWilliamson, PeaksThenGreenwoodWilliamson or None
+    correction : object or None
+        One of the classes in `asperity.correction`, for instance `PartialContact()`.
         None is plain Persson.
     adhesion : Adhesion, optional
         Without it the adhesion is 0.

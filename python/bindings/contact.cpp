@@ -90,6 +90,7 @@ void bind_corrections(py::module_& m) {
       .def("add", &add_contacts);
   bind_value(m, "SFactor", &SFactor::gamma, &SFactor::applies_to);
   bind_value(m, "NayakSFactor", &NayakSFactor::friction_gamma);
+  bind_value(m, "ImplicitSFactor", &ImplicitSFactor::gamma);
   bind_value<PartialContact>(m, "PartialContact");
   bind_value(m, "AffineShift", &AffineShift::p);
   bind_value(m, "LocalPeaks", &LocalPeaks::heights, &LocalPeaks::z_max)

@@ -37,6 +37,13 @@ struct NayakSFactor {
   bool operator==(const NayakSFactor&) const = default;
 };
 
+/// P = erf(1 / (2 sqrt(G (gamma + (1 - gamma) P)))), implicit in P, for the area and the adhesion; Eq. 22 is left
+/// alone. With form = interpolated the P of that form at the same G.
+struct ImplicitSFactor {
+  double gamma = 0.45;
+  bool operator==(const ImplicitSFactor&) const = default;
+};
+
 /// This project's own rule, made on exact sliding contacts: area and friction from one sum rule over the stress of all
 /// waves, which knows that the pressure varies by as much as the stress does. With G, I1 and I2 of Persson's theory,
 /// A(q) = erf(1 / (2 sqrt(kappa G))) and A1 that at q1: the integrand of Eq. 22 is multiplied by R = A / (1 + Z)^2,
@@ -85,7 +92,7 @@ struct PeaksThenGreenwoodWilliamson {
 };
 
 using Correction = std::variant<NoCorrection, SFactor, NayakSFactor, AffineShift, LocalPeaks, GreenwoodWilliamson,
-                                PeaksThenGreenwoodWilliamson, PartialContact, ScanContact>;
+                                PeaksThenGreenwoodWilliamson, PartialContact, ScanContact, ImplicitSFactor>;
 
 ASPERITY_EXPORT void validate(const Correction& correction);
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/theory/s_factor.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
@@ -50,10 +51,15 @@ const Tables* tables_of(const Correction& correction) {
   };
   if (std::holds_alternative<NoCorrection>(correction)) return &no_correction;
   if (std::holds_alternative<PartialContact>(correction)) return &partial_contact;
-  if (const auto* s = std::get_if<NayakSFactor>(&correction)) return of_gamma(s->friction_gamma);
-  if (const auto* s = std::get_if<SFactor>(&correction))
-    return of_gamma(s->applies_to == SFactor::AppliesTo::area ? 1 : s->gamma);
-  return nullptr;
+  const bool by_s = std::visit(
+      [](const auto& s) {
+        return requires { s.gamma; }
+        || requires { s.friction_gamma; };
+      },
+      correction);
+  if (!by_s) return nullptr;
+  const auto s = s_in_integrand(correction);
+  return of_gamma(s ? s->gamma : 1);
 }
 
 }  // namespace

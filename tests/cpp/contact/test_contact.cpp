@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "asperity/contact.hpp"
+#include "contact/theory/s_factor.hpp"
 #include "reference_table.hpp"
 
 using namespace asperity;
@@ -69,6 +70,37 @@ TEST_CASE("S inside G that knows the band: the area of its definition, under any
       CHECK_NEAR(area, row.number("contact_area"), row.number("rtol"), 1e-300);
     }
   }
+}
+
+TEST_CASE("the implicit S factor: the area of its definition, over all loads") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1024, .q1 = 32768};
+  const double velocity = 1;
+  for (const Row& row : reference("implicit_s_factor")) {
+    CAPTURE(row.text("case"));
+    const double pressure = 1e6 * rms_slope(surface) / std::sqrt(8 * row.number("g_uncorrected"));
+    const double area =
+        contact_area(surface, PronySeries(1e6, {}, {}),
+                     {.poisson_ratio = 0, .correction = ImplicitSFactor{row.number("gamma")}, .rtol = 1e-12},
+                     std::span(&pressure, 1), std::span(&velocity, 1))[0];
+    CHECK_NEAR(area, row.number("contact_area"), row.number("rtol"), 1e-300);
+  }
+}
+
+TEST_CASE("the G of an area comes with its slope") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1024, .q1 = 32768};
+  const std::vector<Segment> pieces = segments(surface);
+  const Correction corrections[] = {SFactor{0.3, SFactor::AppliesTo::area}, NayakSFactor{}, ImplicitSFactor{0},
+                                    ImplicitSFactor{}};
+  for (const Correction& correction : corrections)
+    for (const Form form : {Form::exact, Form::interpolated}) {
+      AreaG area_g({.correction = correction, .form = form}, surface, pieces, surface.q1);
+      for (const double g : {0.02, 0.1, 1.0, 30.0, 1e5}) {
+        CAPTURE(g);
+        constexpr double step = 1e-4;  // an error of 1e-8 and less
+        const double rise = area_g(g * (1 + step)) - area_g(g * (1 - step));
+        CHECK(area_g.at(g).slope == doctest::Approx(rise / (2 * step * g)).epsilon(1e-6));
+      }
+    }
 }
 
 TEST_CASE("Nayak's parameter of a table: straight pieces too, 1.5 on a narrow band") {

@@ -145,6 +145,7 @@ MADE = [
     ("WLF", LAW, {"c2": 50.0}),
     ("Heating", TREAD, {"interface_share": 0.5}),
     ("Heating", TREAD | {"macro_area": 0.2}, {"residence": "box"}),
+    ("ImplicitSFactor", {"gamma": 0.45}, {"gamma": 0.4}),
 ]
 IDS = [f"{name}{i}" for i, (name, _, _) in enumerate(MADE)]
 RESULTS = {

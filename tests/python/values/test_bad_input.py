@@ -90,6 +90,7 @@ CALLS = {
     ),
     "SFactor": (asperity.SFactor, {}),
     "NayakSFactor": (asperity.NayakSFactor, {}),
+    "ImplicitSFactor": (asperity.ImplicitSFactor, {}),
     "PartialContact": (asperity.PartialContact, {}),
     "ScanContact": (asperity.ScanContact, {"height_map": MAP}),
     "AffineShift": (asperity.AffineShift, {"p": 2}),
@@ -221,6 +222,7 @@ REFUSED = {  # several arguments of which the same is said stand in one key
     },
     "SFactor": {"gamma": [SHARE], "applies_to": [NAME]},
     "NayakSFactor": {"friction_gamma": [SHARE]},
+    "ImplicitSFactor": {"gamma": [SHARE]},
     "PartialContact": {},
     "ScanContact": {
         "height_map": [([None, SURFACE, 5.0], "must be a HeightMap")],

@@ -74,6 +74,7 @@ def test_methods_and_properties_say_what_they_return_and_take():
 UNITLESS = {
     "SFactor",
     "NayakSFactor",
+    "ImplicitSFactor",
     "PartialContact",
     "fit_self_affine",
     "FrictionMap",

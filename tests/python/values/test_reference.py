@@ -98,6 +98,22 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
 
 
+@each("rtol", [1e-4, 1e-12])
+@pytest.mark.reference("implicit_s_factor")
+def test_area_with_s_of_the_area_that_results(row, rtol):
+    spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.7, q0=1e3, q1=1e5)
+    found = asperity.contact_area(
+        spectrum,
+        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
+        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * row["g_uncorrected"]),
+        velocity=1.0,
+        poisson_ratio=0,
+        correction=asperity.ImplicitSFactor(gamma=row["gamma"]),
+        rtol=rtol,
+    )
+    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
+
+
 @pytest.mark.reference("pressure_distribution")
 def test_pressure_distribution_at_a_known_g(row):
     # elastic: G = h'^2 E^2 / (8 ((1 - nu^2) sigma0)^2), and h'^2 = h_rms^2 q0 q1 where H = 1/2

@@ -3,7 +3,6 @@
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "contact/theory/partial_loops.hpp"
 #include "contact/theory/theory.hpp"
@@ -14,7 +13,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
-using std::numbers::pi;
 
 void Theory::take(const NodeModulus& modulus) {
   const auto n = static_cast<Index>(modulus.i2.size());
@@ -48,13 +46,6 @@ double Theory::g_on(std::size_t panel, double u) const {
 
 namespace {
 
-double p_slope(double g, Form form) {
-  if (g <= 0) return 0;
-  if (form == Form::exact) return -std::exp(-0.25 / g) * std::numbers::inv_sqrtpi / (2 * g * std::sqrt(g));
-  const double x = pi * g, root = std::sqrt(x);
-  return -0.5 * pi * root * std::pow(1 + x * root, -4.0 / 3);
-}
-
 double p_of(double g, Form form) { return g <= 0 ? 1 : contact_share(g, form); }
 
 class PerssonTheory final : public Theory {
@@ -64,7 +55,6 @@ class PerssonTheory final : public Theory {
       : Theory(grid),
         form_(model.form),
         factor_(s_in_integrand(model.correction)),
-        inside_(s_inside(model.correction, spectrum, surface, surface.back().b)),
         contact_(model.form, factor_),
         area_g_(model, spectrum, surface, surface.back().b) {}
 
@@ -88,7 +78,7 @@ class PerssonTheory final : public Theory {
   void take_stress();
 
   Form form_;
-  std::optional<SFunction> factor_, inside_;
+  std::optional<SFunction> factor_;
   ContactIntegral contact_;
   AreaG area_g_;
   VectorXd g_at_load_, f_, measure_;
@@ -196,11 +186,9 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
     }
   }
   result.part.topRows(n) += part_.head(n).asDiagonal() * along.ratio.topRows(n);
-  const double area_g = area_g_(g());
-  const double area_slope =
-      p_slope(area_g, form_) * (inside_ ? (*inside_)(p_of(area_g, form_)) : 1);  // dG = S dG(uncorrected)
-  result.area = area_slope * slopes.edge.bottomRows(1);
-  result.macro = p_slope(scale_ * g_macro_, form_) * slopes.macro;
+  const CorrectedG area = area_g_.at(g());
+  result.area = contact_slope(area.g, form_) * area.slope * slopes.edge.bottomRows(1);
+  result.macro = contact_slope(scale_ * g_macro_, form_) * slopes.macro;
 }
 
 double PerssonTheory::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {

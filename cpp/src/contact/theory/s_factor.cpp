@@ -1,6 +1,7 @@
 // P(G), exact, erf(1 / (2 sqrt G)), or interpolated (Eq. 7), and the S factor S = gamma + (1 - gamma) P^2 (Eq. 8)
 // inside G, where dG = S dG(uncorrected), or on the integrand of Eq. 22. NayakSFactor has an S of its own, fitted to
-// boundary elements. B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
+// boundary elements, ImplicitSFactor one of the area that results (Y. Xu and others, J. Mech. Phys. Solids, 2024). B.
+// N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include "contact/theory/s_factor.hpp"
 
 #include <algorithm>
@@ -17,6 +18,13 @@ using std::numbers::pi;
 double contact_share(double g, Form form) {
   if (form == Form::exact) return std::erf(0.5 / std::sqrt(g));
   return 1 / std::cbrt(1 + std::pow(pi * g, 1.5));
+}
+
+double contact_slope(double g, Form form) {
+  if (g <= 0) return 0;
+  if (form == Form::exact) return -std::exp(-0.25 / g) * std::numbers::inv_sqrtpi / (2 * g * std::sqrt(g));
+  const double x = pi * g, root = std::sqrt(x);
+  return -0.5 * pi * root * std::pow(1 + x * root, -4.0 / 3);
 }
 
 double full_contact_g(Form form) { return form == Form::exact ? 0.007 : 1e-11; }
@@ -79,6 +87,9 @@ SFunction nayak_s(double nayak_parameter) {
   return {.gamma = 0.63 * (1 - 0.50 / std::sqrt(std::sqrt(nayak_parameter))), .rise = 0.29, .power = 13};
 }
 
+namespace {
+
+/// The S that the correction puts inside G up to `wavenumber`, if any.
 std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
                                   std::span<const Segment> surface, double wavenumber) {
   if (const auto* s = std::get_if<SFactor>(&correction); s && s->applies_to != SFactor::AppliesTo::friction)
@@ -88,6 +99,24 @@ std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& 
   return {};
 }
 
+// G (gamma + (1 - gamma) P) with the P of the result. P(G) falls as G grows, so that there is one. Over ln P the
+// residual rises by 1 to 1.5, so that Newton's steps at least halve it.
+CorrectedG with_s_of_the_area(double gamma, Form form, double uncorrected) {
+  if (uncorrected <= full_contact_g(form) || gamma == 1) return {uncorrected, 1};
+  double log_share = std::log(contact_share(uncorrected, form));
+  for (int i = 0; i < 60; ++i) {
+    const double share = std::exp(log_share), s = gamma + (1 - gamma) * share, g = uncorrected * s;
+    const double found = contact_share(g, form), fall = -contact_slope(g, form) * uncorrected * (1 - gamma);
+    const double change = (std::log(found) - log_share) / (1 + fall * share / found);
+    log_share += change;
+    // the next would be its square
+    if (std::fabs(change) <= 1e-8) return {uncorrected * (gamma + (1 - gamma) * std::exp(log_share)), s / (1 + fall)};
+  }
+  throw NotConverged("contact area of the implicit S factor: G without = " + show(uncorrected) + " after 60 steps");
+}
+
+}  // namespace
+
 std::optional<SFunction> s_in_integrand(const Correction& correction) {
   if (const auto* s = std::get_if<SFactor>(&correction); s && s->applies_to != SFactor::AppliesTo::area)
     return SFunction{.gamma = s->gamma};
@@ -96,9 +125,14 @@ std::optional<SFunction> s_in_integrand(const Correction& correction) {
 }
 
 AreaG::AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber) {
-  if (const auto s = s_inside(model.correction, spectrum, surface, wavenumber)) inside_.emplace(*s, model.form);
+  const Form form = model.form;
+  if (const auto s = s_inside(model.correction, spectrum, surface, wavenumber))
+    rule_ = [s = *s, inside = SInside(*s, form), form](double g) mutable {
+      const double corrected = inside(g);
+      return CorrectedG{corrected, s(contact_share(corrected, form))};
+    };
+  if (const auto* s = std::get_if<ImplicitSFactor>(&model.correction))
+    rule_ = [gamma = s->gamma, form](double g) { return with_s_of_the_area(gamma, form, g); };
 }
-
-double AreaG::operator()(double g) { return inside_ && g > 0 ? (*inside_)(g) : g; }
 
 }  // namespace asperity

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,8 @@ namespace asperity {
 
 /// P(G), the share of the nominal area in contact.
 double contact_share(double g, Form form);
+/// dP / dG.
+double contact_slope(double g, Form form);
 /// G below which P, and with it S, is 1 to rounding.
 double full_contact_g(Form form);
 
@@ -49,21 +52,23 @@ class SInside {
 /// The S inside G of NayakSFactor.
 SFunction nayak_s(double nayak_parameter);
 
-/// The S that the correction puts inside G up to `wavenumber`, if any.
-std::optional<SFunction> s_inside(const Correction& correction, const Spectrum& spectrum,
-                                  std::span<const Segment> surface, double wavenumber);
-
 /// The S of the uncorrected P that the correction puts in the integrand of Eq. 22, if any.
 std::optional<SFunction> s_in_integrand(const Correction& correction);
+
+/// The G of a contact area, and its slope over the uncorrected G.
+struct CorrectedG {
+  double g, slope;
+};
 
 /// From the uncorrected G to the G of the contact area at `wavenumber`.
 class AreaG {
  public:
   AreaG(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface, double wavenumber);
-  [[nodiscard]] double operator()(double g);
+  [[nodiscard]] CorrectedG at(double g) const { return rule_ && g > 0 ? rule_(g) : CorrectedG{g, 1}; }
+  [[nodiscard]] double operator()(double g) const { return at(g).g; }
 
  private:
-  std::optional<SInside> inside_;
+  std::function<CorrectedG(double)> rule_;  // none: G as it is
 };
 
 }  // namespace asperity

@@ -1,0 +1,150 @@
+"""ImplicitSFactor: one area for each load, its limits, and what it leaves alone."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.scene.scene import load_scene
+
+ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=1e6,
+    moduli=np.geomspace(1e8, 1e6, 7),
+    relaxation_times=np.geomspace(1e-5, 10, 7),
+)
+LOADS = np.geomspace(1e2, 1e9, 29)
+STICKY = asperity.Adhesion(shear_stress=8e6)
+
+
+def area(pressure, correction=None, **more):
+    given = {"pressure": pressure, "velocity": 0.01, "correction": correction, **more}
+    return asperity.contact_area(ROAD, RUBBER, **given)
+
+
+@pytest.mark.parametrize("form", ["exact", "interpolated"])
+@pytest.mark.parametrize("gamma", [0.0, 0.2, 0.45, 0.9])
+def test_the_area_is_that_of_theory_at_g_with_the_s_of_itself(form, gamma):
+    """G falls as 1 / pressure^2: S in G is a pressure higher by 1 / sqrt(S)."""
+    found = area(LOADS, asperity.ImplicitSFactor(gamma=gamma), form=form)
+    s = gamma + (1 - gamma) * found
+    assert found == pytest.approx(area(LOADS / np.sqrt(s), form=form), rel=1e-9)
+    assert np.all(np.diff(found) >= 0)
+    assert np.all((found > 0) & (found <= 1))
+
+
+def test_gamma_1_is_persson():
+    assert np.array_equal(area(LOADS, asperity.ImplicitSFactor(gamma=1)), area(LOADS))
+
+
+def test_at_small_loads_the_area_is_proportional_to_the_load():
+    light = 1e2 * np.array([1, 1e-2, 1e-4])
+    found = area(light, asperity.ImplicitSFactor(gamma=0.45))
+    # S is gamma to (1 - gamma) / gamma A
+    assert found / light == pytest.approx(area(light) / light / np.sqrt(0.45), rel=2e-3)
+    assert found[2] / light[2] == pytest.approx(area(light[2]) / light[2] / np.sqrt(0.45), rel=1e-6)
+
+
+def test_full_contact_is_complete():
+    assert area(1e12, asperity.ImplicitSFactor()) == 1
+
+
+def test_every_magnification_has_its_own_area():
+    q = np.geomspace(1e3, 1e5, 9)[1:]
+    found = area(1e5, asperity.ImplicitSFactor(gamma=0.3), wavenumber=q)
+    cut = [
+        asperity.contact_area(
+            ROAD.truncated(q1=end),
+            RUBBER,
+            pressure=1e5,
+            velocity=0.01,
+            correction=asperity.ImplicitSFactor(gamma=0.3),
+        )
+        for end in q[2:]
+    ]
+    assert found[2:] == pytest.approx(cut, rel=1e-6)
+
+
+@pytest.mark.parametrize("heat", [False, True])
+def test_eq_22_is_left_alone_and_the_adhesion_goes_with_the_area(heat):
+    hot = {}
+    if heat:
+        tread = asperity.Heating(
+            density=1200,
+            heat_capacity=1650,
+            conductivity=0.23,
+            contact_diameter=1e-3,
+            interface_share=0,
+        )
+        law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+        hot = {"temperature": 293.15, "shift": law, "heating": tread}
+    at = {"pressure": [1e5, 1e6], "velocity": 0.1, "adhesion": STICKY, **hot}
+    plain = asperity.friction(ROAD, RUBBER, **at)
+    found = asperity.friction(ROAD, RUBBER, correction=asperity.ImplicitSFactor(), **at)
+    assert found.hysteresis == pytest.approx(plain.hysteresis, rel=1e-6)
+    assert np.all(found.contact_area > 1.05 * plain.contact_area)
+    ratio = found.contact_area / plain.contact_area
+    assert found.adhesion == pytest.approx(ratio * plain.adhesion, rel=1e-9)
+    assert np.array_equal(found.model_error, plain.model_error, equal_nan=True)
+    if not heat:
+        assert found.contact_area == pytest.approx(
+            asperity.contact_area(
+                ROAD,
+                RUBBER,
+                pressure=[1e5, 1e6],
+                velocity=0.1,
+                correction=asperity.ImplicitSFactor(),
+            ),
+            rel=1e-6,
+        )
+
+
+def test_heat_of_the_adhesion_finds_the_same_state_by_gsl():
+    """The fixed point takes the slope of the area over the temperature; GSL's does not."""
+    tread = asperity.Heating(
+        density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3
+    )
+    law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+    at = {
+        "pressure": 1e5,
+        "velocity": 0.3,
+        "temperature": 293.15,
+        "shift": law,
+        "heating": tread,
+        "adhesion": STICKY,
+        "correction": asperity.ImplicitSFactor(gamma=0.4),
+        "rtol": 1e-4,
+    }
+    found = asperity.friction(ROAD, RUBBER, **at)
+    check = asperity.friction(ROAD, RUBBER, method="cquad", **at)
+    assert found.mu == pytest.approx(check.mu, abs=found.error_estimate + check.error_estimate)
+    assert found.temperature == pytest.approx(check.temperature, abs=0.05)
+
+
+def test_a_scene_takes_it_by_name(tmp_path: Path):
+    text = """
+[surface]
+rms_height_m = 1e-4
+hurst = 0.8
+q0_per_m = 1e3
+q1_per_m = 1e5
+[rubber]
+equilibrium_modulus_pa = 1e6
+moduli_pa = [1e8]
+relaxation_times_s = [1e-4]
+[conditions]
+pressure_pa = 1e5
+velocity_m_s = [1e-3, 1e-1]
+[correction]
+kind = "implicit-s-factor"
+"""
+    (tmp_path / "scene.toml").write_text(text)
+    scene = load_scene(tmp_path / "scene.toml")
+    assert scene.correction == asperity.ImplicitSFactor(gamma=0.45)
+    assert scene.inputs["correction"] == {"kind": "implicit-s-factor", "gamma": 0.45}
+    (tmp_path / "scene.toml").write_text(text + "gamma = 1.5\n")
+    with pytest.raises(
+        asperity.InvalidInput, match=r"\[correction\] gamma = 1.5: must be in \[0, 1\]"
+    ):
+        load_scene(tmp_path / "scene.toml")
