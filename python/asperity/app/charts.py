@@ -12,7 +12,7 @@ from asperity.base.celsius import ZERO_CELSIUS
 from asperity.plot.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.scan import nyquist, surface_spectrum
 from asperity.spectrum import TabulatedSpectrum
 
@@ -23,7 +23,7 @@ _MOST_POINTS = 600  # of a scatter: more are not told apart
 
 
 def friction_chart(
-    scene: Scene, curves: Curves, cold: Curves | None, variants: Sequence[Variant]
+    scene: Scene, curves: SceneFriction, cold: SceneFriction | None, variants: Sequence[Variant]
 ) -> Options:
     """mu over velocity: this scene with its parts, its band and itself without heat; variants."""
     v = scene.velocity

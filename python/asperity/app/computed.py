@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from asperity.friction import friction
 from asperity.scene.mapped import rubber_of_map
-from asperity.scene.model import Curves, Progress, Scene
+from asperity.scene.model import Progress, Scene, SceneFriction
 
 
 def without_heat(scene: Scene) -> Scene:
@@ -17,7 +17,9 @@ def without_heat(scene: Scene) -> Scene:
     return replace(scene, heating=None)
 
 
-def with_band(scene: Scene, curves: Curves, progress: Progress = nullcontext) -> Curves:
+def with_band(
+    scene: Scene, curves: SceneFriction, progress: Progress = nullcontext
+) -> SceneFriction:
     """The curves with the band of the measured inputs, where their errors are known."""
     return curves.within(scene.band(curves.mu, progress)) if scene.has_errors else curves
 

@@ -17,7 +17,7 @@ from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
 from asperity.report.make import report_page
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import scene_inputs, table_of
 
 # What a download is made of is taken at once; making it may take its time in a thread.
@@ -48,12 +48,12 @@ def scene_archive(state: State) -> Make:
     return make
 
 
-def table_csv(scene: Scene, curves: Curves) -> bytes:
+def table_csv(scene: Scene, curves: SceneFriction) -> bytes:
     """The table, byte for byte as the shell writes it beside the scene; `curves` have no band."""
     return table_of([_unplaced(scene)], [curves]).csv().encode()
 
 
-def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[Curves]) -> bytes:
+def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[SceneFriction]) -> bytes:
     """The package's own picture of the curves, by the names that they have on the page."""
     scenes = [replace(scene, path=Path(name)) for name, scene in named]
     with _drawing:

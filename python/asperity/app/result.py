@@ -17,7 +17,7 @@ from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.diagnostics import Note
 from asperity.report.errors import errors_of
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 
 _NOTHING = "There are no notes: input, correction and theory are within their ranges."
 
@@ -244,7 +244,7 @@ def _items(lines: Sequence[str]) -> str:
     return "".join(f"<li>{escape(line)}</li>" for line in lines)
 
 
-def _table(scene: Scene, curves: Curves) -> str:
+def _table(scene: Scene, curves: SceneFriction) -> str:
     """The numbers at the first pressure, as HTML."""
     columns = {
         "v [m/s]": scene.velocity,

@@ -23,7 +23,7 @@ from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Note
 from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.rubber import build_measured, build_rubber
 from asperity.scene.scene import Builders
 from asperity.scene.surface import build_surface
@@ -51,7 +51,7 @@ class Variant:
     name: str
     tables: Tables
     scene: Scene
-    curves: Curves
+    curves: SceneFriction
 
 
 class State:
@@ -257,7 +257,7 @@ class State:
         """An error or a note in the words of the page."""
         return one.said(self.folder.as_shown).said(in_words)
 
-    def keep_variant(self, name: str, tables: Tables, scene: Scene, curves: Curves) -> None:
+    def keep_variant(self, name: str, tables: Tables, scene: Scene, curves: SceneFriction) -> None:
         """Keep a curve beside those to come; `tables` are those that it was computed of."""
         if len(self.variants) >= MOST_VARIANTS:
             raise InvalidInput(f"{MOST_VARIANTS} curves are kept: must remove one first")

@@ -10,7 +10,7 @@ from asperity._core import Error
 from asperity.app.computed import with_band, without_heat
 from asperity.app.opened import Tables
 from asperity.app.state import State
-from asperity.scene.model import Curves, Progress, Scene
+from asperity.scene.model import Progress, Scene, SceneFriction
 
 _Made = TypeVar("_Made")
 _QUIET = 0.05  # s without a change, after which all that is slower follows
@@ -32,12 +32,12 @@ class Found:
 
     tables: Tables  # that the scene was made of
     scene: Scene
-    cold: Curves  # without heat
-    curves: Curves | None = None  # as the scene is: the digits of the shell
-    banded: Curves | None = None
+    cold: SceneFriction  # without heat
+    curves: SceneFriction | None = None  # as the scene is: the digits of the shell
+    banded: SceneFriction | None = None
 
     @property
-    def best(self) -> Curves:
+    def best(self) -> SceneFriction:
         return self.banded or self.curves or self.cold
 
     @property

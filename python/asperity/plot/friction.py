@@ -24,7 +24,7 @@ from asperity.plot.curves import (
 )
 from asperity.plot.labels import legend_beside, legend_with_room
 from asperity.plot.style import colours, grey, shades
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +53,7 @@ class _Curve:
     heat: Sequence[NDArray[np.float64]]  # mu without heat and the rise at q1, or nothing
 
 
-def friction_figure(scenes: Sequence[Scene], results: Sequence[Curves], path: Path) -> bytes:
+def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], path: Path) -> bytes:
     """mu over velocity, or over what else alone varies, a colour a pressure, temperature or scene;
     with heat also mu without it, a panel of the rise of the temperature, and over velocity one of
     the rise that each roughness feels."""
@@ -119,7 +119,9 @@ def _abscissa(scenes: Sequence[Scene]) -> str:
     return PRESSURE if all(scene.pressure.size > 1 for scene in scenes) else VELOCITY
 
 
-def _curves(scenes: Sequence[Scene], results: Sequence[Curves], abscissa: str) -> Iterator[_Curve]:
+def _curves(
+    scenes: Sequence[Scene], results: Sequence[SceneFriction], abscissa: str
+) -> Iterator[_Curve]:
     """The curves of all scenes, each in the order of its abscissa."""
     if abscissa != _TEMPERATURE:
         for name, scene, result in zip(_names(scenes), scenes, results, strict=True):
@@ -145,20 +147,20 @@ def _curves(scenes: Sequence[Scene], results: Sequence[Curves], abscissa: str) -
             yield _curve(label, x, [c[:, row, 0] for c in columns], result)
 
 
-def _columns(scene: Scene, result: Curves) -> list[NDArray[np.float64]]:
+def _columns(scene: Scene, result: SceneFriction) -> list[NDArray[np.float64]]:
     """Everything that a curve takes from a result, of shape (pressures, velocities)."""
     assert result.model_error is not None
     share = result.extrapolated_share
     columns = [result.mu, result.hysteresis, result.adhesion]
     columns += [np.zeros_like(result.mu) if share is None else share]
     columns += [result.model_error * result.hysteresis, *(result.band or ())]
-    if result.mu_cold is not None and result.hot_temperature is not None:
-        columns += [result.mu_cold, result.hot_temperature - (scene.temperature or 0.0)]
+    if result.cold is not None:
+        columns += [result.cold.mu, result.temperature - (scene.temperature or 0.0)]
     return columns
 
 
 def _curve(
-    label: str, x: NDArray[np.float64], lines: Sequence[NDArray[np.float64]], result: Curves
+    label: str, x: NDArray[np.float64], lines: Sequence[NDArray[np.float64]], result: SceneFriction
 ) -> _Curve:
     order = np.argsort(x)
     mu, hysteresis, adhesion, share, off, *rest = (line[order] for line in lines)
@@ -287,7 +289,7 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
         axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
 
 
-def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[Curves]) -> None:
+def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[SceneFriction]) -> None:
     """Entries of the legend for the error of the model and that of the numbers."""
     around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
     seen = any(_shows(axes, *ends) for ends in around)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 
 Array = NDArray[np.float64]
 MOST = 60  # velocities, or pressures, at which scenes are computed anew
@@ -57,7 +57,7 @@ def _same(a: Array, b: Array) -> bool:
     return a.size == b.size and np.allclose(a, b, rtol=_SAME, atol=0)
 
 
-def at_points(scene: Scene, curves: Curves, points: Points) -> Curves:
+def at_points(scene: Scene, curves: SceneFriction, points: Points) -> SceneFriction:
     """The curves where they are those of the points, else computed there, with their band."""
     if _same(scene.pressure, points.pressure) and _same(scene.velocity, points.velocity):
         return curves

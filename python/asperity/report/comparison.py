@@ -12,7 +12,7 @@ from asperity.io.table import json_text
 from asperity.plot.curves import pressure_text
 from asperity.report.common_points import Points, at_points, common
 from asperity.report.texts import percent_text
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 
 _LONGEST = 60  # characters of an input that is shown
 
@@ -65,7 +65,9 @@ class Pair:
         return lines
 
 
-def compared(names: Sequence[str], scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[Pair]:
+def compared(
+    names: Sequence[str], scenes: Sequence[Scene], curves: Sequence[SceneFriction]
+) -> list[Pair]:
     """Every result against the first."""
     pairs = zip(names[1:], scenes[1:], curves[1:], strict=True)
     return [
@@ -74,7 +76,9 @@ def compared(names: Sequence[str], scenes: Sequence[Scene], curves: Sequence[Cur
     ]
 
 
-def _compared(one: Scene, a: Curves, other: Scene, b: Curves) -> tuple[str, Sequence[Difference]]:
+def _compared(
+    one: Scene, a: SceneFriction, other: Scene, b: SceneFriction
+) -> tuple[str, Sequence[Difference]]:
     """Where two scenes are compared, and how they differ there."""
     try:
         where = common(one, other)
@@ -108,7 +112,7 @@ def _pressures(pressure: NDArray[np.float64]) -> str:
     return f"{pressure.size} pressures from {low} to {high}"
 
 
-def _differences(at: Points, a: Curves, b: Curves) -> list[Difference]:
+def _differences(at: Points, a: SceneFriction, b: SceneFriction) -> list[Difference]:
     return [
         Difference(
             float(pressure),
@@ -122,7 +126,7 @@ def _differences(at: Points, a: Curves, b: Curves) -> list[Difference]:
     ]
 
 
-def _intervals(result: Curves, i: int, k: int) -> list[tuple[float, float]]:
+def _intervals(result: SceneFriction, i: int, k: int) -> list[tuple[float, float]]:
     """Where mu is by its numerical error alone, with its inputs', and with its model's besides."""
     mu, error = float(result.mu[i, k]), float(result.error_estimate[i, k])
     numerical = (mu - error, mu + error)

@@ -16,7 +16,7 @@ from asperity.report.comparison import VERDICTS, Pair, shortened
 from asperity.report.digests import Source
 from asperity.report.errors import Told, errors_of
 from asperity.report.texts import number_text, printable
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import scene_inputs, table_of
 
 MOST_ROWS = 400  # of a table on the page; the CSV beside it has all
@@ -55,13 +55,13 @@ class Result:
     rows: Sequence[Sequence[str]]
 
 
-def results_of(scenes: Sequence[Scene], results: Sequence[Curves]) -> list[Result]:
+def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> list[Result]:
     """The texts of a file's results, one for each of its temperatures."""
     several = len(scenes) > 1
     return [_result(*one, several=several) for one in zip(scenes, results, strict=True)]
 
 
-def _result(scene: Scene, result: Curves, *, several: bool) -> Result:
+def _result(scene: Scene, result: SceneFriction, *, several: bool) -> Result:
     """The texts of one result; `several` temperatures are told apart."""
     at = f"{scene.temperature:.5g} K" if several else ""
     head, rows = _rows(scene, result)
@@ -86,28 +86,28 @@ def thinned(rows: Sequence[Any]) -> tuple[Sequence[Any], str]:
     return [rows[i] for i in kept], f", {MOST_ROWS} of {len(rows)} rows; the CSV has all"
 
 
-def _rows(scene: Scene, result: Curves) -> tuple[list[str], list[list[str]]]:
+def _rows(scene: Scene, result: SceneFriction) -> tuple[list[str], list[list[str]]]:
     table = table_of([scene], [result])
     columns: dict[str, Any] = {
         head: table.columns[name] for name, head in _COLUMNS.items() if name in table.columns
     }
     if result.band is not None:
         columns["mu from"], columns["mu to"] = (bound.ravel() for bound in result.band)
-    if result.model_error is not None and np.isfinite(result.model_error).any():
+    if np.isfinite(result.model_error).any():
         columns["model error of hysteresis"] = result.model_error.ravel()
     cells = [[number_text(value) for value in column] for column in columns.values()]
     return list(columns), [list(line) for line in zip(*cells, strict=True)]
 
 
-def _facts(scene: Scene, result: Curves) -> list[Fact]:
+def _facts(scene: Scene, result: SceneFriction) -> list[Fact]:
     i, k = np.unravel_index(int(result.mu.argmax()), result.mu.shape)
     at = f"at {scene.velocity[k]:.3g} m/s, {pressure_text(float(scene.pressure[i]))}"
     facts = [Fact("largest mu", f"{result.mu[i, k]:.4g}", at)]
     facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}", ""))
     area = float(result.contact_area[i, k])
     facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %", ""))
-    if result.hot_temperature is not None and scene.temperature is not None:
-        rise = result.hot_temperature - scene.temperature
+    if result.cold is not None and scene.temperature is not None:
+        rise = result.temperature - scene.temperature
         i, k = np.unravel_index(int(rise.argmax()), rise.shape)
         facts.append(
             Fact("largest rise by heat", f"{rise[i, k]:.3g} K", f"at {scene.velocity[k]:.3g} m/s")

@@ -10,7 +10,7 @@ from asperity.plot import scene as plot_scene
 from asperity.plot.style import drawn_in
 from asperity.report.inline import inline_svg
 from asperity.report.texts import printable
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.spectrum import SelfAffineSpectrum
 
 _SVG = Path("picture.svg")  # the kind that is drawn
@@ -38,7 +38,7 @@ class Drawings:
         """Text of our own that the page takes as it is."""
         return self._markup(text)
 
-    def friction(self, scenes: Sequence[Scene], curves: Sequence[Curves]) -> Figure:
+    def friction(self, scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Figure:
         """mu of every scene."""
         spans = [f"from {c.mu.min():.3g} to {c.mu.max():.3g}" for c in curves]
         names = [

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.report.texts import percent_text
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 
 
 class Told(NamedTuple):
@@ -16,12 +16,12 @@ class Told(NamedTuple):
     meaning: str
 
 
-def errors_of(scene: Scene, result: Curves) -> list[Told]:
+def errors_of(scene: Scene, result: SceneFriction) -> list[Told]:
     """The three errors of a result, each with its largest size on the curve."""
     return [_numerical(scene, result), _of_inputs(scene, result), _of_model(result)]
 
 
-def _numerical(scene: Scene, result: Curves) -> Told:
+def _numerical(scene: Scene, result: SceneFriction) -> Told:
     share = np.divide(
         result.error_estimate,
         result.mu,
@@ -33,7 +33,7 @@ def _numerical(scene: Scene, result: Curves) -> Told:
     return Told("the numbers", size, f"estimated by the solver, which was asked for {rtol:.2g}")
 
 
-def _of_inputs(scene: Scene, result: Curves) -> Told:
+def _of_inputs(scene: Scene, result: SceneFriction) -> Told:
     if result.band is None:
         return Told(
             "the inputs",
@@ -54,10 +54,10 @@ def _of_inputs(scene: Scene, result: Curves) -> Told:
     )
 
 
-def _of_model(result: Curves) -> Told:
+def _of_model(result: SceneFriction) -> Told:
     off = result.model_error
-    known = np.zeros(result.mu.shape, bool) if off is None else np.isfinite(off)
-    if off is None or not known.any():
+    known = np.isfinite(off)
+    if not known.any():
         return Told("the model", "not known", "no exact sliding contacts are like this one")
     low, high = 100 * float(off[known].min()), 100 * float(off[known].max())
     least, most = percent_text(low), percent_text(high)

@@ -24,7 +24,7 @@ from asperity.report.contents import (
 from asperity.report.digests import Source, check_unchanged, digests
 from asperity.report.drawings import Drawings
 from asperity.report.texts import printable
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import Bar, friction_table, table_of, with_temperatures
 from asperity.scene.scene import load_scene
 
@@ -70,7 +70,7 @@ def report_page(
     }:
         raise InvalidInput(f"{output}: is an input: choose another name for the output")
     loaded = [load_scene(path, for_friction=True) for path in paths]
-    results: list[list[Curves]] = []
+    results: list[list[SceneFriction]] = []
     for file in loaded:
         shown = {} if bar is None else {"bar": bar}
         results.append(friction_table(with_temperatures(file), bands=True, **shown)[1])

@@ -1,5 +1,6 @@
 """What `friction` returns: a table of points, with pictures of them."""
 
+from collections.abc import Sequence
 from dataclasses import field
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, broadcast, real_array
+from asperity.base.arguments import Array, Shape, broadcast, frozen, real_array
 from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
@@ -215,6 +216,19 @@ HEAT = {
 COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if one.metadata)
 
 
+def joined(parts: Sequence[Friction], shape: Shape) -> Friction:
+    """Return one result of the points of several, in a new shape; without contributions, notes."""
+    first = parts[0]
+    names = [name for name in (*COLUMNS, *HEAT) if getattr(first, name) is not None]
+    columns = {
+        name: frozen(np.concatenate([np.ravel(getattr(part, name)) for part in parts]))
+        for name in names
+    }
+    cold = None if first.cold is None else joined([_known(part.cold) for part in parts], shape)
+    shaped = {name: column.reshape(shape) for name, column in columns.items()}
+    return Friction._made(shaped, cold=cold)
+
+
 def _said(name: str) -> tuple[str, str]:
     if name in HEAT:
         return HEAT[name]
@@ -222,9 +236,9 @@ def _said(name: str) -> tuple[str, str]:
     return metadata["unit"], metadata["meaning"]
 
 
-def _known(array: Array | None) -> Array:
-    assert array is not None
-    return array
+def _known(found: Any) -> Any:
+    assert found is not None
+    return found
 
 
 def _axes(result: Friction) -> tuple[tuple[str, ...], dict[str, tuple[tuple[str, ...], Array]]]:

@@ -15,7 +15,7 @@ from asperity.base.diagnostics import Advice, Argument, Must, Sentence
 from asperity.base.parameters import parameters
 from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
-from asperity.scene.model import Curves, Progress, Scene
+from asperity.scene.model import Progress, Scene, SceneFriction
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.draws import Generator
 
@@ -36,7 +36,7 @@ class Fitted:
     scene: Scene
     adhesion: AdhesionFit | None
     problem: InvalidInput | None  # why there is none
-    curves: Curves
+    curves: SceneFriction
 
 
 def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[np.float64]:
@@ -90,7 +90,9 @@ class Experiment:
         except InvalidInput as error:
             return None, error.said(_in_options).within(self.path)
 
-    def curves(self, scene: Scene, adhesion: AdhesionFit | None, progress: Progress) -> Curves:
+    def curves(
+        self, scene: Scene, adhesion: AdhesionFit | None, progress: Progress
+    ) -> SceneFriction:
         """mu at the scene's points, with a band where anything has errors. Of a drawn surface or
         rubber the points are fitted anew, with their own scatter: they hold the sum."""
         scene = replace(scene, adhesion=adhesion)

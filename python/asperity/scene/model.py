@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.celsius import temperature_text
 from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Note, fatal_first
+from asperity.base.value import value
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import ROUGHLY, Friction, friction
@@ -24,6 +25,7 @@ from asperity.io.fields import (
     names_of,
     rename_in_errors,
 )
+from asperity.results.friction import joined
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scene.celsius import celsius_in_errors
@@ -46,26 +48,16 @@ _OF_MODULUS = {"modulus-extrapolated", "modulus-unmeasured"}  # notes on all poi
 Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 
 
-@dataclass(frozen=True, eq=False)
-class Curves:
-    """Results of a scene, arrays of shape (pressures, velocities)."""
+@value
+class SceneFriction(Friction):
+    """Friction of a scene, arrays of shape (pressures, velocities), perhaps with a band on mu."""
 
-    notes: list[Note]
-    mu: NDArray[np.float64]
-    hysteresis: NDArray[np.float64]
-    adhesion: NDArray[np.float64]
-    contact_area: NDArray[np.float64]
-    shift_factor: NDArray[np.float64]
-    error_estimate: NDArray[np.float64]
-    model_error: NDArray[np.float64] | None = None  # relative, of the hysteresis; NaN: unknown
-    extrapolated_share: NDArray[np.float64] | None = None  # of it, from unmeasured frequencies
-    hot_temperature: NDArray[np.float64] | None = None  # T(q1) [K], and mu without heat
-    mu_cold: NDArray[np.float64] | None = None
     band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
 
-    def within(self, band: Bounds) -> "Curves":
+    def within(self, band: Bounds) -> "SceneFriction":
         """The same with a band on mu, and what there is to say of it."""
-        return replace(self, band=(band.lower, band.upper), notes=[*self.notes, *band.notes])
+        notes = (*self.notes, *band.notes)
+        return self._made(vars(self), band=(band.lower, band.upper), notes=notes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +128,7 @@ class Scene:
         pressure, velocity = np.meshgrid(self.pressure, self.velocity, indexing="ij")
         return pressure.ravel(), velocity.ravel()
 
-    def friction(self, progress: Progress = nullcontext) -> Curves:
+    def friction(self, progress: Progress = nullcontext) -> SceneFriction:
         """Friction at every pressure and velocity; `progress` sees the chunks of points."""
         parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
@@ -145,15 +137,7 @@ class Scene:
         found = [*self._with_size_of_heat(found), *extrapolation_notes(self.points[1], share)]
         named = partial(in_keys, names=NOTED)
         notes = fatal_first([*self.notes, *(note.said(named) for note in found)])
-        columns = {
-            name: np.concatenate([getattr(part, name) for part in parts]).reshape(shape)
-            for name in (*COLUMNS, "model_error", "extrapolated_share")
-        }
-        if self.heating is not None:
-            columns["hot_temperature"] = np.concatenate([_known(p.temperature) for p in parts])
-            columns["mu_cold"] = np.concatenate([_known(p.cold).mu for p in parts])
-            columns |= {n: columns[n].reshape(shape) for n in ("hot_temperature", "mu_cold")}
-        return Curves(notes=notes, band=None, **columns)
+        return SceneFriction._made(vars(joined(parts, shape)), notes=tuple(notes))
 
     @property
     def _friction(self) -> Callable[..., Friction]:

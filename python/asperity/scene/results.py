@@ -8,7 +8,7 @@ from typing import Any
 
 from asperity.base.diagnostics import Note, fatal_first
 from asperity.io.table import Table
-from asperity.scene.model import COLUMNS, Curves, Progress, Scene
+from asperity.scene.model import COLUMNS, Progress, Scene, SceneFriction
 
 Bar = Callable[[str], Progress]  # shows how far the work of that title is
 
@@ -24,14 +24,14 @@ def with_temperatures(scene: Scene) -> list[Scene]:
 
 def friction_table(
     scenes: Sequence[Scene], *, bands: bool, bar: Bar = _no_bar
-) -> tuple[Table, list[Curves]]:
+) -> tuple[Table, list[SceneFriction]]:
     """mu of every scene. A band, where standard errors are known, is computed where `bands` are
     asked for and where a scene asks for it; it has columns where all scenes ask."""
     curves = [_curves(scene, band=bands or scene.asks_for_band, bar=bar) for scene in scenes]
     return table_of(scenes, curves), curves
 
 
-def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
+def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
     """Results of scenes as a table."""
     columns: dict[str, list[Any]] = {}
     asked = all(scene.asks_for_band for scene in scenes)
@@ -47,16 +47,16 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[Curves]) -> Table:
             values |= {"mu_low": result.band[0].ravel(), "mu_high": result.band[1].ravel()}
         if at_temperatures:
             values["temperature_k"] = [scene.temperature] * pressure.size
-        if heated and result.hot_temperature is not None and result.mu_cold is not None:
-            values["hot_temperature_k"] = result.hot_temperature.ravel()
-            values["mu_cold"] = result.mu_cold.ravel()
+        if heated and result.cold is not None:
+            values["hot_temperature_k"] = result.temperature.ravel()
+            values["mu_cold"] = result.cold.mu.ravel()
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
     inputs = [scene_inputs(scene) for scene in reversed(files.values())]
     return Table("friction", inputs, notes_of_all(scenes, curves), columns)
 
 
-def notes_of_all(scenes: Sequence[Scene], curves: Sequence[Curves]) -> list[Note]:
+def notes_of_all(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> list[Note]:
     """Every note once, fatal ones first; of several scenes with the names of those it is about.
 
     A file's inputs have the same notes at every temperature, with other numbers. They are said with
@@ -94,7 +94,7 @@ def _name_of(its: Sequence[Scene], scenes: Sequence[Scene], alike: int) -> str:
     return f"{name} (alike at {alike} {'other' if alike == 1 else 'others'})"
 
 
-def _curves(scene: Scene, *, band: bool, bar: Bar) -> Curves:
+def _curves(scene: Scene, *, band: bool, bar: Bar) -> SceneFriction:
     curves = scene.friction(bar(f"{scene.path}"))
     if not (band and scene.has_errors):
         return curves

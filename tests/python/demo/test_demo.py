@@ -11,7 +11,7 @@ import pytest
 import asperity
 from asperity import demo
 from asperity.cli.main import main
-from asperity.scene.model import Curves
+from asperity.scene.model import SceneFriction
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.Mon
     pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
     drawn = []
 
-    def watch(_: object, results: list[Curves], __: object) -> bytes:
+    def watch(_: object, results: list[SceneFriction], __: object) -> bytes:
         drawn.extend(results)  # the band is narrower than the line: no pixel shows it
         return b""
 

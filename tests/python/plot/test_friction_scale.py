@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.scene import load_scene
 
 SCENE = """
@@ -19,14 +19,14 @@ correction = {kind = "partial-contact"}
 
 
 @pytest.fixture
-def found(tmp_path: Path) -> tuple[Scene, Curves]:
+def found(tmp_path: Path) -> tuple[Scene, SceneFriction]:
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     scene = load_scene(tmp_path / "scene.toml")
     return scene, scene.friction()
 
 
 def drawn(
-    found: tuple[list[Scene], list[Curves]], monkeypatch: pytest.MonkeyPatch, **more: Any
+    found: tuple[list[Scene], list[SceneFriction]], monkeypatch: pytest.MonkeyPatch, **more: Any
 ) -> Any:
     """The axes of mu of some scenes, with other values in their results."""
     pytest.importorskip("matplotlib")
@@ -52,7 +52,7 @@ def told(axes: Any) -> dict[str, bool]:
 
 @pytest.mark.parametrize(("factor", "scale"), [(29, "linear"), (31, "log"), (1 / 31, "log")])
 def test_curves_that_are_far_apart_are_drawn_over_decades(
-    found: tuple[Scene, Curves], monkeypatch: pytest.MonkeyPatch, factor: float, scale: str
+    found: tuple[Scene, SceneFriction], monkeypatch: pytest.MonkeyPatch, factor: float, scale: str
 ) -> None:
     curves = found[1]
     other = replace(found[0], path=found[0].path.with_name("other.toml"))
@@ -66,7 +66,7 @@ def test_curves_that_are_far_apart_are_drawn_over_decades(
 
 
 def test_a_band_thinner_than_its_line_has_no_swatch(
-    found: tuple[Scene, Curves], monkeypatch: pytest.MonkeyPatch
+    found: tuple[Scene, SceneFriction], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     alone = [found[0]], [found[1]]
     mu = found[1].mu

@@ -157,8 +157,8 @@ def test_a_hot_scene_runs_as_it_stands(page: str, folder: Path) -> None:
     (hot,) = [block for block in blocks(page, "toml") if "[heating]" in block]
     (folder / "hot.toml").write_text(hot, encoding="utf-8")
     curves = load_scene(folder / "hot.toml", for_friction=True).friction()
-    assert curves.mu_cold is not None
-    assert np.all(curves.mu != curves.mu_cold)
+    assert curves.cold is not None
+    assert np.all(curves.mu != curves.cold.mu)
 
 
 def test_a_scene_with_isotherms_at_another_temperature(folder: Path) -> None:

@@ -15,7 +15,7 @@ from asperity.report import make
 from asperity.report.common_points import MOST
 from asperity.report.comparison import VERDICTS, compared
 from asperity.report.texts import percent_text
-from asperity.scene.model import Curves, Scene
+from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.scene import load_scene
 from helpers.scenes import RUBBER, SURFACE
 
@@ -85,11 +85,11 @@ def test_a_file_that_changes_meanwhile_is_refused(
     assert not Path("r.html").exists()
 
 
-def curves(mu: list[float], error: float, band: float, model: float) -> Curves:
+def curves(mu: list[float], error: float, band: float, model: float) -> SceneFriction:
     """Results by hand: everything is hysteresis."""
     row = np.array([mu])
-    return Curves(
-        notes=[],
+    return SceneFriction._made(
+        notes=(),
         mu=row,
         hysteresis=row,
         adhesion=0 * row,

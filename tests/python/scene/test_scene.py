@@ -65,7 +65,7 @@ def test_friction_is_that_of_the_core_with_its_defaults(folder: Path) -> None:
     )
     for name in COLUMNS:
         np.testing.assert_array_equal(getattr(curves, name), getattr(expected, name), err_msg=name)
-    assert curves.notes == list(expected.notes)
+    assert curves.notes == expected.notes
     assert any("flash heating" in note for note in curves.notes)
     recorded = {**scene.inputs["conditions"], **scene.inputs["solver"]}
     defaults = {"poisson_ratio": 0.5, "rtol": 1e-6, "form": "exact", "method": "gauss"}
