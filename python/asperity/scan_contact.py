@@ -46,6 +46,10 @@ COLUMNS = {
     "points_y": ("1", "of the grid along y"),
     "points_x": ("1", "of the grid along x"),
     "contact_points": ("1", "points of the grid in contact"),
+    "interpolation": ("1", "relative error of mu: of the interpolation that this contact checked"),
+    "pixels": ("1", "relative error of mu: of the grid"),
+    "scan": ("1", "relative error of mu: of having one scan, half of the scatter of its quarters"),
+    "joining": ("1", "relative error of mu: of short waves that were solved on pieces alone"),
 }
 
 
@@ -55,8 +59,9 @@ class SolvedContacts(Table):
 
     Attributes
     ----------
-    rows : ndarray, shape (n, 18)
-        In the order of the columns of `to_dataframe()`.
+    rows : ndarray, shape (n, 22)
+        In the order of the columns of `to_dataframe()`. The last four, what `model_error` is made
+        of beside `error`, are NaN where they were not judged at that contact.
     """
 
     rows: Array

@@ -42,17 +42,35 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   return py::make_tuple(array_of(std::move(effective)), array_of(std::move(rigid)), array_of(std::move(state)));
 }
 
-constexpr py::ssize_t solved_columns = 18;
+constexpr py::ssize_t solved_columns = 22;
 
 /// A row a contact, in the order of `COLUMNS` in scan_contact.py.
 py::array contact_rows(const ScanContact& scan) {
   const std::vector<SolvedContact> contacts = scan.contacts();
   std::vector<double> rows;
   for (const SolvedContact& c : contacts)
-    rows.insert(rows.end(), {static_cast<double>(c.rubber), static_cast<double>(c.heat), c.poisson_ratio, c.q0, c.q1,
-                             static_cast<double>(c.part), c.coarse ? 1.0 : 0.0, c.pressure, c.velocity, c.contact_area,
-                             c.hysteresis, c.rule_area, c.rule_hysteresis, c.error, c.seconds,
-                             static_cast<double>(c.points_y), static_cast<double>(c.points_x), c.contact_points});
+    rows.insert(rows.end(), {static_cast<double>(c.rubber),
+                             static_cast<double>(c.heat),
+                             c.poisson_ratio,
+                             c.q0,
+                             c.q1,
+                             static_cast<double>(c.part),
+                             c.coarse ? 1.0 : 0.0,
+                             c.pressure,
+                             c.velocity,
+                             c.contact_area,
+                             c.hysteresis,
+                             c.rule_area,
+                             c.rule_hysteresis,
+                             c.error,
+                             c.seconds,
+                             static_cast<double>(c.points_y),
+                             static_cast<double>(c.points_x),
+                             c.contact_points,
+                             c.interpolation,
+                             c.pixels,
+                             c.scan,
+                             c.joining});
   return array_of(std::move(rows), {static_cast<py::ssize_t>(contacts.size()), solved_columns});
 }
 
@@ -76,7 +94,11 @@ void add_contacts(ScanContact& scan, const Array& rows) {
                           .seconds = r[14],
                           .points_y = static_cast<std::size_t>(r[15]),
                           .points_x = static_cast<std::size_t>(r[16]),
-                          .contact_points = r[17]};
+                          .contact_points = r[17],
+                          .interpolation = r[18],
+                          .pixels = r[19],
+                          .scan = r[20],
+                          .joining = r[21]};
     scan.add({&c, 1});
   }
 }

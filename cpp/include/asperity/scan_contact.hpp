@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,7 +30,10 @@ struct SolvedContact {
   double seconds;
   std::size_t points_y, points_x;  // of the grid
   double contact_points;           // of them in contact
-  bool operator==(const SolvedContact&) const = default;
+  // relative errors of mu, NaN where they were not judged at this contact: of the interpolation around it, of its
+  // pixels, of having one scan, and of joining pieces
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double interpolation = unknown, pixels = unknown, scan = unknown, joining = unknown;
 };
 
 class Scan;  // internal

@@ -58,9 +58,19 @@ LogRatios log_ratios(const SolvedContact& c) {
 
 namespace {
 
-/// ln of exact over rule of parts of the scan, one each, and how far from converged the worst is.
+/// That of the mean of numbers: their standard deviation over the root of their count.
+double error_of_mean(const std::vector<double>& numbers) {
+  const auto n = static_cast<double>(numbers.size());
+  double sum = 0, square = 0;
+  for (const double one : numbers) sum += one;
+  for (const double one : numbers) square += std::pow(one - sum / n, 2);
+  return std::sqrt(square / (n - 1) / n);
+}
+
+/// ln of exact over rule of parts of the scan, one each, ln mu, and how far from converged the worst is.
 struct PartRatios {
   std::vector<LogRatios> each;
+  std::vector<double> log_hysteresis;
   double convergence = 0;
 
   [[nodiscard]] LogRatios mean() const {
@@ -72,11 +82,10 @@ struct PartRatios {
     }
     return result;
   }
-  /// Half of the standard deviation of ln mu: that of the mean of four.
-  [[nodiscard]] double error_of_mean() const {
-    double square = 0;
-    for (const LogRatios& one : each) square += std::pow(one.hysteresis - mean().hysteresis, 2);
-    return std::sqrt(square / static_cast<double>(each.size() - 1)) / 2;
+  [[nodiscard]] double error_of_ratio() const {
+    std::vector<double> logs;
+    for (const LogRatios& one : each) logs.push_back(one.hysteresis);
+    return error_of_mean(logs);
   }
 };
 
@@ -87,6 +96,7 @@ std::optional<PartRatios> part_ratios(MissingContacts& missing, ContactKey key, 
     const auto found = missing.find(key);
     if (!found) continue;
     result.each.push_back(log_ratios(*found));
+    result.log_hysteresis.push_back(found->hysteresis > 0 ? std::log(found->hysteresis) : 0);
     result.convergence = std::max(result.convergence, found->error);
   }
   return result.each.size() == parts.size() ? std::optional(result) : std::nullopt;
@@ -116,14 +126,15 @@ std::optional<Ratio> ScanParts::ratio(MissingContacts& missing, const ContactKey
   const LogRatios added = gain.mean(), first = coarse->mean();
   return Ratio{{first.hysteresis + added.hysteresis, first.area + added.area, added.noise},
                std::max({coarse->convergence, fine->convergence, coarse_pieces->convergence}),
-               std::hypot(added.hysteresis / 2, gain.error_of_mean())};
+               std::hypot(added.hysteresis / 2, gain.error_of_ratio())};
 }
 
 std::optional<double> ScanParts::scan_error(MissingContacts& missing, const ContactKey& key) const {
-  const auto found = one_grid_        ? part_ratios(missing, key, Scan::quarters)
-                     : coarse_needed_ ? part_ratios(missing, low_passed(key), Scan::quarters)
-                                      : part_ratios(missing, key, Scan::pieces);
-  return found ? std::optional(found->error_of_mean()) : std::nullopt;
+  const bool of_pieces = !one_grid_ && !coarse_needed_;
+  const auto found = of_pieces ? part_ratios(missing, key, Scan::pieces)
+                               : part_ratios(missing, one_grid_ ? key : low_passed(key), Scan::quarters);
+  if (!found) return std::nullopt;
+  return of_pieces ? found->error_of_ratio() : error_of_mean(found->log_hysteresis);
 }
 
 std::optional<double> ScanParts::pixel_error(MissingContacts& missing, ContactKey key) const {
@@ -132,6 +143,11 @@ std::optional<double> ScanParts::pixel_error(MissingContacts& missing, ContactKe
   const auto coarse = part_ratios(missing, key, parts().first(1));
   if (!fine || !coarse) return std::nullopt;
   return std::fabs(coarse->mean().hysteresis - fine->mean().hysteresis) / 3;
+}
+
+ContactKey ScanParts::first(ContactKey key) const {
+  key.part = parts().front();
+  return key;
 }
 
 std::span<const int> ScanParts::parts() const {

@@ -50,9 +50,13 @@ class ScanParts {
 
   /// Each is nullopt where contacts are missing.
   [[nodiscard]] std::optional<Ratio> ratio(MissingContacts& missing, const ContactKey& key) const;
+  /// Half of the scatter of mu of the scan's quarters, their own spectra included; where pieces alone are solved, of
+  /// their ratios, as the rule has the whole scan's spectrum.
   [[nodiscard]] std::optional<double> scan_error(MissingContacts& missing, const ContactKey& key) const;
   /// A third of the difference to half as many pixels.
   [[nodiscard]] std::optional<double> pixel_error(MissingContacts& missing, ContactKey key) const;
+  /// The contact that is solved first of those at a pressure and velocity, beside which errors are kept.
+  [[nodiscard]] ContactKey first(ContactKey key) const;
 
  private:
   [[nodiscard]] std::span<const int> parts() const;

@@ -117,13 +117,18 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
 
   const ContactKey key{fingerprint_, 0, poisson_ratio_, band_, Scan::whole, false, 0, 0};
   const auto interpolated = [&](double p, double v) {
-    return over_velocity(lattice, v, tolerance, [&](int position) -> std::optional<LogRatios> {
+    const auto key_of = [&](int position) {
       ContactKey at = key;
       at.pressure = p;
       at.velocity = lattice.velocity(position);
-      const auto found = parts.ratio(missing, at);
+      return at;
+    };
+    const auto value = over_velocity(lattice, v, tolerance, [&](int position) -> std::optional<LogRatios> {
+      const auto found = parts.ratio(missing, key_of(position));
       return found ? std::optional(found->value) : std::nullopt;
     });
+    if (value) scan.add_errors(parts.first(key_of(value->checked)), {.interpolation = value->error});
+    return value;
   };
   std::vector<ScanRatio> result(pressure.size());
   const auto pass = [&](std::size_t i) {
@@ -139,6 +144,7 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
     const auto here = parts.ratio(missing, at);
     const auto of_scan = parts.scan_error(missing, at), of_pixels = parts.pixel_error(missing, at);
     if (!value || !here || !of_scan || !of_pixels) return;
+    scan.add_errors(parts.first(at), {.pixels = *of_pixels, .scan = *of_scan, .joining = here->joining});
     result[i] = {.hysteresis = std::exp(value->hysteresis),
                  .area = std::exp(value->area),
                  .interpolation = value->error,

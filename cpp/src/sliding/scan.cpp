@@ -184,6 +184,15 @@ void Scan::add(const SolvedContact& c) {
       ContactKey{c.rubber, c.heat, c.poisson_ratio, {c.q0, c.q1}, c.part, c.coarse, c.pressure, c.velocity}, c);
 }
 
+void Scan::add_errors(const ContactKey& key, const ContactErrors& errors) {
+  const std::lock_guard lock(mutex_);
+  SolvedContact& c = contacts_.at(key);
+  c.interpolation = errors.interpolation.value_or(c.interpolation);
+  c.pixels = errors.pixels.value_or(c.pixels);
+  c.scan = errors.scan.value_or(c.scan);
+  c.joining = errors.joining.value_or(c.joining);
+}
+
 std::vector<SolvedContact> Scan::contacts() const {
   const std::lock_guard lock(mutex_);
   std::vector<SolvedContact> result;

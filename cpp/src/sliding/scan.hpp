@@ -35,6 +35,11 @@ struct ContactKey {
   auto operator<=>(const ContactKey&) const = default;
 };
 
+/// Relative errors of mu, each known or not.
+struct ContactErrors {
+  std::optional<double> interpolation, pixels, scan, joining;
+};
+
 class Scan {
  public:
   Scan(HeightMap map, Continuation continuation, double tolerance);
@@ -60,6 +65,8 @@ class Scan {
   /// Solves the contact, from cold.
   SolvedContact solve(const ContactKey& key, const WaveModulus& modulus);
   void add(const SolvedContact& contact);
+  /// Keeps errors beside a contact that was solved; those that are not known are left as they are.
+  void add_errors(const ContactKey& key, const ContactErrors& errors);
   std::vector<SolvedContact> contacts() const;
 
  private:

@@ -81,7 +81,7 @@ class VelocityInterpolant {
         u * u * (1 + 2 * t) * step->begin + t * t * (3 - 2 * t) * step->end + t * u * u * *from + -t * t * u * *to;
     const LogRatios at_middle = 0.5 * (step->begin + step->end) + 0.125 * (*from + -1 * *to);
     const LogRatios value = cubic + 16 * t * t * u * u * (step->middle + -1 * at_middle);
-    return Interpolated{value.hysteresis, value.area, step->miss};
+    return Interpolated{value.hysteresis, value.area, step->miss, step->first + step->length / 2};
   }
 
  private:

@@ -37,7 +37,8 @@ using ContactAt = std::function<std::optional<LogRatios>(int position)>;
 
 struct Interpolated {
   double hysteresis, area;
-  double error;  // of both, relative
+  double error;     // of both, relative
+  int checked = 0;  // the position whose contact told it
 };
 
 /// Between contacts at one pressure, as fine as `tolerance` asks for; nothing while contacts are missing.

@@ -28,6 +28,7 @@ from asperity.io.fields import (
 from asperity.results.friction import joined
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
+from asperity.scan_contact import ScanContact
 from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
 from asperity.scene.parts import (
@@ -205,8 +206,9 @@ class Scene:
 
     @property
     def has_errors(self) -> bool:
-        """Whether standard errors of the surface, the rubber or the adhesion are known."""
-        return self.has_measured_errors or isinstance(self.adhesion, AdhesionFit)
+        """Whether errors of the surface, the rubber, the adhesion or the scan are known."""
+        with_errors = isinstance(self.adhesion, AdhesionFit)
+        return with_errors or self.has_measured_errors or isinstance(self.correction, ScanContact)
 
     @property
     def has_measured_errors(self) -> bool:

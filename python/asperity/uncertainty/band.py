@@ -14,12 +14,13 @@ from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.in_order import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.correction import Correction
+from asperity.correction import Correction, PartialContact
 from asperity.dma import MasterCurveBuild
-from asperity.friction import Branch, friction, known_shift
+from asperity.friction import Branch, Friction, friction, known_shift
 from asperity.heating import Heating
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
@@ -32,7 +33,9 @@ from asperity.uncertainty.draws import (
     drawn_shifted,
     drawn_spectrum,
 )
+from asperity.uncertainty.scan import HeldScan, beyond_scan
 
+Solid = Rubber | ShiftedRubber
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
 
 _SWEPT = 13  # velocities at which the band of a sweep is computed
@@ -133,7 +136,11 @@ def friction_band(
     poisson_ratio, correction, adhesion, form
         As for `friction`, and held; but an AdhesionFit is drawn from its covariance, apart from
         spectrum and rubber: where those have errors too the band is an upper bound, for the points
-        that were fitted hold the sum (`asperity fit` fits them anew for every draw).
+        that were fitted hold the sum (`asperity fit` fits them anew for every draw). A ScanContact
+        is one scan of the surface: mu of draws has its `model_error`, mostly the scatter of the
+        scan's quarters, by Student's t of three degrees of freedom. A spectrum is then drawn beyond
+        the scan's waves alone, and a rubber changes mu as with PartialContact: no contact is solved
+        for a draw.
     samples : int
         Draws, 20 or more.
     seed : int
@@ -164,10 +171,12 @@ def friction_band(
             ": a PronyFit does not know its errors, give the MasterCurveBuild behind it",
         )
     surface, solid = drawn_spectrum(spectrum), drawn_rubber(rubber)
-    if surface.draw is None and solid.draw is None and not isinstance(adhesion, AdhesionFit):
+    with_errors = isinstance(adhesion, AdhesionFit) or isinstance(correction, ScanContact)
+    if surface.draw is None and solid.draw is None and not with_errors:
         raise InvalidInput(
-            "spectrum, rubber, adhesion: none has errors: one must be a SelfAffineFit, a "
-            "TabulatedSpectrum with standard_error, a MasterCurveBuild or an AdhesionFit"
+            "spectrum, rubber, adhesion, correction: none has errors: one must be a SelfAffineFit, "
+            "a TabulatedSpectrum with standard_error, a MasterCurveBuild, an AdhesionFit or a "
+            "ScanContact"
         )
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {
@@ -232,17 +241,33 @@ def relative_band(
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
 
-    def draw() -> tuple[Spectrum, Rubber | ShiftedRubber, Adhesion | None]:
-        surface, solid = spectrum(rng), rubber(rng)
-        plain = solid.rubber if isinstance(solid, ShiftedRubber) else solid
-        of_draw = draw_adhesion(adhesion, rng) if refit is None else refit(surface, plain, rng)
-        return surface, solid, of_draw
-
-    def curve(surface: Spectrum, solid: Rubber | ShiftedRubber, of_draw: Adhesion | None) -> Any:
+    def at_points(surface: Spectrum, solid: Solid, added: Adhesion | None) -> Friction:
         plain, shift = solid if isinstance(solid, ShiftedRubber) else (solid, None)
-        return friction(surface, plain, shift=shift, adhesion=of_draw, **options).mu
+        return friction(surface, plain, shift=shift, adhesion=added, **options)
 
-    centre = curve(spectrum.plain, rubber.plain, adhesion)
+    scan, held, fitted_on = options.get("correction"), None, spectrum.plain
+    if isinstance(scan, ScanContact):
+        spectrum, fitted_on = beyond_scan(spectrum, scan), spectrum.whole or spectrum.plain
+        exact = at_points(fitted_on, rubber.plain, adhesion)
+        options["correction"] = PartialContact()
+        held = HeldScan(exact, at_points(spectrum.plain, rubber.plain, adhesion), samples, rng)
+        centre = exact.mu
+    else:
+        centre = at_points(spectrum.plain, rubber.plain, adhesion).mu
+
+    def draw() -> tuple[Spectrum, Solid, Adhesion | None, float]:
+        surface, solid = spectrum(rng), rubber(rng)
+        if refit is None:
+            added = draw_adhesion(adhesion, rng)
+        else:  # on a scan as it is: no contact is solved for a draw
+            of_fit = rubber.plain if held else solid
+            plain = of_fit.rubber if isinstance(of_fit, ShiftedRubber) else of_fit
+            added = refit(fitted_on if held else surface, plain, rng)
+        return surface, solid, added, held.draw() if held else 0.0
+
+    def curve(surface: Spectrum, solid: Solid, added: Adhesion | None, scatter: float) -> Any:
+        found = at_points(surface, solid, added)
+        return held.mu(found, scatter) if held else found.mu
 
     found: list[Any] = []
     problem: Exception | None = None

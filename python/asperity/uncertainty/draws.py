@@ -38,6 +38,7 @@ class Drawn(Generic[Input]):
 
     plain: Input
     draw: Callable[[Generator], Input] | None = None
+    whole: Input | None = None  # the plain one, where that is in bins
 
     def __call__(self, rng: Generator) -> Input:
         return self.plain if self.draw is None else self.draw(rng)
@@ -50,7 +51,7 @@ def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
         return Drawn[Spectrum](source.spectrum, partial(draw_fit, source))
     if isinstance(source, TabulatedSpectrum) and source.standard_error is not None:
         table = source.log_binned(per_decade=_ROWS_PER_DECADE)
-        return Drawn[Spectrum](table, partial(_draw_rows, table))
+        return Drawn[Spectrum](table, partial(_draw_rows, table), source)
     return Drawn[Spectrum](source)
 
 

@@ -80,6 +80,38 @@ def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
     assert row.hysteresis == pytest.approx(truth(row.velocity).hysteresis, rel=1e-3)
 
 
+def test_each_error_stands_apart_in_its_contacts() -> None:
+    anew = asperity.ScanContact(SCAN, periodic=True)
+    found = friction(0.013, correction=anew)
+    table = anew.contacts.to_dataframe()
+    parts = {name: table[name].dropna() for name in ("interpolation", "pixels", "scan", "joining")}
+    assert {name: len(one) for name, one in parts.items()} == dict.fromkeys(parts, 1)
+    [at] = parts["scan"].index
+    together = np.hypot.reduce([*(one.iloc[0] for one in parts.values()), table.error[at]])
+    assert found.model_error == pytest.approx(together, rel=1e-12)
+
+    # of one scan: half of the scatter of mu of its quarters
+    quarters = table[(table.part >= 0) & (table.velocity == table.velocity[at])]
+    assert len(quarters) == 4
+    scatter = np.log(quarters.hysteresis).std() / 2
+    assert parts["scan"].iloc[0] == pytest.approx(scatter, rel=1e-9)
+    [half] = np.flatnonzero(table.coarse)
+    ratio = np.log(table.hysteresis / table.rule_hysteresis)
+    assert parts["pixels"].iloc[0] == pytest.approx(abs(ratio[half] - ratio[at]) / 3, rel=1e-9)
+    assert table.points_x[half] < 0.6 * table.points_x[at]
+
+
+def test_a_steep_modulus_is_solved_at_every_node() -> None:
+    # E0 / E_inf = 300 in one term: a loss tangent of 8.6
+    steep = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[299e6], relaxation_times=[1e-3])
+    anew = asperity.ScanContact(SCAN, periodic=True)
+    velocity = 1.3 * np.geomspace(3e-3, 0.03, 3)
+    found = asperity.friction(SPECTRUM, steep, pressure=5e5, velocity=velocity, correction=anew)
+    assert anew.contacts.to_dataframe().error.max() <= 1e-4
+    exact = [slide(SCAN, steep, pressure=5e5, velocity=v, periodic=True) for v in velocity]
+    assert found.mu == pytest.approx([c.hysteresis for c in exact], rel=0.02)
+
+
 def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
     velocity = np.geomspace(1e-4, 1, 9)
     whole = friction(velocity)
@@ -314,6 +346,21 @@ tolerance = 0.02
     lines = [line for line in out.read_text().splitlines() if not line.startswith("#")]
     mu = [float(line.split(",")[lines[0].split(",").index("mu")]) for line in lines[1:]]
     assert mu == pytest.approx(friction(np.array([1e-3, 0.1])).mu, rel=0.01)
+
+    scene = (tmp_path / "scene.toml").read_text()
+    (tmp_path / "scene.toml").write_text(scene + "[uncertainty]\nsamples = 20\n")
+    assert main(["friction", str(tmp_path / "scene.toml"), "--output", str(out)]) == 0
+    rows = [line.split(",") for line in out.read_text().splitlines() if not line.startswith("#")]
+    mu, low, high = (
+        np.array([float(row[rows[0].index(name)]) for row in rows[1:]])
+        for name in ("mu", "mu_low", "mu_high")
+    )
+    band = asperity.friction_band(
+        SPECTRUM, RUBBER, pressure=2e5, velocity=[1e-3, 0.1], correction=EXACT, samples=20
+    )
+    assert low == pytest.approx(band.lower, rel=0.01)
+    assert high == pytest.approx(band.upper, rel=0.01)
+    assert ((low < 0.97 * mu) & (mu * 1.03 < high)).all()
 
     (tmp_path / "profile.csv").write_text("\n".join(map(str, SCAN.heights[0])))
     text = (tmp_path / "scene.toml").read_text().replace("scan.npy", "profile.csv")
