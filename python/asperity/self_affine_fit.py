@@ -40,11 +40,13 @@ class SelfAffineFit(Table):
         The fit as a spectrum.
     covariance : ndarray, shape (3, 3)
         Covariance of rms_height [m], hurst [-] and rolloff [1/m], from the scatter of the rows
-        about the fit and their correlation; zeros where there is no roll-off.
+        about the fit and their correlation, and from the distance to the fit with or without a
+        roll-off that was not taken, by its probability; zeros where there is no roll-off.
     residual : float
         Weighted rms of ln(C / fit) [-].
     rows : int
-        Number of rows of the measured spectrum that were used.
+        Number of rows of the measured spectrum that were used; those below q0 are counted where
+        there is a roll-off.
     """
 
     spectrum: SelfAffineSpectrum
@@ -69,7 +71,8 @@ class SelfAffineFit(Table):
 
     @property
     def q0(self) -> float:
-        """Wavenumber of the first row that was used [1/m]."""
+        """Wavenumber at which the fit begins: of the first reliable row or the first above q_min
+        [1/m]."""
         return self.spectrum.q0
 
     @property
@@ -133,9 +136,10 @@ def fit_self_affine(
         "slope" is the article's Eq. 28 alone: a straight line through all rows with equal weights
         and no roll-off.
     rolloff : {"find", "require", "none"}
-        "find" takes a flat part below a roll-off where it leaves clearly less than a straight line
-        does (Schwarz's criterion). "require" refuses a spectrum in which none is found, as on a
-        scan smaller than lambda_0.
+        "find" takes a flat part below a roll-off where that is more probable than none (Schwarz's
+        criterion). Without q_min the rows below the reliable ones tell too: a window smears what
+        falls there, but not what is flat. "require" refuses a spectrum in which none is found, as
+        on a scan smaller than lambda_0, and takes the one that is found for sure.
 
     Returns
     -------

@@ -172,14 +172,14 @@ struct FitOptions {
   FitMethod method = FitMethod::least_squares;  // slope: Eq. 28, a straight line without weights and roll-off
   Rolloff rolloff = Rolloff::find;
 };
-/// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it and their
-/// correlation.
+/// A self-affine spectrum through a measured one, with standard errors from the scatter of the rows about it, their
+/// correlation, and what a roll-off would change that is neither sure nor excluded.
 struct SelfAffineFit {
   SelfAffineSpectrum spectrum;
   // of rms height [m], Hurst exponent [-] and roll-off [1/m], zeros where there is no roll-off
   std::array<std::array<double, 3>, 3> covariance;
   double residual;   // weighted rms of ln(C / fit)
-  std::size_t rows;  // rows used
+  std::size_t rows;  // rows used, with those below the reliable ones where they are flat
 };
 ASPERITY_EXPORT SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOptions& options = {});
 

@@ -24,7 +24,7 @@ namespace {
 /// of them.
 struct Rows {
   std::vector<double> x, y, w;
-  const std::vector<std::size_t>& place;
+  std::vector<std::size_t> place;
   const RowQuality& quality;
   [[nodiscard]] std::size_t size() const { return x.size(); }
 };
@@ -33,18 +33,24 @@ bool flagged(const TabulatedSpectrum& spectrum, std::size_t row, int flags) {
   return !spectrum.quality().flag.empty() && (spectrum.quality().flag[row] & flags) != 0;
 }
 
+/// Places in the spectrum of the rows that a fit takes: a straight line those from `reliable` on, a flat part also
+/// those before, which a window smears only where longer waves are higher.
+struct Chosen {
+  std::vector<std::size_t> below, reliable;
+};
+
 /// Without q_min (q_max) rows start (end) with the reliable ones; those of a scan start where its band does: what lies
 /// below has less than 0.4 of the highest density.
-std::vector<std::size_t> chosen_rows(const TabulatedSpectrum& spectrum, const FitOptions& options) {
+Chosen chosen_rows(const TabulatedSpectrum& spectrum, const FitOptions& options) {
   const auto& q = spectrum.wavenumber();
   const auto& c = spectrum.density();
-  std::size_t first = 0, last = q.size();
+  std::size_t reliable = 0, last = q.size();
   if (!options.q_min)
-    while (first < last && flagged(spectrum, first, few_periods | few_modes)) ++first;
+    while (reliable < last && flagged(spectrum, reliable, few_periods | few_modes)) ++reliable;
   if (!options.q_max)
-    while (last > first && flagged(spectrum, last - 1, near_nyquist)) --last;
+    while (last > reliable && flagged(spectrum, last - 1, near_nyquist)) --last;
   std::vector<std::size_t> rows;
-  for (std::size_t i = first; i < last; ++i) {
+  for (std::size_t i = 0; i < last; ++i) {
     const bool counts = spectrum.quality().count.empty() || spectrum.quality().count[i] > 0;
     if (counts && (!options.q_min || q[i] >= *options.q_min) && (!options.q_max || q[i] <= *options.q_max))
       rows.push_back(i);
@@ -53,7 +59,8 @@ std::vector<std::size_t> chosen_rows(const TabulatedSpectrum& spectrum, const Fi
     const double highest = c[*std::ranges::max_element(rows, {}, [&](std::size_t i) { return c[i]; })];
     rows.erase(rows.begin(), std::ranges::find_if(rows, [&](std::size_t i) { return c[i] >= 0.4 * highest; }));
   }
-  return rows;
+  const auto middle = std::ranges::lower_bound(rows, reliable);
+  return {{rows.begin(), middle}, {middle, rows.end()}};
 }
 
 Rows gather(const TabulatedSpectrum& spectrum, const std::vector<std::size_t>& rows, FitMethod method) {
@@ -101,49 +108,47 @@ struct Broken {
   }
 };
 
-/// The break that leaves least: among 64 places in ln q first, then between the neighbours of the best of them. At
-/// least three rows lie on either side, and the flat part spans a factor 1.5.
-std::optional<Broken> best_break(const Rows& rows) {
-  const std::size_t n = rows.size();
-  if (n < 7) return std::nullopt;
-  const double lower = std::max(rows.x[2], rows.x[0] + std::log(1.5)), upper = rows.x[n - 4];
-  if (!(upper > lower)) return std::nullopt;
+/// The break in [lower, upper] that leaves least: among 64 places first, then between the neighbours of the best of
+/// them.
+Broken best_break(const Rows& rows, double lower, double upper) {
   constexpr int places = 64;
   const double step = (upper - lower) / places;
-  double best = lower, least = Broken(rows, lower).sum_of_squares;
+  Broken best(rows, lower);
+  if (!(step > 0)) return best;
   for (int i = 1; i <= places; ++i)
-    if (const double left = Broken(rows, lower + step * i).sum_of_squares; left < least) {
-      least = left;
-      best = lower + step * i;
-    }
+    if (const Broken next(rows, lower + step * i); next.sum_of_squares < best.sum_of_squares) best = next;
   const auto left = [&](double at) { return Broken(rows, at).sum_of_squares; };
-  return Broken(rows, golden_section(left, std::max(lower, best - step), std::min(upper, best + step), 1e-9));
+  return {rows, golden_section(left, std::max(lower, best.x_r - step), std::min(upper, best.x_r + step), 1e-9)};
 }
 
-/// The slope of the rows below x_r by themselves.
-double slope_below(const Rows& rows, double x_r) {
+/// The slope of the rows below x_r by themselves, and the weighted sum of squares of their distances to their middle.
+std::array<double, 2> slope_below(const Rows& rows, double x_r) {
   const auto weighted = [&](auto term) {
     return sum(rows.size(), [&](std::size_t i) { return term(rows.x[i] < x_r ? rows.w[i] : 0, rows.x[i], rows.y[i]); });
   };
   const double total = weighted([](double w, double, double) { return w; });
   const double mean_x = weighted([](double w, double x, double) { return w * x; }) / total;
   const double mean_y = weighted([](double w, double, double y) { return w * y; }) / total;
-  return weighted([&](double w, double x, double y) { return w * (x - mean_x) * (y - mean_y); }) /
-         weighted([&](double w, double x, double) { return w * ((x - mean_x) * (x - mean_x)); });
+  const double square = weighted([&](double w, double x, double) { return w * ((x - mean_x) * (x - mean_x)); });
+  return {weighted([&](double w, double x, double y) { return w * (x - mean_x) * (y - mean_y); }) / square, square};
 }
 
-/// Whether the roll-off is more than chance, by Schwarz's criterion (Ann. Stat. 6, 461 (1978)) with some to spare, and
-/// more than a bend: what lies below it is flat, or falls less than a quarter as steeply as what lies above.
-bool convincing(const Rows& rows, const Broken& line, const Broken& broken) {
-  const auto n = static_cast<double>(rows.size());
-  return broken.slope < 0 && n * std::log(line.sum_of_squares / broken.sum_of_squares) > std::log(n) + 10 &&
-         slope_below(rows, broken.x_r) > broken.slope / 4;
-}
+/// A fit to rows with its covariance, of level, slope and, where x_r is a parameter too, x_r.
+struct Model {
+  Rows rows;
+  Broken fit;
+  std::size_t parameters;
+  std::vector<double> covariance;
+  double scatter;  // of a row of weight 1
+  double freedom;  // what the fit takes out of the rows, in rows: more than its parameters where rows are alike
 
-/// Of level, slope and, as the third, x_r, from rows of covariance V = s^2 W^-1/2 R W^-1/2, W of trace 1 and R their
-/// correlation: with A = (J^T W J)^-1 it is A J^T W V W J A. What is left has the mean s^2 (n - t), t the trace of
-/// A J^T W^1/2 R W^1/2 J.
-std::vector<double> covariance_of(const Rows& rows, const Broken& fit, std::size_t parameters) {
+  Model(Rows of, double x_r, std::size_t parameters);
+  [[nodiscard]] double probability(double x0) const;
+};
+
+/// Rows have the covariance V = s^2 W^-1/2 R W^-1/2, W of trace 1 and R their correlation: with A = (J^T W J)^-1 that
+/// of the parameters is A J^T W V W J A. What is left has the mean s^2 (n - t), t the trace of A J^T W^1/2 R W^1/2 J.
+Model::Model(Rows of, double x_r, std::size_t count) : rows(std::move(of)), fit(rows, x_r), parameters(count) {
   const std::size_t n = rows.size();
   std::vector<double> jacobian(n * parameters, 1.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -164,29 +169,72 @@ std::vector<double> covariance_of(const Rows& rows, const Broken& fit, std::size
       for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}})
         add_pair(a, b, rows.quality.correlation_of(rows.place[i], rows.place[j]));
   }
-  const double trace = std::inner_product(inverse.begin(), inverse.end(), inner.begin(), 0.0);  // both symmetric
-  const double scatter = fit.sum_of_squares / (static_cast<double>(n) - trace);
-  std::vector<double> result(size);
+  freedom = std::inner_product(inverse.begin(), inverse.end(), inner.begin(), 0.0);  // both symmetric
+  scatter = fit.sum_of_squares / (static_cast<double>(n) - freedom);
+  covariance.resize(size);
   for (std::size_t k = 0; k < size; ++k)
     for (std::size_t l = 0; l < size; ++l)
-      result[k] += scatter * inverse[k % parameters * parameters + l % parameters] * inner[l] *
-                   inverse[l / parameters * parameters + k / parameters];
-  return result;
+      covariance[k] += scatter * inverse[k % parameters * parameters + l % parameters] * inner[l] *
+                       inverse[l / parameters * parameters + k / parameters];
 }
 
-/// T C T^T, the covariance of three quantities whose derivatives are the rows of T.
-std::array<std::array<double, 3>, 3> propagated(const std::array<std::vector<double>, 3>& transform,
-                                                const std::vector<double>& covariance) {
-  const std::size_t n = transform[0].size();
-  std::array<std::array<double, 3>, 3> result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t l = 0; l < n; ++l) {
-      double row = 0;
-      for (std::size_t k = 0; k < n; ++k) row += transform[i][k] * covariance[n * l + k];
-      for (std::size_t j = 0; j < 3; ++j) result[i][j] += row * transform[j][l];
-    }
-  return result;
+/// How probable the roll-off is against none above x0, by Schwarz's criterion for one parameter more (Ann. Stat. 6, 461
+/// (1978)), rows that are alike counting as fewer. A mere bend is none: there what lies below falls, by more than two
+/// of its errors, more than a quarter as steeply as what lies above.
+double Model::probability(double x0) const {
+  const double without = best_break(rows, rows.x.front(), x0).sum_of_squares, alike = freedom / 3;
+  if (!(fit.slope < 0 && without > fit.sum_of_squares)) return 0;
+  const auto [slope, square] = slope_below(rows, fit.x_r);
+  if (slope + 2 * std::sqrt(scatter * alike / square) < fit.slope / 4) return 0;
+  const double independent = static_cast<double>(rows.size()) / alike;
+  const double odds = independent * std::log(without / fit.sum_of_squares) - std::log(independent);
+  return 1 / (1 + std::exp(-odds / 2));
 }
+
+/// The best roll-off above x0, at least three rows on either side of it.
+std::optional<Model> rolled_off(Rows rows, double x0) {
+  const std::size_t n = rows.size();
+  if (n < 7) return std::nullopt;
+  const double lower = std::max(x0, rows.x[2]), upper = rows.x[n - 4];
+  if (!(upper > lower)) return std::nullopt;
+  const double x_r = best_break(rows, lower, upper).x_r;
+  return Model(std::move(rows), x_r, 3);
+}
+
+/// Rms height of the band [x0, x1], H and roll-off of a fit, and their covariance T C T^T, T their derivatives after
+/// the parameters of its model.
+struct Estimate {
+  std::array<double, 3> value;
+  std::array<std::array<double, 3>, 3> covariance{};
+
+  Estimate(const Model& model, const Broken& fit, double x0, double x1) {
+    const auto log_rms = [&](double slope, double x_r) {
+      return Broken::log_rms(fit.level, fit.slope + slope, fit.x_r + x_r, x0, x1);
+    };
+    constexpr double h = 1e-5;
+    const double rms = std::exp(log_rms(0, 0)), rolloff = std::exp(fit.x_r);
+    value = {rms, -fit.slope / 2 - 1, rolloff};
+    const std::array<std::array<double, 3>, 3> after = {
+        {{rms / 2, rms * (log_rms(h, 0) - log_rms(-h, 0)) / (2 * h), rms * (log_rms(0, h) - log_rms(0, -h)) / (2 * h)},
+         {0, -0.5, 0},
+         {0, 0, rolloff}}};
+    const std::size_t n = model.parameters;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < n; ++k)
+          for (std::size_t l = 0; l < n; ++l)
+            covariance[i][j] += after[i][k] * model.covariance[n * l + k] * after[j][l];
+  }
+
+  /// The covariance about this estimate where another one has the probability `share`.
+  void add(const Estimate& other, double share) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double apart = (other.value[i] - value[i]) * (other.value[j] - value[j]);
+        covariance[i][j] += share * (other.covariance[i][j] + apart - covariance[i][j]);
+      }
+  }
+};
 
 void check(const FitOptions& options) {
   if (options.q_min) require_positive("q_min", *options.q_min);
@@ -200,13 +248,14 @@ void check(const FitOptions& options) {
 }  // namespace
 
 // Weighted least squares in ln C. H = -slope / 2 - 1 (Eq. 28), held at 1 where it lies above by less than three of its
-// errors. The error of h_rms follows from its derivatives after the parameters.
+// errors. A line and a roll-off are compared on the same rows, those below the reliable ones too; the less probable of
+// the two adds its distance to the errors (K. P. Burnham and D. R. Anderson, Sociol. Methods Res. 33, 261 (2004)).
 SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOptions& options) {
   check(options);
   const auto& q = spectrum.wavenumber();
-  const std::vector<std::size_t> chosen = chosen_rows(spectrum, options);
-  if (chosen.size() < 3) {
-    const std::string found = std::to_string(chosen.size());
+  const auto [below, reliable] = chosen_rows(spectrum, options);
+  if (reliable.size() < 3) {
+    const std::string found = std::to_string(reliable.size());
     if (options.q_min || options.q_max || spectrum.quality().flag.empty())
       throw InvalidInput(argument("q_min") + ", " + argument("q_max") + ": " + found + " rows of the spectrum in [" +
                          show(options.q_min.value_or(q.front())) + ", " + show(options.q_max.value_or(q.back())) +
@@ -215,54 +264,44 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
                        "3 or more for a fit: the map is too small against its wavelengths, or too coarse; q_min and "
                        "q_max take rows on trust");
   }
-  const Rows rows = gather(spectrum, chosen, options.method);
-  const double x0 = rows.x.front(), x1 = rows.x.back();
-
-  Broken fit(rows, x0);
-  bool broken = false;
-  if (options.rolloff != Rolloff::none && options.method == FitMethod::least_squares) {
-    const std::optional<Broken> found = best_break(rows);
-    broken = found && convincing(rows, fit, *found);
-    if (broken) fit = *found;
-    if (!broken && options.rolloff == Rolloff::require)
-      throw InvalidInput(argument("spectrum") + ": has no roll-off between " + show(q[chosen.front()], 6) + " and " +
-                         show(q[chosen.back()], 6) +
-                         " 1/m (rolloff = \"require\"): a scan smaller than lambda_0 does not reach it");
-  }
-  const std::size_t parameters = broken ? 3 : 2;
-  const std::vector<double> covariance = covariance_of(rows, fit, parameters);
-  const double hurst_error = std::sqrt(covariance[parameters + 1]) / 2;
+  const double x0 = std::log(q[reliable.front()]), x1 = std::log(q[reliable.back()]);
+  const Model line(gather(spectrum, reliable, options.method), x0, 2);
+  std::vector<std::size_t> all = below;
+  all.insert(all.end(), reliable.begin(), reliable.end());
+  const bool straight = options.rolloff == Rolloff::none || options.method == FitMethod::slope;
+  const std::optional<Model> rolled = straight ? std::nullopt : rolled_off(gather(spectrum, all, options.method), x0);
+  const double probability = rolled ? rolled->probability(x0) : 0;
+  if (options.rolloff == Rolloff::require && !(probability > 0.5))
+    throw InvalidInput(argument("spectrum") + ": has no roll-off between " + show(q[reliable.front()], 6) + " and " +
+                       show(q[reliable.back()], 6) +
+                       " 1/m (rolloff = \"require\"): a scan smaller than lambda_0 does not reach it");
+  const bool broken = probability > 0.5;
+  const Model& likelier = broken ? *rolled : line;
+  Broken fit = likelier.fit;
   double hurst = -fit.slope / 2 - 1;
-  if (hurst > 1 && hurst - 1 < 3 * hurst_error) {
-    fit = Broken(rows, fit.x_r, -4);
+  if (hurst > 1 && hurst - 1 < 3 * std::sqrt(Estimate(likelier, fit, x0, x1).covariance[1][1])) {
+    fit = Broken(likelier.rows, fit.x_r, -4);
     hurst = 1;
   }
   if (!(hurst > 0 && hurst <= 1))
     throw InvalidInput(argument("spectrum") + ": falls as q^" + show(fit.slope, 4) + " between " +
-                       show(std::exp(broken ? fit.x_r : x0), 6) + " and " + show(q[chosen.back()], 6) +
+                       show(std::exp(fit.x_r), 6) + " and " + show(q[reliable.back()], 6) +
                        " 1/m, hurst = " + show(hurst, 4) + must_be() + "in (0, 1]");
 
-  const auto log_rms = [&](double level, double slope, double x_r) {
-    return Broken::log_rms(fit.level + level, fit.slope + slope, fit.x_r + x_r, x0, x1);
-  };
-  constexpr double h = 1e-5;
-  const double rms = std::exp(log_rms(0, 0, 0));
-  // of rms height, H and roll-off after level, slope and x_r
-  std::array<std::vector<double>, 3> transform;
-  for (std::vector<double>& row : transform) row.resize(parameters);
-  transform[0][0] = rms * 0.5;
-  transform[0][1] = rms * ((log_rms(0, h, 0) - log_rms(0, -h, 0)) / (2 * h));
-  transform[1][1] = -0.5;
-  if (broken) {
-    transform[0][2] = rms * ((log_rms(0, 0, h) - log_rms(0, 0, -h)) / (2 * h));
-    transform[2][2] = std::exp(fit.x_r);
+  Estimate estimate(likelier, fit, x0, x1);
+  if (rolled && options.rolloff == Rolloff::find) {
+    const Model& other = broken ? line : *rolled;
+    estimate.add(Estimate(other, other.fit, x0, x1), broken ? 1 - probability : probability);
   }
-  SelfAffineFit result{{.rms_height = rms, .hurst = hurst, .q0 = q[chosen.front()], .q1 = q[chosen.back()]},
-                       {},
-                       std::sqrt(fit.sum_of_squares),
-                       chosen.size()};
-  result.covariance = propagated(transform, covariance);
-  if (broken) result.spectrum.rolloff = std::exp(fit.x_r);
+  SelfAffineFit result{
+      {.rms_height = estimate.value[0], .hurst = hurst, .q0 = q[reliable.front()], .q1 = q[reliable.back()]},
+      estimate.covariance,
+      std::sqrt(fit.sum_of_squares),
+      likelier.rows.size()};
+  if (broken)
+    result.spectrum.rolloff = estimate.value[2];
+  else
+    for (std::size_t i = 0; i < 3; ++i) result.covariance[i][2] = result.covariance[2][i] = 0;
   return result;
 }
 

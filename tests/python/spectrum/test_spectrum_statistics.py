@@ -1,6 +1,8 @@
 """What crops that are not periodic do to spectra and fits: biases, errors, roll-offs."""
 
+import sys
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +17,9 @@ from asperity import (
     synthesize,
 )
 from helpers.cases import each, long
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+from fit_coverage import fitted, scans
 
 WINDOWS = ["split-cosine-bell", "hann"]
 PAIRS = [(0.3, "hann"), (0.8, "split-cosine-bell")]
@@ -166,3 +171,34 @@ def test_the_slope_method_is_the_plain_line_through_all_rows(counted):
     assert fit.spectrum.at(q) == pytest.approx(np.exp(np.polyval(line, np.log(q))), rel=1e-9, abs=0)
     left = np.log(density) - np.polyval(line, np.log(q))
     assert fit.residual == pytest.approx(np.sqrt(np.mean(left**2)), rel=1e-9)
+
+
+BESIDE = [("split-cosine-bell", 22, 0), ("split-cosine-bell", 22, 16), ("hann", 14, 0)]
+
+
+@pytest.mark.parametrize(("window", "periods", "first"), [*BESIDE, ("blackman", 18, 0)])
+def test_errors_of_fits_cover_the_truth_beside_a_roll_off(window, periods, first):
+    """From the reliable rows, or from `first` periods a scan on, below which no row then tells.
+
+    tests/stability/fit_coverage.py takes 400 crops, of more roll-offs."""
+    band = {"q_min": 2 * np.pi / 256 * first} if first else {}
+    found = [(h, *fitted(s, window, **band)[:2]) for h, s in scans("filtered", periods, 256, 45, 3)]
+    truth, hurst, error = np.array(found).T
+    # 95 % of 45: 43, and below 38 once in 300 draws of a binomial
+    assert np.sum(np.abs(hurst - truth) < 1.96 * error) >= 38
+    assert np.sqrt(np.mean((hurst - truth) ** 2)) < 1.3 * np.median(error)
+
+
+def test_a_choice_that_the_rows_leave_open_is_in_the_error():
+    """Few rows below the roll-off, none of them known to be flat from those before."""
+    spectra = [power_spectrum(s) for _, s in scans("filtered", 18, 256, 45, 4)]
+    low = {"q_min": 2 * np.pi / 256 * 15.9}
+    both = [(fit_self_affine(s, **low), fit_self_affine(s, rolloff="none", **low)) for s in spectra]
+    assert {fit.rolloff is None for fit, _ in both} == {True, False}
+    errors = [[fit.standard_errors["hurst"] for fit in pair] for pair in both]
+    ratio = np.array([found / straight for found, straight in errors])
+    doubtful = np.array([fit.rolloff is None for fit, _ in both])
+    # a line that is taken for the truth has the error of its own scatter alone
+    assert (ratio[doubtful] >= 1).all()
+    assert ratio[doubtful].max() > 1.2
+    assert all(fit.covariance[2].any() == (fit.rolloff is not None) for fit, _ in both)
