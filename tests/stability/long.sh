@@ -19,7 +19,7 @@
 #   threads      the C++ tests under the thread sanitizer
 #   memcheck     the C++ tests under valgrind
 #   wine         the FMU's library for Windows in a host under Wine; wants wine64 and g++-mingw-w64-x86-64-posix
-#   browser      the app, the report and the documentation, if it is built, in Chromium; wants Debian's chromium and playwright
+#   browser      the app, the report and the documentation, if it is built, in Chromium; wants Debian's chromium and asperity[browser]
 #   permissive   the build without GSL and FFTW: its C++ tests, its wheel, spectra beside FFTW's; takes pocketfft's header
 #                from a wheel that ships it where none is installed
 #   aarch64      the C++ tests of a cross-built core under qemu, and which bits differ; not among all, wants Debian's cross compiler
@@ -125,7 +125,7 @@ wine() {
 
 browser() {
   [ -x /usr/bin/chromium ] || { echo 'chromium is missing'; return 1; }
-  "$python" -c 'import playwright.sync_api, nicegui, matplotlib' || return
+  "$python" -c 'import playwright.sync_api, axe_playwright_python, nicegui, matplotlib' || return
   "$python" -m pytest -q -p no:cacheprovider -n0 tests/python/app/test_browser.py tests/python/report/test_report.py || return
   [ -f build/docs/html/index.html ] || { echo 'the documentation is not built: sh docs/build.sh'; return 0; }
   "$python" -m pytest -q -p no:cacheprovider -n0 -m long tests/python/project/test_site.py

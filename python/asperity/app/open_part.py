@@ -6,8 +6,8 @@ from typing import Protocol
 from nicegui import ui
 
 from asperity._core import Error
-from asperity.app.parts import upload
 from asperity.app.state import State
+from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
 from asperity.app.worker import Worker, in_thread
 
@@ -24,7 +24,7 @@ class OpenPart:
     def __init__(self, state: State, worker: Worker, parts: Sequence[Refreshes]) -> None:
         self._state, self._worker, self._parts = state, worker, parts
         with ui.expansion("Open a scene").classes("w-full").props("dense"):
-            upload(
+            Upload(
                 "Drop a scene file with the files it names, or its ZIP",
                 self._taken,
                 self._say,

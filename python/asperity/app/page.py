@@ -16,12 +16,6 @@ from asperity.app.surface import SurfacePart
 from asperity.app.worker import Worker
 
 _MOST_SESSIONS = 16  # the one that was not used for longest goes
-# the buttons of Quasar's uploads have no names of their own
-_NAME_UPLOADS = """
-for (const one of document.querySelectorAll('.q-uploader'))
-  for (const inside of one.querySelectorAll('input[type=file], .q-btn'))
-    inside.setAttribute('aria-label', one.getAttribute('aria-label'));
-"""
 _states: "OrderedDict[str, State]" = OrderedDict()
 
 _STYLE = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
@@ -55,7 +49,6 @@ def show_page(session: str = "") -> None:
     with opening:
         OpenPart(state, worker, (surface, rubber, conditions))
     worker.shows(result, surface, rubber, conditions)
-    ui.run_javascript(_NAME_UPLOADS)
     ui.timer(0.01, worker.changed, once=True)
 
 

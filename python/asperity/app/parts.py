@@ -11,7 +11,6 @@ from typing import Any, Literal
 from nicegui import events, ui
 
 from asperity.app.charts import Options
-from asperity.app.files import MOST_BYTES
 
 _PAUSE = 0.02  # s between two values of a slider that is moved, or of a number that is typed
 _LATER = 0.1  # s after which the field is told what its slider already shows in it
@@ -60,33 +59,6 @@ def redraw(drawn: ui.echart, options: Options, name: str) -> None:
     drawn.options.update(options)
     drawn.props(f'aria-label="{escape(name)}"')
     drawn.update()
-
-
-def upload(
-    label: str,
-    take: Callable[[list[tuple[str, bytes]]], Awaitable[None]],
-    refused: Callable[[str], None],
-    *,
-    multiple: bool = False,
-) -> ui.upload:
-    """A place to drop files, or to choose them by a button."""
-
-    async def taken(event: events.MultiUploadEventArguments) -> None:
-        await take([(file.name, await file.read()) for file in event.files])
-        drop.reset()
-
-    most = f"a file must have at most {MOST_BYTES // 2**20} MB"
-    drop = ui.upload(
-        label=label,
-        multiple=multiple,
-        auto_upload=True,
-        max_file_size=MOST_BYTES,
-        on_multi_upload=taken,
-        on_rejected=lambda: refused(f"the file was refused: {most}"),
-    )
-    return drop.props(
-        f'flat bordered text-color="dark" color="blue-1" aria-label="{escape(label)}"'
-    )
 
 
 class Quantity:

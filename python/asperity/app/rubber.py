@@ -7,8 +7,9 @@ from nicegui import ui
 from asperity._core import Error, InvalidInput
 from asperity.app.charts import rubber_chart, shifts_chart
 from asperity.app.guess import QUANTITIES, UNITS
-from asperity.app.parts import chart, part, redraw, upload
+from asperity.app.parts import chart, part, redraw
 from asperity.app.state import State
+from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.celsius import temperature_text
@@ -34,7 +35,6 @@ class RubberPart:
 
     def __init__(self, state: State, worker: Worker) -> None:
         self._state, self._worker = state, worker
-        self._files: list[str] = []
         self._drawn: object = None
         with part("Rubber", "rubber-title"):
             self._choice = (
@@ -44,12 +44,7 @@ class RubberPart:
                 .props("dense outlined")
                 .classes("w-full")
             )
-            upload(
-                "Drop DMA sweeps or a master curve here, or choose files",
-                self._taken,
-                self._say,
-                multiple=True,
-            )
+            Upload(_DROP, self._taken, self._say, multiple=True)
             self._menus = ui.element("div").classes("w-full")
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._left = ui.label("").classes("soft")
@@ -71,19 +66,20 @@ class RubberPart:
                 kept.append(one)
             except Error as error:
                 self._say(in_one_line(self._state.said(error)))
+                for useless in kept:
+                    self._state.folder.forget(useless)
                 return
-        self._files = kept
-        self._ask()
+        self._ask(kept)
         self._say("")
 
-    def _ask(self) -> None:
+    def _ask(self, files: list[str]) -> None:
         """Menus with the guess, and a button that takes them."""
-        guess = self._state.guesses[self._files[0]]
+        guess = self._state.guesses[files[0]]
         chosen: dict[str, ui.select] = {}
         units: dict[str, ui.select] = {}
         self._menus.clear()
         with self._menus:
-            shown = ", ".join(self._state.folder.shown[name] for name in self._files)
+            shown = ", ".join(self._state.folder.shown[name] for name in files)
             ui.label(f"Of {shown}: is this right?").classes("soft")
             with ui.element("div").classes("grid grid-cols-1 sm:grid-cols-2 gap-2 w-full"):
                 for quantity in QUANTITIES:
@@ -104,23 +100,24 @@ class RubberPart:
 
             async def take() -> None:
                 await self._use(
+                    files,
                     {
                         "columns": {name: menu.value or None for name, menu in chosen.items()},
                         "units": {name: menu.value for name, menu in units.items()},
                         "modulus": modulus.value,
                         "prony": prony.value,
-                    }
+                    },
                 )
 
             ui.button("Make the master curve", on_click=take).props('no-caps color="blue-9"')
 
-    async def _use(self, settings: dict[str, Any]) -> None:
+    async def _use(self, files: list[str], settings: dict[str, Any]) -> None:
         try:
             for name, column in settings["columns"].items():
                 if column is None and name != "temperature":
                     raise InvalidInput(f"which column is the {name}? None is chosen")
             self._say("making the master curve ...")
-            take = await in_thread(lambda: self._state.use_dma(self._files, settings))
+            take = await in_thread(lambda: self._state.use_dma(files, settings))
         except Error as error:
             self._say(in_one_line(self._state.said(error)))
             return

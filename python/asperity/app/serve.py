@@ -63,13 +63,16 @@ def listening(host: str, port: int) -> socket.socket:
 def _run(bound: socket.socket, token: str, port: int) -> None:
     import uvicorn
     from fastapi import FastAPI
-    from nicegui import ui
+    from nicegui import app, ui
 
     from asperity.app.files import remove_old_folders
     from asperity.app.page import close_all, show_page
+    from asperity.app.upload import ADDRESS, receive
 
     remove_old_folders()
+    app.config.quasar_config["loadingBar"]["skipHijack"] = True  # it has no name
     application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+    application.post(ADDRESS)(receive)
     ui.page("/", title="asperity")(show_page)
     ui.run_with(application, title="asperity", language="en-US", show_welcome_message=False)
     guard = Guard(application, token, port)

@@ -10,8 +10,9 @@ from nicegui import background_tasks, ui
 from asperity._core import Error
 from asperity.app.charts import spectrum_chart
 from asperity.app.controls import Changed, controls
-from asperity.app.parts import Quantity, chart, part, redraw, upload
+from asperity.app.parts import Quantity, chart, part, redraw
 from asperity.app.state import State
+from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.arguments import brief
@@ -47,13 +48,14 @@ class SurfacePart:
                 self._law_fields()
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._facts = ui.label("").classes("soft")
-            self._map = ui.image("").props('no-spinner alt="" fit="contain"').classes("w-full")
+            self._map = ui.image("").props('no-spinner fit="contain"').classes("w-full")
+            self._map.props('alt="Map of the heights"').set_visibility(False)
             self._map_facts = ui.label("").classes("soft")
             self._chart = chart({}, "Roughness spectrum", renderer="canvas")
         self._see()
 
     def _scan_fields(self) -> None:
-        upload("Drop a scan here, or choose a file", self._taken, self._say)
+        self._upload = Upload("Drop a scan here, or choose a file", self._taken, self._say)
         self._settings: dict[str, Any] = {"unit": "", "detrend": "quadratic"}
         with ui.expansion("How the scan is read").classes("w-full").props("dense"):
             field = "dense outlined debounce=500"
@@ -101,9 +103,14 @@ class SurfacePart:
         except Error as error:
             self._say(in_one_line(self._state.said(error)))
             return
-        await self._use()
+        await self._read()
 
     async def _use(self) -> None:
+        """Read it again where a field has changed."""
+        async with self._upload.turn:
+            await self._read()
+
+    async def _read(self) -> None:
         """Read the scan that was dropped as the fields say."""
         if self._state.scan is None:
             return

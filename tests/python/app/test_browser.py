@@ -12,6 +12,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
+from helpers.accessible import violations
 from helpers.dropped import dma_bytes, scan_bytes
 from helpers.served import served
 
@@ -43,8 +44,8 @@ def address() -> Iterator[str]:
 class Tab:
     """A page of the app, and everything that it asked for and complained of."""
 
-    def __init__(self, browser: Any, address: str, width: int = 1280) -> None:
-        self.context = browser.new_context(viewport={"width": width, "height": 900})
+    def __init__(self, browser: Any, address: str, width: int = 1280, **options: Any) -> None:
+        self.context = browser.new_context(viewport={"width": width, "height": 900}, **options)
         self.page = self.context.new_page()
         self.page.set_default_timeout(SLOW)
         self.asked: list[str] = []
@@ -179,8 +180,7 @@ def test_a_scene_that_was_given_away_is_opened_again(tab: Tab, tmp_path: Path) -
     tab.page.get_by_label("Pressure [MPa]", exact=True).fill("0.5")
     playwright.expect(tab.page.get_by_role("img", name=opened)).to_have_count(0)
     tab.page.get_by_role("button", name="Open a scene").click()
-    inside = tab.page.locator(".q-uploader[aria-label^='Drop a scene file'] input[type=file]")
-    inside.set_input_files(str(archive))
+    tab.page.get_by_label("Drop a scene file").set_input_files(str(archive))
     tab.page.get_by_role("img", name=opened).wait_for()
     field = tab.page.get_by_label("Pressure [MPa]", exact=True)
     playwright.expect(field).to_have_value("0.081")
@@ -246,6 +246,48 @@ def test_a_scan_of_100_mb_becomes_the_surface(tab: Tab, tmp_path: Path) -> None:
     tab.page.get_by_role("img", name="Map of the heights; 50 by 50 mm").wait_for()
     playwright.expect(tab.page.get_by_role("img", name=before)).to_have_count(0)
     tab.settled()
+
+
+def test_files_that_do_not_arrive_say_so_and_others_arrive_after(tab: Tab) -> None:
+    before = tab.chart
+    tab.page.route("**/upload/*", lambda route: route.abort())
+    tab.drop("Surface", file_of("scan.npy", scan_bytes()))
+    playwright.expect(tab.problem("Surface")).to_contain_text("scan.npy did not arrive: ")
+    tab.drop("Rubber", file_of("dma.csv", dma_bytes()), file_of("more.csv", dma_bytes()))
+    playwright.expect(tab.problem("Rubber")).to_contain_text("dma.csv, more.csv did not arrive: ")
+    tab.page.unroute("**/upload/*")
+    assert [one for one in tab.said if "net::ERR_FAILED" not in one] == []
+    tab.said.clear()
+    long = "x" * 3000 + ".npy"
+    tab.drop("Surface", file_of(long, scan_bytes()))
+    playwright.expect(tab.problem("Surface")).to_contain_text("missing")
+    tab.drop("Rubber", file_of("dma.csv", dma_bytes()))
+    tab.page.get_by_role("button", name="Make the master curve").wait_for()
+    playwright.expect(tab.problem("Rubber")).to_have_text("")
+    for name in ("Drop a scan here, or choose a file", "Drop DMA sweeps"):
+        playwright.expect(tab.page.get_by_role("button", name=name)).to_be_visible()
+    assert tab.chart == before
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing(browser: Any, address: str, scheme: str) -> None:
+    """As it opens, with everything open, and with menus and problems of dropped files."""
+    tab = Tab(browser, address, color_scheme=scheme)
+    assert violations(tab.page) == []
+    for name in ("Open a scene", "How the scan is read", "Numbers", "The scene file"):
+        tab.page.get_by_role("button", name=name).click()
+    tab.page.get_by_role("button", name="Which roughness makes the friction").click()
+    tab.page.get_by_role("switch", name="Heat of sliding").click()
+    tab.drop("Surface", file_of("paper.pdf", b"%PDF-1.7 no scan"))
+    playwright.expect(tab.problem("Surface")).to_contain_text("paper.pdf")
+    tab.drop("Rubber", file_of("dma.csv", dma_bytes()))
+    tab.page.get_by_role("button", name="Make the master curve").wait_for()
+    tab.page.get_by_role("img", name="Contributions to the hysteresis").wait_for()
+    tab.settled()
+    tab.page.get_by_role("button", name="Keep for comparison").click()
+    tab.page.get_by_role("button", name="from the comparison").wait_for()
+    assert violations(tab.page) == []
+    tab.context.close()
 
 
 def test_a_change_is_shown_at_once(tab: Tab) -> None:

@@ -17,6 +17,7 @@ import asperity
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.report.drawings import Drawings, Figure
+from helpers.accessible import violations
 from helpers.scenes import ADHESION, RUBBER, SURFACE
 
 pytest.importorskip("matplotlib", reason="reports need asperity[plot]")
@@ -250,8 +251,8 @@ def test_a_number_without_a_digit_of_its_own_is_told(tmp_path: Path) -> None:
     assert not re.search(r">\s*(nan|inf|-?nan %)\s*<", page)
 
 
-@pytest.mark.parametrize("width", [390, 1280])
-def test_a_browser_shows_it(place: Path, width: int) -> None:
+@pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
+def test_a_browser_shows_it(place: Path, width: int, scheme: str) -> None:
     """It fits the width, asks for nothing else, and prints to a few pages."""
     playwright = pytest.importorskip("playwright.sync_api", reason="browser tests need playwright")
     chromium = Path("/usr/bin/chromium")
@@ -259,7 +260,7 @@ def test_a_browser_shows_it(place: Path, width: int) -> None:
         pytest.skip("needs Chromium")
     with playwright.sync_playwright() as started:
         browser = started.chromium.launch(executable_path=str(chromium), args=["--no-sandbox"])
-        opened = browser.new_page(viewport={"width": width, "height": 800})
+        opened = browser.new_page(viewport={"width": width, "height": 800}, color_scheme=scheme)
         asked: list[str] = []
         opened.on("request", lambda request: asked.append(request.url))
         opened.on("console", lambda message: asked.append(message.text))
@@ -268,6 +269,7 @@ def test_a_browser_shows_it(place: Path, width: int) -> None:
         assert opened.evaluate("document.documentElement.scrollWidth") <= width
         assert opened.locator("svg.wide").first.is_visible() == (width > 640)
         assert opened.locator("svg.narrow").first.is_visible() == (width <= 640)
+        assert violations(opened) == []
         pages = len(re.findall(rb"/Type\s*/Page\b", opened.pdf(prefer_css_page_size=True)))
         assert 4 <= pages <= 16
         browser.close()

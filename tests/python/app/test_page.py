@@ -1,0 +1,58 @@
+"""The page without a browser: files that are dropped while others are read follow them."""
+
+import asyncio
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pytest
+
+from asperity.app.state import State, Take
+from helpers.dropped import scan_bytes
+
+testing = pytest.importorskip("nicegui.testing", reason="the app needs asperity[app]")
+surface = pytest.importorskip("asperity.app.surface", reason="the app needs asperity[app]")
+worker = pytest.importorskip("asperity.app.worker", reason="the app needs asperity[app]")
+
+
+def test_a_scan_that_is_dropped_while_one_is_read_follows_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun, may_end = threading.Event(), threading.Event()
+    read: list[str] = []
+    use_scan = State.use_scan
+
+    def slow(state: State, settings: Mapping[str, Any]) -> Take:
+        assert state.scan is not None
+        read.append(state.folder.shown[state.scan])
+        begun.set()
+        assert may_end.wait(60)
+        return use_scan(state, {**settings, "pixel_size_m": 5e-6, "unit": "um"})
+
+    monkeypatch.setattr(State, "use_scan", slow)
+    state = State()
+    parts: list[Any] = []
+
+    async def until(true: Callable[[], bool]) -> None:
+        while not true():
+            await asyncio.sleep(0.01)
+
+    async def drop_two() -> None:
+        def show() -> None:
+            parts.append(surface.SurfacePart(state, worker.Worker(state)))
+
+        async with testing.user_simulation(root=show) as user:
+            await user.open("/")
+            (part,) = parts
+            part._upload.arrived([("first.npy", scan_bytes())])
+            await until(begun.is_set)
+            part._upload.arrived([("second.npy", scan_bytes())])
+            await asyncio.sleep(0.1)
+            assert read == ["first.npy"]
+            may_end.set()
+            await until(lambda: len(read) == 2 and not part._upload.turn.locked())
+            assert part._problem.text == ""
+
+    asyncio.run(asyncio.wait_for(drop_two(), 120))
+    assert state.folder.shown[state.surfaces["your scan"]["file"]] == "second.npy"
+    state.close()
