@@ -33,6 +33,9 @@ inline std::vector<Kind> kinds() {
           {true, true, 3, 0, true, "slanted", 3, true}};
 }
 
+/// Where the file has them.
+constexpr std::size_t coldest_at = 56, nodes_at = 164, grids_at = 176, head = 192;
+
 constexpr double pressure[] = {1e4, 1e6}, velocity[] = {1e-3, 10}, max_error = 2e-4;
 constexpr double shear_stress = 5e6, reference_velocity = 6e-3, width = 0.1;
 
@@ -150,37 +153,31 @@ inline Bytes make(const Kind& kind) {
   Bytes out;
   for (const char letter : std::string("ASPERMAP")) out.push_back(static_cast<unsigned char>(letter));
   put(out, 0x01020304, 4);
-  put(out, kind.slanted ? 3 : kind.temperatures > 0 ? 2 : 1, 4);
+  put(out, 4, 4);
   put(out, 0, 8);
-  for (const double side : {pressure[0], pressure[1], velocity[0], velocity[1]}) put(out, side);
-  for (const double error : {1e-4, max_error, 1e-4}) put(out, error);
-  put(out, 1000, 8);
-  put(out, 0, 8);
-  for (const double number : {kind.adhesion ? shear_stress : 0, reference_velocity, width}) put(out, number);
-  const auto letters = static_cast<std::uint32_t>(kind.text.size());
-  for (const std::uint32_t n : {kind.hysteresis ? 1u : 0u, bands, kind.nodes, grids, entries, cells, letters, 0u})
-    put(out, n, 4);
-  const std::uint32_t nodes = kind.temperatures;
+  const std::uint32_t nodes = kind.temperatures, lengths = nodes > 0 ? 3 : 0, warm = nodes > 1 ? 2 : nodes;
   const double step = nodes > 1 ? range(kind) / (nodes - 1) : 0;
-  Bytes cold;
-  if (nodes > 0) {
-    cold = make({kind.hysteresis, kind.adhesion});
-    for (const double number : {coldest, coldest + range(kind), memory_error}) put(out, number);
-    put(out, cold.size(), 8);
-    const std::uint32_t lengths = 3, warm = nodes == 1 ? 1 : 2;
-    for (const std::uint32_t n : {nodes, lengths, warm, 0u}) put(out, n, 4);
-    for (std::uint32_t i = 0; i < nodes && !kind.slanted; ++i) {
-      put(out, log_shift(kind, i * step));
-      put(out, -0.02);
-    }
-    if (kind.slanted)
-      for (const double number : {law_a, law_b}) put(out, number);
-    for (std::uint32_t j = 0; j < warm; ++j)
-      for (std::uint32_t i = 0; i < lengths; ++i) {
-        put(out, log_length(ln_v[0] + i * (ln_v[1] - ln_v[0]) / (lengths - 1), j * range(kind)));
-        put(out, -0.2);
-      }
+  const Bytes cold = nodes > 0 ? make({kind.hysteresis, kind.adhesion}) : Bytes{};
+  for (const double side : {pressure[0], pressure[1], velocity[0], velocity[1]}) put(out, side);
+  for (const double side : {coldest, coldest + range(kind)}) put(out, nodes > 0 ? side : 0);
+  for (const double error : {1e-4, max_error, 1e-4, nodes > 0 ? memory_error : 0}) put(out, error);
+  for (const double number : {kind.adhesion ? shear_stress : 0, reference_velocity, width}) put(out, number);
+  for (const std::size_t n : {std::size_t{1000}, std::size_t{0}, cold.size()}) put(out, n, 8);
+  const auto letters = static_cast<std::uint32_t>(kind.text.size());
+  for (const std::uint32_t n : {(kind.hysteresis ? 1u : 0u) + (kind.slanted ? 2u : 0u), bands, kind.nodes,
+                                nodes > 0 ? nodes : 1, lengths, warm, grids, entries, cells, letters})
+    put(out, n, 4);
+  if (kind.slanted)
+    for (const double number : {law_a, law_b}) put(out, number);
+  for (std::uint32_t i = 0; i < nodes && nodes > 1 && !kind.slanted; ++i) {
+    put(out, log_shift(kind, i * step));
+    put(out, -0.02);
   }
+  for (std::uint32_t j = 0; j < warm; ++j)
+    for (std::uint32_t i = 0; i < lengths; ++i) {
+      put(out, log_length(ln_v[0] + i * (ln_v[1] - ln_v[0]) / (lengths - 1), j * range(kind)));
+      put(out, -0.2);
+    }
   for (const double one : edge) put(out, one);
   for (std::uint32_t i = 0; i < kind.nodes; ++i) {
     put(out, shear(kind, x[0] + i * (x[1] - x[0]) / (kind.nodes - 1)));

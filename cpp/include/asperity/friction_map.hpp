@@ -17,8 +17,8 @@
 //   double mu = map.mu(2e5, 0.3);                               // pressure [Pa], velocity [m/s]
 //
 // A map holds ln of mu_H (hysteresis) and of A/A0, over x = ln v and z = ln p - s(x), each a bicubic polynomial a
-// cell, with continuous first derivatives (C1) but between bands of z: where a correction changes its state, or, of
-// version 3 below, lines of constant v a_T the sides of the box that they end at. s is zero, or ln E* of the
+// cell, with continuous first derivatives (C1) but between bands of z: where a correction changes its state, or, of a
+// slanted map below, lines of constant v a_T the sides of the box that they end at. s is zero, or ln E* of the
 // Greenwood-Williamson correction, which depends on p / E* alone. The adhesion is added in closed form,
 //   mu = mu_H + (tau_f0 / p) (A/A0) exp(-c log10(v / v0)^2).
 // The temperature shifts the velocity of mu_H and A/A0 by a_T; the adhesion takes the true velocity.
@@ -41,47 +41,43 @@
 // The file, little-endian, doubles as IEEE 754, offsets in bytes:
 //     0  8   "ASPERMAP"
 //     8  u32 0x01020304, which a file of the other byte order has reversed
-//    12  u32 version of this layout, 1, or 2 or 3 with heat
+//    12  u32 version of this layout, 4; those before it were of no release
 //    16  u64 size of the file
-//    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s]: the box
-//    56  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
+//    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s], T0 lo, hi [K]: the box. T0 is 0 without heat, lo = hi where
+//            the map is for a single one
+//    72  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
 //            map was certified, 12 a cell that it was not made from and a lattice; the largest on the points of the
-//            check that followed
-//    80  u64 number of points of that check; how many were off by more than max_error
-//    96  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
-//   120  u32 1 with hysteresis, 0 without (a rubber that loses nothing); n bands, from 1 to 64; s nodes of s(x), 0 or
-//            from 2 on; g grids, from n on; e entries; c cells, from 1 on; t bytes of text; 0
-//   152  f64 n + 1 values of z, rising: where bands begin, and the end
-//        f64 2 s: s(x) and s'(x) at s nodes, equal steps of x from ln v lo to ln v hi; cubic Hermite between them
+//            check that followed; relative error that s0 of this file makes in mu, which 99 % of points and distances
+//            keep, 0 without heat
+//   104  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
+//   128  u64 number of points of that check; how many were off by more than max_error; bytes of the map without heat
+//   152  u32 1 with hysteresis, 0 without (a rubber that loses nothing), and 2 more for a slanted map; n bands, from
+//            1 to 64; s nodes of s(x), 0 or from 2 on; m temperatures between which cells have polynomials, 1 where
+//            there is a single T0 or none; a columns, b rows of ln s0, from 2 on, b = 1 for a single T0, both 0
+//            without heat; g grids, from n on; e entries; c cells, from 1 on; t bytes of text
+//   192  f64 2 m: ln a_T, of the map without heat, and d ln a_T / dT0 at m equal steps from T0 lo to hi; cubic Hermite
+//            between them; none where m is 1
+//        f64 2 a b: ln s0 and its slope over x at a equal steps of x, cubic Hermite between them, for each of b equal
+//            steps of T0, linear between them
+//        f64 n + 1 values of z, rising: where bands begin, and the end
+//        f64 2 s: s(x) and s'(x) at s nodes, equal steps of x from ln v lo to ln v hi; cubic Hermite between them; none
+//            with heat
 //        g x (f64 x, z of a corner; f64 columns per x, rows per z; u32 columns, rows, first entry, 0): grid k < n is
 //            that of band k; each entry is of one grid, in their order
 //        e x i32 row by row, the row the faster index: a cell, or -1 - k for grid k, which comes after the grid it
 //            is in; no more than 64 grids lie one in another
-//        c x 34 f64 x, z of a corner, then 32: coefficients of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
+//        c x (2 + 32 k) f64, k = 1 where m is 1, else 4 (m - 1): x, z of a corner, then 32 coefficients for each power
+//            0 to 3 of T0 - T_i on each step i of T0: of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
 //            8 j + 2 i + 1 for ln A/A0
+//        the map without heat of one with it, a whole file
 //        t   text, lines of UTF-8: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
 //
-// Version 2 differs so: s is 0. After the head, before the values of z,
-//   152  f64 T0 lo, hi [K], equal where the map is for one
-//   168  f64 relative error that s0 of this table makes in mu, which 99 % of points and distances keep
-//   176  u64 bytes of the map without heat
-//   184  u32 m temperatures between which cells have polynomials, 1 for one T0, else from 2 on; a columns, b rows of
-//            ln s0, from 2 on, b = 1 for one T0; 0
-//   200  f64 2 m: ln a_T, of the map without heat, and d ln a_T / dT0 at m equal steps from T0 lo to hi; cubic Hermite
-//            between them. Of one T0 0
-//        f64 2 a b: ln s0 and its slope over x at a equal steps of x, cubic Hermite between them, for each of b equal
-//            steps of T0, linear between them
-// then as above, a cell being 2 + 32 k doubles, k = 1 for one T0, else 4 (m - 1): 32 coefficients for each power 0 to 3
-// of T0 - T_i on each step i of T0. Before the text the map without heat, a whole file of version 1.
-//
-// Version 3 is for a range of T0 and rubber that was measured, whose mu is smooth over T0 along lines of constant v a_T
-// alone. ln a_T = a t / (1 + b t), t = T0 - lo, is between 0 and its value at T0 hi, the lesser of which is l and the
-// larger h. It differs from version 2 so: instead of the table of ln a_T
-//   200  f64 a, b [1/K]
-// and cells have the first coordinate ln p, the second z = ln v + ln a_T, and instead of T0 the share of the way along
-// the line of constant z in the box,
+// A slanted map is for a range of T0 and rubber that was measured, whose mu is smooth over T0 along lines of constant
+// v a_T alone. ln a_T = a t / (1 + b t), t = T0 - lo, is between 0 and its value at T0 hi, the lesser of which is l and
+// the larger h. Instead of the table of ln a_T it has f64 a, b [1/K], and its cells have the first coordinate ln p, the
+// second z = ln v + ln a_T, and instead of T0 the share of the way along the line of constant z in the box,
 //   above / (above + below), above = min(ln a_T - l, ln(v hi / v)), below = min(h - ln a_T, ln(v / v lo)),
 // in m - 1 equal steps from 0 to 1. Where the smaller of two numbers becomes the other one a band of z ends: n = 3.
 #ifndef ASPERITY_FRICTION_MAP_HPP
@@ -96,6 +92,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -337,7 +334,11 @@ struct Grid {
   std::int64_t last_column, last_row;
 };
 
-constexpr std::size_t head_size = 152, heat_head_size = 48;
+class Reader;
+struct Head;
+
+constexpr std::uint32_t layout = 4;
+constexpr std::size_t head_size = 192;
 constexpr std::size_t corner_size = 2, block_size = 32;     // numbers of a cell: its corner, then one block or more
 constexpr double long_slid = 1e300;                         // [m]
 constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
@@ -406,7 +407,7 @@ class FrictionMap {
 
   /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
   /// a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
-  /// range of T0 take 36 kB of the stack, but for those of version 3.
+  /// range of T0 take 36 kB of the stack, but for slanted ones.
   void mu_at_points(std::size_t n, const double* pressure, const double* velocity, double* result,
                     Outside outside = Outside::nan, const MapTemperature& temperature = {}) const noexcept {
     if (steps_ == 0 || is_slanted_) {
@@ -555,10 +556,9 @@ class FrictionMap {
   /// `mu` of all other points: outside of the box, or at a temperature that the map has not.
   [[nodiscard]] ASPERITY_MAP_APART double settled_mu(double pressure, double velocity, Outside outside,
                                                      const MapTemperature& temperature) const noexcept {
-    const Where at = where(pressure, velocity, outside, temperature);
-    if (at.cell == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    const bool has_memory = info_.heat && temperature.distance < map_detail::long_slid;
-    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+    MapPoint point;
+    at(pressure, velocity, point, outside, temperature);
+    return point.mu;
   }
 
   /// Six exponentials, two at a time. What waits for the memory longest comes first: s0, then the cold map, so that the
@@ -900,16 +900,11 @@ class FrictionMap {
     return (low[0] + low[1] * t) + (high[0] + high[1] * t) * (t * t);
   }
 
-  /// exp(-s / s0)
-  static double share_left(double distance, double log_sliding_length) noexcept {
-    return map_detail::exp(-(distance * map_detail::exp(-log_sliding_length)));
-  }
-
   [[nodiscard]] Memory remember(const Where& at, double distance) const noexcept {
     if (distance >= map_detail::long_slid) return {0, 0};
     double slope = 0;
-    const double log_length = log_sliding_length(sliding_rows(at), at.x, &slope);
-    return {share_left(distance, log_length), distance * map_detail::exp(-log_length) * slope};
+    const double lengths = distance * map_detail::exp(-log_sliding_length(sliding_rows(at), at.x, &slope));
+    return {map_detail::exp(-lengths), lengths * slope};
   }
 
   /// ln of a_T v on the map without heat.
@@ -925,9 +920,7 @@ class FrictionMap {
 
   /// From the lowest T0 to that of a point, on a map with an axis of it.
   [[nodiscard]] ASPERITY_MAP_INLINE double log_a_T(const Where& at) const noexcept {
-    const double* const c = shift_.data() + 4 * at.step;
-    const double t = at.dT * steps_per_T_;
-    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    return cubic(shift_.data() + 4 * at.step, at.dT * steps_per_T_);
   }
 
   [[nodiscard]] Where cold_place(const Where& at) const noexcept {
@@ -1103,27 +1096,21 @@ class FrictionMap {
     return true;
   }
 
-  /// Of values and slopes at equal steps, at `from` away from the first, and the slope there.
-  static double cubic(const double* table, std::size_t nodes, double per_step, double step, double from,
-                      double& slope) noexcept {
-    const double scaled = from * per_step;
-    const std::int64_t i = index(scaled, static_cast<std::int64_t>(nodes) - 2);
-    return cubic(table + 2 * i, scaled - static_cast<double>(i), per_step, step, slope);
-  }
-
-  /// Between two nodes, a share t of the step from the first, and the slope there.
-  static double cubic(const double* s, double t, double per_step, double step, double& slope) noexcept {
-    const double rise = s[2] - s[0];
-    const double square = 3 * rise - step * (2 * s[1] + s[3]), cube = step * (s[1] + s[3]) - 2 * rise;
-    slope = s[1] + t * (2 * square + 3 * t * cube) * per_step;
-    return s[0] + t * (step * s[1] + t * (square + t * cube));
+  /// A cubic over a share of a step.
+  ASPERITY_MAP_INLINE static double cubic(const double* c, double t) noexcept {
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
   }
 
   /// s(x) and its slope.
   double log_modulus_offset(double x, double& slope) const noexcept {
     slope = 0;
     if (offset_.empty()) return 0;
-    return cubic(offset_.data(), offset_.size() / 2, offset_per_x_, offset_step_, x - offset_x_, slope);
+    const double scaled = (x - offset_x_) * offset_per_x_;
+    const std::int64_t i = index(scaled, last_offset_);
+    const double* const c = offset_.data() + 4 * i;
+    const double t = scaled - static_cast<double>(i);
+    slope = (c[1] + t * (2 * c[2] + t * 3 * c[3])) * offset_per_x_;
+    return cubic(c, t);
   }
 
   /// A cell's polynomials, and how far from its corner.
@@ -1153,16 +1140,22 @@ class FrictionMap {
                                                  index((z - grid.z) * grid.rows_per_z, grid.last_row));
   }
 
+  /// From the bytes of a file, maybe of one inside of another; what is wrong with them, or nothing.
+  std::string take(const unsigned char* bytes, std::size_t size, bool is_inside);
+  bool take_tables(map_detail::Reader& in, const map_detail::Head& head);
+  bool take_grids(map_detail::Reader& in, const map_detail::Head& head);
+
   friend class FrictionMapBatch;  // of the full library: many points at once
 
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
   std::vector<double> ends_, offset_;                          // of the bands
   double offset_x_ = 0, last_x_ = 0;                           // ln of the box's velocities
-  double offset_per_x_ = 0, offset_step_ = 0;
+  double offset_per_x_ = 0;
+  std::int64_t last_offset_ = 0;
   std::size_t cell_size_ = map_detail::block_size;  // numbers from one to the next
   std::uint32_t steps_ = 0;                         // of T0 in cells, or of a slanted map's share, 0 for one T0
-  bool is_slanted_ = false;                         // version 3
+  bool is_slanted_ = false;
   std::int64_t last_step_ = 0;
   std::int64_t last_row_ = 0, last_column_ = 0, row_size_ = 0;
   double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
@@ -1207,7 +1200,16 @@ class Reader {
   bool numbers(std::vector<double>& to, std::size_t n, double most) {
     to.resize(n);
     bool good = true;
-    for (double& x : to) good = number(x, most) && good;
+    for (double& x : to) good = number(x, -most, most) && good;
+    return good;
+  }
+  bool number(double& x, double least, double most) noexcept {
+    x = f64();
+    return !is_nan(x) && x >= least && x <= most;
+  }
+  bool numbers(std::initializer_list<double*> to, double least, double most) noexcept {
+    bool good = true;
+    for (double* const x : to) good = number(*x, least, most) && good;
     return good;
   }
   /// Cells: corners, of which powers of the distance stay finite, and so many lines of polynomials.
@@ -1216,19 +1218,14 @@ class Reader {
     to.resize(n * lines);
     bool good = true;
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) good = number(corners[k], 1e4) && good;
+      for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) good = number(corners[k], -1e4, 1e4) && good;
       for (std::size_t k = lines * i; k < lines * (i + 1); ++k)
-        for (double& c : to[k].number) good = number(c, most) && good;
+        for (double& c : to[k].number) good = number(c, -most, most) && good;
     }
     return good;
   }
 
  private:
-  bool number(double& x, double most) noexcept {
-    x = f64();
-    return !is_nan(x) && x >= -most && x <= most;
-  }
-
   std::uint64_t number(int n) noexcept {
     std::uint64_t result = 0;
     for (int i = n; i-- > 0;) result = (result << 8) | at_[i];
@@ -1238,39 +1235,68 @@ class Reader {
   const unsigned char* at_;
 };
 
-inline bool is_box(const std::array<double, 2>& sides) noexcept {
-  return !is_nan(sides[0]) && !is_nan(sides[1]) && sides[0] >= 1e-300 && sides[1] > sides[0] * (1 + 1e-9) &&
-         sides[1] <= 1e300;
-}
-
-/// What the head of a map with heat has more.
-struct HeatHead {
-  bool is_slanted = false;      // version 3
-  unsigned long long cold = 0;  // bytes of the map without heat
-  std::uint32_t nodes = 0, columns = 0, rows = 0;
+/// What a file says before its tables, whose sizes it holds.
+struct Head {
+  std::uint32_t flags = 0, bands = 0, offsets = 0, nodes = 0, columns = 0, rows = 0;
+  std::uint32_t grids = 0, entries = 0, cells = 0, text = 0;
+  unsigned long long cold = 0;  // bytes
 
   /// From a file of that many bytes; false where it contradicts itself.
-  bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size) {
-    info.heat = true;
-    for (double& side : info.temperature) side = in.f64();
-    info.memory_error = in.f64();
+  bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size) noexcept {
+    constexpr double tiny = 1e-300, huge = 1e300;
+    bool good = in.numbers({&info.pressure[0], &info.pressure[1], &info.velocity[0], &info.velocity[1]}, tiny, huge);
+    good = in.numbers({&info.temperature[0], &info.temperature[1]}, 0, 1e6) && good;
+    good = in.numbers({&info.rtol, &info.max_error, &info.largest_checked_error, &info.memory_error, &info.shear_stress,
+                       &info.reference_velocity, &info.width},
+                      0, huge) &&
+           good;
+    info.checked = in.u64();
+    info.exceeded = in.u64();
     cold = in.u64();
-    nodes = in.u32();
-    columns = in.u32();
-    rows = in.u32();
-    info.temperatures = nodes;
-    const auto [lo, hi] = info.temperature;
-    const bool one = nodes == 1;
-    const bool range = !is_nan(lo) && !is_nan(hi) && lo >= 1 && hi <= 1e6 && (one ? lo == hi : lo + 1e-3 <= hi);
-    return in.u32() == 0 && range && !is_nan(info.memory_error) && info.memory_error >= 0 &&
-           info.memory_error <= 1e300 && nodes > 0 && nodes < 10000 && columns > 1 && columns < 10000 && rows < 10000 &&
-           (one ? rows == 1 && !is_slanted : rows > 1) && cold % 8 == 0 && cold < size;
+    for (std::uint32_t* const n : {&flags, &bands, &offsets, &nodes, &columns, &rows, &grids, &entries, &cells, &text})
+      *n = in.u32();
+    constexpr std::uint32_t most = 9999;
+    good = good && flags < 4 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands && entries > 0 &&
+           cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most && cold < size;
+    info.hysteresis = (flags & 1) != 0;
+    info.heat = columns > 0;
+    info.temperatures = info.heat ? nodes : 0;
+    info.cells = cells;
+    const bool law_fits = info.shear_stress == 0 || (info.shear_stress >= tiny && info.reference_velocity >= tiny);
+    return good && sides_fit(info) && heat_fits(info) && law_fits && (!is_slanted() || (nodes > 1 && bands == 3)) &&
+           bytes() == size;
   }
-  [[nodiscard]] std::size_t blocks() const noexcept { return nodes < 2 ? 1 : 4 * (std::size_t{nodes} - 1); }
+
+  [[nodiscard]] bool is_slanted() const noexcept { return flags >= 2; }
+  /// Numbers of a cell beside its corner.
+  [[nodiscard]] std::size_t cell_size() const noexcept {
+    return block_size * (nodes < 2 ? 1 : 4 * (std::size_t{nodes} - 1));
+  }
   /// Numbers of ln a_T: of a law, or at nodes.
-  [[nodiscard]] std::size_t shifts() const noexcept { return is_slanted ? 2 : 2 * std::size_t{nodes}; }
+  [[nodiscard]] std::size_t shifts() const noexcept {
+    return is_slanted() ? 2 : nodes < 2 ? 0 : 2 * std::size_t{nodes};
+  }
+  /// Zeros behind the entries or the text.
+  [[nodiscard]] static std::size_t padding(unsigned long long bytes) noexcept {
+    return static_cast<std::size_t>((8 - bytes % 8) % 8);
+  }
+
+ private:
+  [[nodiscard]] static bool sides_fit(const FrictionMapInfo& info) noexcept {
+    constexpr double least = 1 + 1e-9;
+    return info.pressure[1] > info.pressure[0] * least && info.velocity[1] > info.velocity[0] * least;
+  }
+  [[nodiscard]] bool heat_fits(const FrictionMapInfo& info) const noexcept {
+    const auto [lo, hi] = info.temperature;
+    if (!info.heat) return hi == 0 && lo == 0 && info.memory_error == 0 && nodes == 1 && rows == 0 && cold == 0;
+    return lo >= 1 && (nodes == 1 ? lo == hi && rows == 1 : lo + 1e-3 <= hi && rows > 1) && columns > 1 &&
+           offsets == 0 && cold >= head_size + 8 && cold % 8 == 0;
+  }
   [[nodiscard]] std::uint64_t bytes() const noexcept {
-    return nodes == 0 ? 0 : heat_head_size + 8ull * shifts() + 16ull * columns * rows + cold;
+    const std::uint64_t numbers = shifts() + 2ull * columns * rows + bands + 1 + 2ull * offsets + 6ull * grids +
+                                  (1ull * corner_size + cell_size()) * cells;
+    const std::uint64_t of_entries = 4ull * entries;
+    return head_size + 8 * numbers + of_entries + padding(of_entries) + cold + text + padding(text) + 8;
   }
 };
 
@@ -1317,152 +1343,122 @@ inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<
 }  // namespace map_detail
 
 inline bool FrictionMap::read(const void* data, std::size_t size, std::string& why) {
-  using map_detail::is_nan;
-  const auto refuse = [&](std::string reason) {
-    why = std::move(reason);
-    return false;
-  };
-  const auto* const bytes = static_cast<const unsigned char*>(data);
-  if (size < 8 || std::memcmp(bytes, "ASPERMAP", 8) != 0) return refuse("is no friction map: it begins otherwise");
-  if (size < map_detail::head_size + 8) return refuse("is truncated: " + std::to_string(size) + " bytes");
+  FrictionMap map;
+  why = map.take(static_cast<const unsigned char*>(data), size, false);
+  if (!why.empty()) return false;
+  *this = std::move(map);
+  return true;
+}
+
+inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t size, bool is_inside) {
+  if (size < 8 || std::memcmp(bytes, "ASPERMAP", 8) != 0) return "is no friction map: it begins otherwise";
+  if (size < map_detail::head_size + 8) return "is truncated: " + std::to_string(size) + " bytes";
   map_detail::Reader in(bytes + 8);
-  const std::uint32_t order = in.u32();
-  if (order == 0x04030201) return refuse("was written in the other byte order: must be little-endian");
-  if (order != 0x01020304) return refuse("is damaged: bytes 8 to 11");
-  const std::uint32_t version = in.u32();
-  if (version < 1 || version > 3)
-    return refuse("has layout version " + std::to_string(version) + ": must be 1, 2 or 3");
-  const bool heat = version != 1;
-  if (heat && size < map_detail::head_size + map_detail::heat_head_size + 8)
-    return refuse("is truncated: " + std::to_string(size) + " bytes");
+  const std::uint32_t order = in.u32(), version = in.u32();
+  if (order == 0x04030201) return "was written in the other byte order: must be little-endian";
+  if (order != 0x01020304) return "is damaged: bytes 8 to 11";
+  if (version != map_detail::layout)
+    return "has layout version " + std::to_string(version) + ": must be " + std::to_string(map_detail::layout) +
+           (version < map_detail::layout ? ", so the map has to be made again" : "");
   const std::uint64_t stated = in.u64();
   if (stated != size)
-    return refuse(std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) +
-                  " bytes, must be " + std::to_string(stated));
+    return std::string(size < stated ? "is truncated: " : "is too long: ") + std::to_string(size) + " bytes, must be " +
+           std::to_string(stated);
   if (map_detail::Reader(bytes + size - 8).u64() != map_detail::crc32(bytes, size - 8))  // its upper half is 0
-    return refuse("is damaged: its checksum is not that of its contents");
-
-  FrictionMap map;
-  FrictionMapInfo& info = map.info_;
-  bool good = true;
-  for (std::array<double, 2>* const box : {&info.pressure, &info.velocity}) {
-    for (double& side : *box) side = in.f64();
-    good = good && map_detail::is_box(*box);
+    return "is damaged: its checksum is not that of its contents";
+  map_detail::Head head;
+  if (!head.read(in, info_, size)) return "is damaged: its head contradicts itself";
+  if (is_inside && info_.heat) return "has one too";
+  is_slanted_ = head.is_slanted();
+  if (!take_tables(in, head)) return "is damaged: its tables contradict each other";
+  if (info_.heat) {
+    auto cold = std::make_shared<FrictionMap>();
+    const auto cold_size = static_cast<std::size_t>(head.cold);
+    const std::string reason = cold->take(in.skip(cold_size), cold_size, true);
+    if (!reason.empty()) return "is damaged: its map without heat " + reason;
+    cold_ = std::move(cold);
   }
-  const auto positive_or_0 = [&](double& x) {
-    x = in.f64();
-    good = good && !is_nan(x) && x >= 0 && x <= 1e300;
-  };
-  for (double* const x : {&info.rtol, &info.max_error, &info.largest_checked_error}) positive_or_0(*x);
-  info.checked = in.u64();
-  info.exceeded = in.u64();
-  for (double* const x : {&info.shear_stress, &info.reference_velocity, &info.width}) positive_or_0(*x);
-  good = good && (info.shear_stress == 0 || (info.shear_stress >= 1e-300 && info.reference_velocity >= 1e-300));
-  const std::uint32_t flags = in.u32();
-  info.hysteresis = flags == 1;
-  std::uint32_t count[6];  // bands, nodes, grids, entries, cells, bytes of text
-  for (std::uint32_t& n : count) n = in.u32();
-  const auto [bands, nodes, grids, entries, cells, text] =
-      std::array{count[0], count[1], count[2], count[3], count[4], count[5]};
-  const auto padded = [](std::uint64_t n) { return (n + 7) / 8 * 8; };
-  good = good && in.u32() == 0;
-  map_detail::HeatHead warm;
-  warm.is_slanted = version == 3;
-  if (heat) good = warm.read(in, info, size) && good && nodes == 0;
-  map.cell_size_ = map_detail::block_size * warm.blocks();
-  const std::uint64_t needed = map_detail::head_size + warm.bytes() + 8 * (bands + 1ull) + 16ull * nodes +
-                               48ull * grids + padded(4ull * entries) +
-                               8ull * (map_detail::corner_size + map.cell_size_) * cells + padded(text) + 8;
-  good = good && flags < 2 && bands > 0 && bands <= map_detail::most_bands && nodes != 1 && grids >= bands &&
-         entries > 0 && cells > 0 && needed == size && (!warm.is_slanted || bands == 3);
-  if (!good) return refuse("is damaged: its head contradicts itself");
+  info_.text.assign(reinterpret_cast<const char*>(in.skip(head.text)), head.text);
+  return {};
+}
 
-  if (heat) good = in.numbers(map.shift_, warm.shifts(), 1e3);
-  if (warm.is_slanted) {
-    const double kelvin = info.temperature[1] - info.temperature[0], end = 1 + map.shift_[1] * kelvin;
+/// Takes all from the table of ln a_T to the cells, and what look-ups need of it; false where it contradicts itself.
+inline bool FrictionMap::take_tables(map_detail::Reader& in, const map_detail::Head& head) {
+  const double kelvin = info_.temperature[1] - info_.temperature[0];
+  bool good = in.numbers(shift_, head.shifts(), 1e3);
+  if (is_slanted_) {
+    const double end = 1 + shift_[1] * kelvin;
     good = good && end >= 1e-9;  // there is no pole
-    const double whole = good ? map.shift_[0] * kelvin / end : 0;
+    const double whole = good ? shift_[0] * kelvin / end : 0;
     good = good && whole >= -1e3 && whole <= 1e3;
-    map.log_a_T_ = {whole < 0 ? whole : 0, whole < 0 ? 0 : whole};
-    map.is_slanted_ = true;
+    log_a_T_ = {whole < 0 ? whole : 0, whole < 0 ? 0 : whole};
   }
   std::vector<double> sliding;
-  if (heat) good = in.numbers(sliding, 2 * std::size_t{warm.columns} * warm.rows, 1e3) && good;
-  if (!good) return refuse("is damaged: its tables contradict each other");
-  good = in.numbers(map.ends_, bands + std::size_t{1}, 2000);
-  for (std::size_t i = 0; i < bands; ++i) good = good && map.ends_[i] < map.ends_[i + 1];
-  map.ends_.erase(map.ends_.begin());
-  map.ends_.back() = 1e308;  // beyond all
-  good = in.numbers(map.offset_, 2 * std::size_t{nodes}, 1e3) && good;
+  good = in.numbers(sliding, 2 * std::size_t{head.columns} * head.rows, 1e3) && good;
+  good = in.numbers(ends_, head.bands + std::size_t{1}, 2000) && good;
+  for (std::size_t i = 0; i < head.bands; ++i) good = good && ends_[i] < ends_[i + 1];
+  ends_.erase(ends_.begin());
+  ends_.back() = 1e308;  // beyond all
+  good = in.numbers(offset_, 2 * std::size_t{head.offsets}, 1e3) && good;
+  good = take_grids(in, head) && good;
+  cell_size_ = head.cell_size();
+  if (!good || !in.cells(corners_, cells_, head.cells, cell_size_ / 8, 1e100)) return false;
+
+  offset_x_ = map_detail::ln(info_.velocity[0]);
+  last_x_ = map_detail::ln(info_.velocity[1]);
+  if (head.nodes > 1) {
+    steps_ = head.nodes - 1;
+    last_step_ = std::int64_t{steps_} - 1;
+    steps_per_T_ = steps_ / kelvin;
+    step_of_T_ = 1 / steps_per_T_;
+    step_of_share_ = 1.0 / steps_;
+    if (!is_slanted_) shift_ = map_detail::cubics(shift_, head.nodes, step_of_T_);
+    rows_per_T_ = (head.rows - 1) / kelvin;
+  }
+  if (info_.heat) {
+    last_row_ = std::int64_t{head.rows} - 2;
+    last_column_ = std::int64_t{head.columns} - 2;
+    row_size_ = 8 * (std::int64_t{head.columns} - 1);
+    sliding_per_x_ = (head.columns - 1) / (last_x_ - offset_x_);
+    sliding_ = map_detail::with_differences(map_detail::cubics(sliding, head.columns, 1 / sliding_per_x_),
+                                            4 * (std::size_t{head.columns} - 1));
+  }
+  if (head.offsets > 0) {
+    offset_per_x_ = (head.offsets - 1) / (last_x_ - offset_x_);
+    last_offset_ = std::int64_t{head.offsets} - 2;
+    offset_ = map_detail::cubics(offset_, head.offsets, 1 / offset_per_x_);
+  }
+  ln_shear_stress_ = info_.shear_stress > 0 ? map_detail::ln(info_.shear_stress) : 0;
+  ln_reference_ = info_.shear_stress > 0 ? map_detail::ln(info_.reference_velocity) : 0;
+  width_ = info_.width / (2.302585092994045684 * 2.302585092994045684);
+  return true;
+}
+
+inline bool FrictionMap::take_grids(map_detail::Reader& in, const map_detail::Head& head) {
   // Steps of a grid are counted in 64 bits; x is no further from 0 than 700, s between its nodes than 1e7.
   constexpr double far_x = 1e3, far_z = 2e7, most_steps = 4e18;
+  bool good = true;
   std::uint64_t used = 0;
-  map.grids_.resize(grids);
-  for (map_detail::Grid& grid : map.grids_) {
-    std::vector<double> place;
-    good = in.numbers(place, 4, 1e12) && good;
-    grid = {place[0], place[1], place[2], place[3], in.u32(), in.u32(), in.u32(), 0, 0};
+  grids_.resize(head.grids);
+  for (map_detail::Grid& grid : grids_) {
+    good = in.numbers({&grid.x, &grid.z, &grid.columns_per_x, &grid.rows_per_z}, -1e12, 1e12) && good;
+    for (std::uint32_t* const n : {&grid.columns, &grid.rows, &grid.first}) *n = in.u32();
+    good = good && in.u32() == 0;
     grid.last_column = std::int64_t{grid.columns} - 1;
     grid.last_row = std::int64_t{grid.rows} - 1;
-    in.u32();
     good = good && grid.columns > 0 && grid.rows > 0 && grid.first == used &&
            (std::fabs(grid.x) + far_x) * std::fabs(grid.columns_per_x) < most_steps &&
            (std::fabs(grid.z) + far_z) * std::fabs(grid.rows_per_z) < most_steps &&
-           std::uint64_t{grid.columns} * grid.rows <= entries - used;
+           std::uint64_t{grid.columns} * grid.rows <= head.entries - used;
     if (good) used += std::uint64_t{grid.columns} * grid.rows;
   }
-  good = good && used == entries;
-  map.entries_.resize(entries);
-  for (std::int32_t& entry : map.entries_) {
+  entries_.resize(head.entries);
+  for (std::int32_t& entry : entries_) {
     entry = static_cast<std::int32_t>(in.u32());
-    good = good && entry < std::int64_t{cells} && -1 - std::int64_t{entry} < std::int64_t{grids};
+    good = good && entry < std::int64_t{head.cells} && -1 - std::int64_t{entry} < std::int64_t{head.grids};
   }
-  in.skip(static_cast<std::size_t>(padded(4ull * entries) - 4ull * entries));
-  good = good && map_detail::no_grid_in_itself(map.grids_, map.entries_) &&
-         in.cells(map.corners_, map.cells_, cells, map.cell_size_ / 8, 1e100);
-  if (!good) return refuse("is damaged: its tables contradict each other");
-  info.cells = cells;
-  if (heat) {
-    const auto cold_size = static_cast<std::size_t>(warm.cold);
-    const unsigned char* const inside = in.skip(cold_size);
-    if (cold_size < 16 || map_detail::Reader(inside + 12).u32() != 1)
-      return refuse("is damaged: its map without heat is none of version 1");
-    auto cold = std::make_shared<FrictionMap>();
-    std::string reason;
-    if (!cold->read(inside, cold_size, reason)) return refuse("is damaged: its map without heat " + reason);
-    map.cold_ = std::move(cold);
-  }
-  info.text.assign(reinterpret_cast<const char*>(in.skip(text)), text);
-
-  map.offset_x_ = map_detail::ln(info.velocity[0]);
-  map.last_x_ = map_detail::ln(info.velocity[1]);
-  if (heat) {
-    const double kelvin = info.temperature[1] - info.temperature[0];
-    map.steps_ = warm.nodes - 1;
-    if (map.steps_ > 0) {
-      map.steps_per_T_ = map.steps_ / kelvin;
-      map.step_of_T_ = 1 / map.steps_per_T_;
-      map.step_of_share_ = 1.0 / map.steps_;
-      if (!map.is_slanted_) map.shift_ = map_detail::cubics(map.shift_, warm.nodes, map.step_of_T_);
-      map.rows_per_T_ = (warm.rows - 1) / kelvin;
-    }
-    map.last_step_ = std::int64_t{map.steps_} - 1;
-    map.last_row_ = std::int64_t{warm.rows} - 2;
-    map.last_column_ = std::int64_t{warm.columns} - 2;
-    map.row_size_ = 8 * (std::int64_t{warm.columns} - 1);
-    map.sliding_per_x_ = (warm.columns - 1) / (map.last_x_ - map.offset_x_);
-    map.sliding_ = map_detail::with_differences(map_detail::cubics(sliding, warm.columns, 1 / map.sliding_per_x_),
-                                                4 * (std::size_t{warm.columns} - 1));
-  }
-  if (nodes != 0) {
-    map.offset_per_x_ = (nodes - 1) / (map.last_x_ - map.offset_x_);
-    map.offset_step_ = 1 / map.offset_per_x_;
-  }
-  map.ln_shear_stress_ = info.shear_stress > 0 ? map_detail::ln(info.shear_stress) : 0;
-  map.ln_reference_ = info.shear_stress > 0 ? map_detail::ln(info.reference_velocity) : 0;
-  map.width_ = info.width / (2.302585092994045684 * 2.302585092994045684);
-  *this = std::move(map);
-  return true;
+  in.skip(map_detail::Head::padding(4ull * head.entries));
+  return good && used == head.entries && map_detail::no_grid_in_itself(grids_, entries_);
 }
 
 inline bool FrictionMap::load(const char* path, std::string& why) {

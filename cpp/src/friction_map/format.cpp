@@ -102,10 +102,6 @@ class Index {
   std::vector<std::int32_t> cell_;
 };
 
-}  // namespace
-
-namespace {
-
 /// The polynomials of a leaf as the file has them: those of its only plane; or of each step between heights, on
 /// which planes hold values and slopes over them at the ends, their powers from the step's lower end.
 std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std::vector<double>& heights) {
@@ -135,36 +131,27 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   const MapTree& tree = refined.tree;
   const Index index(tree);
   const Adhesion law = adhesion.value_or(Adhesion{.shear_stress = 0});
+  const MapHeatTables warm = heat == nullptr ? MapHeatTables{} : *heat;
   Writer out;
   out.text("ASPERMAP");
   out.u32(0x01020304);
-  out.u32(heat == nullptr ? 1 : frame.slant() ? 3 : 2);
+  out.u32(map_detail::layout);
   out.u64(0);  // the size, when it is known
-  for (const auto& box : {request.pressure, request.velocity})
+  for (const auto& box : {request.pressure, request.velocity, frame.temperature()})
     for (const double side : box) out.f64(side);
-  for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error}) out.f64(x);
-  out.u64(certificate.checked);
-  out.u64(certificate.exceeded);
-  for (const double x : {law.shear_stress, law.reference_velocity, law.width}) out.f64(x);
-  out.u32(frame.hysteresis() ? 1 : 0);
-  out.u32(tree.bands());
-  out.u32(frame.log_modulus_nodes().size() / 2);
-  out.u32(index.grids.size());
-  out.u32(index.entries.size());
-  out.u32(static_cast<std::uint64_t>(index.cells));
-  out.u32(request.text.size());
-  out.u32(0);
-  if (heat != nullptr) {
-    for (const double side : frame.temperature()) out.f64(side);
-    out.f64(heat->sliding.error);
-    out.u64(heat->cold.size());
-    for (const std::size_t n : {refined.heights.size(), heat->sliding.columns, heat->sliding.rows, std::size_t{0}})
-      out.u32(n);
-    for (const std::vector<double>* const table : {&heat->shift, &heat->sliding.values})
-      for (const double x : *table) out.f64(x);
-  }
-  for (const double z : tree.cuts()) out.f64(z);
-  for (const double s : frame.log_modulus_nodes()) out.f64(s);
+  for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error, warm.sliding.error,
+                         law.shear_stress, law.reference_velocity, law.width})
+    out.f64(x);
+  for (const std::size_t n : {certificate.checked, certificate.exceeded, warm.cold.size()}) out.u64(n);
+  const std::size_t flags = (frame.hysteresis() ? 1 : 0) + (frame.slant() ? 2 : 0);
+  const auto cells = static_cast<std::size_t>(index.cells);
+  for (const std::size_t n :
+       {flags, std::size_t{tree.bands()}, frame.log_modulus_nodes().size() / 2, refined.heights.size(),
+        warm.sliding.columns, warm.sliding.rows, index.grids.size(), index.entries.size(), cells, request.text.size()})
+    out.u32(n);
+  const std::vector<double> shift = refined.heights.size() > 1 ? warm.shift : std::vector<double>{};
+  for (const std::vector<double>& table : {shift, warm.sliding.values, tree.cuts(), frame.log_modulus_nodes()})
+    for (const double x : table) out.f64(x);
   for (const Index::Grid& grid : index.grids) {
     const auto [wide, high] = tree.size({grid.x, grid.z, grid.wide, grid.high});
     out.f64(tree.x(grid.x));
@@ -182,7 +169,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
     for (const std::array<double, 32>& block : blocks(leaf, refined.heights))
       for (const double c : block) out.f64(c);
   }
-  if (heat != nullptr) out.bytes.insert(out.bytes.end(), heat->cold.begin(), heat->cold.end());
+  out.bytes.insert(out.bytes.end(), warm.cold.begin(), warm.cold.end());
   out.text(request.text);
   out.pad();
   Writer size;

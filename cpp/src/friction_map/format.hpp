@@ -19,7 +19,8 @@ struct MapCertificate {
 /// What the file of a map with heat has beside its cells.
 struct MapHeatTables {
   std::vector<unsigned char> cold;  // the file of the map without heat
-  std::vector<double> shift;        // ln a_T of that map and its slope, at each node of T0; or a and b of slant.hpp
+  std::vector<double>
+      shift;  // ln a_T of that map and its slope, at each of several nodes of T0; or a and b of slant.hpp
   SlidingTable sliding;
 };
 

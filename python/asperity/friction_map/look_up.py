@@ -36,7 +36,7 @@ _NAN, _CLAMP = 0, 1
 _PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE, _TEMPERATURE_OUTSIDE = 1, 2, 4
 _MAGIC, _HEAD = b"ASPERMAP", 512
 # of a file's head, bytes from its beginning
-_TEXT_AT, _COLD_AT = 144, 176
+_TEXT_AT, _COLD_AT = 188, 144
 
 
 NOTE_LINE = "note: "  # such a line of the text holds a note

@@ -22,6 +22,8 @@ namespace {
 
 using small_map::Bytes;
 
+std::uint64_t number(double x) { return std::bit_cast<std::uint64_t>(x); }
+
 /// The reason why bytes are refused, or nothing.
 std::string refusal(const Bytes& bytes) {
   FrictionMap map;
@@ -64,14 +66,14 @@ bool stands(Bytes bytes) {
 /// A map of one band whose grids lie one in another, each with a cell in its first entry, the next grid in its second.
 Bytes chain(std::uint32_t grids) {
   const Bytes plain = small_map::make({});
-  constexpr std::size_t head = 152, grid = head + 16, entries = grid + 48, cells = entries + 16;
+  constexpr std::size_t head = small_map::head, grid = head + 16, entries = grid + 48, cells = entries + 16;
   const auto part = [&](std::size_t begin, std::size_t end) {
     return Bytes(plain.begin() + static_cast<std::ptrdiff_t>(begin), plain.begin() + static_cast<std::ptrdiff_t>(end));
   };
   const auto append = [](Bytes& to, const Bytes& from) { to.insert(to.end(), from.begin(), from.end()); };
   Bytes result = part(0, grid), table;
-  small_map::overwrite(result, 132, grids, 4);
-  small_map::overwrite(result, 136, 2 * grids, 4);
+  small_map::overwrite(result, small_map::grids_at, grids, 4);
+  small_map::overwrite(result, small_map::grids_at + 4, 2 * grids, 4);
   for (std::uint32_t k = 0; k < grids; ++k) {
     Bytes one = part(grid, entries);
     small_map::overwrite(one, 36, 1, 4);  // rows
@@ -108,7 +110,6 @@ Bytes built() {
 
 TEST_CASE("a map without heat inside of one with it must be one") {
   const Bytes good = small_map::make({.temperatures = 4});
-  constexpr std::size_t head = 152;
   const auto altered = [&](std::size_t at, std::uint64_t value, int size) {
     Bytes bytes = good;
     small_map::overwrite(bytes, at, value, size);
@@ -116,36 +117,43 @@ TEST_CASE("a map without heat inside of one with it must be one") {
     return bytes;
   };
   const std::size_t cold = good.size() - 8 - small_map::make({}).size();  // there is no text
-  CHECK(says(altered(cold + 12, 2, 4), "its map without heat is none of version 1"));
+  CHECK(says(altered(cold + 12, 1, 4), "its map without heat has layout version 1: must be 4, so the map has to be"));
   CHECK(says(altered(cold + 300, 1, 1), "its map without heat is damaged: its checksum"));
-  CHECK(says(altered(head + 24, 0, 8), "its head contradicts itself"));
-  CHECK(says(altered(head + 32, 1, 4), "its head contradicts itself"));  // one temperature of a range
-  CHECK(says(altered(head + 40, 1, 4), "its head contradicts itself"));  // one row of s0
-  CHECK(says(altered(head, std::bit_cast<std::uint64_t>(400.0), 8), "its head contradicts itself"));
-  CHECK(says(altered(head + 48, std::bit_cast<std::uint64_t>(probe::nan()), 8), "its tables contradict each other"));
+  CHECK(says(altered(144, 0, 8), "its head contradicts itself"));                      // none inside
+  CHECK(says(altered(small_map::nodes_at, 1, 4), "its head contradicts itself"));      // one temperature of a range
+  CHECK(says(altered(small_map::nodes_at + 8, 1, 4), "its head contradicts itself"));  // one row of s0
+  CHECK(says(altered(small_map::coldest_at, number(400.0), 8), "its head contradicts itself"));
+  CHECK(says(altered(small_map::head, number(probe::nan()), 8), "its tables contradict each other"));
+  // one with heat instead: it would lead to another one, and that to the next
+  const Bytes warm = small_map::make({.temperatures = 1});
+  Bytes nested(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(cold));
+  nested.insert(nested.end(), warm.begin(), warm.end());
+  nested.resize(nested.size() + 8);
+  small_map::overwrite(nested, 144, warm.size(), 8);
+  small_map::repair(nested);
+  CHECK(says(nested, "its map without heat has one too"));
 }
 
 TEST_CASE("a slanted map without a_T, with a pole in it or of one temperature is refused") {
   const Bytes good = small_map::make({.bands = 3, .temperatures = 4, .slanted = true});
   CHECK(refusal(good).empty());
-  constexpr std::size_t law = 152 + 48;
+  constexpr std::size_t law = small_map::head;
   const auto altered = [&](std::size_t at, std::uint64_t value, int size) {
     Bytes bytes = good;
     small_map::overwrite(bytes, at, value, size);
     small_map::repair(bytes);
     return bytes;
   };
-  const auto number = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   for (const double a : {probe::nan(), probe::infinity(), 1e3, -1e3})  // the last would be e^10000
     CHECK(says(altered(law, number(a), 8), "its tables contradict each other"));
   for (const double b : {probe::nan(), -1 / 60.0, -1.0, 1e4})
     CHECK(says(altered(law + 8, number(b), 8), "its tables contradict each other"));
   CHECK(says(small_map::make({.bands = 2, .temperatures = 4, .slanted = true}), "its head contradicts itself"));
-  CHECK(says(altered(12, 2, 4), "its head contradicts itself"));  // as one of version 2 it would have more numbers
-  CHECK(says(altered(152 + 32, 1, 4), "its head contradicts itself"));
-  CHECK(says(altered(152 + 8, number(small_map::coldest), 8), "its head contradicts itself"));
+  CHECK(says(altered(152, 1, 4), "its head contradicts itself"));  // not slanted it would have more numbers
+  CHECK(says(altered(small_map::nodes_at, 1, 4), "its head contradicts itself"));
+  CHECK(says(altered(small_map::coldest_at + 8, number(small_map::coldest), 8), "its head contradicts itself"));
   for (std::size_t n = 8; n < 64; n += 8) {  // cut within the head and the law
-    Bytes bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(law - 24 + n));
+    Bytes bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(law - 48 + n));
     small_map::repair(bytes);
     CHECK_FALSE(refusal(bytes).empty());
   }
@@ -159,8 +167,13 @@ TEST_CASE("what is wrong with a file is named") {
   small_map::overwrite(bytes, 8, 0x04030201, 4);
   CHECK(says(bytes, "the other byte order"));
   bytes = good;
-  small_map::overwrite(bytes, 12, 4, 4);
-  CHECK(says(bytes, "has layout version 4: must be 1, 2 or 3"));
+  small_map::overwrite(bytes, 12, 5, 4);
+  CHECK(refusal(bytes) == "has layout version 5: must be 4");
+  for (const std::uint64_t old : {1, 2, 3}) {
+    small_map::overwrite(bytes, 12, old, 4);
+    CHECK(refusal(bytes) ==
+          "has layout version " + std::to_string(old) + ": must be 4, so the map has to be made again");
+  }
   bytes = good;
   bytes.resize(good.size() - 100);
   CHECK(says(bytes, "is truncated: "));
@@ -170,12 +183,12 @@ TEST_CASE("what is wrong with a file is named") {
   bytes[300] ^= 1;
   CHECK(says(bytes, "its checksum"));
   bytes = good;
-  small_map::overwrite(bytes, 140, 5, 4);  // cells, of which there are four
+  small_map::overwrite(bytes, small_map::grids_at + 8, 5, 4);  // cells, of which there are four
   small_map::repair(bytes);
   CHECK(says(bytes, "its head contradicts itself"));
 
   // Of tables: after the head two cuts, two grids of 48 bytes, eight entries, seven cells.
-  constexpr std::size_t head = 152, grids = head + 16, entries = grids + 2 * 48, cells = entries + 32;
+  constexpr std::size_t head = small_map::head, grids = head + 16, entries = grids + 2 * 48, cells = entries + 32;
   const auto altered = [](std::initializer_list<std::pair<std::size_t, double>> numbers) {
     Bytes result = small_map::make({.nested = true});
     for (const auto& [at, number] : numbers) small_map::overwrite(result, at, std::bit_cast<std::uint64_t>(number), 8);

@@ -135,7 +135,7 @@ def test_damaged_resources_give_no_instance(files, tmp_path, capfd, file, conten
 
 
 @on_linux
-@each("version", [4, 1 << 24])
+@each("version", [5, 1 << 24])
 def test_a_map_of_another_version_gives_no_instance(files, tmp_path, capfd, version):
     for fmi in ("2.0", "3.0"):
         host = Host(files[fmi, None], tmp_path / f"{fmi}-{version}")
@@ -144,7 +144,7 @@ def test_a_map_of_another_version_gives_no_instance(files, tmp_path, capfd, vers
         path.write_bytes(head + struct.pack("<I", version) + rest)
         with pytest.raises(Exception, match="Failed to instantiate"):
             host.unit.instantiate()
-        told = f"resources/friction.fmap has layout version {version}: must be 1, 2 or 3"
+        told = f"resources/friction.fmap has layout version {version}: must be 4"
         assert told in capfd.readouterr().out
 
 

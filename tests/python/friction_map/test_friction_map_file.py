@@ -4,7 +4,6 @@ import os
 import pickle
 import struct
 import zlib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +18,6 @@ from asperity import (
     friction_map,
 )
 
-HERE = Path(__file__).parent
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(equilibrium_modulus=3e6, moduli=[1e9, 1e7], relaxation_times=[1e-8, 1e-4])
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
@@ -40,16 +38,18 @@ class ByDocumentation:
     def __init__(self, content):
         assert content[:8] == b"ASPERMAP"
         order, version, size = struct.unpack_from("<IIQ", content, 8)
-        assert (order, version, size) == (0x01020304, 1, len(content))
+        assert (order, version, size) == (0x01020304, 4, len(content))
         assert struct.unpack_from("<II", content, size - 8) == (zlib.crc32(content[:-8]), 0)
         self.box = struct.unpack_from("<4d", content, 24)
-        self.rtol, self.max_error, self.largest = struct.unpack_from("<3d", content, 56)
-        self.checked, self.exceeded = struct.unpack_from("<2Q", content, 80)
-        self.tau, self.v0, self.width = struct.unpack_from("<3d", content, 96)
-        counts = struct.unpack_from("<8I", content, 120)
-        self.hysteresis, bands, nodes, grids, entries, cells, text, zero = counts
-        assert zero == 0
-        at = 152
+        errors = struct.unpack_from("<4d", content, 72)
+        self.rtol, self.max_error, self.largest, memory = errors
+        self.tau, self.v0, self.width = struct.unpack_from("<3d", content, 104)
+        self.checked, self.exceeded, cold = struct.unpack_from("<3Q", content, 128)
+        counts = struct.unpack_from("<10I", content, 152)
+        self.hysteresis, bands, nodes, m, columns, rows, grids, entries, cells, text = counts
+        assert struct.unpack_from("<2d", content, 56) == (0, 0)  # no temperature, no heat
+        assert (memory, cold, m, columns, rows) == (0, 0, 1, 0, 0)
+        at = 192
 
         def take(kind, count):
             nonlocal at
@@ -173,9 +173,10 @@ def test_every_altered_byte_is_refused(found):
 
 def test_other_versions_and_byte_orders_are_named(found):
     content = found.to_bytes()
-    other = content[:12] + struct.pack("<I", 4) + content[16:]
-    with pytest.raises(InvalidInput, match="has layout version 4: must be 1, 2 or 3"):
-        FrictionMap.from_bytes(other)
+    for version, more in ((1, ", so the map has to be made again"), (5, "$")):
+        other = content[:12] + struct.pack("<I", version) + content[16:]
+        with pytest.raises(InvalidInput, match=f"has layout version {version}: must be 4{more}"):
+            FrictionMap.from_bytes(other)
     other = content[:8] + struct.pack(">I", 0x01020304) + content[12:]
     with pytest.raises(InvalidInput, match="was written in the other byte order"):
         FrictionMap.from_bytes(other)
@@ -193,15 +194,3 @@ def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
         with pytest.raises(InvalidInput, match=r"cannot be written: \w"):
             found.save(path)
     assert sorted(os.listdir(tmp_path)) == ["other.fmap"]
-
-
-def test_maps_made_before_there_was_heat_still_load():
-    """One that was written before, with what it said at random points."""
-    old = FrictionMap.load(HERE / "map_version_1.fmap")
-    assert (old.temperature, old.memory_error, old.cold) == (None, None, None)
-    rows = np.genfromtxt(HERE / "map_version_1.csv", delimiter=",", names=True)
-    assert len(rows) > 20
-    point = {name: rows[name] for name in ("pressure", "velocity", "a_T")}
-    for name in ("mu", "hysteresis", "contact_area"):
-        np.testing.assert_allclose(getattr(old, name)(**point), rows[name], rtol=1e-13)
-    np.testing.assert_allclose(old.derivatives(**point).dmu_dlnv, rows["dmu_dlnv"], rtol=1e-11)
