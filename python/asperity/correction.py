@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, choice, number, number_or_none, vector
+from asperity.base.arguments import Array, vector
 from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
@@ -224,6 +224,7 @@ class LocalPeaks(Value):
     heights: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        self._take()
         heights, z_max, _ = _profile(self)
         self._set(heights=heights, z_max=z_max, _core=_core.LocalPeaks(heights, z_max))
 
@@ -277,18 +278,12 @@ class GreenwoodWilliamson(Value):
     )
 
     def __post_init__(self) -> None:
-        reading = choice(self.reading, "reading", get_args(Reading))
+        reading = self._take()["reading"]
         peaks = np.empty(0) if self.peaks is None else vector(self.peaks, "peaks")
         if self.peaks is not None:
             if not peaks.size:
                 raise InvalidInput(Argument("peaks"), " has 0 entries", MUST_BE, "3 or more")
             self._set(peaks=peaks)
-        self._set(
-            z_max=number(self.z_max, "z_max"),
-            z_min=number(self.z_min, "z_min"),
-            rms_height=number_or_none(self.rms_height, "rms_height"),
-            q0=number_or_none(self.q0, "q0"),
-        )
         macro = reading, self.rms_height, self.q0
         self._set(_core=_core.GreenwoodWilliamson(self.z_max, self.z_min, peaks, *macro))
 
@@ -341,21 +336,14 @@ class PeaksThenGreenwoodWilliamson(Value):
     heights: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        reading = choice(self.reading, "reading", get_args(Reading))
+        reading = self._take()["reading"]
         heights, z_max, z_min = _profile(self)
-        if self.z_min is not None:
-            z_min = number(self.z_min, "z_min")
+        z_min = z_min if self.z_min is None else self.z_min
         if z_min is None:
             raise InvalidInput(
                 Argument("z_min"), MUST_BE, "given where heights_or_map is no HeightMap"
             )
-        self._set(
-            heights=heights,
-            z_max=z_max,
-            z_min=z_min,
-            rms_height=number_or_none(self.rms_height, "rms_height"),
-            q0=number_or_none(self.q0, "q0"),
-        )
+        self._set(heights=heights, z_max=z_max, z_min=z_min)
         peaks = _core.LocalPeaks(heights, z_max)
         macro = reading, self.rms_height, self.q0
         self._set(_core=_core.PeaksThenGreenwoodWilliamson(peaks, z_max, z_min, *macro))
@@ -378,8 +366,7 @@ CORRECTIONS: tuple[type, ...] = Correction.__args__
 def _profile(given: Any) -> tuple[Array, float, float | None]:
     """Return peak heights, z_max and, of a map, z_min; from the arguments of a correction."""
     source = given.heights_or_map
-    given._set(min_distance=number_or_none(given.min_distance, "min_distance"))
-    z_max = number_or_none(given.z_max, "z_max")
+    z_max = given.z_max
     if isinstance(source, HeightMap):
         if given.min_distance is None:
             raise InvalidInput(

@@ -11,7 +11,6 @@ from asperity.base.arguments import (
     Given,
     Vector,
     choice,
-    flag,
     notes_of,
     number,
     number_or_none,
@@ -68,21 +67,11 @@ class PronyFit(PronySeries):
     shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
+        self._take()
         names = ("equilibrium_modulus", "moduli", "relaxation_times")
         plain = PronySeries(**{name: getattr(self, name) for name in names})
-        lowest = number(self.lowest_frequency, "lowest_frequency")
-        highest = number(self.highest_frequency, "highest_frequency")
-        beyond = _goes_beyond(self.extrapolation)
-        self._set(
-            **plain._arguments(),
-            _core=plain._core.fitted_on(lowest, highest, beyond),
-            lowest_frequency=lowest,
-            highest_frequency=highest,
-            storage_residual=number(self.storage_residual, "storage_residual"),
-            loss_residual=number(self.loss_residual, "loss_residual"),
-            causal=flag(self.causal, "causal"),
-            notes=notes_of(self.notes, "notes"),
-        )
+        known = self.lowest_frequency, self.highest_frequency, _goes_beyond(self.extrapolation)
+        self._set(_core=plain._core.fitted_on(*known), notes=notes_of(self.notes, "notes"))
         if self.shift_factors is not None:
             self._set(shift_factors=shift_factors_of(self.shift_factors))
 

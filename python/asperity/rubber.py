@@ -22,7 +22,6 @@ from asperity.base.arguments import (
     over,
     real_array,
     shaped,
-    vector,
 )
 from asperity.base.diagnostics import Argument
 from asperity.base.parameters import parameter
@@ -180,8 +179,7 @@ class MasterCurve(_HasModulus):
     shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
-        for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
-            self._set(**{name: vector(getattr(self, name), name)})
+        self._take()
         rows = self.angular_frequency, self.storage_modulus, self.loss_modulus
         self._set(_core=_core.MasterCurve(*rows, extrapolation_number(self.extrapolation)))
         if self.shift_factors is not None:

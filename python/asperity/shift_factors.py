@@ -16,10 +16,7 @@ from asperity.base.arguments import (
     brief,
     frozen,
     number,
-    number_or_none,
     over,
-    vector,
-    vector_or_none,
 )
 from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.parameters import parameter
@@ -71,7 +68,7 @@ class _FittedLaw(_Law):
 
     def _check_range(self) -> None:
         ends = ("lowest_temperature", "highest_temperature")
-        lowest, highest = (number_or_none(getattr(self, name), name) for name in ends)
+        lowest, highest = self.lowest_temperature, self.highest_temperature
         if (lowest is None) != (highest is None):
             given, missing = ends if highest is None else ends[::-1]
             raise InvalidInput(Argument(missing), MUST_BE, f"given where {given} is")
@@ -82,7 +79,6 @@ class _FittedLaw(_Law):
                 f"positive and below highest_temperature = {highest:g}",
                 text=f"{lowest:g}",
             )
-        self._set(lowest_temperature=lowest, highest_temperature=highest)
 
 
 @value
@@ -150,8 +146,7 @@ class WlfFit(_FittedLaw):
     highest_temperature: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("c1", "c2", "reference_temperature", "residual"):
-            self._set(**{name: number(getattr(self, name), name)})
+        self._take()
         self._check_range()
         self._set(_core=_core.WlfFit(self.c1, self.c2, self.reference_temperature))
 
@@ -184,8 +179,7 @@ class ArrheniusFit(_FittedLaw):
     highest_temperature: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("activation_energy", "reference_temperature", "residual"):
-            self._set(**{name: number(getattr(self, name), name)})
+        self._take()
         self._check_range()
         self._set(_core=_core.ArrheniusFit(self.activation_energy, self.reference_temperature))
 
@@ -280,12 +274,7 @@ class ShiftFactors(HasShiftFactors):
     standard_deviation: OptionalVector = ABSENT
 
     def __post_init__(self) -> None:
-        self._set(
-            reference_temperature=number(self.reference_temperature, "reference_temperature"),
-            temperature=vector(self.temperature, "temperature"),
-            log10_a_T=vector(self.log10_a_T, "log10_a_T"),
-            standard_deviation=vector_or_none(self.standard_deviation, "standard_deviation"),
-        )
+        self._take()
         deviation = np.empty(0) if self.standard_deviation is None else self.standard_deviation
         self._set(
             _core=_core.ShiftFactors(

@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from asperity import _core
-from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of, number, vector
+from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of
 from asperity.base.diagnostics import Note
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import CoreValue, value
 
 
 def modulus_columns(rows: Any, along: str, unit: str, **attributes: Any) -> Columns:
@@ -77,13 +77,9 @@ class Isotherm(Table):
     notes: Given[Iterable[str] | None, tuple[Note, ...]] = ABSENT
 
     def __post_init__(self) -> None:
-        self._set(temperature=number(self.temperature, "temperature"))
-        rows = [
-            vector(getattr(self, name), name)
-            for name in ("angular_frequency", "storage_modulus", "loss_modulus")
-        ]
+        taken = self._take()
         notes = None if self.notes is None else notes_of(self.notes, "notes")
-        core = _core.Isotherm(self.temperature, *rows, notes)
+        core = _core.Isotherm(*taken.values(), notes)
         self._set(
             _core=core,
             angular_frequency=frozen(core.angular_frequency()),
@@ -109,7 +105,7 @@ class Isotherm(Table):
 
 
 @value
-class StrainSweep(Table):
+class StrainSweep(Table, CoreValue):
     """A sweep of strain at one temperature and one frequency.
 
     Parameters
@@ -134,13 +130,6 @@ class StrainSweep(Table):
     strain: Vector
     storage_modulus: Vector
     loss_modulus: Vector
-
-    def __post_init__(self) -> None:
-        for name in ("temperature", "angular_frequency"):
-            self._set(**{name: number(getattr(self, name), name)})
-        for name in ("strain", "storage_modulus", "loss_modulus"):
-            self._set(**{name: vector(getattr(self, name), name)})
-        self._set(_core=_core.StrainSweep(*self._arguments().values()))
 
     def _columns(self) -> Columns:
         return modulus_columns(

@@ -16,6 +16,7 @@ from asperity.base.arguments import (
     OptionalVector,
     Vector,
     choice,
+    flag,
     number,
     number_or_none,
     vector,
@@ -41,6 +42,7 @@ _CHECKS: dict[Any, Callable[[Any, str], Any]] = {
     float | None: number_or_none,
     Vector: vector,
     OptionalVector: vector_or_none,
+    bool: flag,
 }
 
 
@@ -73,7 +75,13 @@ class Parameter:
     def choices(self) -> tuple[Any, ...]:
         """The values that it is limited to, in the order of the core's enumeration."""
         types = (self.type, *get_args(self.type))
-        return next((get_args(one) for one in types if get_origin(one) is Literal), ())
+        named = next((get_args(one) for one in types if get_origin(one) is Literal), ())
+        return (*named, None) if named and type(None) in types else named
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether its type says all that there is to check, but for the range."""
+        return bool(self.choices) or self.type in _CHECKS
 
     def take(self, given: Any) -> tuple[Any, Any]:
         """Return what an object keeps of an argument, and what the object of the core gets."""

@@ -36,6 +36,14 @@ class Value:
                 shown.setflags(write=False)
                 self._set(**{name: shown})
 
+    def _take(self) -> dict[str, Any]:
+        """Check and keep the fields whose types say how; return what the core takes of them."""
+        cls: Any = type(self)
+        given = [one for one in parameters(cls) if one.is_checked]
+        taken = {one.name: one.take(getattr(self, one.name)) for one in given}
+        self._set(**{name: kept for name, (kept, _) in taken.items()})
+        return {name: of_core for name, (_, of_core) in taken.items()}
+
     def _set(self, **values: Any) -> None:
         """Set attributes of a frozen object while it is made."""
         self.__dict__.update(values)
@@ -78,10 +86,7 @@ class CoreValue(Value):
     """A value of which the core has a class of the same name, made of the fields in their order."""
 
     def __post_init__(self) -> None:
-        cls: Any = type(self)
-        taken = {one.name: one.take(getattr(self, one.name)) for one in parameters(cls)}
-        self._set(**{name: kept for name, (kept, _) in taken.items()})
-        self._set(_core=getattr(_core, cls.__name__)(*(of_core for _, of_core in taken.values())))
+        self._set(_core=getattr(_core, type(self).__name__)(*self._take().values()))
 
 
 def _made_anew(kind: type[Value], arguments: dict[str, Any]) -> Value:
