@@ -67,7 +67,7 @@ def surface_trial(
     rings = scanned(road, points, pixel, window, rng)
     known = np.flatnonzero(rings.reliable)
     table = rings.truncated(q0=rings.wavenumber[known[0]], q1=rings.wavenumber[known[-1]])
-    spectrum = asperity.fit_self_affine(table) if fitted else table
+    spectrum = asperity.fit_self_affine(rings) if fitted else table
     given = rubber
     if both:
         noise = 10 ** rng.uniform(np.log10(0.003), np.log10(0.05))
@@ -89,6 +89,7 @@ KINDS: dict[str, Callable[[int, int, int], Found]] = {
     "rings-blackman": partial(surface_trial, window="blackman", fitted=False),
     "fit": partial(surface_trial, window="split-cosine-bell", fitted=True),
     "fit-hann": partial(surface_trial, window="hann", fitted=True),
+    "fit-blackman": partial(surface_trial, window="blackman", fitted=True),
     "rings+isotherms": partial(surface_trial, window="hann", fitted=False, both=True),
     "fit+isotherms": partial(surface_trial, window="split-cosine-bell", fitted=True, both=True),
 }

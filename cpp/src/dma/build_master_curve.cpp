@@ -58,8 +58,23 @@ std::vector<MasterPoint> reduced_points(const std::vector<Isotherm>& isotherms, 
   return points;
 }
 
-/// The points, those within a share of a decade as their mean in the logarithm: a curve needs rising frequencies.
-MasterCurve merged(const std::vector<MasterPoint>& points, std::optional<Extrapolation> extrapolation) {
+void require_meeting(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T) {
+  for (std::size_t i = 1; i < isotherms.size(); ++i)
+    if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i]))
+      throw InvalidInput(argument("isotherms") + " at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
+                         ": have no storage modulus in common, neighbours" + must(" must ") +
+                         "overlap (a smaller step of temperature, isotherms on one side of the gap alone, or a shift "
+                         "table from outside)");
+}
+
+std::size_t nearest(const std::vector<double>& temperature, double reference) {
+  const auto distance = [&](double t) { return std::fabs(t - reference); };
+  return static_cast<std::size_t>(std::ranges::min_element(temperature, {}, distance) - temperature.begin());
+}
+
+}  // namespace
+
+MasterCurve merged_points(const std::vector<MasterPoint>& points, std::optional<Extrapolation> extrapolation) {
   constexpr double together = 0.02;  // decades
   std::vector<double> w, storage, loss;
   for (std::size_t first = 0; first < points.size();) {
@@ -80,22 +95,6 @@ MasterCurve merged(const std::vector<MasterPoint>& points, std::optional<Extrapo
   }
   return {std::move(w), std::move(storage), std::move(loss), extrapolation};
 }
-
-void require_meeting(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T) {
-  for (std::size_t i = 1; i < isotherms.size(); ++i)
-    if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i]))
-      throw InvalidInput(argument("isotherms") + " at " + kelvin(isotherms[i - 1]) + " and " + kelvin(isotherms[i]) +
-                         ": have no storage modulus in common, neighbours" + must(" must ") +
-                         "overlap (a smaller step of temperature, isotherms on one side of the gap alone, or a shift "
-                         "table from outside)");
-}
-
-std::size_t nearest(const std::vector<double>& temperature, double reference) {
-  const auto distance = [&](double t) { return std::fabs(t - reference); };
-  return static_cast<std::size_t>(std::ranges::min_element(temperature, {}, distance) - temperature.begin());
-}
-
-}  // namespace
 
 MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const MasterCurveOptions& options) {
   require_positive("reference_temperature", options.reference_temperature);
@@ -151,7 +150,7 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
   std::vector<MasterPoint> reduced = reduced_points(isotherms, b_T, log10_a_T);
   const double residual = residual_of(spline);
   MasterCurve curve = options.smooth ? spline.sampled(log10_a_T[0] - shift[0], options.extrapolation)
-                                     : merged(reduced, options.extrapolation);
+                                     : merged_points(reduced, options.extrapolation);
   ShiftTable shifts(reference, temperature, log10_a_T, deviation);
   curve = curve.with_shifts(std::make_shared<const ShiftTable>(shifts));
   return {std::move(curve),      std::move(shifts), b_T, std::move(reduced), residual,

@@ -1,7 +1,8 @@
 // A build drawn from its errors: log10 a_T from its normal distribution, the smoothness from the range that the
 // isotherms leave open, then the coefficients of the spline about the points moved there from theirs,
 // N(c, s^2 (B^T B + P)^-1) (G. Wahba, J. R. Stat. Soc. B 45, 133 (1983)), the noise s larger where the residuals are
-// correlated. Nothing is searched for.
+// correlated. A curve of points is off the spline by their residuals: a draw has them times a number of mean 1 and
+// variance 1, so that draws lie about that curve, and as far apart as it and the spline do. Nothing is searched for.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -99,14 +100,24 @@ MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t 
     for (std::size_t j = 0; j < error.size(); ++j) spline.coefficients[modulus][j] += noise * error[j];
   }
 
+  const bool of_points = build.master_curve.angular_frequency() == merged_points(build.points, {}).angular_frequency();
+  const double times = 1 + random.normal();  // one for all: residuals hold nothing that a spline could follow
   std::vector<MasterPoint> reduced = build.points;
-  for (MasterPoint& p : reduced)
-    p.angular_frequency *= std::pow(10, log10_a_T[p.isotherm] - build.shifts.log10_a_T()[p.isotherm]);
+  for (MasterPoint& p : reduced) {
+    const double moved_by = log10_a_T[p.isotherm] - build.shifts.log10_a_T()[p.isotherm];
+    const double x = std::log10(p.angular_frequency);
+    p.angular_frequency *= std::pow(10, moved_by);
+    if (!of_points) continue;
+    const Eigen::Vector2d before = own.at(x), drawn = spline.at(x + moved_by);
+    p.storage_modulus = std::exp(drawn[0] + times * (std::log(p.storage_modulus) - before[0]));
+    p.loss_modulus = std::exp(drawn[1] + times * (std::log(p.loss_modulus) - before[1]));
+  }
   std::ranges::stable_sort(reduced, {}, &MasterPoint::angular_frequency);
   ShiftTable shifts(build.shifts.reference(), points.temperature, log10_a_T, build.shifts.standard_deviation());
   // a plain curve that ends with what was measured needs no more than this decade
   const std::optional<Extrapolation> beyond = build.master_curve.extrapolation();
-  MasterCurve curve = spline.sampled(0, beyond.value_or(Extrapolation::power_law));
+  const Extrapolation further = beyond.value_or(Extrapolation::power_law);
+  MasterCurve curve = of_points ? merged_points(reduced, further) : spline.sampled(0, further);
   if (beyond) curve = with_rows_at_ends(curve);
   curve = curve.with_shifts(std::make_shared<const ShiftTable>(shifts));
   return {std::move(curve), std::move(shifts), build.b_T, std::move(reduced), build.residual, build.covariance, {}};

@@ -28,6 +28,10 @@ struct MasterSpline {
 /// The splines of the last evaluation of a likelihood. `shifted` shifts were fitted to the points too.
 MasterSpline master_spline(ShiftLikelihood& likelihood, std::size_t shifted);
 
+/// Points as a curve, those within a share of a decade as their mean in the logarithm: a curve needs rising
+/// frequencies.
+MasterCurve merged_points(const std::vector<MasterPoint>& points, std::optional<Extrapolation> extrapolation);
+
 /// What share of the points counts as independent, their residuals being correlated within isotherms: (1 - r) / (1 + r)
 /// for a correlation r of neighbours, one isotherm being one point at the least.
 double independent_share(ShiftLikelihood& likelihood);

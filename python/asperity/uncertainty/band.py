@@ -66,7 +66,8 @@ class FrictionBand(Table):
     samples : int
         How many draws there were.
     notes : tuple of Note
-        How many of them failed and were left out, if any.
+        What `friction` says of the same points, since a band is no wiser than the rows and the
+        modulus it is drawn from, and how many draws failed and were left out, if any.
     """
 
     lower: Any
@@ -212,7 +213,7 @@ def friction_band(
         velocity=found.velocity,
         level=float(level),
         samples=int(samples),
-        notes=band.notes,
+        notes=(*found.notes, *band.notes),
     )
 
 
