@@ -2,7 +2,8 @@
 
 import io
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import field
 from os import PathLike
 from typing import Any, Literal, Self
@@ -167,6 +168,37 @@ class ScanContact(Value):
     def contacts(self) -> SolvedContacts:
         """What has been solved."""
         return SolvedContacts._made(rows=frozen(self._core.contacts()))
+
+    def progress(self, tell: Callable[[int, int], object]) -> AbstractContextManager[None]:
+        """Return a context in which calls with this correction show how far they are.
+
+        Parameters
+        ----------
+        tell : callable
+            Is called as `tell(solved, needed)` when more contacts are known to be needed, and after
+            each that this thread's call has solved: both count from the beginning of the block.
+            What it raises ends the call; what has been solved is kept.
+
+        Examples
+        --------
+        >>> import asperity
+        >>> road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2513, q1=1e4)
+        >>> scan = asperity.synthesize(road, shape=(64, 64), pixel_size=0.01 / 64, seed=1)
+        >>> rubber = asperity.PronySeries(
+        ...     equilibrium_modulus=1e6, moduli=[9e6], relaxation_times=[1e-3]
+        ... )
+        >>> exact, seen = asperity.ScanContact(scan, periodic=True), []
+        >>> with exact.progress(lambda solved, needed: seen.append((solved, needed))):
+        ...     result = asperity.friction(
+        ...         road, rubber, pressure=1e5, velocity=0.1, correction=exact
+        ...     )
+        >>> seen[0][0], seen[-1] == (len(exact.contacts), len(exact.contacts))
+        (0, True)
+        """
+        if not callable(tell):
+            raise InvalidInput(Argument("tell"), " = ", valued(tell), MUST_BE, "callable")
+        watched: AbstractContextManager[None] = _core.WatchedContacts(self._core, tell)
+        return watched
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the map and what has been solved to `path`, whole or not at all, as .npz."""

@@ -2,8 +2,11 @@
 #include "asperity/contact.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "arrays.hpp"
+#include "asperity/contact_progress.hpp"
 #include "topics.hpp"
 #include "value.hpp"
 #include "variants.hpp"
@@ -103,6 +106,24 @@ void add_contacts(ScanContact& scan, const Array& rows) {
   }
 }
 
+/// A with statement, in which the scan's contacts are counted for Python.
+class WatchedContacts {
+ public:
+  WatchedContacts(ScanContact scan, py::object tell) : scan_(std::move(scan)), tell_(std::move(tell)) {}
+  void enter() {
+    progress_.emplace(scan_, [this](std::size_t solved, std::size_t needed) {
+      const py::gil_scoped_acquire held;
+      tell_(solved, needed);
+    });
+  }
+  void exit() { progress_.reset(); }
+
+ private:
+  ScanContact scan_;
+  py::object tell_;
+  std::optional<ContactProgress> progress_;
+};
+
 void bind_corrections(py::module_& m) {
   py::classh<ScanContact>(m, "ScanContact")
       .def(py::init([](const HeightMap& map, int continuation, double tolerance) {
@@ -110,6 +131,10 @@ void bind_corrections(py::module_& m) {
       }))
       .def("contacts", &contact_rows)
       .def("add", &add_contacts);
+  py::class_<WatchedContacts>(m, "WatchedContacts")
+      .def(py::init<const ScanContact&, py::object>())
+      .def("__enter__", &WatchedContacts::enter)
+      .def("__exit__", [](WatchedContacts& watched, const py::args&) { watched.exit(); });
   bind_value(m, "SFactor", &SFactor::gamma, &SFactor::applies_to);
   bind_value(m, "NayakSFactor", &NayakSFactor::friction_gamma);
   bind_value(m, "ImplicitSFactor", &ImplicitSFactor::gamma);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "asperity/contact_progress.hpp"
 #include "contact/conditions.hpp"
 #include "contact/solver/solver.hpp"
 #include "numerics/parallel_for.hpp"
@@ -28,14 +30,20 @@ std::optional<SolvedContact> MissingContacts::find(const ContactKey& key) {
 void MissingContacts::solve(unsigned threads) {
   const std::vector<ContactKey> keys(keys_.begin(), keys_.end());
   keys_.clear();
-  in_blocks(static_cast<unsigned>(std::clamp<std::size_t>(keys.size(), 1, threads)), keys.size(), 1,
-            [&](unsigned, std::size_t begin, std::size_t end) {
-              for (std::size_t i = begin; i < end; ++i) {
-                SolvedContact solved = scan_.solve(keys[i], modulus_);
-                add_rule(solved);
-                scan_.add(solved);
-              }
-            });
+  ContactProgress* const progress = ContactProgress::of(scan_);
+  if (progress != nullptr) progress->need(keys.size());
+  std::atomic<std::size_t> untold = 0;
+  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(keys.size(), 1, threads));
+  in_blocks(parts, keys.size(), 1, [&](unsigned part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      SolvedContact solved = scan_.solve(keys[i], modulus_);
+      add_rule(solved);
+      scan_.add(solved);
+      ++untold;
+      if (progress != nullptr && part + 1 == parts) progress->solved(untold.exchange(0));  // in this thread
+    }
+  });
+  if (progress != nullptr && untold > 0) progress->solved(untold);
 }
 
 void MissingContacts::add_rule(SolvedContact& contact) const {

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "asperity/contact_progress.hpp"
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "contact/scan_parts.hpp"
@@ -182,10 +183,13 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
                        velocity};
   auto found = scan.contact(key);
   if (!found) {
+    ContactProgress* const progress = ContactProgress::of(scan);
+    if (progress != nullptr) progress->need(1);
     found = scan.solve(key, modulus);
     found->rule_area = rule.area;
     found->rule_hysteresis = rule.hysteresis;
     scan.add(*found);
+    if (progress != nullptr) progress->solved(1);
   }
   const LogRatios ratio = log_ratios(*found);
   return {.hysteresis = std::exp(ratio.hysteresis), .area = std::exp(ratio.area), .convergence = found->error};

@@ -48,7 +48,7 @@ def show_page(session: str = "") -> None:
                 result = ResultPart(state, worker, conditions.refresh)
     with opening:
         OpenPart(state, worker, (surface, rubber, conditions))
-    worker.shows(result, surface, rubber, conditions)
+    worker.shows(result, surface, rubber, conditions, say=result.wait)
     ui.timer(0.01, worker.changed, once=True)
 
 

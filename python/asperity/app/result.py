@@ -16,7 +16,7 @@ from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.diagnostics import Note
-from asperity.report.errors import errors_of
+from asperity.report.errors import errors_of, solved_contacts
 from asperity.scene.model import Scene, SceneFriction
 
 _NOTHING = "There are no notes: input, correction and theory are within their ranges."
@@ -86,6 +86,10 @@ class ResultPart:
             self._offer_velocities(found)
         self._busy(not found.whole)
 
+    def wait(self, said: str) -> None:
+        """Say how far it is."""
+        self._status.set_text(said)
+
     def fail(self, error: Error) -> None:
         found = self._worker.found
         self._problem.set_text(in_one_line(error))
@@ -121,6 +125,9 @@ class ResultPart:
         """Errors, notes and numbers, each as one piece of HTML: single elements take the page
         longer than the curve."""
         errors = [f"error of {one}: {size}" for one, size, _ in errors_of(found.scene, found.best)]
+        solved = solved_contacts(found.scene)
+        if solved is not None:
+            errors.append(f"{solved[0]} contacts of the scan are solved, on up to {solved[1]}")
         notes = [self._state.said(one) for one in dict.fromkeys(found.best.notes)]
         self._notes.set_content(_items([*errors, *(notes or [Note(_NOTHING)])]))
         self._table.set_content(_table(found.scene, found.best))

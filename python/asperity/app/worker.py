@@ -57,13 +57,15 @@ class Worker:
         self.state = state
         self.found: Found | None = None
         self._parts: tuple[Shows, ...] = ()
+        self._say: Callable[[str], object] = lambda said: None
         self._wanted = self._done = 0
         self._running = False
         self._slow = asyncio.Lock()
         self._following: set[asyncio.Task[None]] = set()
 
-    def shows(self, *parts: Shows) -> None:
-        self._parts = parts
+    def shows(self, *parts: Shows, say: Callable[[str], object] | None = None) -> None:
+        """`say` is called with how far a computation is that takes longer."""
+        self._parts, self._say = parts, say or self._say
 
     async def changed(self) -> None:
         """Show the curve of the scene as it is now; of changes meanwhile, that of the last."""
@@ -133,16 +135,43 @@ class Worker:
             part.fail(self.state.said(error))
 
     def _unless_overtaken(self, mine: int) -> Progress:
-        """Looks, between the chunks of a computation, whether it is still wanted: a computation of
-        one chunk is always finished, so that a slider that is moved for long shows some curves."""
+        """Ends a computation that was overtaken: `_Chunks` say where."""
+        loop = asyncio.get_running_loop()
 
-        def checked(chunks: Iterable[slice]) -> Iterator[slice]:
-            for i, chunk in enumerate(chunks):
-                if i > 0 and self._wanted != mine:
-                    raise _OvertakenError
-                yield chunk
+        def overtaken() -> bool:
+            return self._wanted != mine
 
-        return lambda chunks: nullcontext(checked(chunks))
+        def say(line: str) -> None:
+            loop.call_soon_threadsafe(self._say, f"{line} ...")
+
+        return lambda chunks: nullcontext(_Chunks(chunks, overtaken, say))
+
+
+class _Chunks:
+    """Chunks of a computation that ends between them where it is no longer wanted. The first is
+    always finished, so that a slider that is moved for long shows some curves, unless there is more
+    to say of it: contacts that were solved are kept. It has what bars have."""
+
+    start_t = delay = 0.0
+
+    def __init__(
+        self, chunks: Iterable[slice], overtaken: Callable[[], bool], say: Callable[[str], None]
+    ) -> None:
+        self._chunks, self._overtaken, self._say = chunks, overtaken, say
+
+    def __iter__(self) -> Iterator[slice]:
+        for i, chunk in enumerate(self._chunks):
+            if i > 0 and self._overtaken():
+                raise _OvertakenError
+            yield chunk
+
+    def set_postfix_str(self, line: str) -> None:
+        if self._overtaken():
+            raise _OvertakenError
+        self._say(line)
+
+    def clear(self) -> None:
+        """The line goes with the next one."""
 
 
 async def in_thread(compute: Callable[[], _Made]) -> _Made:

@@ -28,6 +28,7 @@ from asperity.plot import friction_map as plot_map
 from asperity.plot.style import drawn_in
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene
+from asperity.scene.progress import with_contacts
 from asperity.scene.rubber import stiffest
 from asperity.scene.scene import load_scene
 
@@ -117,7 +118,7 @@ def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes]:
 def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
     """The map of a scene, with a bar on a terminal where it takes long."""
     steps = [slice(i, i + 1) for i in range(100)]
-    with progress(f"{scene.path}, map")(steps) as shown:
+    with with_contacts(progress(f"{scene.path}, map"), scene.correction)(steps) as shown:
         left, done = iter(shown), 0
 
         def tell(share: float) -> None:

@@ -14,7 +14,7 @@ from asperity.io.table import input_lines
 from asperity.plot.curves import pressure_text
 from asperity.report.comparison import VERDICTS, Pair, shortened
 from asperity.report.digests import Source
-from asperity.report.errors import Told, errors_of
+from asperity.report.errors import Told, errors_of, solved_contacts
 from asperity.report.texts import number_text, printable
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import scene_inputs, table_of
@@ -112,6 +112,9 @@ def _facts(scene: Scene, result: SceneFriction) -> list[Fact]:
         facts.append(
             Fact("largest rise by heat", f"{rise[i, k]:.3g} K", f"at {scene.velocity[k]:.3g} m/s")
         )
+    solved = solved_contacts(scene)
+    if solved is not None:
+        facts.append(Fact("contacts of the scan", f"{solved[0]}", f"solved, {solved[1]}"))
     slope = scene.spectrum.rms_slope
     facts.append(Fact("rms slope that is used", f"{slope:.3g}", ""))
     return facts

@@ -5,7 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.report.texts import percent_text
+from asperity.scan_contact import COLUMNS, ScanContact
 from asperity.scene.model import Scene, SceneFriction
+
+_POINTS = [[*COLUMNS].index(name) for name in ("points_y", "points_x")]
 
 
 class Told(NamedTuple):
@@ -18,7 +21,7 @@ class Told(NamedTuple):
 
 def errors_of(scene: Scene, result: SceneFriction) -> list[Told]:
     """The three errors of a result, each with its largest size on the curve."""
-    return [_numerical(scene, result), _of_inputs(scene, result), _of_model(result)]
+    return [_numerical(scene, result), _of_inputs(scene, result), _of_model(scene, result)]
 
 
 def _numerical(scene: Scene, result: SceneFriction) -> Told:
@@ -54,7 +57,16 @@ def _of_inputs(scene: Scene, result: SceneFriction) -> Told:
     )
 
 
-def _of_model(result: SceneFriction) -> Told:
+def solved_contacts(scene: Scene) -> tuple[int, str] | None:
+    """How many contacts of the scan are solved, and the points of the largest; None without."""
+    if not isinstance(scene.correction, ScanContact):
+        return None
+    rows = scene.correction.contacts.rows
+    ny, nx = max((row[_POINTS] for row in rows), key=np.prod)
+    return len(rows), f"{ny:.0f} x {nx:.0f} points"
+
+
+def _of_model(scene: Scene, result: SceneFriction) -> Told:
     off = result.model_error
     known = np.isfinite(off)
     if not known.any():
@@ -65,4 +77,11 @@ def _of_model(result: SceneFriction) -> Told:
     size = f"{spread} of the hysteresis"
     if not known.all():
         size += f"; not known at {int((~known).sum())} of {known.size} points"
-    return Told("the model", size, "seen in exact sliding contacts of the same regime")
+    solved = solved_contacts(scene)
+    if solved is None:
+        return Told("the model", size, "seen in exact sliding contacts of the same regime")
+    meaning = (
+        f"of the {solved[0]} contacts of the scan that are solved: what lies between them, their "
+        "points, and one scan for all of the surface, by its quarters"
+    )
+    return Told("the model", size, meaning)

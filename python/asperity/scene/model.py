@@ -1,7 +1,7 @@
 """A scene as objects of the core, and what is computed of it."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -34,6 +34,8 @@ from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
 from asperity.scene.parts import (
     HEATING_NAMES,
 )
+from asperity.scene.progress import Progress as Progress
+from asperity.scene.progress import with_contacts
 from asperity.scene.rubber import BuiltRubber
 from asperity.scene.surface import Surface
 from asperity.spectrum import Spectrum
@@ -45,8 +47,6 @@ _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 _OF_MODULUS = {"modulus-extrapolated", "modulus-unmeasured"}  # notes on all points together
-
-Progress = Callable[[list[slice]], AbstractContextManager[Iterable[slice]]]
 
 
 @value
@@ -236,7 +236,7 @@ class Scene:
                 self.pressure,
                 self.velocity,
                 options,
-                progress=progress,
+                progress=with_contacts(progress, self.correction),
                 refit=refit,
                 **self.sampling,
             )
@@ -264,7 +264,7 @@ class Scene:
         renamed = rename_in_errors(self.path, self._names, self.typed)
         with self._explaining_range(), celsius_in_errors(self.typed), renamed:
             try:
-                with progress(chunks) as shown:
+                with with_contacts(progress, self.correction)(chunks) as shown:
                     return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
             except OutOfRange as error:  # of a chunk: it is to offer what serves all velocities
                 if error.code != "unknown-modulus":

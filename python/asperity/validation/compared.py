@@ -1,8 +1,7 @@
 """mu(v) and A(v) of a map by exact sliding contact, beside what the theory says of it."""
 
 import math
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +18,7 @@ from asperity.plot.curves import new_figure, picture
 from asperity.plot.labels import legend_where_room_is
 from asperity.plot.style import colours, grey
 from asperity.rubber import Rubber
-from asperity.scene.model import Progress
+from asperity.scene.progress import Progress, line_on
 from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
 from asperity.validation.sliding import SlidingStep, continued, slide
@@ -36,7 +35,6 @@ CORRECTIONS: dict[str, Correction | None] = {
 }
 _DRAWN = {"none": ":", "Nayak S": "--", "partial contact": "-"}
 _POINTS = 60  # of a curve
-_PAUSE = 0.2  # s between two looks of a progress line
 _COARSE = 0.05  # of mu: more between the work of the slopes and the dissipation is told
 
 
@@ -123,7 +121,15 @@ def compare(
     loads, speeds = np.array(pressure, dtype=float), np.array(velocity, dtype=float)
     points = [(p, v) for p in loads for v in speeds]
     rows = []
-    with progress([slice(i, i + 1) for i in range(len(points))]) as shown:
+    with (
+        progress([slice(i, i + 1) for i in range(len(points))]) as shown,
+        line_on(shown) as show,
+    ):
+
+        def tell(at: SlidingStep) -> None:
+            ny, nx = at.shape
+            show(f"{ny} x {nx} points, step {at.step}, error {at.error:.0e}")
+
         for chunk in shown:
             ((p, v),) = points[chunk]
             found = slide(
@@ -133,7 +139,7 @@ def compare(
                 velocity=v,
                 poisson_ratio=poisson_ratio,
                 periodic=True,
-                progress=_line_on(shown),
+                progress=tell,
             )
             rows.append((found.hysteresis, found.work_of_slopes, found.contact_area))
     mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
@@ -168,23 +174,6 @@ def compare(
         curves={name: theory(name, between) for name in _DRAWN},
         notes=notes,
     )
-
-
-def _line_on(bar: Any) -> Callable[[SlidingStep], object] | None:
-    """How a bar shows the steps of the contact in hand, from its delay on; no bar, no line."""
-    if not hasattr(bar, "set_postfix_str"):
-        return None
-    due = bar.start_t + bar.delay
-
-    def tell(at: SlidingStep) -> None:
-        nonlocal due
-        if time.time() < due:
-            return
-        due = time.time() + _PAUSE
-        ny, nx = at.shape
-        bar.set_postfix_str(f"{ny} x {nx} points, step {at.step}, error {at.error:.0e}")
-
-    return tell
 
 
 def _spectrum(solved: HeightMap) -> Spectrum:

@@ -1,8 +1,9 @@
-"""The page without a browser: files that are dropped while others are read follow them."""
+"""Parts of the page without a browser: events that are no number, files while others are read."""
 
 import asyncio
 import threading
 from collections.abc import Callable, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -11,8 +12,32 @@ from asperity.app.state import State, Take
 from helpers.dropped import scan_bytes
 
 testing = pytest.importorskip("nicegui.testing", reason="the app needs asperity[app]")
+parts = pytest.importorskip("asperity.app.parts", reason="the app needs asperity[app]")
 surface = pytest.importorskip("asperity.app.surface", reason="the app needs asperity[app]")
 worker = pytest.importorskip("asperity.app.worker", reason="the app needs asperity[app]")
+
+
+def test_slider_events_that_are_no_number_change_nothing() -> None:
+    changes: list[float] = []
+
+    async def changed(value: float) -> None:
+        changes.append(value)
+
+    async def slide() -> None:
+        made: list[Any] = []
+
+        def show() -> None:
+            made.append(
+                parts.Quantity("Pressure [MPa]", 0.1, (0.01, 10), changed, logarithmic=True)
+            )
+
+        async with testing.user_simulation(root=show) as user:
+            await user.open("/")
+            for args in (None, "x", "nan", "inf", [], {}, "0"):
+                await made[0]._slid(SimpleNamespace(args=args))
+
+    asyncio.run(slide())
+    assert changes == [1.0]
 
 
 def test_a_scan_that_is_dropped_while_one_is_read_follows_it(
@@ -31,7 +56,7 @@ def test_a_scan_that_is_dropped_while_one_is_read_follows_it(
 
     monkeypatch.setattr(State, "use_scan", slow)
     state = State()
-    parts: list[Any] = []
+    made: list[Any] = []
 
     async def until(true: Callable[[], bool]) -> None:
         while not true():
@@ -39,11 +64,11 @@ def test_a_scan_that_is_dropped_while_one_is_read_follows_it(
 
     async def drop_two() -> None:
         def show() -> None:
-            parts.append(surface.SurfacePart(state, worker.Worker(state)))
+            made.append(surface.SurfacePart(state, worker.Worker(state)))
 
         async with testing.user_simulation(root=show) as user:
             await user.open("/")
-            (part,) = parts
+            (part,) = made
             part._upload.arrived([("first.npy", scan_bytes())])
             await until(begun.is_set)
             part._upload.arrived([("second.npy", scan_bytes())])

@@ -1,6 +1,7 @@
 """A change is shown at once, whatever is still computed of the one before."""
 
 import asyncio
+import re
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -8,10 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+import asperity
 from asperity.app import worker as app_worker
 from asperity.app.computed import with_band
 from asperity.app.state import State
 from asperity.app.worker import Found, Worker
+from asperity.scene.progress import with_contacts
 
 
 class Page:
@@ -45,6 +48,43 @@ async def until(holds: Any) -> None:
             return
         await asyncio.sleep(0.01)
     raise AssertionError("waited for a minute")
+
+
+def test_contacts_of_a_scan_are_counted_and_end_where_a_change_overtakes_them(
+    state: State,
+) -> None:
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2500, q1=1e4)
+    scan = asperity.synthesize(road, shape=(64, 64), pixel_size=1e-2 / 64, seed=1)
+    rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[9e6], relaxation_times=[1e-3])
+    exact = asperity.ScanContact(scan)
+    said: list[str] = []
+
+    def solve(progress: Any, pressure: float) -> None:
+        with with_contacts(progress, exact)([slice(0, 1)]):
+            asperity.friction(
+                road, rubber, pressure=pressure, velocity=[0.01, 1.0], correction=exact
+            )
+
+    async def run() -> None:
+        worker = Worker(state)
+        worker.shows(say=said.append)
+        worker._wanted = 1
+        progress = worker._unless_overtaken(1)
+        await app_worker.in_thread(lambda: solve(progress, 1e5))
+        await asyncio.sleep(0)
+
+    asyncio.run(run())
+    assert re.fullmatch(r"0 of \d+ contacts solved \.\.\.", said[0])
+    count = len(exact.contacts)
+    assert count > 5
+
+    async def overtaken() -> None:
+        progress = Worker(state)._unless_overtaken(1)
+        await app_worker.in_thread(lambda: solve(progress, 2e5))
+
+    with pytest.raises(app_worker._OvertakenError):
+        asyncio.run(overtaken())
+    assert len(exact.contacts) == count
 
 
 @pytest.mark.parametrize("heat", [False, True])
