@@ -121,9 +121,10 @@ def power_spectrum(
         `standard_error` holds for Gaussian heights, whose |h(q)|^2
         scatter as much as their mean. `flag` says which rows not to trust; by tiles 4 also stands
         for rows of the coarsened map of which roughness that is folded back leaves no more than 4
-        times the error, down to a density of 0. Rings beyond the
-        Nyquist wavenumber pi / pixel are incomplete: cut there with `truncated` before taking
-        moments or contact from the spectrum.
+        times the error, down to a density of 0. `skewness` and `kurtosis` are of the heights about
+        the trend, from some 512 rows of a larger map (by tiles of the coarsened map's, for a part
+        of the heights None). Rings beyond the Nyquist wavenumber pi / pixel are incomplete: cut
+        there with `truncated` before taking moments or contact from the spectrum.
 
     Raises
     ------

@@ -188,6 +188,8 @@ class _Rows(Table):
     standard_error: Any
     flag: Any
     correlation: Any
+    skewness: Any
+    kurtosis: Any
 
     def __post_init__(self) -> None:
         for name in ("wavenumber", "density"):
@@ -204,6 +206,12 @@ class _Rows(Table):
                     Must(": must have "),
                     "one for each wavenumber",
                 )
+        for name in ("skewness", "kurtosis"):
+            self._set(**{name: number_or_none(getattr(self, name), name)})
+        if (self.skewness is None) != (self.kurtosis is None):
+            missing = "kurtosis" if self.kurtosis is None else "skewness"
+            allowed = Must(": must be "), "given with the other"
+            raise InvalidInput(Argument(missing), " = None", *allowed)
         self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
 
     @property
@@ -239,7 +247,9 @@ class _Rows(Table):
             variables["standard_error"] = Column(row, self.standard_error, self._unit)
         if self.flag is not None:
             variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
-        return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables)
+        shape = {"skewness": self.skewness, "kurtosis": self.kurtosis}
+        known = {name: number for name, number in shape.items() if number is not None}
+        return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables, known)
 
     def _draw(self, axes: Any) -> None:
         shown, good = self.density > 0, self.reliable
@@ -317,6 +327,9 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     correlation : array_like, shape (n, m), optional
         Correlation [-] of the error of each row with those of the next m rows, which a window makes
         alike; rows further apart are independent.
+    skewness, kurtosis : float, optional
+        Of the heights that the spectrum was measured on [-], both or none. Far from 0 and 3 a
+        spectrum is too little to know mu by, which a result notes.
 
     Raises
     ------
@@ -332,6 +345,8 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     standard_error: OptionalVector = ABSENT
     flag: Flags = ABSENT
     correlation: OptionalVector = ABSENT
+    skewness: float | None = None
+    kurtosis: float | None = None
 
     @property
     def rms_height(self) -> float:
@@ -370,6 +385,8 @@ class LineSpectrum(_Rows):
     correlation : array_like, shape (n, m), optional
         As in TabulatedSpectrum. `line_spectrum` leaves it out: its errors are those that give
         averages of many rows theirs.
+    skewness, kurtosis : float, optional
+        As in TabulatedSpectrum.
 
     Raises
     ------
@@ -385,6 +402,8 @@ class LineSpectrum(_Rows):
     standard_error: OptionalVector = ABSENT
     flag: Flags = ABSENT
     correlation: OptionalVector = ABSENT
+    skewness: float | None = None
+    kurtosis: float | None = None
 
     def isotropic(self, *, per_decade: float | None = 10.0) -> TabulatedSpectrum:
         """Return the spectrum C [m^4] of the isotropic surface that has such profiles.

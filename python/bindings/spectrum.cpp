@@ -32,12 +32,14 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
   using Column = std::optional<Array>;
   return py::classh<S>(m, name)
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
-                       const std::optional<std::vector<std::uint8_t>>& flag, const Column& correlation) {
+                       const std::optional<std::vector<std::uint8_t>>& flag, const Column& correlation,
+                       Optional skewness, Optional kurtosis) {
         RowQuality quality;
         if (count) quality.count = vector_of(*count);
         if (error) quality.standard_error = vector_of(*error);
         if (flag) quality.flag = *flag;
         if (correlation) quality.correlation = vector_of(*correlation);
+        if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis};
         return S(vector_of(q), vector_of(density), std::move(quality));
       }))
       .def_property_readonly("wavenumber", [](const S& s) { return array_of(std::vector(s.wavenumber())); })
@@ -52,6 +54,12 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
                                const auto rows = static_cast<py::ssize_t>(s.wavenumber().size());
                                return array_of(std::vector(s.quality().correlation), {rows, lags});
                              })
+      .def_property_readonly(
+          "skewness",
+          [](const S& s) { return s.quality().heights ? Optional(s.quality().heights->skewness) : std::nullopt; })
+      .def_property_readonly(
+          "kurtosis",
+          [](const S& s) { return s.quality().heights ? Optional(s.quality().heights->kurtosis) : std::nullopt; })
       .def(
           "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
 }

@@ -1,6 +1,7 @@
 // Real contact area and contact pressure at every magnification (Eqs 1-8, Section 6.1).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ ASPERITY_EXPORT std::vector<double> contact_area(const Spectrum& spectrum, const
 ASPERITY_EXPORT std::vector<Diagnostic> contact_notes(const Spectrum& spectrum, const Rubber& rubber,
                                                       const ContactModel& model, std::span<const double> pressure,
                                                       std::span<const double> velocity);
+
+/// By how much exact contacts of maps with such heights differ from PartialContact; none where the heights are about
+/// Gaussian.
+ASPERITY_EXPORT std::optional<Diagnostic> note_on_heights(const HeightShape& heights);
 
 /// <sigma> = sigma0 A0 / A (Eq. 1) [Pa], arguments as for contact_area.
 ASPERITY_EXPORT std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber,

@@ -36,6 +36,12 @@ enum RowFlag : std::uint8_t {
   few_modes = 4      // so few that their mean is uncertain by more than a quarter
 };
 
+/// What the heights are that a spectrum was measured on, which the spectrum does not tell.
+struct HeightShape {
+  double skewness, kurtosis;  // about the trend [-], 0 and 3 for Gaussian heights
+  bool operator==(const HeightShape&) const = default;
+};
+
 /// The quality of each row of a measured spectrum; a vector is empty or has an entry a row.
 struct RowQuality {
   std::vector<double> count;           // modes averaged: the weights of a fit
@@ -44,6 +50,7 @@ struct RowQuality {
   // Of the errors of a row and of those after it, as many entries a row as rows that a window ties together: the first
   // is that with the next row. Pairs further apart are independent; entries beyond the last row are not read.
   std::vector<double> correlation = {};
+  std::optional<HeightShape> heights = {};  // of the whole map, where they are known
   /// How many rows after a row its correlations reach.
   [[nodiscard]] ASPERITY_EXPORT std::size_t lags() const;
   /// Of the errors of row i and of row j >= i.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/heights.hpp"
 #include "contact/theory/s_factor.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
@@ -73,6 +74,7 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
   q0_ = q0;
   q1_ = q1;
   constexpr double rounding = 1e-9;
+  if (note_on_heights(spectrum).has_value()) return;  // those of the contacts were Gaussian
   if (q1 < q0 * narrowest * (1 - rounding) || q1 > q0 * widest * (1 + rounding)) return;
   const Tables* const tables = tables_of(correction);
   if (!tables) return;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "contact/heights.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -90,6 +91,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       flagged_ends_(flagged_ends(spectrum)),
       slope_of_few_periods_(mostly_below(spectrum, flagged_ends_[0])),
       fitted_(fitted_velocities(spectrum, rubber)),
+      heights_(std::holds_alternative<ScanContact>(correction) ? std::nullopt : note_on_heights(spectrum)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
@@ -185,7 +187,8 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
     if (flag)
       result.push_back(note(code, {"exact sliding contacts of Gaussian surfaces in this regime, " +
                                    std::string(regime) + ": mu +-" + error + ", the more the lighter the load"}));
-  if (unmeasured_)
+  if (heights_) result.push_back(*heights_);
+  if (unmeasured_ && !heights_)
     result.push_back(note(
         "unknown-model-error",
         {"the model error of PartialContact is not known at some points: exact sliding contacts were solved "

@@ -124,6 +124,7 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
 
   std::vector<double> q, c;
   RowQuality quality;
+  quality.heights = old.heights;
   for (std::size_t i = 0; i < n; ++i) {
     const bool flagged = !old.flag.empty() && old.flag[i] != 0;
     if (!(all[i] >= 0) && flagged) continue;

@@ -9,8 +9,10 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
+#include "spectrum/height_moments.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/window.hpp"
+#include "surface/rows.hpp"
 
 namespace asperity {
 
@@ -43,11 +45,14 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   const Scratch<double> heights(n);
   const Scratch<std::complex<double>> modes(n / 2 + 1);
   std::vector<double> power(n / 2 + 1), square(n / 2 + 1);
+  HeightMoments powers;
+  const double anchor = detrend ? 0 : first_height(map);
   for (std::size_t y = 0; y < rows; ++y) {
     heed();
     const HeightMap row = row_of(map, y);
     row.read_row(0, heights.data());
     if (detrend) Trend(row, *detrend).subtract(0, heights.data(), heights.data());
+    powers.add({heights.data(), n}, anchor);
     for (std::size_t x = 0; x < n; ++x) heights.data()[x] *= w[x];
     transform(heights.data(), modes.data());
     for (std::size_t k = 1; k < power.size(); ++k) {
@@ -62,6 +67,7 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   const Reliability reliable(window, points * dx, dx, moments.variance_factor);
   std::vector<double> wavenumber, density;
   RowQuality quality;
+  quality.heights = powers.shape();
   for (std::size_t k = 1; k < power.size(); ++k) {
     const double q = 2 * pi / (points * dx) * static_cast<double>(k), both_signs = 2 * k == n ? 1 : 2;
     const double independent = rows == 1 ? 1 : std::min(1.0, dy * q / pi);  // of each row

@@ -154,6 +154,7 @@ template <class S>
 S binned(const S& spectrum, double per_decade) {
   const Rows rows = rows_of(spectrum);
   Rows result = means(rows, log_bins(rows, per_decade));
+  result.quality.heights = spectrum.quality().heights;
   if (result.wavenumber.size() < 2)
     throw InvalidInput(argument("per_decade") + " = " + value(per_decade) + ": makes " +
                        std::to_string(result.wavenumber.size()) + " bin of this spectrum" + must(", must make ") +
@@ -166,6 +167,18 @@ bool same_wavenumbers(std::span<const TabulatedSpectrum> spectra) {
   return std::ranges::all_of(spectra, [&](const TabulatedSpectrum& s) {
     return std::ranges::equal(s.wavenumber(), spectra.front().wavenumber(), equal);
   });
+}
+
+/// Means of the scans; none where one does not know its own.
+std::optional<HeightShape> mean_heights(std::span<const TabulatedSpectrum> spectra) {
+  HeightShape sum{0, 0};
+  for (const TabulatedSpectrum& s : spectra) {
+    if (!s.quality().heights) return {};
+    sum.skewness += s.quality().heights->skewness;
+    sum.kurtosis += s.quality().heights->kurtosis;
+  }
+  const auto count = static_cast<double>(spectra.size());
+  return HeightShape{sum.skewness / count, sum.kurtosis / count};
 }
 
 }  // namespace
@@ -210,6 +223,7 @@ TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std:
   }
   if (!flags) all.quality.flag.clear();
   Rows result = means(all, per_decade ? log_bins(all, *per_decade) : same);
+  result.quality.heights = mean_heights(spectra);
   return {std::move(result.wavenumber), std::move(result.density), std::move(result.quality)};
 }
 

@@ -10,10 +10,12 @@
 #include "numerics/arguments.hpp"
 #include "numerics/simd.hpp"
 #include "spectrum/fft2d.hpp"
+#include "spectrum/height_moments.hpp"
 #include "spectrum/preparation.hpp"
 #include "spectrum/ring_covariance.hpp"
 #include "spectrum/tabulated.hpp"
 #include "spectrum/window.hpp"
+#include "surface/rows.hpp"
 
 namespace asperity {
 
@@ -158,6 +160,21 @@ std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Prep
   return total;
 }
 
+/// Of about 512 rows: their waves are the map's.
+std::optional<HeightShape> height_shape(const HeightMap& map, const std::optional<Trend>& trend) {
+  constexpr std::size_t enough = 512;
+  const std::size_t step = std::max<std::size_t>(1, map.shape()[0] / enough);
+  HeightMoments moments;
+  const double anchor = trend ? 0 : first_height(map);
+  std::vector<double> row(map.shape()[1]);
+  for (std::size_t y = 0; y < map.shape()[0]; y += step) {
+    map.read_row(y, row.data());
+    if (trend) trend->subtract(y, row.data(), row.data());
+    moments.add(row, anchor);
+  }
+  return moments.shape();
+}
+
 /// The heights above (or below) the mean plane, the others set to it, and the share of the points that they are.
 std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detrend> detrend, Part part) {
   const HeightMap flat = detrend ? map.detrend(*detrend) : map;
@@ -186,7 +203,10 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     require_plane(map);
     const auto [side, share] = one_side(map, detrend, part);
     const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
-    return share > 0 ? scaled_table(spectrum, 1 / share) : spectrum;  // a constant map has no side
+    RowQuality quality = spectrum.quality();
+    quality.heights.reset();  // they are those of the side, not of the map
+    const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality));
+    return share > 0 ? scaled_table(table, 1 / share) : table;  // a constant map has no side
   }
   const Preparation prepared = prepare(map, window, detrend, threads);
   const auto [ny, nx] = map.shape();
@@ -198,6 +218,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
   const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
   std::vector<double> wavenumber, density;
   RowQuality quality;
+  quality.heights = height_shape(map, prepared.trend);
   for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
     const Ring& sum = sums[ring];
     const double modes = 2 * sum.modes[1];  // k_y and -k_y were counted as one

@@ -49,6 +49,12 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
   for (std::size_t i = 0; i < quality.correlation.size(); ++i)
     if (!(std::abs(quality.correlation[i]) <= 1))
       refuse(argument("correlation") + ": entry " + std::to_string(i), quality.correlation[i], "in [-1, 1]");
+  if (quality.heights) {
+    const auto [skewness, kurtosis] = *quality.heights;
+    require_finite("skewness", skewness);
+    if (!(kurtosis >= (1 + skewness * skewness) * (1 - 1e-9)) || !std::isfinite(kurtosis))
+      refuse("kurtosis", kurtosis, "1 + skewness^2 or more, and finite");
+  }
 }
 
 }  // namespace
@@ -88,6 +94,7 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
 
   std::vector<double> q, c;
   RowQuality quality;
+  quality.heights = table.quality().heights;
   const auto add_row = [&](std::size_t i) {
     q.push_back(table.wavenumber()[i]);
     c.push_back(table.density()[i]);

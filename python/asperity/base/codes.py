@@ -11,6 +11,10 @@ NOTES = {
     "steep-spectrum": (WARNING, "the rms slope is above 1.3: mu rests on the choice of q1"),
     "near-nyquist": (WARNING, "roughness below the pixel is folded into the last rows"),
     "noise-in-spectrum": (WARNING, "noise of the instrument is half of the last rows or more"),
+    "heights-not-gaussian": (
+        WARNING,
+        "the spectrum does not know that tops are worn or peaked",
+    ),
     "lay": (WARNING, "the surface is rougher in one direction"),
     "few-long-waves": (WARNING, "the scan holds few of its longest waves"),
     "few-periods": (WARNING, "long waves were measured a few times only"),

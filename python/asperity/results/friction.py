@@ -64,9 +64,9 @@ class Friction(Table):
     model_error : float or ndarray
         Relative rms error of mu_H that this correction had on exact sliding contacts of Gaussian
         surfaces at such speeds and loads [-]; NaN where nothing is known: for corrections by a p_T,
-        for S in Eq. 22 with another gamma than 0.4 and 0.5, for q1/q0 outside
-        of 3 to 16384, for loads sigma0 / (E* h') outside of 0.0015 to 0.6 (0.005 to 0.3 where
-        q1/q0 is above 128).
+        for S in Eq. 22 with another gamma than 0.4 and 0.5, for maps whose heights are far from
+        Gaussian (a note says so), for q1/q0 outside of 3 to 16384, for loads sigma0 / (E* h')
+        outside of 0.0015 to 0.6 (0.005 to 0.3 where q1/q0 is above 128).
     temperature : float or ndarray, or None
         As given, broadcast [K]; with heating that of the roughness at q1. None without.
     notes : tuple of Note

@@ -97,7 +97,8 @@ class Scene:
     @property
     def notes(self) -> list[Note]:
         """What the inputs give to note, before anything is computed."""
-        return [*self.unusual, *self.surface.notes, *self.built_rubber.notes]
+        of_heights = () if isinstance(self.correction, ScanContact) else self.surface.fitted_heights
+        return [*self.unusual, *self.surface.notes, *of_heights, *self.built_rubber.notes]
 
     @property
     def derived(self) -> Mapping[str, Any]:

@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.diagnostics import Argument, Note, valued
@@ -80,6 +81,7 @@ class Surface:
     notes: Sequence[Note]
     drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
     fit: SelfAffineFit | None = None  # to the scan's spectrum, where the scene asks for one
+    fitted_heights: Sequence[Note] = ()  # on the scan's heights, which a fit does not carry
 
 
 def build_surface(path: Path, table: object) -> Surface:
@@ -87,6 +89,7 @@ def build_surface(path: Path, table: object) -> Surface:
     values = read_table(path, "surface", table, SURFACE)
     derived: Values = {}
     scan = fit = floor = None
+    of_heights: Sequence[Note] = ()
     if "file" in values:
         for key in _SELF_AFFINE:
             if key in values:
@@ -120,8 +123,9 @@ def build_surface(path: Path, table: object) -> Surface:
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
         notes += _fit_notes(fit, spectrum)
+        of_heights = _height_notes(measured)
         drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
-    return Surface(spectrum, scan, values, derived, notes, drawn, fit)
+    return Surface(spectrum, scan, values, derived, notes, drawn, fit, of_heights)
 
 
 def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
@@ -194,6 +198,13 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
     where = " and ".join(beyond)
     text = f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"
     return [Note(text, code="law-beyond-rows", next_step="measure finer, or state it with mu")]
+
+
+def _height_notes(measured: TabulatedSpectrum) -> tuple[Note, ...]:
+    if measured.skewness is None or measured.kurtosis is None:
+        return ()
+    notes: tuple[Note, ...] = _core.notes_on_heights(measured.skewness, measured.kurtosis)
+    return notes
 
 
 def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:

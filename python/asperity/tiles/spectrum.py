@@ -23,7 +23,7 @@ _PERIODS = (32.0, 20.0, 0.0, 24.0)  # of a wave on a tile where its rows take ov
 _NEAR_NYQUIST = 2
 _ANY_SHARE = 0.999  # the whole has been judged by its points
 
-Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8], Array]
+Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8], Array, float | None, float | None]
 
 
 def tiled_spectrum(
@@ -48,8 +48,9 @@ def tiled_spectrum(
     coarse = coarsen(source, block_of(grid.tile, source.pixel_size), grid.tile, workers)
     _check_dropouts(coarse.dropout_fraction, most)
     fine = _mean_rows(source, grid, how, workers)
-    low = _low_rows(coarse, source, grid, fine, how)
-    return _merged(low, fine, _edge(grid, source.pixel_size, window)[0])
+    found = _of_coarse(coarse, how)
+    low = _low_rows(found, coarse, source, grid, fine, window)
+    return _merged(low, fine, _edge(grid, source.pixel_size, window)[0], found)
 
 
 def tile_columns(
@@ -66,7 +67,7 @@ def tile_columns(
         tile = tile.fill_dropouts(most)
     found = _core.power_spectrum(tile, window, detrend, 1, 0)
     columns = found.wavenumber, found.density, found.count, found.standard_error, found.flag
-    return *columns, found.correlation
+    return *columns, found.correlation, found.skewness, found.kurtosis
 
 
 def _single(
@@ -78,7 +79,7 @@ def _single(
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
-    wavenumber, density, count, error, flag, correlation = columns
+    wavenumber, density, count, error, flag, correlation, skewness, kurtosis = columns
     return TabulatedSpectrum(
         wavenumber=wavenumber,
         density=density,
@@ -86,6 +87,8 @@ def _single(
         standard_error=error,
         flag=flag,
         correlation=correlation,
+        skewness=skewness,
+        kurtosis=kurtosis,
     )
 
 
@@ -129,13 +132,19 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
     )
 
 
-def _low_rows(coarse: Coarse, source: Source, grid: Grid, fine: Rows, how: tuple[Any, ...]) -> Rows:
-    """The rows of the coarse map."""
+def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
+    """The core's spectrum of the coarse map."""
     window, detrend, _ = how
     heights = _core.HeightMap(coarse.heights, coarse.pixel_size)
     if heights.dropout_fraction:
         heights = heights.fill_dropouts(_ANY_SHARE)
-    found = _core.power_spectrum(heights, window, detrend, 1, 0)
+    return _core.power_spectrum(heights, window, detrend, 1, 0)
+
+
+def _low_rows(
+    found: Any, coarse: Coarse, source: Source, grid: Grid, fine: Rows, window: int
+) -> Rows:
+    """The rows of the coarse map that tiles are too small for."""
     below = found.wavenumber < _edge(grid, source.pixel_size, window)[1]
     rows = Rows(
         found.wavenumber[below],
@@ -156,8 +165,9 @@ def _edge(grid: Grid, pixel_size: tuple[float, float], window: int) -> tuple[int
     return first - 1, (first - 0.5) * 2 * math.pi / max(sides)
 
 
-def _merged(low: Rows, fine: Rows, skipped: int) -> TabulatedSpectrum:
-    """The rows of the coarse map, then those of the tiles."""
+def _merged(low: Rows, fine: Rows, skipped: int, coarse: Any) -> TabulatedSpectrum:
+    """The rows of the coarse map, whose heights are the map's but for short waves, then those of
+    the tiles."""
     lags = max(low.correlation.shape[1], fine.correlation.shape[1])
     above = slice(skipped, None)
     correlation = np.zeros((low.density.size + fine.density[above].size, lags))
@@ -172,4 +182,6 @@ def _merged(low: Rows, fine: Rows, skipped: int) -> TabulatedSpectrum:
         standard_error=np.concatenate([low.error, fine.error[above]]),
         flag=np.concatenate([low.flag, fine.flag[above]]),
         correlation=correlation,
+        skewness=coarse.skewness,
+        kurtosis=coarse.kurtosis,
     )

@@ -1,0 +1,44 @@
+// Skewness and kurtosis of heights from one reading.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "asperity/spectrum.hpp"
+
+namespace asperity {
+
+/// Sums of the first four powers of heights about a height near their mean.
+class HeightMoments {
+ public:
+  void add(std::span<const double> heights, double anchor) {
+    double s1 = 0, s2 = 0, s3 = 0, s4 = 0;
+    for (const double height : heights) {
+      const double z = height - anchor, square = z * z;
+      s1 += z;
+      s2 += square;
+      s3 += square * z;
+      s4 += square * square;
+    }
+    first_ += s1;
+    second_ += s2;
+    third_ += s3;
+    fourth_ += s4;
+    count_ += static_cast<double>(heights.size());
+  }
+
+  /// None where all heights are alike.
+  [[nodiscard]] std::optional<HeightShape> shape() const {
+    const double m = first_ / count_, raw2 = second_ / count_, raw3 = third_ / count_, raw4 = fourth_ / count_;
+    const double m2 = raw2 - m * m, m3 = raw3 - 3 * m * raw2 + 2 * m * m * m,
+                 m4 = raw4 - 4 * m * raw3 + 6 * m * m * raw2 - 3 * m * m * m * m;
+    if (!(m2 > 1e-20 * raw2) || !std::isfinite(m4 / (m2 * m2))) return {};
+    return HeightShape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+  }
+
+ private:
+  double first_ = 0, second_ = 0, third_ = 0, fourth_ = 0, count_ = 0;
+};
+
+}  // namespace asperity

@@ -1,0 +1,136 @@
+"""What a spectrum does not know of its map is noted, with the size of the error."""
+
+import pickle
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity.scene.scene import load_scene
+from asperity.validation import slide
+
+LENGTH, POINTS = 0.01, 128
+ROAD = asperity.SelfAffineSpectrum(
+    rms_height=1e-4, hurst=0.8, q0=8 * np.pi / LENGTH, q1=32 * np.pi / LENGTH
+)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=1e6,
+    moduli=np.geomspace(3e5, 3e8, 8),
+    relaxation_times=np.geomspace(1e-1, 1e-7, 8),
+)
+NOTE = "which a spectrum does not know"
+
+
+def height_map(shape: str) -> asperity.HeightMap:
+    z = asperity.synthesize(ROAD, shape=(POINTS, POINTS), pixel_size=LENGTH / POINTS, seed=5)
+    z = z.heights / z.heights.std()
+    made = {"Gaussian": z, "worn": -np.logaddexp(0, -2 * z), "peaks": np.exp(0.5 * z)}[shape]
+    made = (made - made.mean()) / made.std()
+    return asperity.HeightMap(1e-4 * made, pixel_size=LENGTH / POINTS)
+
+
+def rings(scan: asperity.HeightMap) -> asperity.TabulatedSpectrum:
+    spectrum = asperity.power_spectrum(scan, window="none", detrend=None)
+    return spectrum.truncated(q0=ROAD.q0, q1=ROAD.q1)
+
+
+def notes(spectrum: asperity.TabulatedSpectrum, correction: object) -> list[str]:
+    result = asperity.friction(
+        spectrum, RUBBER, pressure=2e5, velocity=0.1, correction=correction, rtol=1e-3
+    )
+    assert np.isnan(result.model_error) == any(NOTE in note for note in result.notes)
+    return [note for note in result.notes if NOTE in note]
+
+
+def of_heights(table: asperity.TabulatedSpectrum | asperity.LineSpectrum) -> tuple[float, float]:
+    assert table.skewness is not None
+    assert table.kurtosis is not None
+    return table.skewness, table.kurtosis
+
+
+def test_a_spectrum_knows_the_heights_that_it_was_measured_on() -> None:
+    scan = height_map("worn")
+    tilted = asperity.HeightMap(
+        scan.heights + 1e-5 * np.arange(POINTS) + 3.0, pixel_size=LENGTH / POINTS
+    )
+    table = asperity.power_spectrum(tilted)
+    flat = tilted.detrend("plane")
+    assert of_heights(table) == pytest.approx((flat.skewness, flat.kurtosis), rel=1e-9)
+    raw = of_heights(asperity.power_spectrum(tilted, detrend=None))
+    assert raw == pytest.approx((tilted.skewness, tilted.kurtosis), rel=1e-6)
+    changed = [table.truncated(q0=ROAD.q0), table.scaled(2.0), table.log_binned(per_decade=8)]
+    changed += [asperity.merge_spectra([table, table]), pickle.loads(pickle.dumps(table))]
+    for other in changed:
+        assert of_heights(other) == pytest.approx(of_heights(table), rel=1e-12)
+    assert asperity.power_spectrum(tilted, part="top").skewness is None
+    unknown = asperity.TabulatedSpectrum(wavenumber=table.wavenumber, density=table.density)
+    assert asperity.merge_spectra([unknown, unknown]).kurtosis is None
+    line = asperity.LineScan(tilted.heights[7], spacing=LENGTH / POINTS)
+    straight = line.detrend("plane")
+    profile = asperity.line_spectrum(line)
+    assert of_heights(profile) == pytest.approx((straight.skewness, straight.kurtosis), rel=1e-9)
+    flat_map = asperity.HeightMap(np.zeros((32, 32)), pixel_size=1e-6)
+    assert asperity.power_spectrum(flat_map).skewness is None
+
+
+@pytest.mark.parametrize("shape", ["worn", "peaks"])
+def test_it_is_noted_with_what_exact_contacts_had(shape: str) -> None:
+    scan = height_map(shape)
+    table = rings(scan)
+    [note] = notes(table, asperity.PartialContact())
+    assert notes(table, None) == [note]
+    said = asperity.friction(
+        table, RUBBER, pressure=2e5, velocity=0.1, correction=asperity.PartialContact()
+    )
+    exact = slide(scan, RUBBER, pressure=2e5, velocity=0.1, periodic=True)
+    found = re.search(r"had ([\d.]+) times the mu of PartialContact \(([\d.]+) to ([\d.]+)\)", note)
+    assert found is not None
+    mean, lowest, highest = map(float, found.groups())
+    assert lowest < mean < highest
+    assert lowest <= exact.hysteresis / said.mu <= highest
+
+
+def test_there_is_no_note_where_nothing_is_to_say() -> None:
+    assert notes(rings(height_map("Gaussian")), asperity.PartialContact()) == []
+    worn = height_map("worn")
+    table = rings(worn)
+    alone = asperity.TabulatedSpectrum(wavenumber=table.wavenumber, density=table.density)
+    assert notes(alone, asperity.PartialContact()) == []
+    exact = asperity.friction(
+        table,
+        RUBBER,
+        pressure=2e5,
+        velocity=0.1,
+        correction=asperity.ScanContact(worn, periodic=True),
+    )
+    assert not any(NOTE in note for note in exact.notes)
+
+
+@pytest.mark.parametrize("fit", ["", 'fit = "self-affine"\n'])
+@pytest.mark.parametrize("kind", ["partial-contact", "scan-contact"])
+def test_a_scene_notes_it(tmp_path: Path, fit: str, kind: str) -> None:
+    fine = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=ROAD.q0, q1=5 * ROAD.q1)
+    pixel = LENGTH / 256
+    rough = asperity.synthesize(fine, shape=(256, 256), pixel_size=pixel, seed=5).heights
+    np.save(tmp_path / "scan.npy", -5e-5 * np.logaddexp(0, -2e4 * rough))
+    ends = f"q0_per_m = {ROAD.q0}\nq1_per_m = {ROAD.q1}\n"
+    (tmp_path / "scene.toml").write_text(
+        f'[surface]\nfile = "scan.npy"\npixel_size_m = {pixel}\nunit = "m"\n{fit}{ends}'
+        "[rubber]\nequilibrium_modulus_pa = 1e6\nmoduli_pa = [9e6]\nrelaxation_times_s = [1e-3]\n"
+        "[conditions]\npressure_pa = 2e5\nvelocity_m_s = 0.1\n"
+        f'[correction]\nkind = "{kind}"\n[solver]\nrtol = 1e-3\n'
+    )
+    found = load_scene(tmp_path / "scene.toml").friction().notes
+    assert sum(NOTE in note for note in found) == (kind == "partial-contact")
+
+
+def test_numbers_that_no_heights_have_are_refused() -> None:
+    rows = {"wavenumber": [1.0, 2.0], "density": [1.0, 1.0]}
+    with pytest.raises(asperity.InvalidInput, match=r"kurtosis = 1.5: must be 1 \+ skewness\^2"):
+        asperity.TabulatedSpectrum(**rows, skewness=1.0, kurtosis=1.5)
+    with pytest.raises(asperity.InvalidInput, match="kurtosis = None: must be given with"):
+        asperity.TabulatedSpectrum(**rows, skewness=1.0)
+    with pytest.raises(asperity.InvalidInput, match="skewness = nan"):
+        asperity.TabulatedSpectrum(**rows, skewness=np.nan, kurtosis=3.0)
