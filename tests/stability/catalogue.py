@@ -20,6 +20,7 @@ import rows_heat  # noqa: F401
 import rows_master  # noqa: F401
 import rows_partial_contact  # noqa: F401
 import rows_rubber  # noqa: F401
+import rows_scan  # noqa: F401
 import rows_sliding  # noqa: F401
 import rows_tables  # noqa: F401
 from rows import ROWS, Outcome, Row, outcome
