@@ -2,14 +2,15 @@
 
     python tests/benchmarks/models.py [--output DIR]
 
-Errors are those of mu against exact sliding contacts that no fit has seen (models_sliding.py), and
-of the area and the elastic energy against the 177 boundary-element contacts of `asperity validate`.
-The cost of a theory is that of a velocity in a curve of 60, called from Python, on Table 1's
-surface and 20 Prony terms, at the default rtol; of the estimate on a single scale,
-A/A0 = min(1, sqrt(8 / pi) sigma0 / (E* h')) with the rms slope h' and E* at q1, and mu from it, the
-arithmetic in NumPy; of boundary elements one load, p / (E* h') = 0.1, on 256 x 256 points
-(q1/q0 = 8, elastic); of exact sliding the median of sliding.py over 512 x 512 points. One thread,
-processor time.
+Errors are those of mu against exact sliding contacts that no fit has seen, of Gaussian maps
+(models_sliding.py) and worn ones (models_worn.py), and of the area and the elastic energy against
+the 177 boundary-element contacts of `asperity validate`. The cost of a theory is that of a velocity
+in a curve of 60, called from Python, on Table 1's surface and 20 Prony terms, at the default rtol;
+of the estimate on a single scale, A/A0 = min(1, sqrt(8 / pi) sigma0 / (E* h')) with the rms slope
+h' and E* at q1, and mu from it, the arithmetic in NumPy; of boundary elements one load, p / (E* h')
+= 0.1, on 256 x 256 points (q1/q0 = 8, elastic); of exact sliding the median of sliding.py over 512
+x 512 points, of `ScanContact` a first curve of 60 velocities over six decades on as many. One
+thread, processor time.
 """
 
 import csv
@@ -20,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import models_sliding
+import models_worn
 import numpy as np
 import timing
 from curves import Curve, curves
@@ -61,6 +63,7 @@ class Line:
     errors: dict[str, tuple[float, float]]
     once: float | None = None
     mu: MuError | None = None
+    worn: MuError | None = None
 
 
 def single_scale(road: Any, modulus: float, pressure: float) -> float:
@@ -126,7 +129,13 @@ def exact_sliding() -> Line:
         rows = [*csv.DictReader(line for line in file if line[0] != "#")]
     times = [float(row["seconds"]) for row in rows if row["points"] == "512"]
     known = MuError(models_sliding.MESH, math.nan, 0)
-    return Line(SLIDING, timing.median(times), {}, mu=known)
+    return Line(SLIDING, timing.median(times), {}, mu=known, worn=known)
+
+
+def scan_contact() -> Line:
+    of_gaussian = models_worn.errors(("Gaussian",))[models_worn.SCAN]
+    of_worn = models_worn.errors(models_worn.WORN)[models_worn.SCAN]
+    return Line(models_worn.SCAN, models_worn.seconds(), {}, mu=of_gaussian, worn=of_worn)
 
 
 def boundary_elements() -> tuple[float, float]:
@@ -154,12 +163,17 @@ def measure() -> list[Line]:
     known = {model.name: model for model in MODELS}
     lines += [theory(curve, known[key], name, contacts) for key, name in SHOWN.items()]
     pressing, peaks = boundary_elements()
-    of_mu = models_sliding.errors()
+    of_mu, of_worn = models_sliding.errors(), models_worn.errors(models_worn.WORN)
     lines = [
-        replace(line, once=peaks if "peaks" in line.name else None, mu=of_mu.get(line.name))
+        replace(
+            line,
+            once=peaks if "peaks" in line.name else None,
+            mu=of_mu.get(line.name),
+            worn=of_worn.get(line.name),
+        )
         for line in lines
     ]
-    lines += [Line("boundary elements, $256^2$", pressing, {}), exact_sliding()]
+    lines += [Line("boundary elements, $256^2$", pressing, {}), exact_sliding(), scan_contact()]
     return sorted(lines, key=lambda line: line.seconds)
 
 
@@ -168,10 +182,18 @@ def draw(lines: list[Line], path: Path) -> bytes:
 
     figure = Figure(figsize=(11.5, 9.2), layout="constrained")
     above, below = figure.subfigures(2, 1, height_ratios=(4.6, 4.6), hspace=0.03)
-    models_sliding.panel(above.subplots(), lines)
+    gaussian, worn = above.subplots(1, 2, sharey=True)
+    for axes, key, title in (
+        (gaussian, "mu", "(a) Friction on Gaussian surfaces, against exact contact"),
+        (worn, "worn", "(b) Friction on worn surfaces"),
+    ):
+        known = [line for line in lines if getattr(line, key) is not None]
+        points = [(line.name, line.seconds, getattr(line, key).rms) for line in known]
+        models_sliding.panel(axes, points, title)
+    gaussian.set_ylabel("Error of $\\mu_\\mathrm{H}$, rms [%]")
     lines = [line for line in lines if line.errors or line.mu is None]  # known in elastic contact
     below.suptitle(
-        "(b) Area and energy, against boundary elements in elastic contact",
+        "(c) Area and energy, against boundary elements in elastic contact",
         x=0.05,
         ha="left",
         fontsize="medium",
@@ -250,12 +272,14 @@ def make() -> timing.Report:
             columns[f"{kind}_error_{name}_percent"] = [
                 line.errors[kind][k] if kind in line.errors else "" for line in lines
             ]
-    known = [line.mu for line in lines]
-    columns["mu_error_rms_percent"] = ["" if mu is None else mu.rms for mu in known]
-    columns["mu_error_worst_percent"] = [
-        "" if not mu or not mu.contacts else mu.worst for mu in known
-    ]
-    columns["mu_contacts"] = ["" if not mu or not mu.contacts else mu.contacts for mu in known]
+    for key, known in (("mu", [x.mu for x in lines]), ("worn_mu", [x.worn for x in lines])):
+        columns[f"{key}_error_rms_percent"] = ["" if mu is None else mu.rms for mu in known]
+        columns[f"{key}_error_worst_percent"] = [
+            "" if not mu or not mu.contacts else mu.worst for mu in known
+        ]
+        columns[f"{key}_contacts"] = [
+            "" if not mu or not mu.contacts else mu.contacts for mu in known
+        ]
     rows = [
         [str(cell) if isinstance(cell, str) else f"{cell:.3g}" for cell in row]
         for row in zip(*columns.values(), strict=True)

@@ -1,4 +1,4 @@
-"""Error of mu against exact sliding contact, of each model that `models` times, and its panel.
+"""Error of mu against exact sliding contact, of each model that `models` times, and a panel of it.
 
 The contacts are rows judge and curve of tests/reference/exact_sliding.csv: Gaussian heights, which
 no fit has seen. The single scale is mu = h'^2 E*'' / (pi sigma0) in complete contact, and at light
@@ -33,27 +33,10 @@ NAMES = {  # of sliding_corrections, by the name that the chart gives them
     "$p_T$ from IGW, added": "IGW added",
     "PartialContact": "partial contact",
 }
-BESIDE = {  # where a name stands by its point: (x, y) in points of type, alignment
-    "single scale at $q_1$": (0, 10, "center"),
-    "PartialContact": (8, 0, "left"),
-    "exact sliding contact, $512^2$": (-8, 0, "right"),
-}
-LEADER = {
-    "arrowstyle": "-",
-    "color": "0.7",
-    "linewidth": 0.7,
-    "relpos": (0, 0.5),
-    "shrinkB": 4,
-}
-CROWD = 25.0  # us, where names of a crowd stand, each at a height of its own
-HEIGHTS = {
-    "$p_T$ from peaks, $\\lambda_0$": 120.0,
-    "S inside G, 5/9": 85.0,
-    "$p_T$ from peaks, $\\lambda_0/2$": 60.0,
-    "S by bandwidth (Nayak)": 42.0,
-    "$p_T$ from IGW, added": 29.5,
-    "$p_T$ from IGW, implicit": 20.5,
-}
+LEADER = {"arrowstyle": "-", "color": "0.75", "linewidth": 0.7, "relpos": (0, 0.5), "shrinkB": 4}
+COLUMN = 40.0  # us, where the names of theories stand in a column
+STEP = 1.36  # from a name to the next one below it
+HIGHEST = 900.0  # %, of the panels
 
 
 @dataclass(frozen=True)
@@ -99,36 +82,35 @@ def errors() -> dict[str, MuError]:
     return result
 
 
-def panel(axes: Any, lines: Sequence[Any]) -> None:
-    """Draws lines with `name`, `seconds` and `mu`."""
-    for line in lines:
-        if line.mu is None:
-            continue
-        exact = line.name.startswith("exact")
+def panel(axes: Any, points: Sequence[tuple[str, float, float]], title: str) -> None:
+    """Draws (name, seconds, rms error in %); names of theories in a column, the worst on top."""
+    height = 2 * HIGHEST
+    for name, seconds, error in sorted(points, key=lambda point: -point[2]):
+        exact = name.startswith("exact")
         style = {"marker": "D", "color": "0.4"} if exact else {"marker": "o", "color": COLOURS[0]}
-        axes.plot(1e6 * line.seconds, line.mu.rms, linestyle="", **style)
-        point = 1e6 * line.seconds, line.mu.rms
-        x, y, side = BESIDE.get(line.name, (-8, 0, "right"))
-        if line.name in HEIGHTS:
-            x, y, side = CROWD, HEIGHTS[line.name], "left"
+        if name == "ScanContact":
+            style = {"marker": "o", "color": COLOURS[1]}
+        axes.plot(1e6 * seconds, error, linestyle="", **style)
+        theory = seconds < 1e-3
+        height = min(height / STEP, 1.4 * error) if theory else height
         axes.annotate(
-            line.name,
-            point,
-            (x, y),
-            textcoords="data" if line.name in HEIGHTS else "offset points",
-            ha=side,
+            name,
+            (1e6 * seconds, error),
+            (COLUMN, height) if theory else (6, -12 if exact else 12),
+            textcoords="data" if theory else "offset points",
+            ha="left" if theory else "right",
             va="center",
             fontsize="small",
-            arrowprops=LEADER if line.name in HEIGHTS else None,
+            arrowprops=LEADER if theory else None,
         )
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_yticks([0.3, 1, 3, 10, 30, 100], ["0.3", "1", "3", "10", "30", "100"])
-    axes.set_xlim(0.05, 2e6)
-    axes.set_ylim(0.2, 200)
-    axes.set_title("(a) Friction, against exact sliding contact", loc="left", fontsize="medium")
+    ticks = (0.3, 1, 3, 10, 30, 100, 300)
+    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.set_xlim(0.1, 2e6)
+    axes.set_ylim(0.15, HIGHEST)
+    axes.set_title(title, loc="left", fontsize="medium")
     axes.set_xlabel("Cost of a velocity [$\\mu$s]")
-    axes.set_ylabel("Error of $\\mu_\\mathrm{H}$, rms [%]")
     axes.grid(color="0.92", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.tick_params(which="both", direction="in", top=True, right=True)

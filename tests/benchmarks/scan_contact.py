@@ -1,6 +1,7 @@
 """ScanContact and the other corrections on surfaces of many kinds, against exact sliding contact.
 
     python tests/benchmarks/scan_contact.py [docs/benchmarks/scan_contact.png]
+    python tests/benchmarks/scan_contact.py --picture docs/benchmarks/scan_contact.png
     python tests/benchmarks/scan_contact.py --large
 
 Periodic maps of 256 x 256 points, 8 to the shortest wave, q1/q0 = 8, kinds and seeds that nothing
@@ -17,9 +18,10 @@ from typing import Any
 import numpy as np
 
 import asperity
+from asperity.plot.style import COLOURS
 from asperity.validation import slide
 
-LARGE = "--large" in sys.argv
+LARGE, PICTURE = "--large" in sys.argv, "--picture" in sys.argv
 LENGTH, LONGEST = 0.01, 4
 POINTS = 1280 if LARGE else 256
 SHORTEST = POINTS // 8
@@ -170,6 +172,24 @@ def main() -> None:
         draw(sys.argv[1])
 
 
+LOOKS: dict[str, dict[str, Any]] = {  # the article's methods dashed
+    "none": {"color": "0.6", "linewidth": 3, "label": "Persson, no correction"},
+    "S on the integrand, 0.50": {"linestyle": "--", "color": COLOURS[1]},
+    "local peaks, lambda0 / 2": {
+        "linestyle": "--",
+        "color": COLOURS[2],
+        "label": "$p_T$ from local peaks, $\\lambda_0/2$",
+    },
+    "IGW, measured peaks": {
+        "linestyle": "--",
+        "color": COLOURS[3],
+        "label": "$p_T$ from IGW, measured peaks",
+    },
+    "`PartialContact`": {"color": COLOURS[0], "label": "PartialContact"},
+    "`ScanContact`": {"color": "k", "linewidth": 2, "zorder": 3, "label": "ScanContact"},
+}
+
+
 def draw(path: str) -> None:
     """mu(v) of a worn map: exact points and curves of the corrections."""
     import matplotlib.pyplot as plt
@@ -179,32 +199,35 @@ def draw(path: str) -> None:
     spectrum = spectrum.truncated(q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH)
     scan = asperity.ScanContact(surface, periodic=True)
     dense = np.geomspace(1e-5, 10, 91)
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained", sharex=True)
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.9), layout="constrained", sharex=True)
     exact = [
         slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
         for v in VELOCITIES
     ]
-    for name, value in corrections(surface, scan).items():
-        if name in ("`NayakSFactor`", "peaks, then IGW"):
-            continue
+    models = corrections(surface, scan)
+    for name, look in LOOKS.items():
         curve = asperity.friction(
-            spectrum, rubber, pressure=pressure, velocity=dense, correction=value
+            spectrum, rubber, pressure=pressure, velocity=dense, correction=models[name]
         )
-        style: dict[str, Any] = {"lw": 1}
-        if name == "`ScanContact`":
-            style = {"color": "k", "lw": 2, "zorder": 3}
         for ax, values in zip(axes, (curve.mu, curve.contact_area), strict=True):
-            ax.plot(dense, values, label=name.strip("`"), **style)
+            ax.plot(dense, values, **{"label": name, "linewidth": 1.3} | look)
     for ax, values in zip(
         axes, ([c.hysteresis for c in exact], [c.contact_area for c in exact]), strict=True
     ):
-        ax.plot(VELOCITIES, values, "ko", ms=5, zorder=4, label="exact contact")
-        ax.set(xscale="log", xlabel="sliding velocity [m/s]")
-    axes[0].set(ylabel="hysteresis $\\mu$", ylim=(0, None))
-    axes[1].set(ylabel="contact area $A/A_0$", ylim=(0, None))
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+        ax.plot(VELOCITIES, values, "ko", markersize=5, zorder=4, label="exact contact")
+        ax.set(xscale="log", xlabel="Sliding velocity $v$ [m/s]", ylim=(0, None))
+        ax.tick_params(which="both", direction="in", top=True, right=True)
+    axes[0].set_ylabel("Hysteresis $\\mu_\\mathrm{H}$ [-]")
+    axes[1].set_ylabel("Contact area $A/A_0$ [-]")
+    for letter, ax in zip("ab", axes, strict=True):
+        ax.set_title(f"({letter})", loc="left", fontsize="medium")
+    labels = axes[0].get_legend_handles_labels()
+    figure.legend(*labels, loc="outside upper center", ncols=3, fontsize="small")
     figure.savefig(path, dpi=130)
 
 
 if __name__ == "__main__":
-    main()
+    if PICTURE:
+        draw(sys.argv[-1])
+    else:
+        main()

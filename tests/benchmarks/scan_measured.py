@@ -1,19 +1,23 @@
 """ScanContact and PartialContact on measured scans with measured rubbers, against exact contact.
 
-    ASPERITY_DATA=... python tests/benchmarks/scan_measured.py
+    ASPERITY_DATA=... python tests/benchmarks/scan_measured.py [docs/benchmarks/scan_measured.png]
 
 Truth is `asperity.validation.slide` on the scan filled, levelled, closed and filtered here, on
 twice its points along a side, at velocities that are no nodes and all of whose frequencies were
-measured. Prints Markdown.
+measured. Prints Markdown, and draws the curves where a picture is named.
 """
 
 import os
+import sys
 from pathlib import Path
+from typing import Any
 
+import matplotlib.pyplot as plt
 import measured
 import numpy as np
 
 import asperity
+from asperity.plot.style import COLOURS
 from asperity.validation import slide
 
 FINER = 2
@@ -60,15 +64,28 @@ def percent(found: Array, exact: Array) -> str:
     return ", ".join(f"{error:+.1f}" for error in 100 * (found / exact - 1))
 
 
+def draw(axes: Any, curves: list[tuple[Any, Any, Array, Array]]) -> None:
+    """ScanContact with its model error, PartialContact and the exact contacts, by pressure."""
+    for colour, (found, rule, velocity, exact) in zip(COLOURS, curves, strict=False):
+        v, low, high = found.velocity, 1 - found.model_error, 1 + found.model_error
+        axes.fill_between(v, found.mu * low, found.mu * high, color=colour, alpha=0.2, linewidth=0)
+        axes.plot(v, found.mu, color=colour, label=f"ScanContact, {found.pressure[0] / 1e6:g} MPa")
+        axes.plot(v, rule.mu, "--", color=colour, linewidth=1, label="PartialContact")
+        axes.plot(velocity, exact, "o", color=colour, markeredgecolor="k", label="exact contact")
+    axes.set(xscale="log", ylim=(0, None))
+    axes.tick_params(which="both", direction="in", top=True, right=True)
+
+
 def main() -> None:
+    figure, panels = plt.subplots(2, 2, figsize=(8.5, 6.2), layout="constrained")
     data = os.environ["ASPERITY_DATA"]
     print("| scan | rubber | p | A/A0 | mu | A | mu by the rule | A by the rule | model error |")
     print("| --- |" + " --- |" * 8)
-    for name, spectrum in measured.spectra().items():
+    for row, (name, spectrum) in zip(panels, measured.spectra().items(), strict=True):
         path = Path(data) / "topography" / name
         exact_map = prepared(path, spectrum.q0, spectrum.q1)
         pixel, side = exact_map.pixel_size[0], max(exact_map.heights.shape)
-        for rubber, build in measured.rubbers().items():
+        for axes, (rubber, build) in zip(row, measured.rubbers().items(), strict=True):
             curve = build.master_curve
             slowest, fastest = curve.angular_frequency[[0, -1]] * (
                 side * pixel / (2 * np.pi),
@@ -76,6 +93,7 @@ def main() -> None:
             )
             velocity = slowest * (fastest / slowest) ** np.array([0.05, 0.5, 0.93])
             scan = asperity.ScanContact(asperity.read_surface(path))
+            curves = []
             for pressure in PRESSURES:
                 scene = {"pressure": pressure, "velocity": velocity}
                 found, rule = (
@@ -96,6 +114,24 @@ def main() -> None:
                     f"| {stated.min():.1f} to {stated.max():.1f} |",
                     flush=True,
                 )
+                dense = np.geomspace(velocity[0], velocity[-1], 41)
+                scene = {"pressure": pressure, "velocity": dense}
+                drawn = (
+                    asperity.friction(spectrum, curve, correction=one, **scene)
+                    for one in (scan, asperity.PartialContact())
+                )
+                curves.append((*drawn, velocity, mu))
+            draw(axes, curves)
+            title = f"{name.partition('.')[0]}, {rubber.replace('_', ' ')}"
+            axes.set_title(title, loc="left", fontsize="medium")
+    for axes in panels[1]:
+        axes.set_xlabel("Sliding velocity $v$ [m/s]")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("Hysteresis $\\mu_\\mathrm{H}$ [-]")
+    entries = panels[0, 0].get_legend_handles_labels()
+    figure.legend(*entries, loc="outside upper center", ncols=2, fontsize="small")
+    if len(sys.argv) > 1:
+        figure.savefig(sys.argv[1], dpi=120)
 
 
 if __name__ == "__main__":

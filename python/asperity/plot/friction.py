@@ -24,6 +24,7 @@ from asperity.plot.curves import (
 )
 from asperity.plot.labels import legend_beside, legend_with_room
 from asperity.plot.style import colours, grey, shades
+from asperity.scan_contact import ScanContact
 from asperity.scene.model import Scene, SceneFriction
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], p
         _tell_band(axes, band_text(level), seen=seen, color=grey(0.3), alpha=0.2, linewidth=0)
     _mark_guesses(axes, curves)
     if hatched:
-        _tell_errors(axes, curves, results)
+        _tell_errors(axes, curves, results, scenes)
     alone = "" if len(kinds) > 1 else "\nof hysteresis alone"
     axes.set_ylabel(f"Friction coefficient $\\mu$ [-]{alone}")
     if beside:
@@ -289,13 +290,17 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
         axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
 
 
-def _tell_errors(axes: "Axes", curves: Sequence[_Curve], results: Sequence[SceneFriction]) -> None:
+def _tell_errors(
+    axes: "Axes", curves: Sequence[_Curve], results: Sequence[SceneFriction], scenes: Sequence[Scene]
+) -> None:
     """Entries of the legend for the error of the model and that of the numbers."""
     around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
     seen = any(_shows(axes, *ends) for ends in around)
-    _tell_band(
-        axes, "model error (rms), from\nexact sliding contacts", seen=seen, **_hatch(grey(0.3))
-    )
+    of_scan = [isinstance(scene.correction, ScanContact) for scene in scenes]
+    sources = ["of one scan, its pixels and\ninterpolation"] if any(of_scan) else []
+    sources += [] if all(of_scan) else ["from\nexact sliding contacts"]
+    label = f"model error (rms), {' or '.join(sources)}"
+    _tell_band(axes, label, seen=seen, **_hatch(grey(0.3)))
     numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
     power = f"$10^{{{math.ceil(math.log10(max(numerical, 1e-16)))}}}$"
     label = f"numerical error below {power},\ntoo small to see"
