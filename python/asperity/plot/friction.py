@@ -291,7 +291,10 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
 
 
 def _tell_errors(
-    axes: "Axes", curves: Sequence[_Curve], results: Sequence[SceneFriction], scenes: Sequence[Scene]
+    axes: "Axes",
+    curves: Sequence[_Curve],
+    results: Sequence[SceneFriction],
+    scenes: Sequence[Scene],
 ) -> None:
     """Entries of the legend for the error of the model and that of the numbers."""
     around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
