@@ -38,7 +38,7 @@ class _Errors:
 
     def __set__(self, instance: object, given: Mapping[str, float]) -> None:
         if not isinstance(given, Mapping) or not all(isinstance(name, str) for name in given):
-            raise InvalidInput(f"{self.name} = {brief(given)}", MUST_BE, "a dict of numbers")
+            raise refusal(self.name, given, "a dict of numbers")
         checked = {
             name: number(error, f"{self.name}[{brief(name)}]") for name, error in given.items()
         }

@@ -13,7 +13,7 @@ from threading import Timer
 
 from asperity._core import InvalidInput
 from asperity.app.guard import Guard
-from asperity.base.diagnostics import MUST_BE
+from asperity.base.diagnostics import MUST_BE, Argument, valued
 from asperity.base.extras import to_install
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
@@ -56,7 +56,7 @@ def listening(host: str, port: int) -> socket.socket:
         ) from error
     except OverflowError as error:
         bound.close()
-        raise InvalidInput(f"--port {port}", MUST_BE, "in 0..65535") from error
+        raise InvalidInput(Argument("--port"), " ", valued(port), MUST_BE, "in 0..65535") from error
     return bound
 
 

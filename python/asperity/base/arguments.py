@@ -124,7 +124,7 @@ def real_numbers(found: Any, name: str) -> NDArray[Any]:
     """Return an array-like of real numbers in the type that it has."""
     if is_masked(found) or (isinstance(found, list | tuple) and any(map(is_masked, found))):
         hint = "leave masked entries out with compressed()"
-        raise InvalidInput(f"{name} is a masked array; {hint}")
+        raise InvalidInput(Argument(name), f" is a masked array; {hint}")
     try:
         array = np.asarray(found)
     except (TypeError, ValueError):

@@ -106,6 +106,7 @@ ERRORS = {
     "unknown-modulus": "velocity and band ask for the modulus at frequencies not measured",
     "unknown-hot-modulus": "heated, the rubber is asked for a modulus that was not measured",
     "too-hot": "the rubber heats itself above what it stands",
+    "outside-map": "a point is outside of what the map covers",
     "unknown-shift": "a_T is not known at this temperature",
     "not-converged": "a tolerance was not reached",
 }

@@ -11,7 +11,7 @@ from typing import Any
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Note, refusal
+from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.io import plausible
@@ -131,7 +131,7 @@ def _serves(band: Sequence[float] | None, floor: float | None) -> str:
 def _in_memory(path: Path, args: Namespace) -> Measured:
     for flag in ("overlap", "threads"):
         if getattr(args, flag) is not None:
-            raise InvalidInput(f"--{flag} {getattr(args, flag)}: goes with --tiles")
+            raise InvalidInput(Argument(f"--{flag}"), f" {getattr(args, flag)}: goes with --tiles")
     if path.is_dir():
         raise InvalidInput("is a folder; a Zarr array is read with --tiles 4096", where=path)
     with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):

@@ -148,7 +148,9 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     if args.variables is not None and args.plot is None:
         raise InvalidInput(Argument("--variables"), ": goes with --plot, a rank is of mu")
     if args.variables is not None and "," in args.variables:
-        raise InvalidInput(f"--variables {args.variables}", MUST_BE, "one, the one to draw")
+        raise InvalidInput(
+            Argument("--variables"), f" {args.variables}", MUST_BE, "one, the one to draw"
+        )
     if not path.exists():
         raise InvalidInput("cannot be read: No such file or directory", where=path)
     with open_store(path) as found:

@@ -380,15 +380,19 @@ class FrictionMap(Table):
             lo, hi = getattr(self, name)
             shifted = name == "velocity" and point["a_T"] != 1
             rule = "a_T times it must be in" if shifted else "the map covers"
-            raise OutOfRange(
-                f"{name}{index} = {point[name]:.12g}: {rule} [{lo:.12g}, {hi:.12g}] {unit}"
-            )
+            value = valued(point[name], f"{point[name]:.12g}")
+            box = f": {rule} [{lo:.12g}, {hi:.12g}] {unit}"
+            raise OutOfRange(Argument(name), f"{index} = ", value, box, code="outside-map")
         for name, found in point.items():
             if name != "a_T" and np.isnan(found):
-                raise InvalidInput(f"{name}{index} = nan", MUST_BE, "a number")
+                raise InvalidInput(
+                    Argument(name), f"{index} = ", valued(np.nan), MUST_BE, "a number"
+                )
         if heat[1] < 0:
-            raise InvalidInput(f"distance{index} = {heat[1]:.12g}", MUST_BE, "0 or more")
-        raise InvalidInput(f"a_T{index} = {point['a_T']:.12g}", MUST_BE, "positive and finite")
+            value = valued(heat[1], f"{heat[1]:.12g}")
+            raise InvalidInput(Argument("distance"), f"{index} = ", value, MUST_BE, "0 or more")
+        value = valued(point["a_T"], f"{point['a_T']:.12g}")
+        raise InvalidInput(Argument("a_T"), f"{index} = ", value, MUST_BE, "positive and finite")
 
     def _summary(self) -> dict[str, Any]:
         return {

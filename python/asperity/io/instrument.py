@@ -107,7 +107,7 @@ def _read_channel(
         ("pixel_size", pixel_size, info.physical_sizes),
     ):
         if given is None and stated is None:
-            raise InvalidInput(f"{name} is missing: the file does not state it")
+            raise InvalidInput(Argument(name), " is missing: the file does not state it")
         if given is not None and stated is not None:
             raise refusal(name, given, "left out, the file states its own", text=f"{given!r}")
 

@@ -68,7 +68,7 @@ def report_page(
     if output is not None and os.path.realpath(output) in {
         os.path.realpath(one.path) for one in all_sources
     }:
-        raise InvalidInput(f"{output}: is an input: choose another name for the output")
+        raise InvalidInput("is an input: choose another name for the output", where=output)
     loaded = [load_scene(path, for_friction=True) for path in paths]
     results: list[list[SceneFriction]] = []
     for file in loaded:

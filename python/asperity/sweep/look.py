@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Must
+from asperity.base.diagnostics import Argument, Must, refusal, valued
 from asperity.io.fields import nearest
 
 _BLOCK = 1_000_000  # numbers of a variable that are looked at together
@@ -20,7 +20,9 @@ def choose(dataset: Any, at: Mapping[str, str], option: str = "--at") -> Any:
     for name, text in at.items():
         if name not in dataset.sizes:
             known = dict.fromkeys(map(str, dataset["failure"].dims))
-            raise InvalidInput(f"{option} {name}: is no axis, {nearest(name, known)}")
+            raise InvalidInput(
+                Argument(f"{option} {name}"), f": is no axis, {nearest(name, known)}"
+            )
         dataset = dataset.isel({name: _index(dataset[name].values, name, text, option)})
     return dataset
 
@@ -30,7 +32,7 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
         try:
             wanted = float(text)
         except ValueError:
-            raise InvalidInput(f"{option} {name} = {text}", MUST_BE, "a number") from None
+            raise refusal(f"{option} {name}", text, "a number", text=text) from None
         found = int(np.abs(values - wanted).argmin())
         if abs(values[found] - wanted) <= _AGREE * abs(wanted):
             return found
@@ -41,7 +43,8 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
             return list(known).index(text)
     shown = list(known)
     allowed = ", ".join(shown if len(shown) <= 12 else [*shown[:6], "...", *shown[-5:]])
-    raise InvalidInput(f"{option} {name} = {text}: is not on the axis, which has {allowed}")
+    about = Argument(f"{option} {name}"), " = ", valued(text, text)
+    raise InvalidInput(*about, f": is not on the axis, which has {allowed}")
 
 
 def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
@@ -55,13 +58,17 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
     """
     if axis not in dataset.sizes:
         axes = dict.fromkeys(map(str, dataset["failure"].dims))
-        raise InvalidInput(f"--rank {axis}: is no axis, {nearest(axis, axes)}")
+        raise InvalidInput(Argument(f"--rank {axis}"), f": is no axis, {nearest(axis, axes)}")
     for name in ("mu", "error_estimate"):
         if name not in dataset:
-            raise InvalidInput(f"--rank {axis}: the store has no {name}: it was not kept")
+            raise InvalidInput(
+                Argument(f"--rank {axis}"), f": the store has no {name}: it was not kept"
+            )
     count = dataset.sizes[axis]
     if count < 2:
-        raise InvalidInput(f"--rank {axis}: has one value", Must(": must have "), "two or more")
+        raise InvalidInput(
+            Argument(f"--rank {axis}"), ": has one value", Must(": must have "), "two or more"
+        )
     others = [str(name) for name in dataset["mu"].dims if name != axis]
     total, known, points = np.zeros(count), 0, 0
     best, certain = np.zeros(count, int), np.zeros(count, int)
@@ -90,7 +97,8 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
                 if i == 0:
                     compared[name][where] += sound.sum(axis=rest)
     if points == 0:
-        raise InvalidInput(f"--rank {axis}: there is no point at which every value has a result")
+        problem = ": there is no point at which every value has a result"
+        raise InvalidInput(Argument(f"--rank {axis}"), problem)
     mean = total / points
     by_mean = np.argsort(-mean, kind="stable")
     labels = [str(one) for one in dataset[axis].values]

@@ -113,7 +113,7 @@ def plan_of(
     for axis in axes:
         if axis.name in MEANINGS or axis.name.startswith("failure") or axis.name == "zarr.json":
             problem = "is the name of a variable or of a file in the store: must be another"
-            raise InvalidInput(f"{where}: over {brief(axis.name)}: {problem}")
+            raise InvalidInput(Argument(f"over {brief(axis.name)}"), f": {problem}", where=where)
     check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
