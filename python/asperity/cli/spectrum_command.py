@@ -11,7 +11,7 @@ from typing import Any
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Argument, Note, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.io import plausible
@@ -241,7 +241,8 @@ def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | 
     """The self-affine fit, or a note that says why there is none."""
     q_min, q_max = args.q_min, args.q_max
     if q_min is not None and q_max is not None and q_min >= q_max:
-        raise refusal("--q-max", q_max, f"above --q-min {q_min}")
+        found = valued(q_max, f"{q_max}")
+        raise InvalidInput(Argument("--q-max"), " ", found, MUST_BE, f"above --q-min {q_min}")
     try:
         with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []

@@ -215,7 +215,7 @@ FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
         (
             NOISE,
             ["--q-min", "1e9"],
-            "--q-min 1e9: 0 rows of the spectrum in [1000000000, ",
+            "--q-min, --q-max: 0 rows of the spectrum in [1000000000, ",
         ),
     ],
 )
