@@ -286,6 +286,7 @@ def test_bad_values_are_refused_by_argument_value_and_what_is_allowed(call):
                         function(**{**good, argument: value})
                     said = rf"{argument}(?!\w).*" + allowed.replace("{}", shown)
                     assert re.match(said, str(caught.value)), str(caught.value)
+                    assert caught.value.argument == argument, caught.value.sentence
 
 
 def test_bad_input_is_a_value_error_and_an_error_of_the_package():
