@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "friction_map/chebyshev.hpp"
+#include "numerics/chebyshev.hpp"
 
 namespace asperity {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "asperity/watch.hpp"
-#include "friction_map/chebyshev.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/chebyshev.hpp"
 #include "numerics/interpolation.hpp"
 
 namespace asperity {
