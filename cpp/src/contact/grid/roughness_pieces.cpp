@@ -139,20 +139,21 @@ bool RoughnessPieces::short_enough(double lower, double upper, std::size_t level
          finer * std::fmax(growth * root, least_growth * std::sqrt(beside));
 }
 
-/// A piece that would do at level 0 is halved as often as the level says.
-void RoughnessPieces::cut(double lower, double upper, std::size_t halved) {
+/// `reached` is the lowest level that no piece about this one does for: one that does for a level is cut for the next,
+/// so that no piece is the same on two levels and their difference tells of each.
+void RoughnessPieces::cut(double lower, double upper, std::size_t reached) {
   heed();
   constexpr double shortest = 1e-9;
   const bool end = upper - lower < shortest * std::fmax(1e-3, upper);
-  std::size_t next = halved;
-  if (halved > 0 || short_enough(lower, upper, 0)) {
+  std::size_t next = reached;
+  if (end || short_enough(lower, upper, reached)) {
     const Points points = points_of(lower, upper);
-    const bool first = halved > 0 || smooth(points, 0);
-    if (end || (first && halved >= level_ && short_enough(lower, upper, level_) && smooth(points, level_))) {
+    const bool fine_enough = end || smooth(points, reached);
+    if (end || (fine_enough && reached == level_)) {
       add_piece(points);
       return;
     }
-    if (first) ++next;
+    if (fine_enough) ++next;
   }
   // at a row, where there is one near
   const double middle =

@@ -24,7 +24,7 @@ class RoughnessPieces {
   static constexpr double roughest(std::size_t level) {
     return 2e-6 / static_cast<double>(std::size_t{1} << (4 * level));
   }
-  /// `level` from 0 on; on each next one the pieces are halves of those before, or less. The surface must outlive it.
+  /// `level` from 0 on; each piece of a level is cut on the next one. The surface must outlive it.
   RoughnessPieces(std::span<const Segment> surface, std::size_t level);
 
   struct Nodes {
@@ -56,7 +56,7 @@ class RoughnessPieces {
     std::vector<Atom> atoms;
     double m_lower = 0, m_upper = 0;
   };
-  void cut(double lower, double upper, std::size_t halved);
+  void cut(double lower, double upper, std::size_t reached);
   [[nodiscard]] bool short_enough(double lower, double upper, std::size_t level) const;
   [[nodiscard]] bool smooth(const Points& points, std::size_t level) const;
   [[nodiscard]] Points points_of(double lower, double upper) const;

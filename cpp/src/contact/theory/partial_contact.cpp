@@ -186,9 +186,9 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
       log_stress.row(j) = (slope * (1 - 2 * passed) / g) * slopes.node.row(j);
     else
       log_stress.row(j).setZero();
-    log_stress.row(j) -= passed * (obstacle_by_g * log_g1 + along.i2.row(j));
+    log_stress.row(j) -= passed * (obstacle_by_g * log_g1 + along.i2.row(j) + along.scale);
     const double part = ratio_[j] > 0 ? part_[j] / ratio_[j] : 0;  // R dG
-    variance += part * (along.i2.row(j) + log_stress.row(j));
+    variance += part * (along.i2.row(j) + along.scale + log_stress.row(j));
     variance_by_kappa += part * by_kappa[j];
     sum += part;
   }
@@ -196,7 +196,7 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   const double per_tail = scale_ * edges_ * beyond.end->window;
   for (Index t = 0; t < count; ++t) {
     const double part = per_tail * in_tail_[t];
-    variance += part * (log_edges + (1 + tail) * along.i2.row(first + t) - tail * at_end);
+    variance += part * (log_edges + along.scale + (1 + tail) * along.i2.row(first + t) - tail * at_end);
     variance_by_kappa += part * at.edges.log_slope;
     sum += part;
   }
@@ -209,10 +209,10 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
 
   for (Index j = 0; j < n; ++j)
     result.part.row(j) =
-        part_[j] * (along.ratio.row(j) + along.i2.row(j) + log_stress.row(j) + by_kappa[j] * log_kappa);
+        part_[j] * (along.ratio.row(j) + along.i2.row(j) + along.scale + log_stress.row(j) + by_kappa[j] * log_kappa);
   for (Index t = first; t < first + count; ++t)
-    result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end + log_edges +
-                                     at.edges.log_slope * log_kappa);
+    result.part.row(t) = part_[t] * (along.ratio.row(t) + (1 + tail) * along.i2.row(t) - tail * at_end + along.scale +
+                                     log_edges + at.edges.log_slope * log_kappa);
   result.area = at.share_slope * (log_g1 + log_kappa);
   if (const double g = scale_ * g_macro_; g > 0)
     result.macro = macro_ * share_slope(kappa_ * g, macro_) * (slopes.macro / g + log_kappa);
