@@ -136,8 +136,8 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
                                        2 * shift.relative_error + angular_error) +
                       at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
-    throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) +
-                       " where rtol = " + show(scene_.model.rtol) + " was asked for");
+    throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) + " where " +
+                       argument("rtol") + " = " + show(scene_.model.rtol) + " was asked for");
   // coefficients do not fall evenly at the knots of a table, and the last ones may be small by chance: one random
   // table in a thousand was above its estimate where that was below a hundredth of the tolerance, none elsewhere
   constexpr double least = 0.01;

@@ -235,7 +235,10 @@ def _tables(
     by_file = None if temperatures is None else vector(temperatures, "temperatures")
     if by_file is not None and by_file.size != len(files):
         raise InvalidInput(
-            f"temperatures ({by_file.size}) and paths ({len(files)}) must have equal length"
+            Argument("temperatures"),
+            f" ({by_file.size}) and ",
+            Argument("paths"),
+            f" ({len(files)}) must have equal length",
         )
     result = []
     for at, file in enumerate(files):

@@ -79,15 +79,15 @@ def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
 def test_estimates_hold_where_they_were_exceeded():
     for scene in EXCEEDED:
         with case(scene=scene):
-            results = random_partial_contact.compute(11, scene, by_gsl=False)
+            results = random_partial_contact.compute(11, scene, brute=True)
             assert max(results.values()) <= 1
 
 
 @pytest.mark.parametrize("count", [10, long(300)])
-def test_estimates_hold_against_gsl(count):
+def test_estimates_hold_against_a_tight_tolerance(count):
     for scene in range(count):
         with case(scene=scene):
-            assert max(random_partial_contact.compute(4, scene, by_gsl=True).values()) <= 1
+            assert max(random_partial_contact.compute(4, scene, brute=False).values()) <= 1
 
 
 def test_brute_force_meets_the_reference(reference_table):

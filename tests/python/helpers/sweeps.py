@@ -22,6 +22,12 @@ SCENE = {
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
 
 
+def _column(result, name):
+    if name == "mu_cold":
+        return result.cold.mu
+    return getattr(result, "temperature" if name == "hot_temperature" else name)
+
+
 def plain_loop(scene, over, folder=Path(), columns=COLUMNS):
     """Friction of every combination, by a scene of its own each: arrays over `over` and the
     velocities of the scene."""
@@ -38,7 +44,7 @@ def plain_loop(scene, over, folder=Path(), columns=COLUMNS):
             del tables["correction"]
         made = build_scene(folder / "scene", tables, for_friction=True)
         curves = made.friction()
-        rows.append([getattr(curves, name)[0] for name in columns])
+        rows.append([_column(curves, name)[0] for name in columns])
     shape = [len(one) for one in axes]
     found = np.moveaxis(np.array(rows), 1, 0)
     return dict(zip(columns, found.reshape(len(columns), *shape, -1), strict=True))

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from asperity.base.diagnostics import Note
 from asperity.cli.main import main
 from helpers.scenes import SCENE
 
@@ -289,8 +290,11 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
     from asperity.plot import style as styles
     from asperity.plot.curves import new_figure
 
-    notes = [f"fatal: number {i}, {'which tells at $length and _much_ ' * 4}" for i in range(5)]
-    with styles.drawn_in(style, ["of no weight", *notes]):
+    notes = [
+        Note(f"number {i}, {'which tells at $length and _much_ ' * 4}", severity="fatal")
+        for i in range(5)
+    ]
+    with styles.drawn_in(style, [Note("of no weight"), *notes]):
         figure, panels = new_figure(2)
     figure.draw_without_rendering()
     told = figure.get_supxlabel()

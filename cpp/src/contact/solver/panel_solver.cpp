@@ -141,8 +141,8 @@ void PanelSolver::solve(double pressure, double shift, const ContactIntegral* co
     if (round == most_rounds || active_.size() > most_panels)
       throw NotConverged("mu_H = " + show(mu_factor_ * hysteresis_.value) + " with error " +
                          show(mu_factor_ * hysteresis_.error) + ", G with relative error " + show(g_relative_error_) +
-                         " on " + std::to_string(active_.size()) + " panels where rtol = " + show(rtol_) +
-                         " was asked for");
+                         " on " + std::to_string(active_.size()) + " panels where " + argument("rtol") + " = " +
+                         show(rtol_) + " was asked for");
     refine(good, g_good);
   }
   hysteresis_.value *= mu_factor_;

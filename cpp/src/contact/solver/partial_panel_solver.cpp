@@ -219,8 +219,8 @@ void PartialPanelSolver::solve(double pressure, double velocity) {
     if (error <= allowed) return;
     if (round == most_rounds || active_.size() > most_panels)
       throw NotConverged("PartialContact: mu_H = " + show(hysteresis_.value) + " with relative error " + show(error) +
-                         " on " + std::to_string(active_.size()) + " panels where rtol = " + show(rtol_) +
-                         " was asked for");
+                         " on " + std::to_string(active_.size()) + " panels where " + argument("rtol") + " = " +
+                         show(rtol_) + " was asked for");
     refine(allowed);
   }
 }
