@@ -37,7 +37,7 @@ struct ContactKey {
 
 /// Relative errors of mu, each known or not.
 struct ContactErrors {
-  std::optional<double> interpolation, pixels, scan, joining;
+  std::optional<double> interpolation = {}, pixels = {}, scan = {}, joining = {};
 };
 
 class Scan {
