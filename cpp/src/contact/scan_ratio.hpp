@@ -1,6 +1,7 @@
 // What the contact of the scan itself makes of PartialContact's rule: factors of its hysteresis and its area.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,6 +22,10 @@ struct ScanRatio {
   double interpolation = 0, pixels = 0, scan = 0, convergence = 0, joining = 0;
   /// Of mu, all together.
   [[nodiscard]] double model_error() const;
+  /// What becomes of an error of the rule's mu, of which an adhesion may be a part.
+  [[nodiscard]] double error_factor(double adhesion) const {
+    return adhesion > 0 ? std::max(hysteresis, area) : hysteresis;
+  }
 };
 
 /// What PartialContact says of a point with heat, and the shift factor that each wave has there.

@@ -122,10 +122,10 @@ void take_scan(ScanFriction& scan, const FlashSolver& solver, const TemperatureS
     rule.a_T.push_back(std::pow(10, shift_at(shift, solver.temperature_at(q)).log10_a_T));
   }
   const ScanRatio ratio = scan.hot(pressure, velocity, rule);
+  at.error_estimate *= ratio.error_factor(at.adhesion);
   at.hysteresis *= ratio.hysteresis;
   at.adhesion *= ratio.area;
   at.contact_area *= ratio.area;
-  at.error_estimate *= std::max(ratio.hysteresis, ratio.area);
 }
 
 /// Columns for the hot points, cleared.

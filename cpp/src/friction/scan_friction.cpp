@@ -25,11 +25,11 @@ void ScanFriction::apply(Friction& f, std::span<const double> a_T, unsigned thre
   const std::vector<ScanRatio> ratios = (*ratios_)(f.pressure, velocity, threads);
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const ScanRatio& r = ratios[i];
+    f.error_estimate[i] *= r.error_factor(f.adhesion[i]);
     f.hysteresis[i] *= r.hysteresis;
     f.adhesion[i] *= r.area;
     f.contact_area[i] *= r.area;
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];
-    f.error_estimate[i] *= std::max(r.hysteresis, r.area);
     f.model_error[i] = r.model_error();
     if (!f.contributions) continue;
     Contributions& c = *f.contributions;

@@ -71,6 +71,8 @@ def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
     assert np.abs(theory.mu / mu - 1).max() > 0.5
     assert (found.model_error > np.abs(found.mu / mu - 1) / 2).all()
 
+    assert (friction(velocity, rtol=1e-4).error_estimate <= 1e-4 * found.mu).all()
+
     table = EXACT.contacts.to_dataframe()
     here = table[(table.part == -1) & (table.coarse == 0) & (table.pressure == 2e5)]
     row = here.iloc[len(here) // 2]
