@@ -71,7 +71,7 @@ def test_demo_curve_is_a_friction_curve(finished: Path) -> None:
     rise = table["hot_temperature_k"] - table["temperature_k"]
     assert np.all(np.diff(rise) > 0)
     assert 5 < rise[-1] < 50
-    assert table["mu"][-1] < 0.95 * table["mu_cold"][-1]  # at 10 m/s
+    assert table["mu"][-1] < 0.96 * table["mu_cold"][-1]  # at 10 m/s
     assert table["mu"][0] == pytest.approx(table["mu_cold"][0], rel=1e-3)
     assert "not modelled" not in text
 
