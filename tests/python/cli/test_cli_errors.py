@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.base.diagnostics import Argument
 from asperity.base.extras import to_install
 from asperity.cli.main import main
 from asperity.io.files import write_files
@@ -176,7 +177,8 @@ def test_not_converged_is_no_bad_input(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object, **__: object) -> None:
-        raise asperity.NotConverged("mu = 1 with error 2,\nwhere rtol = 1e-6 was asked for")
+        rtol = Argument("rtol")
+        raise asperity.NotConverged("mu = 1 with error 2,\nwhere ", rtol, " = 1e-6 was asked for")
 
     monkeypatch.setattr("asperity.scene.model.friction", fail)
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 1
