@@ -9,6 +9,14 @@ from asperity.scan_contact import COLUMNS, ScanContact
 from asperity.scene.model import Scene, SceneFriction
 
 _POINTS = [[*COLUMNS].index(name) for name in ("points_y", "points_x")]
+_PARTS = {
+    said: [*COLUMNS].index(name)
+    for said, name in (
+        ("between them", "interpolation"),
+        ("by their points", "pixels"),
+        ("by having one scan", "scan"),
+    )
+}
 
 
 class Told(NamedTuple):
@@ -77,11 +85,9 @@ def _of_model(scene: Scene, result: SceneFriction) -> Told:
     size = f"{spread} of the hysteresis"
     if not known.all():
         size += f"; not known at {int((~known).sum())} of {known.size} points"
-    solved = solved_contacts(scene)
-    if solved is None:
+    if not isinstance(scene.correction, ScanContact):
         return Told("the model", size, "seen in exact sliding contacts of the same regime")
-    meaning = (
-        f"of the {solved[0]} contacts of the scan that are solved: what lies between them, their "
-        "points, and one scan for all of the surface, by its quarters"
-    )
-    return Told("the model", size, meaning)
+    rows = scene.correction.contacts.rows
+    known_of = {name: rows[np.isfinite(rows[:, i]), i].max(initial=0) for name, i in _PARTS.items()}
+    parts = ", ".join(f"{name} {percent_text(100 * float(x))}" for name, x in known_of.items())
+    return Told("the model", size, f"of {len(rows)} exact contacts of the scan, at most: {parts}")

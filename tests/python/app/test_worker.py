@@ -170,7 +170,7 @@ def test_an_error_is_told_and_the_next_change_is_computed(state: State) -> None:
         state.conditions["pressure_pa"] = -1.0
         await worker.changed()
         assert len(page.problems) == 1
-        assert "pressure_pa" in page.problems[0]
+        assert "pressure_pa" in str(page.problems[0])
         state.conditions["pressure_pa"] = 81e3
         await worker.changed()
         await until(lambda: page.shown and page.shown[-1].whole)

@@ -17,6 +17,7 @@ SCAN = asperity.synthesize(ROAD, shape=(64, 64), pixel_size=LENGTH / 64, seed=1)
 RUBBER = asperity.PronySeries(
     equilibrium_modulus=1e6, moduli=[2e6, 9e6], relaxation_times=[1e-1, 1e-4]
 )
+_OF_CONTACT = 18  # columns up to its points, with the seconds that it took; errors come later
 VELOCITY = np.geomspace(1e-3, 1, 7)
 
 
@@ -82,8 +83,8 @@ def test_what_was_solved_is_kept_where_a_call_ends(how: str) -> None:
     assert 5 <= len(kept) < len(wholly_solved().contacts)
     again = friction(exact).mu
     assert again.tolist() == friction(wholly_solved()).mu.tolist()
-    rows = {row.tobytes() for row in exact.contacts.rows}
-    assert all(row.tobytes() in rows for row in kept)  # with the seconds that they took: not anew
+    rows = {row[:_OF_CONTACT].tobytes() for row in exact.contacts.rows}
+    assert all(row[:_OF_CONTACT].tobytes() in rows for row in kept)  # and not solved anew
 
 
 _whole: list[asperity.ScanContact] = []
@@ -141,17 +142,6 @@ def test_a_bar_says_how_many_contacts_are_solved() -> None:
         friction(exact, pressure=3e5)
     assert bar.lines == []
     assert bar.cleared == 1
-
-
-def test_a_contact_that_does_not_converge_is_named_and_the_others_are_kept() -> None:
-    steep = asperity.PronySeries(equilibrium_modulus=1e4, moduli=[1e10], relaxation_times=[1e-3])
-    exact = scan()
-    with pytest.raises(asperity.NotConverged) as caught:
-        asperity.friction(ROAD, steep, pressure=2e5, velocity=VELOCITY, correction=exact)
-    said = str(caught.value)
-    assert "\n" not in said
-    assert "the contact of the scan at 200000 Pa and v a_T = " in said
-    assert len(exact.contacts) > 3
 
 
 def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> None:
