@@ -290,10 +290,8 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
     from asperity.plot import style as styles
     from asperity.plot.curves import new_figure
 
-    notes = [
-        Note(f"number {i}, {'which tells at $length and _much_ ' * 4}", severity="fatal")
-        for i in range(5)
-    ]
+    words = "which goes on at $length and _much_ " * 4
+    notes = [Note(f"number {i}, {words}", severity="fatal") for i in range(5)]
     with styles.drawn_in(style, [Note("of no weight"), *notes]):
         figure, panels = new_figure(2)
     figure.draw_without_rendering()

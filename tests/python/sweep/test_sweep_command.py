@@ -84,14 +84,15 @@ def test_numbers_of_a_file_are_numbers_of_any_key(folder):
 
 
 def test_notes_that_differ_in_their_numbers_are_told_once(capsys):
-    many = [(f"note {kind} of a scan", kind) for kind in "abcdefghijklmnopqrstuv"]
-    rms = [("rms 1", "rms"), ("other", "other"), ("rms 2.5", "rms"), ("rms 1e-3", "rms")]
-    sweep_command._tell_notes([*rms, *many], Path("r.zarr"))
+    many = [f"note {kind} of a scan" for kind in "abcdefghijklmnopqrstuv"]
+    notes = [("rms 1", "note rms"), ("other", "note other"), ("rms 2.5", "note rms")]
+    notes += [("rms 1e-3", "note rms"), *((one, f"note {one}") for one in many)]
+    sweep_command._tell_notes(notes, Path("r.zarr"))
     told = capsys.readouterr().err.splitlines()
     assert told[:2] == ["note: rms 1 (and 2 with other numbers)", "note: other"]
     assert told[-1] == "note: all 26 notes are in the attribute notes of r.zarr"
     assert len(told) == 21
-    sweep_command._tell_notes(rms[:2], Path("r.zarr"))
+    sweep_command._tell_notes([("rms 1", "note a"), ("other", "note b")], Path("r.zarr"))
     assert capsys.readouterr().err.splitlines() == ["note: rms 1", "note: other"]
 
 
