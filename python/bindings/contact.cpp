@@ -134,7 +134,8 @@ void bind_corrections(py::module_& m) {
   py::class_<WatchedContacts>(m, "WatchedContacts")
       .def(py::init<const ScanContact&, py::object>())
       .def("__enter__", &WatchedContacts::enter)
-      .def("__exit__", [](WatchedContacts& watched, const py::args&) { watched.exit(); });
+      .def("__exit__",
+           [](WatchedContacts& watched, const py::object&, const py::object&, const py::object&) { watched.exit(); });
   bind_value(m, "SFactor", &SFactor::gamma, &SFactor::applies_to);
   bind_value(m, "NayakSFactor", &NayakSFactor::friction_gamma);
   bind_value(m, "ImplicitSFactor", &ImplicitSFactor::gamma);

@@ -59,7 +59,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         (["spectrum", "scan.npy"], "scan.npy: --pixel-size is missing: a .npy file does not state"),
         ([*SPECTRUM[:4]], "scan.npy: --unit is missing: a .npy file does not state the unit of"),
         ([*SPECTRUM, "--channel", "2"], "scan.npy: --channel = 2: must be 0"),
-        ([*SPECTRUM, "--q-min", "1e4", "--q-max", "1e3"], "--q-max = 1e3: must be above --q-min"),
+        ([*SPECTRUM, "--q-min", "1e4", "--q-max", "1e3"], "--q-max 1e3: must be above --q-min 1e4"),
         (["spectrum", "holes.npy", *SPECTRUM[2:]], "holes.npy: "),
     ],
 )

@@ -98,7 +98,7 @@ def test_draws_that_fail_are_counted_alike(monkeypatch):
         scene = {"pressure": 1e5, "velocity": VELOCITY[:5], "threads": threads}
         bands.append(asperity.friction_band(noisy, RUBBER, **scene))
     assert bands[0] == bands[1]
-    (note,) = bands[0].notes
+    note = bands[0].notes[-1]
     assert note.startswith("the band leaves out 5 of 100 draws that failed")
 
 

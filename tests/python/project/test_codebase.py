@@ -29,6 +29,7 @@ FOLDER_OF = {
     "correction": "contact",
     "heating": "heat",
     "scan_contact": "sliding",
+    "contact_progress": "sliding",
     "tiles": "spectrum",
     "build_friction_map": "friction_map",
 }

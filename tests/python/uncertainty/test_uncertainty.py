@@ -274,7 +274,7 @@ def test_without_friction_the_band_has_no_width():
 
 
 BAD = {
-    r"^spectrum, rubber, adhesion: none has errors": (ROAD, RUBBER, {}),
+    r"^spectrum, rubber, adhesion, correction: none has errors": (ROAD, RUBBER, {}),
     r"^rubber: a PronyFit does not know its errors": (ROAD, "prony", {}),
     r"^samples = 19: must be .*20 or more": ("fit", RUBBER, {"samples": 19}),
     r"^seed = -1: must be .*0 or more": ("fit", RUBBER, {"seed": -1}),

@@ -81,6 +81,7 @@ METHODS = {  # by name: classes that have the method take the same
     "mu": AT,
     "mu_at": {"distance": 1e-3},
     "plot": {},
+    "progress": {"tell": print},
     "scaled": {"factor": 2.0},
     "shift_factor": {"temperature": 293.0},
     "shifted": {"a_T": 0.5},
@@ -170,7 +171,7 @@ def right(argument, value):
             isinstance(value, str)
             and argument in {"text", "path", "paths", "scene", "scenes", "title"}
         )
-        or (callable(value) and argument == "progress")
+        or (callable(value) and argument in {"progress", "tell"})
     )
 
 
