@@ -146,7 +146,7 @@ class ScanContact(Value):
     ... )
     >>> exact = asperity.ScanContact(scan, periodic=True)
     >>> result = asperity.friction(road, rubber, pressure=1e5, velocity=0.1, correction=exact)
-    >>> len(exact.contacts) > 4 and result.model_error < 0.2
+    >>> len(exact.contacts) > 4 and result.model_error < 0.3
     True
     """
 

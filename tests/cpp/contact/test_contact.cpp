@@ -1,7 +1,6 @@
 #include <numbers>
 
 #include "asperity/contact.hpp"
-#include "contact/theory/s_factor.hpp"
 #include "reference_table.hpp"
 
 using namespace asperity;
@@ -84,23 +83,6 @@ TEST_CASE("the implicit S factor: the area of its definition, over all loads") {
                      std::span(&pressure, 1), std::span(&velocity, 1))[0];
     CHECK_NEAR(area, row.number("contact_area"), row.number("rtol"), 1e-300);
   }
-}
-
-TEST_CASE("the G of an area comes with its slope") {
-  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1024, .q1 = 32768};
-  const std::vector<Segment> pieces = segments(surface);
-  const Correction corrections[] = {SFactor{0.3, SFactor::AppliesTo::area}, NayakSFactor{}, ImplicitSFactor{0},
-                                    ImplicitSFactor{}};
-  for (const Correction& correction : corrections)
-    for (const Form form : {Form::exact, Form::interpolated}) {
-      AreaG area_g({.correction = correction, .form = form}, surface, pieces, surface.q1);
-      for (const double g : {0.02, 0.1, 1.0, 30.0, 1e5}) {
-        CAPTURE(g);
-        constexpr double step = 1e-4;  // an error of 1e-8 and less
-        const double rise = area_g(g * (1 + step)) - area_g(g * (1 - step));
-        CHECK(area_g.at(g).slope == doctest::Approx(rise / (2 * step * g)).epsilon(1e-6));
-      }
-    }
 }
 
 TEST_CASE("Nayak's parameter of a table: straight pieces too, 1.5 on a narrow band") {

@@ -1,5 +1,5 @@
 // The slopes of each theory of the contact with a rubber of one temperature, on panels and on pieces of rings, against
-// differences of its results; and that levels of pieces have no piece alike.
+// differences of its results; that levels of pieces have no piece alike; and the slope of the G of an area.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/grid/grid.hpp"
+#include "contact/theory/s_factor.hpp"
 #include "contact/theory/theory.hpp"
 
 using namespace asperity;
@@ -125,4 +126,21 @@ TEST_CASE("no piece of rings is the same on two levels") {
       CHECK(alike == 0);
     }
   }
+}
+
+TEST_CASE("the G of an area comes with its slope") {
+  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1024, .q1 = 32768};
+  const std::vector<Segment> pieces = segments(surface);
+  const Correction corrections[] = {SFactor{0.3, SFactor::AppliesTo::area}, NayakSFactor{}, ImplicitSFactor{0},
+                                    ImplicitSFactor{}};
+  for (const Correction& correction : corrections)
+    for (const Form form : {Form::exact, Form::interpolated}) {
+      AreaG area_g({.correction = correction, .form = form}, surface, pieces, surface.q1);
+      for (const double g : {0.02, 0.1, 1.0, 30.0, 1e5}) {
+        CAPTURE(g);
+        constexpr double step = 1e-4;  // an error of 1e-8 and less
+        const double rise = area_g(g * (1 + step)) - area_g(g * (1 - step));
+        CHECK(area_g.at(g).slope == doctest::Approx(rise / (2 * step * g)).epsilon(1e-6));
+      }
+    }
 }

@@ -72,9 +72,9 @@ def test_what_was_solved_is_kept_where_a_call_ends(how: str) -> None:
     exact = scan()
 
     def tell(solved: int, needed: int) -> None:
-        if solved == 5 and how == "Ctrl-C":
+        if solved >= 5 and how == "Ctrl-C":
             signal.raise_signal(signal.SIGINT)
-        elif solved == 5:
+        elif solved >= 5:
             raise Enough
 
     with pytest.raises(KeyboardInterrupt if how == "Ctrl-C" else Enough), exact.progress(tell):
