@@ -3,7 +3,6 @@
 #include "friction/extrapolated_modulus.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,15 +13,24 @@ namespace asperity {
 
 namespace {
 
+void keep_each_once(std::vector<double>& values) {
+  std::ranges::sort(values);
+  const auto rest = std::ranges::unique(values);
+  values.erase(rest.begin(), rest.end());
+}
+
 /// At which of the velocities the share is above a limit; empty where it is at none.
 std::string where_above(std::span<const double> velocity, std::span<const double> share, double limit) {
-  std::set<double> above;
+  std::vector<double> above;
   for (std::size_t i = 0; i < share.size(); ++i)
-    if (share[i] > limit) above.insert(velocity[i]);
-  const std::size_t all = std::set<double>(velocity.begin(), velocity.end()).size();
+    if (share[i] > limit) above.push_back(velocity[i]);
   if (above.empty()) return {};
+  keep_each_once(above);
+  std::vector<double> velocities(velocity.begin(), velocity.end());
+  keep_each_once(velocities);
+  const std::size_t all = velocities.size();
   if (above.size() == all) return "all velocities";
-  const std::string first = show(*above.begin(), 3), last = show(*above.rbegin(), 3);
+  const std::string first = show(above.front(), 3), last = show(above.back(), 3);
   return std::to_string(above.size()) + " of " + std::to_string(all) + " velocities, " +
          (above.size() == 1 ? first : "from " + first + " to " + last) + " m/s";
 }

@@ -58,9 +58,10 @@ void LevelSolver::take_moduli(Level& level, double velocity) {
   const bool first = &level == &levels_.front();
   if (!analytic_) {
     for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity * nodes.wavenumber[i];
-    if (first) i1_outside_.resize(n);
+    const bool asked = first || any_outside_;
+    if (asked) level.i1_outside.resize(n);
     const bool any = angular_integrals(rubber_, level.frequency, {level.i1.data(), n}, {level.i2.data(), n},
-                                       first ? std::span<double>(i1_outside_) : std::span<double>());
+                                       asked ? std::span<double>(level.i1_outside) : std::span<double>());
     if (first) any_outside_ = any;
     return;
   }
@@ -75,8 +76,8 @@ void LevelSolver::take_moduli(Level& level, double velocity) {
     outside_at_points_.resize(cells.wavenumber().size());
     any_outside_ = take(cells, rubber_, outside_at_points_);
     if (any_outside_) {
-      i1_outside_.resize(n + RoughnessCells::excess);
-      cells.at_nodes(outside_at_points_.data(), i1_.data(), i1_outside_.data(), level.i1.data());
+      level.i1_outside.resize(n + RoughnessCells::excess);
+      cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
     }
   }
   const RoughnessCells& cells = level.pieces->cells();  // of the same points at each level
@@ -184,7 +185,7 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
   if (any_outside_) {
     const VectorXd& stress = level.theory->stress();
     for (Index i = 0; i < stress.size(); ++i)
-      sum += level.grid->weight()[i] * stress[i] * i1_outside_[static_cast<std::size_t>(i)];
+      sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
   }
   return sums.friction > 0 ? sum / sums.friction : 0;
 }
@@ -223,7 +224,8 @@ bool LevelSolver::solve(double pressure, double velocity, double shift) {
     sums_ = now;
     g_ = level.theory->unit_g() * scale;
     error_ = std::fmax(error, least_error * model_.rtol);
-    hysteresis_ = {mu_factor * now.friction, mu_factor * now.friction * error_, mu_factor * now.friction * outside};
+    const double share = analytic_ ? outside : outside_share(level, now);
+    hysteresis_ = {mu_factor * now.friction, mu_factor * now.friction * error_, mu_factor * now.friction * share};
     return true;
   }
   return false;

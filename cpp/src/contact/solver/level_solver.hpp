@@ -46,6 +46,7 @@ class LevelSolver {
     std::vector<std::array<Eigen::Index, 2>> common_ends;  // of pieces of the level before, and of this one
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
+    std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on the coarsest level alone
   };
   Level& at_velocity(std::size_t number, double velocity);
   void take_moduli(Level& level, double velocity);
@@ -66,7 +67,6 @@ class LevelSolver {
   EdgeIntegrals edges_;
   std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
   std::vector<double> frequency_, i1_, i2_, outside_at_points_;  // at the points of cells
-  std::vector<double> i1_outside_;                               // at the nodes of the coarsest level, to a hundredth
   std::vector<double> of_i1_, of_i2_;                            // what the rule misses of I1 and I2 at the nodes
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;
