@@ -300,9 +300,9 @@ def _tell_errors(
     around = [(np.maximum(c.kinds[0] - c.off, 0), c.kinds[0] + c.off) for c in curves]
     seen = any(_shows(axes, *ends) for ends in around)
     of_scan = [isinstance(scene.correction, ScanContact) for scene in scenes]
-    sources = ["of one scan, its pixels and\ninterpolation"] if any(of_scan) else []
-    sources += [] if all(of_scan) else ["from\nexact sliding contacts"]
-    label = f"model error (rms), {' or '.join(sources)}"
+    sources = ["\nof one scan, its pixels\nand the interpolation"] if any(of_scan) else []
+    sources += [] if all(of_scan) else ["\nfrom exact sliding contacts"]
+    label = f"model error (rms),{' or'.join(sources)}"
     _tell_band(axes, label, seen=seen, **_hatch(grey(0.3)))
     numerical = max(float(np.max(r.error_estimate / np.fmax(r.mu, 1e-300))) for r in results)
     power = f"$10^{{{math.ceil(math.log10(max(numerical, 1e-16)))}}}$"
