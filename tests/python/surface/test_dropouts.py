@@ -199,7 +199,7 @@ def along_rows(z):
 
 
 # Measured on four such maps: 0.81 to 0.82, 0.81 to 0.93, 0.92 to 0.95 of the rows' error, and for
-# random holes 0.44 of rms slope times pixel (tests/benchmarks/dropouts.py: more, and triangles).
+# random holes 0.44 of rms slope times pixel (more, and triangles: docs/explanation/theory.md).
 @pytest.mark.parametrize(("pattern", "share"), [("random", 0.84), ("square", 0.96), ("edge", 0.97)])
 def test_on_a_self_affine_map_the_error_is_below_that_of_rows_alone(pattern, share):
     n, pixel = 256, 1e-6
