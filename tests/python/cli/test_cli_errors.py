@@ -14,7 +14,6 @@ from asperity.base.diagnostics import Argument
 from asperity.base.extras import to_install
 from asperity.cli.main import main
 from asperity.io.files import write_files
-from helpers.cases import each
 from helpers.scenes import SCENE
 
 
@@ -25,7 +24,7 @@ def names(folder: Path) -> list[str]:
 SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
 
 
-@each(
+@pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["friction", "none.toml"], "none.toml: cannot be read: No such file or directory"),
@@ -63,7 +62,7 @@ SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
         (["spectrum", "holes.npy", *SPECTRUM[2:]], "holes.npy: "),
     ],
 )
-@each("output", ["out.csv", None])
+@pytest.mark.parametrize("output", ["out.csv", None])
 def test_bad_input_is_one_line_and_leaves_no_file(
     folder: Path,
     capsys: pytest.CaptureFixture[str],
@@ -91,7 +90,7 @@ def test_bad_input_is_one_line_and_leaves_no_file(
 SIZE = "must be a positive number [m], or two: DY,DX"
 
 
-@each(
+@pytest.mark.parametrize(
     ("arguments", "message"),
     [
         ([], "the following arguments are required: VERB"),
@@ -127,7 +126,7 @@ DMA = ["--columns", "frequency=f,temperature=T,storage=s,loss=l", "--modulus", "
 DMA += ["--units", "frequency=Hz,temperature=K,modulus=Pa"]
 
 
-@each(
+@pytest.mark.parametrize(
     "arguments",
     [
         ["friction", "FILE"],
@@ -140,7 +139,7 @@ DMA += ["--units", "frequency=Hz,temperature=K,modulus=Pa"]
         ["validate", "--surface", "FILE"],
     ],
 )
-@each("name", ["pipe", "/dev/zero", "loop"])
+@pytest.mark.parametrize("name", ["pipe", "/dev/zero", "loop"])
 def test_what_has_no_end_is_refused_and_not_waited_for(
     folder: Path,
     capsys: pytest.CaptureFixture[str],
@@ -243,7 +242,7 @@ def test_no_name_for_the_parts_is_known_beforehand(tmp_path: Path) -> None:
     assert not (tmp_path / "a").is_symlink()
 
 
-@each(
+@pytest.mark.parametrize(
     ("failure", "status", "line"),
     [
         (MemoryError("Unable to allocate 37.3 GiB"), 1, "out of memory: Unable to allocate 37.3"),

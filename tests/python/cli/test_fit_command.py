@@ -10,7 +10,6 @@ import asperity
 from asperity import InvalidInput
 from asperity.cli.main import main
 from asperity.io.read_friction import read_friction
-from helpers.cases import each
 
 SCENE = """
 [surface]
@@ -229,7 +228,7 @@ BAD = {
 }
 
 
-@each("message", BAD)
+@pytest.mark.parametrize("message", BAD)
 def test_bad_files_are_refused_in_one_line(message, scene, tmp_path, capsys):
     measured = tmp_path / "measured.csv"
     measured.write_text(BAD[message])

@@ -9,7 +9,6 @@ from asperity import PronySeries
 from asperity.cli.main import main
 from asperity.io.read_master_curve import read_master_curve
 from asperity.scene.scene import load_scene
-from helpers.cases import each
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
 from helpers.rubbers import SWEEP, TEMPERATURES, sweeps, true_modulus, true_shift
 from helpers.scenes import CONDITIONS, SURFACE
@@ -164,7 +163,7 @@ def replaced(old, new):
     return [text.replace(old, new) for text in SYNTHETIC]
 
 
-@each(
+@pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["dma.csv", *without("--units")], "the following arguments are required: --units"),

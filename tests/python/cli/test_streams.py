@@ -10,7 +10,6 @@ import pytest
 
 from asperity import FrictionMap, PronySeries, SelfAffineSpectrum, friction_map
 from asperity.cli.main import main
-from helpers.cases import each
 
 FRICTION = "friction scene.toml"
 SHOWN = ["--version", "friction --help", "map --info road.fmap"]
@@ -40,7 +39,7 @@ def saved_map(folder: Path, text: bytes = b"") -> bytes:
     return bytes(content)
 
 
-@each(
+@pytest.mark.parametrize(
     ("line", "reason"),
     [
         *((f"{line} >/dev/full", "No space left on device") for line in SHOWN),
@@ -70,7 +69,7 @@ def test_notes_may_be_lost_and_the_result_stays(folder: Path) -> None:
         assert (folder / "mu.csv").read_text() == wanted.stdout
 
 
-@each("line", ["frictoin 2>&-", "friction none.toml 2>/dev/full"])
+@pytest.mark.parametrize("line", ["frictoin 2>&-", "friction none.toml 2>/dev/full"])
 def test_the_exit_status_does_not_need_standard_error(folder: Path, line: str) -> None:
     done = shell(f"$A {line}")
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "")
@@ -90,7 +89,7 @@ def test_no_text_of_a_map_is_obeyed_by_a_terminal(
     assert shown.count("title") == 1
 
 
-@each(
+@pytest.mark.parametrize(
     ("name", "shown"),
     [
         ("a\nb", r"'a\nb.toml'"),

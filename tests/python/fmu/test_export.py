@@ -13,7 +13,6 @@ import asperity
 from asperity import InvalidInput, export_fmu
 from asperity.cli import main
 from asperity.fmu import export
-from helpers.cases import each
 
 ROOT = Path(__file__).parents[3]
 
@@ -77,7 +76,7 @@ def test_an_fmu_says_what_is_inside(road, tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake")
-@each("mingw", [True, False])
+@pytest.mark.parametrize("mingw", [True, False])
 def test_a_build_without_mingw_tells_how_to_add_it(tmp_path, mingw):
     command = ["cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path / f"{mingw}"]
     command += ["-DASPERITY_LIBRARY=OFF"]

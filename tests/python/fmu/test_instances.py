@@ -8,7 +8,6 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from helpers.cases import each
 from helpers.fmus import CLAMP, INSIDE, NAN, Host, on_linux, same
 
 
@@ -92,7 +91,7 @@ def test_a_forked_child_goes_on(files, road, tmp_path):
 
 
 @on_linux
-@each("fmi", ["2.0", "3.0"])
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_an_instance_of_another_fmu_is_refused(files, tmp_path, capfd, fmi):
     host = Host(files[fmi, None], tmp_path / fmi)
     own, other = (fmpy.read_model_description(str(files[fmi, n])).guid for n in (None, 3))
@@ -110,7 +109,7 @@ def test_an_instance_of_another_fmu_is_refused(files, tmp_path, capfd, fmi):
 
 
 @on_linux
-@each(
+@pytest.mark.parametrize(
     ("file", "content", "message"),
     [
         ("token.txt", None, "resources/token.txt must hold the GUID or instantiation token"),
@@ -135,7 +134,7 @@ def test_damaged_resources_give_no_instance(files, tmp_path, capfd, file, conten
 
 
 @on_linux
-@each("version", [5, 1 << 24])
+@pytest.mark.parametrize("version", [5, 1 << 24])
 def test_a_map_of_another_version_gives_no_instance(files, tmp_path, capfd, version):
     for fmi in ("2.0", "3.0"):
         host = Host(files[fmi, None], tmp_path / f"{fmi}-{version}")
@@ -149,7 +148,7 @@ def test_a_map_of_another_version_gives_no_instance(files, tmp_path, capfd, vers
 
 
 @on_linux
-@each("fmi", ["2.0", "3.0"])
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_messages_can_be_switched_off(files, tmp_path, capfd, fmi):
     host = Host(files[fmi, None], tmp_path / fmi)
     both = ["logStatusWarning", "logStatusError"]
@@ -180,7 +179,7 @@ def test_messages_can_be_switched_off(files, tmp_path, capfd, fmi):
 
 
 @on_linux
-@each("fmi", ["2.0", "3.0"])
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_no_step_goes_past_the_stop_time(files, tmp_path, capfd, fmi):
     host = Host(files[fmi, None], tmp_path / fmi, stop=1.0)
     time = 0.0
@@ -202,7 +201,7 @@ def test_no_step_goes_past_the_stop_time(files, tmp_path, capfd, fmi):
 
 
 @on_linux
-@each(("start", "stop"), [(NAN, 1.0), (0.0, NAN), (2.0, 1.0)])
+@pytest.mark.parametrize(("start", "stop"), [(NAN, 1.0), (0.0, NAN), (2.0, 1.0)])
 def test_a_simulation_that_ends_before_it_begins_is_refused(files, tmp_path, start, stop):
     for fmi in ("2.0", "3.0"):
         host = Host(files[fmi, None], tmp_path / f"{fmi} {start} {stop}")
@@ -214,7 +213,7 @@ def test_a_simulation_that_ends_before_it_begins_is_refused(files, tmp_path, sta
 
 
 @on_linux
-@each("asked", [{"eventModeUsed": True}, {"requiredIntermediateVariables": [8]}])
+@pytest.mark.parametrize("asked", [{"eventModeUsed": True}, {"requiredIntermediateVariables": [8]}])
 def test_event_mode_is_refused(files, tmp_path, capfd, asked):
     host = Host(files["3.0", None], tmp_path / next(iter(asked)))
     with pytest.raises(Exception, match="Failed to instantiate"):
@@ -247,7 +246,7 @@ def _phases(host, unit):
 
 
 @on_linux
-@each("fmi", ["2.0", "3.0"])
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_calls_are_allowed_in_the_phases_of_the_standard(files, tmp_path, fmi):
     """Each act in each phase: allowed, or refused and the instance goes on."""
     host = Host(files[fmi, None], tmp_path / fmi)
@@ -278,8 +277,8 @@ def test_calls_are_allowed_in_the_phases_of_the_standard(files, tmp_path, fmi):
 
 
 @on_linux
-@each("fmi", ["2.0", "3.0"])
-@each("points", [None, 3])
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+@pytest.mark.parametrize("points", [None, 3])
 def test_another_number_of_points_gives_no_instance(files, tmp_path, capfd, fmi, points):
     if (fmi, points) not in files:
         pytest.skip("no such file was made")

@@ -25,7 +25,7 @@ from asperity import (
     friction,
     friction_map,
 )
-from helpers.cases import each, long
+from helpers.cases import long
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(
@@ -282,7 +282,7 @@ OUTSIDE = [(4.9e4, 0.1), (1.1e6, 0.1), (0.0, 0.1), (-1e5, 0.1), (2e5, 0.0), (2e5
 OUTSIDE += [(2e5, -3.1), (2e5, np.inf), (np.inf, 0.1), (0.0, 0.0), (1e9, 1e9)]
 
 
-@each("point", OUTSIDE)
+@pytest.mark.parametrize("point", OUTSIDE)
 def test_outside_of_the_box_the_caller_chooses(road_map, point):
     nearest = np.clip(point[0], *BOX["pressure"]), np.clip(abs(point[1]), *BOX["velocity"])
     for look_up in (road_map.mu, road_map.hysteresis, road_map.adhesion, road_map.contact_area):

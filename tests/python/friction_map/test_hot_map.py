@@ -23,7 +23,7 @@ from asperity import (
     friction,
     friction_map,
 )
-from helpers.cases import each, long
+from helpers.cases import long
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(
@@ -179,7 +179,7 @@ def test_what_heat_hardly_changes_is_the_error_of_its_memory():
     assert 0.9 * change < found.memory_error < 1.01 * change
 
 
-@each("which", ["one", "several"])
+@pytest.mark.parametrize("which", ["one", "several"])
 def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
     found = request.getfixturevalue(which)
     assert (found.checked, found.exceeded) == (4000, 0)
@@ -187,7 +187,7 @@ def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
     assert found.cold.checked == 4000
 
 
-@each("which", ["one", "several"])
+@pytest.mark.parametrize("which", ["one", "several"])
 def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
     found = request.getfixturevalue(which)
     p, v, t = random_points(200, seed=2)
@@ -256,7 +256,7 @@ def test_a_map_is_saved_and_comes_back(several, tmp_path):
     assert table.mu.values[3, 5] == pytest.approx(loaded.mu(p, v, temperature=RANGE[0]), rel=1e-14)
 
 
-@each(
+@pytest.mark.parametrize(
     "given",
     [
         ({"a_T": 2.0}, InvalidInput, "a_T = 2.0: must be 1 on a map with heat"),
@@ -325,7 +325,7 @@ def test_a_fold_is_refused_with_its_temperature_and_velocity():
     assert "the heat has 3 steady states" in text
 
 
-@each(
+@pytest.mark.parametrize(
     "given",
     [
         (

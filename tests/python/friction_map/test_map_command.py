@@ -14,7 +14,6 @@ import scipy.io
 import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
-from helpers.cases import each
 from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
 
 HEAT = """
@@ -89,7 +88,7 @@ def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
     assert "pressure: the scene has one" in capsys.readouterr().err
 
 
-@each(
+@pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["map"], "must be given a SCENE.toml, or --info FILE"),
@@ -173,7 +172,7 @@ def with_heat(temperature, heat=HEAT):
     return SURFACE + RUBBER + LAW + conditions + ADHESION + heat
 
 
-@each("temperature", ["300", "[298, 302]"])
+@pytest.mark.parametrize("temperature", ["300", "[298, 302]"])
 def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
     scene.write_text(with_heat(temperature), encoding="utf-8")
     box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2"]

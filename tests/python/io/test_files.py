@@ -13,7 +13,6 @@ from asperity import InvalidInput
 from asperity.cli.main import main
 from asperity.io import files
 from asperity.io.files import check_directory, check_output, write_files, write_whole
-from helpers.cases import each
 
 
 def at_every_line(folder: Path, run: Callable[[], object]) -> list[dict[str, bytes]]:
@@ -53,7 +52,7 @@ COMMANDS = {
 }
 
 
-@each("command", COMMANDS)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_that_is_killed_leaves_old_files_or_new_ones(
     folder: Path, undrawn: None, capsys: pytest.CaptureFixture[str], command: str
 ) -> None:
@@ -104,7 +103,7 @@ def test_two_writers_of_one_file_end_with_one_of_both(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == ["a"]
 
 
-@each("mode", [0o600, 0o640, 0o604, 0o755])
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o604, 0o755])
 def test_permissions_of_a_file_stay(tmp_path: Path, mode: int) -> None:
     target = tmp_path / "a"
     target.write_bytes(b"old")
@@ -124,7 +123,7 @@ def test_a_new_file_gets_what_the_process_gives_its_files(tmp_path: Path) -> Non
     assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o640
 
 
-@each("name", ["x" * 250, "x" * 255, "é" * 125])
+@pytest.mark.parametrize("name", ["x" * 250, "x" * 255, "é" * 125])
 def test_a_long_name_saves(tmp_path: Path, name: str) -> None:
     check_output(tmp_path / name)
     write_whole(tmp_path / name, b"new")
@@ -156,7 +155,7 @@ def test_what_a_link_leads_to_is_written(tmp_path: Path) -> None:
         assert (tmp_path / "a").read_bytes() == content
 
 
-@each("check", [check_output, lambda path: write_whole(path, b"new")])
+@pytest.mark.parametrize("check", [check_output, lambda path: write_whole(path, b"new")])
 def test_a_loop_of_links_is_refused(tmp_path: Path, check: Callable[[Path], None]) -> None:
     loop = tmp_path / "loop"
     if not loop.is_symlink():

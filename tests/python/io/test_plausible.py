@@ -14,7 +14,6 @@ from asperity.demo import input_files
 from asperity.io import plausible
 from asperity.io.read_friction import read_friction
 from asperity.scene.scene import load_scene
-from helpers.cases import each
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present, scans_of
 
 ASPHALT = "rms_height_m = 265.7e-6\nhurst = 0.87\nq0_per_m = 2000\nq1_per_m = 1e6"
@@ -94,7 +93,7 @@ PLAUSIBLE = {
 }
 
 
-@each("name", PLAUSIBLE)
+@pytest.mark.parametrize("name", PLAUSIBLE)
 def test_what_is_plausible_goes_through_without_a_word(tmp_path, name):
     assert load_scene(scene(tmp_path, **PLAUSIBLE[name])).unusual == ()
 
@@ -113,7 +112,9 @@ def silent(caplog):
     assert caplog.messages == []
 
 
-@each(("pixel_size", "rms"), [(2e-9, 1e-9), (1e-7, 1e-9), (5e-6, 3e-5), (1e-3, 2e-4), (2e-2, 3e-2)])
+@pytest.mark.parametrize(
+    ("pixel_size", "rms"), [(2e-9, 1e-9), (1e-7, 1e-9), (5e-6, 3e-5), (1e-3, 2e-4), (2e-2, 3e-2)]
+)
 @pytest.mark.usefixtures("silent")
 def test_scans_from_microscopes_to_roads(tmp_path, pixel_size, rms):
     """1 um of a force microscope with nanometres, 1 m to 10 m of road with centimetres."""
@@ -123,7 +124,9 @@ def test_scans_from_microscopes_to_roads(tmp_path, pixel_size, rms):
         asperity.read_surface(tmp_path / "in.npy", pixel_size=pixel_size, unit=unit)
 
 
-@each(("source", "name"), scans_of(["opd-1.opd", "al3d-1.al3d", "frt-2.frt", "dektak-1.csv"]))
+@pytest.mark.parametrize(
+    ("source", "name"), scans_of(["opd-1.opd", "al3d-1.al3d", "frt-2.frt", "dektak-1.csv"])
+)
 @pytest.mark.usefixtures("silent")
 def test_scans_of_instruments(source, name, file_of):
     asperity.read_surface(file_of(source, name))
@@ -142,7 +145,9 @@ def test_sweeps_of_instruments():
     asperity.read_isotherms(files, **POLYISOPRENE)
 
 
-@each(("given", "unit"), [(-80, "C"), (25, "C"), (250, "C"), (193.15, "K"), (523.15, "K")])
+@pytest.mark.parametrize(
+    ("given", "unit"), [(-80, "C"), (25, "C"), (250, "C"), (193.15, "K"), (523.15, "K")]
+)
 def test_a_rubber_from_minus_80_to_250_degrees(tmp_path, given, unit):
     (tmp_path / "a_t.csv").write_text("temperature_k,log10_a_t\n150,9\n293.15,0\n530,-6\n")
     more = f'shift = "a_t.csv"\ntemperature_{unit.lower()} = {given}\nreference_temperature_c = 20'
@@ -297,7 +302,7 @@ def test_the_shell_notes_what_is_unusual_in_one_line_and_in_the_table(tmp_path, 
     assert (tmp_path / "mu.csv").read_text().count(f"# {line}") == 1
 
 
-@each(
+@pytest.mark.parametrize(
     ("options", "message"),
     [
         (["--pixel-size", "5e-6", "--unit", "m"], "--unit = 'm': rms height 17"),
@@ -347,7 +352,7 @@ def test_the_readers_note_is_one_line_on_stderr(tmp_path):
 DMA = ["--columns", "frequency=f,temperature=T,storage=a,loss=b", "--modulus", "E"]
 
 
-@each(
+@pytest.mark.parametrize(
     ("written", "declared", "message"),
     [
         ({"modulus": 1e6}, "MPa", "largest |E| = 3.00049e+09: must be at most"),
@@ -364,7 +369,7 @@ def test_dma_in_other_units_is_refused(tmp_path, capsys, written, declared, mess
     assert message in err
 
 
-@each(
+@pytest.mark.parametrize(
     ("written", "units", "message"),
     [
         ({}, {"temperature": "K"}, "temperature = -80: must be at least 120 K"),
@@ -403,7 +408,7 @@ def test_master_curve_and_measured_friction_in_other_units(tmp_path):
         read_friction(tmp_path / "test.csv")
 
 
-@each(
+@pytest.mark.parametrize(
     ("options", "message"),
     [
         (["--pressure", "0.01,0.1"], "--pressure = 0.01: must be at least 0.1 Pa"),
@@ -426,7 +431,7 @@ class TestTemperature:
         ]
         np.testing.assert_array_equal(*found)
 
-    @each(
+    @pytest.mark.parametrize(
         ("keys", "message"),
         [
             ("", "temperature_k: missing; add temperature_k or temperature_c"),

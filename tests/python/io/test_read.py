@@ -12,7 +12,6 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, read_surface
-from helpers.cases import each
 
 HEIGHTS = np.array([[1.0, 2.0, 4.0], [8.0, 16.0, 32.0]])
 INSTRUMENT = """\
@@ -43,7 +42,7 @@ def test_float32_stays_float32_when_scaled(tmp_path: Path) -> None:
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-6)
 
 
-@each(
+@pytest.mark.parametrize(
     ("unit", "metres"),
     [
         ("m", 1),
@@ -63,7 +62,7 @@ def test_unit_is_that_of_the_heights_alone(tmp_path: Path, unit: str, metres: fl
     assert surface.pixel_size == (1e-6, 1e-6)
 
 
-@each(
+@pytest.mark.parametrize(
     ("name", "text"),
     [
         ("a.csv", "# by hand\n1,2,\n3,nan,5\n"),
@@ -80,7 +79,7 @@ def test_text_matrices(tmp_path: Path, name: str, text: str) -> None:
     np.testing.assert_array_equal(surface.heights, [[1, 2, np.nan], [3, np.nan, 5]])
 
 
-@each(
+@pytest.mark.parametrize(
     "text",
     [
         "1,5;-2,25e1;\n,5;nan;5\n",
@@ -127,7 +126,7 @@ def test_instrument_dropouts_are_nan(tmp_path: Path) -> None:
     assert surface.pixel_size == pytest.approx((2e-3, 1e-3))
 
 
-@each(
+@pytest.mark.parametrize(
     ("given", "message"),
     [
         ({"unit": "nm"}, "unit = 'nm': must be left out, the file states its own"),
@@ -165,7 +164,7 @@ def _zip(name: str | None, content: bytes) -> bytes:
     return out.getvalue()
 
 
-@each(
+@pytest.mark.parametrize(
     ("name", "content", "given", "message"),
     [
         ("a.npy", _npy(HEIGHTS)[:-8], {}, "not a sound .npy file"),
@@ -228,7 +227,7 @@ def test_npz_channel_out_of_range(tmp_path: Path) -> None:
         read_surface(path, channel=2, pixel_size=1.0, unit="m")
 
 
-@each("name", ["missing.npy", "missing.opd"])
+@pytest.mark.parametrize("name", ["missing.npy", "missing.opd"])
 def test_missing_file(tmp_path: Path, name: str) -> None:
     with pytest.raises(InvalidInput, match=rf"{name}: cannot be read: No such file"):
         read_surface(tmp_path / name, pixel_size=1.0, unit="m")
@@ -239,7 +238,7 @@ def test_directory(tmp_path: Path) -> None:
         read_surface(tmp_path, pixel_size=1.0, unit="m")
 
 
-@each("name", ["/dev/null", "/dev/zero"])
+@pytest.mark.parametrize("name", ["/dev/null", "/dev/zero"])
 def test_no_regular_file(name: str) -> None:
     with pytest.raises(InvalidInput) as caught:
         read_surface(name, pixel_size=1.0, unit="m")
@@ -257,7 +256,7 @@ def test_no_name_of_a_file() -> None:
         read_surface("a\0b.npy", pixel_size=1.0, unit="m")
 
 
-@each("content", [b"", b"\x00\x01\x02" * 100, b"a tale\nof two cities\n"])
+@pytest.mark.parametrize("content", [b"", b"\x00\x01\x02" * 100, b"a tale\nof two cities\n"])
 def test_unknown_format(tmp_path: Path, content: bytes) -> None:
     pytest.importorskip("SurfaceTopography")
     path = tmp_path / "scan.dat"
@@ -284,7 +283,7 @@ def test_is_public() -> None:
     assert "read_surface" in asperity.__all__
 
 
-@each(
+@pytest.mark.parametrize(
     ("dtype", "bits", "signalling"),
     [
         (np.float32, np.uint32, 0x7F800001),
@@ -292,7 +291,7 @@ def test_is_public() -> None:
         (np.float16, np.uint16, 0x7C01),
     ],
 )
-@each("unit", ["m", "um"])
+@pytest.mark.parametrize("unit", ["m", "um"])
 @pytest.mark.filterwarnings("error")
 def test_a_signalling_nan_is_a_dropout_like_others(
     tmp_path: Path, dtype: type, bits: type, signalling: int, unit: str

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
-from helpers.cases import each
 
 MAP = np.array([[1.0, 2.0, 4.0], [8.0, 16.0, 32.0]])
 PROFILE = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
@@ -28,10 +27,10 @@ POSITIONS = "# Lateral units: µm\n# Value units: nm\n"
 DEKTAK = "Scan Parameters\nStylus,Radius: 2.5 µm\n\nScan Data\n\nLateral um,Raw Micrometer,\n"
 
 
-@each("order", ["C", "F"])
-@each("dtype", ["f4", "f8", ">f4", ">f8", "f2", "i2", "u1", "g"])
-@each(("unit", "metres"), [("m", 1.0), ("nm", 1e-9)])
-@each("save", [np.save, np.savez])
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("dtype", ["f4", "f8", ">f4", ">f8", "f2", "i2", "u1", "g"])
+@pytest.mark.parametrize(("unit", "metres"), [("m", 1.0), ("nm", 1e-9)])
+@pytest.mark.parametrize("save", [np.save, np.savez])
 def test_arrays_of_any_type_and_order(
     tmp_path: Path, save: Callable[..., None], unit: str, metres: float, dtype: str, order: str
 ) -> None:
@@ -54,8 +53,8 @@ def _traced(path: Path, unit: str) -> tuple[HeightMap | LineScan, int]:
         tracemalloc.stop()
 
 
-@each("order", ["C", "F"])
-@each("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_no_hidden_copy(tmp_path: Path, dtype: type, order: str) -> None:
     heights = np.ones((1000, 500), dtype, order)  # type: ignore[call-overload]
     np.save(tmp_path / "scan.npy", heights)
@@ -96,8 +95,8 @@ def test_damaged_arrays(tmp_path: Path, save: Callable[..., None]) -> None:
     assert all(text.startswith(f"{path}: ") and "\n" not in text for text in refused)
 
 
-@each("dtype", [np.float32, np.float64, ">f8", np.int16])
-@each(("unit", "metres"), [("m", 1.0), ("um", 1e-6)])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, ">f8", np.int16])
+@pytest.mark.parametrize(("unit", "metres"), [("m", 1.0), ("um", 1e-6)])
 def test_arrays_of_one_dimension(tmp_path: Path, dtype: type, unit: str, metres: float) -> None:
     profile = PROFILE.astype(dtype)
     np.save(tmp_path / "scan.npy", profile)
@@ -118,7 +117,7 @@ def test_an_array_of_two_dimensions_is_a_map(tmp_path: Path, shape: tuple[int, i
     assert surface.heights.shape == shape
 
 
-@each(
+@pytest.mark.parametrize(
     "text",
     [
         "1\n2\nnan\n4\n",
@@ -145,7 +144,7 @@ def test_line_of_dropouts_in_a_map_parted_by_tabs(tmp_path: Path) -> None:
     np.testing.assert_array_equal(surface.heights, [[1, 2], [np.nan, np.nan], [3, 4]])
 
 
-@each(
+@pytest.mark.parametrize(
     ("text", "pixel_size", "message"),
     [
         ("1\n2\n", (1e-6, 2e-6), "(1e-06, 2e-06): must be one number, the file holds a line scan"),
@@ -199,7 +198,7 @@ def test_profile_without_positions(tmp_path: Path) -> None:
         read_surface(tmp_path / "scan.dat", unit="um", pixel_size=(1.0, 1.0))
 
 
-@each(("spacing", "digits"), [(0.15625, 1), (0.7, 1), (156.25, -1), (1.3, 0)])
+@pytest.mark.parametrize(("spacing", "digits"), [(0.15625, 1), (0.7, 1), (156.25, -1), (1.3, 0)])
 def test_positions_that_were_rounded_in_print(tmp_path: Path, spacing: float, digits: int) -> None:
     positions = np.round(spacing * np.arange(400), digits)
     rows = "".join(f"{x:.10g},{np.sin(x):.5f},,\n" for x in positions)
@@ -209,7 +208,7 @@ def test_positions_that_were_rounded_in_print(tmp_path: Path, spacing: float, di
     np.testing.assert_allclose(scan.heights, np.sin(positions) * 1e-6, atol=1e-11)
 
 
-@each(
+@pytest.mark.parametrize(
     "positions",
     [
         [0, 1, 2.5],
@@ -232,7 +231,7 @@ def test_positions_that_do_not_increase(tmp_path: Path) -> None:
         _read(tmp_path / "scan.csv", DEKTAK + "0.0,1.0,,\n0.2,1.0,,\n0.2,2.0,,\n0.3,1.0,,\n")
 
 
-@each(
+@pytest.mark.parametrize(
     ("given", "message"),
     [
         ({"unit": "um"}, "unit = 'um': must be left out, the file states its own"),

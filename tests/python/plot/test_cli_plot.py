@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 
 from asperity.cli.main import main
-from helpers.cases import each
 from helpers.scenes import SCENE
 
 pytest.importorskip("matplotlib")
@@ -33,7 +32,7 @@ def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
     )
 
 
-@each(
+@pytest.mark.parametrize(
     ("old", "new"),
     [
         ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
@@ -41,7 +40,7 @@ def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
         ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
     ],
 )
-@each("verb", ["friction", "area"])
+@pytest.mark.parametrize("verb", ["friction", "area"])
 def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
     (folder / "scene.toml").write_text(SCENE.replace(old, new))
     assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0

@@ -9,7 +9,6 @@ import pytest
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
-from helpers.cases import each
 
 LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
 HEATING = """
@@ -84,7 +83,7 @@ def test_roughness_beyond_q1_is_marked(folder: Path, figures: list[Any]) -> None
     assert "$q_1$" in [text.get_text() for text in profile.get_legend().get_texts()]
 
 
-@each("more", ["", HEATING])
+@pytest.mark.parametrize("more", ["", HEATING])
 def test_a_list_of_temperatures_at_one_velocity_is_drawn_over_them(
     folder: Path, figures: list[Any], more: str
 ) -> None:

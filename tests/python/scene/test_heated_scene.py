@@ -11,7 +11,6 @@ import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
-from helpers.cases import each
 
 LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
 HEATING = """
@@ -134,7 +133,7 @@ def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
     assert main(["friction", written(over_pressure), "--output", "p.csv", "--plot", "p.png"]) == 0
 
 
-@each(
+@pytest.mark.parametrize(
     "given",
     [
         (

@@ -11,7 +11,6 @@ from asperity import InvalidInput, OutOfRange
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
-from helpers.cases import each
 
 RUBBER = asperity.PronySeries(
     equilibrium_modulus=3e6,
@@ -140,7 +139,7 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
     assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$ [-]\nof hysteresis alone"
 
 
-@each(
+@pytest.mark.parametrize(
     ("text", "named"),
     [
         (

@@ -8,7 +8,6 @@ import pytest
 
 from asperity import InvalidInput, OutOfRange
 from asperity.scene.scene import load_scene
-from helpers.cases import each
 from helpers.scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
 PEAKS = "[correction]\nkind = '{}'\nmin_distance_m = 5e-5\n"
@@ -45,7 +44,7 @@ MASTER = SURFACE + CURVE + CONDITIONS
 GW = "[correction]\nkind = 'greenwood-williamson'\n"
 
 
-@each(
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("[surface", "not a TOML file"),
@@ -235,7 +234,7 @@ def test_foolish_scenes(folder: Path, text: str, message: str) -> None:
     assert message in refusal(folder, text)
 
 
-@each(
+@pytest.mark.parametrize(
     ("content", "message"),
     [
         ("", "is empty"),

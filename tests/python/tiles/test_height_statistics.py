@@ -8,7 +8,6 @@ import pytest
 
 from asperity import HeightMap, HeightStatistics, InvalidInput, height_statistics
 from asperity.tiles import statistics
-from helpers.cases import each
 from helpers.known_surfaces import law, surface, tilted, with_holes
 
 PIXEL = (2e-6, 1e-6)
@@ -26,9 +25,9 @@ def scan(dtype=np.float64, *, holes=0.05):
     return with_holes(tilted(1e-3 + z, tilt=1e-4, bow=1e-5), holes, 2).astype(dtype)
 
 
-@each("holes", [0, 0.05])
-@each("detrend", ["offset", "plane", "quadratic"])
-@each("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("holes", [0, 0.05])
+@pytest.mark.parametrize("detrend", ["offset", "plane", "quadratic"])
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_they_are_those_of_the_map_in_memory(small_pieces, detrend, dtype, holes):
     z = scan(dtype, holes=holes)
     found = height_statistics(z, pixel_size=PIXEL, detrend=detrend)
@@ -98,7 +97,7 @@ REFUSED = [
 ]
 
 
-@each(("given", "message"), REFUSED)
+@pytest.mark.parametrize(("given", "message"), REFUSED)
 def test_bad_input_is_one_line(given, message):
     with pytest.raises(InvalidInput, match=message) as caught:
         height_statistics(**given)

@@ -11,7 +11,6 @@ import pytest
 from asperity import HeightMap, InvalidInput, height_statistics
 from asperity.tiles.file_array import FileArray
 from asperity.tiles.source import source_of
-from helpers.cases import each
 
 HEIGHTS = np.random.default_rng(1).normal(size=(40, 60)) * 1e-6
 BOX = (slice(3, 17), slice(5, 44))
@@ -31,9 +30,9 @@ def mapped(path: Path, heights: np.ndarray, **options: object) -> np.memmap:
     return found
 
 
-@each("dtype", ["<f8", ">f8", "<f4", ">f4", "f2", "i4", "u1"])
-@each("order", ["C", "F"])
-@each("view", list(VIEWS))
+@pytest.mark.parametrize("dtype", ["<f8", ">f8", "<f4", ">f4", "f2", "i4", "u1"])
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("view", list(VIEWS))
 def test_a_memory_map_is_read_by_file_reads(tmp_path, dtype, order, view):
     heights = (HEIGHTS * 1e7).astype(dtype, order=order)
     for array in (
@@ -97,7 +96,9 @@ except asperity.InvalidInput as error:
 """
 
 
-@each(("length", "message"), [(9000, "ends before its heights do"), (0, "ends before its heights")])
+@pytest.mark.parametrize(
+    ("length", "message"), [(9000, "ends before its heights do"), (0, "ends before its heights")]
+)
 def test_a_file_that_is_cut_short_is_an_error_and_no_crash(tmp_path, length, message):
     np.save(tmp_path / "map.npy", HEIGHTS)
     code = TRUNCATE.format(length=length, after="")
@@ -126,7 +127,7 @@ def test_a_file_that_is_written_meanwhile_is_an_error(tmp_path):
         source_of(array, 1)
 
 
-@each("length", [30, 40])
+@pytest.mark.parametrize("length", [30, 40])
 def test_a_file_that_was_replaced_after_it_was_mapped_is_refused(tmp_path, length):
     array = mapped(tmp_path / "map.npy", HEIGHTS)
     np.save(tmp_path / "new.npy", 7 * HEIGHTS[:length])
@@ -185,8 +186,8 @@ def test_arrays_that_are_no_maps_are_refused(tmp_path):
         source_of(group["heights"], 1)
 
 
-@each("version", [2, 3])
-@each("dtype", ["int16", "float32"])
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("dtype", ["int16", "float32"])
 def test_fill_values_are_drop_outs(tmp_path, version, dtype):
     xarray, zarr = pytest.importorskip("xarray"), pytest.importorskip("zarr")
     heights = np.round(HEIGHTS * 1e9)
@@ -228,7 +229,7 @@ def test_a_zarr_array_without_attributes_has_heights_that_are_0(tmp_path):
     assert height_statistics(stored, pixel_size=1).dropout_fraction == 0
 
 
-@each(
+@pytest.mark.parametrize(
     ("attributes", "message"),
     [
         ({"scale_factor": 1e-9}, r"is packed \(scale_factor\): unpack it first"),

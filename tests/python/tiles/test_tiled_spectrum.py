@@ -9,7 +9,7 @@ import pytest
 
 from asperity import HeightMap, InvalidInput, _core, fit_self_affine, power_spectrum
 from asperity.tiles.coarse import Coarse, Rows, without_blocks
-from helpers.cases import each, long
+from helpers.cases import long
 from helpers.known_surfaces import law, ring_mean, surface, tilted, with_holes
 from helpers.plain_spectrum import profile
 
@@ -69,8 +69,8 @@ def pairs_of_modes(window, shape, shift, rings):
     return found
 
 
-@each("shape", [(96, 96), (64, 128)])
-@each("window", ["split-cosine-bell", "hann", "blackman"])
+@pytest.mark.parametrize("shape", [(96, 96), (64, 128)])
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "blackman"])
 def test_overlapping_tiles_are_as_alike_as_every_pair_of_modes_says(window, shape):
     for part in ((0, 0), (0.5, 0), (0, 0.5), (0.5, 0.5), (0.25, 0.75)):
         shift = tuple(int(share * n) for share, n in zip(part, shape, strict=True))
@@ -89,7 +89,7 @@ def test_one_tile_is_the_whole_map():
     assert power_spectrum(HeightMap(z, pixel_size=PIXEL), tiles=(300, 260)) == whole
 
 
-@each("name", list(LAWS))
+@pytest.mark.parametrize("name", list(LAWS))
 def test_rows_of_the_coarse_map_are_those_of_the_whole(name):
     z = surface(LAWS[name], (1100, 1536), PIXEL, 2)
     whole = power_spectrum(HeightMap(z, pixel_size=PIXEL))
@@ -178,8 +178,8 @@ def test_the_error_of_what_is_taken_off_is_in_that_of_the_row():
     assert (sure.flag == 0).all()
 
 
-@each("window", ["split-cosine-bell", "hann", "blackman"])
-@each("name", list(LAWS))
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "blackman"])
+@pytest.mark.parametrize("name", list(LAWS))
 def test_the_truth_is_within_the_errors(name, window):
     z = surface(LAWS[name], (1400, 1150), PIXEL, 3, dtype=np.float32)
     found = power_spectrum(z, pixel_size=PIXEL, tiles=(512, 640), window=window)
@@ -315,7 +315,7 @@ BAD = [
 ]
 
 
-@each(("given", "message"), BAD)
+@pytest.mark.parametrize(("given", "message"), BAD)
 def test_bad_input_is_one_line(given, message):
     with pytest.raises(InvalidInput, match=message) as caught:
         power_spectrum(**({"surface": MAP, "pixel_size": 1.0} | given))
@@ -329,7 +329,7 @@ def test_all_tiles_may_have_too_many_holes():
         power_spectrum(corners, pixel_size=1, tiles=512, overlap=0, max_dropouts=0.1)
 
 
-@each("name", ["pixel_size", "overlap", "max_dropouts", "executor"])
+@pytest.mark.parametrize("name", ["pixel_size", "overlap", "max_dropouts", "executor"])
 def test_options_of_tiles_are_not_ignored_without(name):
     value = ThreadPoolExecutor(1) if name == "executor" else 0.5
     with pytest.raises(InvalidInput, match=f"^{name}: goes with tiles"):

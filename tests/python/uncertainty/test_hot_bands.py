@@ -5,7 +5,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from helpers.cases import case, each
+from helpers.cases import case
 from helpers.examples import TREAD
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e4)
@@ -120,7 +120,7 @@ def test_temperatures_broadcast_and_threads_change_nothing():
     np.testing.assert_allclose(single.upper, one.upper[1], rtol=1e-3)
 
 
-@each(
+@pytest.mark.parametrize(
     "given",
     [
         ({"temperature": 293.0}, "needs shift="),

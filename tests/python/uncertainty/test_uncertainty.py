@@ -24,7 +24,6 @@ from asperity import (
 from asperity.cli.main import main
 from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import Drawn, drawn_rubber, drawn_spectrum
-from helpers.cases import each
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 from band_coverage import KINDS
@@ -78,8 +77,8 @@ def built(seed, noise=0.01):
     return build_master_curve(isotherms, reference_temperature=T_REF, smooth=True)
 
 
-@each("temperature", [None, 298.0])
-@each("extrapolation", ["power-law", "clamp"])
+@pytest.mark.parametrize("temperature", [None, 298.0])
+@pytest.mark.parametrize("extrapolation", ["power-law", "clamp"])
 def test_a_draw_answers_wherever_the_plain_curve_does(extrapolation, temperature):
     """Drawn shifts move the ends of what was measured."""
     build = build_master_curve(
@@ -164,7 +163,7 @@ def test_bands_of_random_rubbers_hold_the_truth_and_stand_still():
     assert np.median(moved) < 0.2  # of the width, between two seeds
 
 
-@each("kind", ["rings-hann", "fit-hann"])
+@pytest.mark.parametrize("kind", ["rings-hann", "fit-hann"])
 def test_bands_of_random_scans_hold_the_truth_and_stand_still(kind):
     """tests/stability/band_coverage.py runs 200 trials of 100 draws."""
     held, _, moved = (
@@ -283,7 +282,7 @@ BAD = {
 }
 
 
-@each("message", BAD)
+@pytest.mark.parametrize("message", BAD)
 def test_bad_input(message):
     spectrum, rubber, changed = BAD[message]
     spectrum = fit_self_affine(measured_spectrum(2)) if spectrum == "fit" else spectrum

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import each
 from helpers.heat import CUT, HEATING, LAW, rubber
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
@@ -44,7 +43,7 @@ def fit_adhesion(size: int) -> object:
     return asperity.fit_adhesion(ROAD, RUBBER, velocity=v, mu=mu, pressure=2e5)
 
 
-@each(
+@pytest.mark.parametrize(
     ("call", "small", "times"),
     [(line_density, 10_000, 50), (synthesize, 64, 250), (fit_adhesion, 60, 50)],
 )

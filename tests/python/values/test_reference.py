@@ -5,7 +5,6 @@ import pytest
 
 import asperity
 from asperity import AffineShift, PronySeries, SelfAffineSpectrum
-from helpers.cases import each
 from helpers.table_rows import close, master_curve, prony, self_affine, tabulated
 
 
@@ -43,7 +42,7 @@ def test_hertz_penetration(row):
     close(row, ["penetration"], [asperity.hertz_penetration(**{name: row[name] for name in names})])
 
 
-@each("reading", ["implicit", "added"])
+@pytest.mark.parametrize("reading", ["implicit", "added"])
 @pytest.mark.reference("greenwood_williamson")
 def test_separations_of_both_readings(row, reading):
     names = ("pressure", "effective_modulus", "rms_height", "q0")
@@ -78,7 +77,7 @@ def test_autocorrelation_of_self_affine_spectra(row):
     close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
 
 
-@each("rtol", [1e-4, 1e-10])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-10])
 @pytest.mark.reference("nayak_s_factor")
 def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     spectrum = SelfAffineSpectrum(
@@ -98,7 +97,7 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
 
 
-@each("rtol", [1e-4, 1e-12])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-12])
 @pytest.mark.reference("implicit_s_factor")
 def test_area_with_s_of_the_area_that_results(row, rtol):
     spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.7, q0=1e3, q1=1e5)
@@ -173,8 +172,8 @@ class FrictionTable:
         names = ["hysteresis_s", "contact_area_s", "contact_area_s"]
         close(row, names, [found.hysteresis, found.contact_area, area])
 
-    @each("rtol", [1e-3, 1e-6, 1e-9])
-    @each("corrected", [False, True])
+    @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
+    @pytest.mark.parametrize("corrected", [False, True])
     def test_error_estimate_bounds_the_true_error_and_keeps_the_tolerance(
         self, row, rtol, corrected
     ):
