@@ -6,13 +6,11 @@ What is compared is processor time, of which a busy machine takes none away.
 import signal
 import time
 from collections.abc import Callable
-from contextlib import suppress
 
 import numpy as np
 import pytest
 
 import asperity
-from helpers.heat import CUT, HEATING, LAW, rubber
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
 
@@ -64,34 +62,3 @@ def test_a_call_ends_long_before_its_end(
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
     assert took < part * times / 2
-
-
-def test_a_map_with_heat_ends_while_its_sliding_lengths_are_found() -> None:
-    """They take six sevenths of its time."""
-
-    def build() -> float:
-        begun = time.process_time()
-        with suppress(Enough):
-            asperity.friction_map(
-                CUT,
-                rubber(),
-                pressure=(1e5, 2e5),
-                velocity=(1e-2, 1),
-                rtol=0.1,
-                checked=0,
-                threads=1,
-                temperature=293.15,
-                shift=LAW,
-                heating=HEATING,
-            )
-        return time.process_time() - begun
-
-    whole = build()
-    before = signal.signal(signal.SIGPROF, raise_enough)
-    try:
-        signal.setitimer(signal.ITIMER_PROF, whole / 2)
-        took = build()
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
-    assert took < 0.8 * whole

@@ -161,13 +161,6 @@ def test_copies_compute_the_same_bits():
             assert bits(used(pickle.loads(pickle.dumps(value)))) == result
 
 
-def test_errors_survive_pickle():
-    for kind in (asperity.Error, InvalidInput, asperity.OutOfRange, asperity.NotConverged):
-        made = kind("velocity = -1: must be positive", code="a-code")
-        again = pickle.loads(pickle.dumps(made))
-        assert (type(again), again.args, again.code) == (kind, made.args, "a-code")
-
-
 def test_functions_and_bound_methods_survive_pickle():
     for function in FUNCTIONS.values():
         assert pickle.loads(pickle.dumps(function)) is function
