@@ -53,35 +53,3 @@ TEST_CASE("one peak above a crowd of others carries the load that it is asked fo
     CHECK(modulus * stiffness * moment == doctest::Approx(pressure).epsilon(1e-12));
   }
 }
-
-TEST_CASE("the article's shift factors come out of the text of Eq. 21") {
-  const SelfAffineSpectrum sandpaper{.rms_height = 76.572e-6, .hurst = 0.7, .q0 = 2000, .q1 = 1e6};
-  const PronySeries elastic(115.95e6 * 0.75, {}, {});
-  const GreenwoodWilliamson igw{.z_max = 0.29028e-3, .z_min = -0.31587e-3};
-  const double printed[] = {2.46, 2.02, 1.83}, pressure[] = {0.1e6, 0.3e6, 0.5e6};
-  for (int i = 0; i < 3; ++i)
-    CHECK(affine_shift(igw, sandpaper, elastic, pressure[i], 0.1, 0.5).p == doctest::Approx(printed[i]).epsilon(2e-3));
-}
-
-TEST_CASE("no contact and full conformity are states, not numbers gone wrong") {
-  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2000, .q1 = 1e6};
-  const GreenwoodWilliamson igw{.z_max = 1e-4, .z_min = -1e-4};
-  const Shift touching = affine_shift(igw, surface, PronySeries(1e12, {}, {}), 1e3, 1, 0.5);
-  CHECK(touching.state == ContactState::no_contact);
-  CHECK(std::isinf(touching.p));
-  const Shift pressed = affine_shift(igw, surface, PronySeries(1e3, {}, {}), 1e6, 1, 0.5);
-  CHECK(pressed.state == ContactState::full);
-  CHECK(pressed.p == 1);
-}
-
-TEST_CASE("peaks and Greenwood-Williamson multiply") {
-  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2000, .q1 = 1e6};
-  const PronySeries rubber(1e8, {}, {});
-  const LocalPeaks peaks{.heights = {1e-4, 1.5e-4, 2e-4, 3e-4}};
-  const double first = shift_factor(peaks);
-  CHECK(first == doctest::Approx(3e-4 / (3e-4 - 1.875e-4)).epsilon(1e-14));
-  const PeaksThenGreenwoodWilliamson both{.peaks = peaks, .z_max = 3e-4, .z_min = -4e-4};
-  const double d = separation({1e-4 / first, 2000}, 1e5, effective_modulus(1e8, 0.5)).effective;
-  const double second = 7e-4 / first / (3e-4 / first - d);
-  CHECK(affine_shift(both, surface, rubber, 1e5, 1, 0.5).p == doctest::Approx(first * second).epsilon(1e-12));
-}

@@ -64,16 +64,3 @@ TEST_CASE("contributions of PartialContact add up to the hysteresis, beyond the 
     CHECK(sum == doctest::Approx(f.hysteresis[i]).epsilon(5e-3));
   }
 }
-
-TEST_CASE("PartialContact tells its error on exact contacts, and refuses the interpolated area") {
-  const SelfAffineSpectrum road{.rms_height = 100e-6, .hurst = 0.8, .q0 = 2000, .q1 = 1e5};
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  const double velocity = 0.01;
-  const Friction f = friction(road, rubber, {.pressure = 3e5, .correction = PartialContact{}}, std::span(&velocity, 1));
-  CHECK(f.model_error[0] > 0.01);
-  CHECK(f.model_error[0] < 0.12);
-  CHECK_THROWS_AS(
-      (void)friction(road, rubber, {.pressure = 3e5, .correction = PartialContact{}, .form = Form::interpolated},
-                     std::span(&velocity, 1)),
-      InvalidInput);
-}

@@ -94,22 +94,6 @@ TEST_CASE("shift factors of a synthetic rubber, and its modulus from a Prony ser
   REQUIRE(swapped.notes.size() == 1);
 }
 
-TEST_CASE("too few isotherms, a reference outside of them") {
-  const std::vector<Isotherm> isotherms = sweeps();
-  CHECK_THROWS_AS((void)build_master_curve({isotherms.data(), 1}, {.reference_temperature = 243.15}), InvalidInput);
-  CHECK_THROWS_AS((void)build_master_curve({}, {.reference_temperature = t_ref}), InvalidInput);
-  CHECK_THROWS_AS((void)build_master_curve(isotherms, {.reference_temperature = 200}), OutOfRange);
-  CHECK_THROWS_AS(Isotherm(20, {1, 2, 3, 4}, {1, 1, 1, 1}, {1, 1, 1, 1}), InvalidInput);
-}
-
-TEST_CASE("points within one percent are one") {
-  const Isotherm isotherm(300, {4, 1, 2, 8, 4.02}, {4e6, 1e6, 2e6, 8e6, 1e6}, {1e5, 1e5, 1e5, 1e5, 1e5});
-  REQUIRE(isotherm.angular_frequency().size() == 4);
-  CHECK_NEAR(isotherm.angular_frequency()[2], std::sqrt(4 * 4.02), 1e-12, 0);
-  CHECK_NEAR(isotherm.storage_modulus()[2], 2e6, 1e-12, 0);
-  CHECK(isotherm.notes().size() == 1);
-}
-
 TEST_CASE("at a large strain either modulus takes its own ratio, held beyond the sweeps") {
   std::vector<double> w, storage, loss;
   for (int i = 0; i <= 60; ++i) {

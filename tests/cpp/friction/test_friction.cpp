@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <numeric>
 
 #include "asperity/friction.hpp"
 #include "reference_table.hpp"
@@ -40,89 +38,6 @@ TEST_CASE("friction and area of the reference scenes, Prony") {
 TEST_CASE("friction and area of the reference scenes, tabulated rubber") {
   for (const Row& row : reference("friction_tabulated"))
     check_scene(row, MasterCurve(row.list("table_frequency"), row.list("table_storage"), row.list("table_loss")));
-}
-
-TEST_CASE("S factor: where it applies it changes, elsewhere it does not") {
-  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  const double velocity = 0.01;
-  const auto with = [&](Correction correction) {
-    return friction(road, rubber, {.pressure = 81e3, .correction = std::move(correction), .adhesion = Adhesion{8.3e6}},
-                    std::span(&velocity, 1));
-  };
-  using Where = SFactor::AppliesTo;
-  const Friction none = with(NoCorrection{}), on_friction = with(SFactor{0.5, Where::friction}),
-                 on_area = with(SFactor{0.5, Where::area}), both = with(SFactor{0.5, Where::both});
-  CHECK(on_friction.contact_area[0] == none.contact_area[0]);
-  CHECK(on_friction.adhesion[0] == none.adhesion[0]);
-  CHECK(on_friction.hysteresis[0] < none.hysteresis[0]);
-  CHECK(on_area.hysteresis[0] == none.hysteresis[0]);
-  CHECK(on_area.contact_area[0] > none.contact_area[0]);
-  CHECK(on_area.adhesion[0] > none.adhesion[0]);
-  CHECK(both.hysteresis[0] == on_friction.hysteresis[0]);
-  CHECK(both.adhesion[0] == on_area.adhesion[0]);
-  CHECK(both.mu[0] == both.hysteresis[0] + both.adhesion[0]);
-}
-
-TEST_CASE("contributions add up to the hysteresis") {
-  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  const double velocity[] = {1e-4, 1.0};
-  const Friction f = friction(road, rubber, {.pressure = 81e3, .contributions = true}, velocity);
-  const Contributions& c = *f.contributions;
-  const std::size_t m = c.decade_edges.size() - 1, n = c.wavenumber.size();
-  CHECK(c.decade_edges.front() <= 1e-4 * 2000);
-  CHECK(c.decade_edges.back() >= 1.0 * 1e6);
-  for (std::size_t i = 0; i < 2; ++i) {
-    CHECK(std::accumulate(&c.decade_share[i * m], &c.decade_share[i * m] + m, 0.0) ==
-          doctest::Approx(1).epsilon(1e-12));
-    double sum = 0;
-    for (std::size_t j = 1; j < n; ++j)
-      sum += (c.dmu_dlnq[i * n + j] + c.dmu_dlnq[i * n + j - 1]) / 2 * std::log(c.wavenumber[j] / c.wavenumber[j - 1]);
-    CHECK(sum ==
-          doctest::Approx(f.hysteresis[i]).epsilon(5e-3));  // a trapezoid of 32 points a decade, and of the front
-  }
-}
-
-TEST_CASE("the tolerance asked for is kept, the impossible one refused") {
-  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  const double velocity = 0.01;
-  const auto at = [&](double rtol) {
-    return friction(road, rubber, {.pressure = 81e3, .rtol = rtol}, std::span(&velocity, 1)).mu[0];
-  };
-  const double best = at(1e-11);
-  for (const double rtol : {1e-2, 1e-4, 1e-6, 1e-9}) CHECK_NEAR(at(rtol), best, rtol, 0);
-  CHECK_THROWS_AS((void)at(1e-13), InvalidInput);
-}
-
-TEST_CASE("notes say where the theory is left, and only there") {
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  const SelfAffineSpectrum mild{.rms_height = 20e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e5};
-  const SelfAffineSpectrum steep{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
-  const double slow = 1e-3, fast = 1;
-  const auto notes = [&](const Spectrum& s, double v) {
-    return friction(s, rubber, {.pressure = 81e3}, std::span(&v, 1)).notes;
-  };
-  CHECK(notes(mild, slow).empty());
-  CHECK(notes(mild, fast).front().code == "heat-left-out");
-  const Diagnostic note = notes(steep, slow).front();
-  CHECK(note.code == "steep-spectrum");
-  CHECK(note.severity == Severity::warning);
-  CHECK(note.text().find("rms slope is 2.76") != std::string::npos);
-}
-
-TEST_CASE("an integrand that itself integrates does not disturb the integral it stands in") {
-  // A coarse curve, on which the fixed rule inside G gives way to the adaptive one.
-  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 1e6};
-  const MasterCurve coarse({1, 639, 1359, 1e8}, {3.9e6, 1.94e7, 9.767e8, 1.4529e9},
-                           {2.39e6, 7.4e6, 1.9486e8, 3.0038e8});
-  const double velocity = 0.01;
-  const auto at = [&](double rtol) {
-    return friction(road, coarse, {.pressure = 81e3, .rtol = rtol}, std::span(&velocity, 1)).mu[0];
-  };
-  // found with a workspace an integral, at three tolerances
-  for (const double rtol : {1e-3, 1e-6, 1e-9}) CHECK_NEAR(at(rtol), 1.6124015534, rtol, 0);
 }
 
 TEST_CASE("friction and area on measured spectra: zeros, jumps, fronts in the middle of the band, extrapolation") {

@@ -63,27 +63,6 @@ TEST_CASE("pressure and gap are complementary, and carry the load") {
   CHECK(std::inner_product(c.pressure.begin(), c.pressure.end(), c.gap.begin(), 0.0) / 4096 <= 1e-9 * 3e5 * 1e-4);
 }
 
-TEST_CASE("what is refused, and what is said of it") {
-  const HeightMap map = rough(32);
-  CHECK_THROWS_WITH_AS(slide(map, rubber, 0, 1), "pressure = 0: must be positive and finite", InvalidInput);
-  CHECK_THROWS_WITH_AS(slide(map, rubber, 1e5, -1), "velocity = -1: must be finite and not negative", InvalidInput);
-  CHECK_THROWS_AS(slide(map, rubber, 1e5, 1, {.poisson_ratio = 0.6}), InvalidInput);
-  CHECK_THROWS_AS(slide(map, rubber, 1e5, 1, {.rtol = 1}), InvalidInput);
-  CHECK_THROWS_AS(slide(map, rubber, 1e5, 1, {.time_limit = 0}), InvalidInput);
-  CHECK_THROWS_AS(slide(map, PronySeries(0, {1e6}, {1.0}), 1e5, 0), InvalidInput);
-  CHECK_THROWS_AS(slide({std::vector<double>(256, 3.0), {16, 16}, {1, 1}}, rubber, 1e5, 1), InvalidInput);
-  CHECK_THROWS_AS(slide({std::vector<double>(64, 3.0), {8, 8}, {1, 1}}, rubber, 1e5, 1), InvalidInput);
-}
-
-TEST_CASE("a time limit ends it and says what was reached") {
-  try {
-    slide(rough(256), rubber, 1e5, 0.1, {.rtol = 1e-12, .time_limit = 1e-6});
-    FAIL("it converged");
-  } catch (const NotConverged& e) {
-    CHECK(std::string(e.what()).find("at the end of time_limit") != std::string::npos);
-  }
-}
-
 TEST_CASE("a watch ends it") {
   struct Enough {};
   const Watch watch([] { throw Enough(); }, std::chrono::milliseconds(20));
