@@ -16,16 +16,17 @@ from asperity.io.read_friction import read_friction
 from asperity.scene.scene import load_scene
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present, scans_of
 
-ASPHALT = "rms_height_m = 265.7e-6\nhurst = 0.87\nq0_per_m = 2000\nq1_per_m = 1e6"
+ASPHALT = "rms_height_m = 265.7e-6\nhurst = 0.87\nq0_per_m = 2000\nq1_per_m = 1e6\n"
 RUBBER = (
     "equilibrium_modulus_pa = 3e6\nmoduli_pa = [1e7, 1e8, 1e9]\n"
-    "relaxation_times_s = [1e-2, 1e-4, 1e-6]"
+    "relaxation_times_s = [1e-2, 1e-4, 1e-6]\n"
 )
-CONDITIONS = "pressure_pa = 81e3\nvelocity_m_s = [1e-3, 1e-2]"
+CONDITIONS = "pressure_pa = 81e3\nvelocity_m_s = [1e-3, 1e-2]\n"
+SCANNED = 'file = "scan.npy"\npixel_size_m = 5e-6\nunit = "um"\n'
 ISOTHERMS = (
     'isotherms = ["dma.csv"]\nmodulus = "E"\n'
     'columns = {frequency = "f", temperature = "T", storage = "a", loss = "b"}\n'
-    'units = {frequency = "Hz", temperature = "C", modulus = "MPa"}'
+    'units = {frequency = "Hz", temperature = "C", modulus = "MPa"}\n'
 )
 
 
@@ -36,8 +37,16 @@ def scene(folder, *, surface=ASPHALT, rubber=RUBBER, conditions=CONDITIONS, more
     return path
 
 
+@pytest.fixture
+def measured(tmp_path):
+    """A folder with a scan of 0.64 mm in um, and isotherms of rubber in MPa and C."""
+    write_scan(tmp_path, 20.0)
+    write_dma(tmp_path)
+    return tmp_path
+
+
 def write_scan(folder, rms, *, side=128):
-    """A scan of 0.64 mm with heights of this rms, in whatever unit."""
+    """A scan of 5 um a pixel with heights of this rms, in whatever unit."""
     spectrum = asperity.SelfAffineSpectrum(rms_height=1.0, hurst=0.8, q0=1e4, q1=6e5)
     heights = asperity.synthesize(spectrum, shape=(side, side), pixel_size=5e-6, seed=1).heights
     np.save(folder / "scan.npy", rms * heights)
@@ -54,42 +63,43 @@ def write_dma(folder, *, modulus=1.0, kelvin=0.0):
     (folder / "dma.csv").write_text("\n".join(lines))
 
 
-GEL = "equilibrium_modulus_pa = 1e3\nmoduli_pa = []\nrelaxation_times_s = []"
-SILICONE = "equilibrium_modulus_pa = 5e4\nmoduli_pa = [5e4]\nrelaxation_times_s = [1e-3]"
-GLASS = "equilibrium_modulus_pa = 3e9\nmoduli_pa = []\nrelaxation_times_s = []"
-MELT = "equilibrium_modulus_pa = 0\nmoduli_pa = [5e5, 1e3]\nrelaxation_times_s = [1e-2, 1e15]"
+def prony(equilibrium, moduli="", times=""):
+    return (
+        f"equilibrium_modulus_pa = {equilibrium}\nmoduli_pa = [{moduli}]\n"
+        f"relaxation_times_s = [{times}]\n"
+    )
+
+
+def law(rms, q0, q1):
+    return f"rms_height_m = {rms}\nhurst = 0.8\nq0_per_m = {q0}\nq1_per_m = {q1}\n"
+
+
+def slid(pressure, velocity):
+    return f"pressure_pa = {pressure}\nvelocity_m_s = {velocity}\n"
+
+
 # what a user may well mean: none is refused, none is noted
 PLAUSIBLE = {
     "the article's asphalt and rubber": {},
     "asphalt up to atoms": {"surface": ASPHALT.replace("1e6", "1e10")},
-    "sandpaper, cut where its slope says": {"surface": ASPHALT + "\nslope_cutoff = 1.3"},
-    "a polished wafer": {
-        "surface": "rms_height_m = 2e-10\nhurst = 0.8\nq0_per_m = 6e6\nq1_per_m = 6e9"
-    },
-    "a road of 3 m with cm heights": {
-        "surface": "rms_height_m = 0.02\nhurst = 0.8\nq0_per_m = 2.1\nq1_per_m = 1e4"
-    },
-    "a gel of 1 kPa under 20 Pa": {
-        "rubber": GEL,
-        "conditions": "pressure_pa = 20\nvelocity_m_s = 1e-4",
-    },
+    "sandpaper, cut where its slope says": {"surface": ASPHALT + "slope_cutoff = 1.3"},
+    "dust": {"surface": ASPHALT + "contamination_size_m = 2e-5"},
+    "a polished wafer": {"surface": law(2e-10, 6e6, 6e9)},
+    "a road of 3 m with cm heights": {"surface": law(0.02, 2.1, 1e4)},
+    "a gel of 1 kPa under 20 Pa": {"rubber": prony(1e3), "conditions": slid(20, 1e-4)},
     "a hydrogel's shear stress": {
-        "rubber": GEL,
-        "conditions": "pressure_pa = 200\nvelocity_m_s = 1e-4",
+        "rubber": prony(1e3),
+        "conditions": slid(200, 1e-4),
         "more": "[adhesion]\nshear_stress_pa = 30",
     },
-    "the softest silicone": {
-        "rubber": SILICONE,
-        "conditions": "pressure_pa = 50\nvelocity_m_s = 1",
-    },
-    "rubber as glass, at -80 C": {"rubber": GLASS},
-    "a melt, which relaxes to nothing": {"rubber": MELT},
-    "creep": {"conditions": "pressure_pa = 81e3\nvelocity_m_s = {from = 1e-9, to = 1, points = 3}"},
-    "racing": {"conditions": "pressure_pa = 3e5\nvelocity_m_s = 100"},
-    "a truck tyre, an aircraft's": {"conditions": "pressure_pa = [8e5, 2e6]\nvelocity_m_s = 60"},
-    "a hydraulic seal": {"conditions": "pressure_pa = 4e7\nvelocity_m_s = 0.5"},
-    "a light touch": {"conditions": "pressure_pa = 300\nvelocity_m_s = 0.5"},
-    "dust": {"surface": ASPHALT + "\ncontamination_size_m = 2e-5"},
+    "the softest silicone": {"rubber": prony(5e4, 5e4, 1e-3), "conditions": slid(50, 1)},
+    "rubber as glass, at -80 C": {"rubber": prony(3e9)},
+    "a melt, which relaxes to nothing": {"rubber": prony(0, "5e5, 1e3", "1e-2, 1e15")},
+    "creep": {"conditions": slid(81e3, "{from = 1e-9, to = 1, points = 3}")},
+    "racing": {"conditions": slid(3e5, 100)},
+    "a truck tyre, an aircraft's": {"conditions": slid("[8e5, 2e6]", 60)},
+    "a hydraulic seal": {"conditions": slid(4e7, 0.5)},
+    "a light touch": {"conditions": slid(300, 0.5)},
 }
 
 
@@ -145,147 +155,87 @@ def test_sweeps_of_instruments():
     asperity.read_isotherms(files, **POLYISOPRENE)
 
 
-@pytest.mark.parametrize(
-    ("given", "unit"), [(-80, "C"), (25, "C"), (250, "C"), (193.15, "K"), (523.15, "K")]
-)
+@pytest.mark.parametrize(("given", "unit"), [(-80, "c"), (250, "c"), (193.15, "k"), (523.15, "k")])
 def test_a_rubber_from_minus_80_to_250_degrees(tmp_path, given, unit):
     (tmp_path / "a_t.csv").write_text("temperature_k,log10_a_t\n150,9\n293.15,0\n530,-6\n")
-    more = f'shift = "a_t.csv"\ntemperature_{unit.lower()} = {given}\nreference_temperature_c = 20'
-    loaded = load_scene(scene(tmp_path, rubber=f"{RUBBER}\n{more}"))
+    more = f'shift = "a_t.csv"\ntemperature_{unit} = {given}\nreference_temperature_c = 20'
+    loaded = load_scene(scene(tmp_path, rubber=RUBBER + more))
     assert loaded.unusual == ()
-    kelvin = given + 273.15 if unit == "C" else given
+    kelvin = given + 273.15 if unit == "c" else given
     assert loaded.inputs["rubber"]["temperature_k"] == pytest.approx(kelvin)
 
 
-# what is written, the key that is blamed, the unit that is guessed
-ABSURD = {
-    "heights in um": (
-        {"surface": ASPHALT.replace("265.7e-6", "265.7")},
-        ("[surface] rms_height_m", "um"),
+PEAKS = "[correction]\nkind = 'local-peaks'\nz_max_m = 3e-4\nheights_m = [100, 200, 150]"
+# the table that is changed, how, the key that is blamed, the unit that is guessed
+ABSURD = [
+    ("surface", ("265.7e-6", "265.7"), "[surface] rms_height_m", "um"),
+    ("surface", ("265.7e-6", "0.2657"), "[surface] rms slope", ""),
+    ("surface", (ASPHALT, law(265.7e-6, 2e-3, 1)), "[surface] q1_per_m", "1/um"),
+    ("surface", (ASPHALT, SCANNED.replace("5e-6", "5")), "[surface] pixel_size_m", "um"),
+    ("surface", (ASPHALT, SCANNED.replace('"um"', '"m"')), "[surface] unit", "um"),
+    ("surface", ("1e6", "1e6\ncontamination_size_m = 20"), "[surface] contamination_size_m", "um"),
+    ("conditions", ("81e3", "0.081"), "[conditions] pressure_pa", "MPa"),
+    ("conditions", ("81e3", "[0.08, 0.4]"), "[conditions] pressure_pa", "MPa"),
+    ("conditions", ("1e-2", "1e4"), "[conditions] velocity_m_s", "mm/s"),
+    (
+        "rubber",
+        (RUBBER, prony(3, "10, 100, 1000", "1e-2, 1e-4, 1e-6")),
+        "[conditions] pressure_pa",
+        "moduli in MPa",
     ),
-    "heights in mm": (
-        {"surface": ASPHALT.replace("265.7e-6", "0.2657")},
-        ("[surface] rms slope", ""),
+    (
+        "rubber",
+        (RUBBER, prony(3e-3, "0.01, 0.1, 1", "1e-2, 1e-4, 1e-6")),
+        "[rubber] equilibrium_modulus_pa and moduli_pa together",
+        "MPa",
     ),
-    "wavenumbers in 1/um": (
-        {"surface": ASPHALT.replace("2000", "2e-3").replace("1e6", "1")},
-        ("[surface] q1_per_m", "1/um"),
+    ("rubber", ("3e6", "3e15"), "[rubber] equilibrium_modulus_pa", ""),
+    ("rubber", ("1e9", "3e15"), "[rubber] equilibrium_modulus_pa and moduli_pa together", ""),
+    ("rubber", (RUBBER, ISOTHERMS + "temperature_k = 25"), "[rubber] temperature_k", "C"),
+    (
+        "rubber",
+        (RUBBER, ISOTHERMS + "temperature_k = 293\nreference_temperature_k = -10"),
+        "[rubber] reference_temperature_k",
+        "C",
     ),
-    "pressure in MPa": (
-        {"conditions": CONDITIONS.replace("81e3", "0.081")},
-        ("[conditions] pressure_pa", "MPa"),
-    ),
-    "pressure in a list": (
-        {"conditions": CONDITIONS.replace("81e3", "[0.08, 0.4]")},
-        ("[conditions] pressure_pa", "MPa"),
-    ),
-    "moduli in MPa": (
-        {"rubber": RUBBER.replace("3e6", "3").replace("[1e7, 1e8, 1e9]", "[10, 100, 1000]")},
-        ("[conditions] pressure_pa", "moduli in MPa"),
-    ),
-    "moduli in GPa": (
-        {"rubber": RUBBER.replace("3e6", "3e-3").replace("[1e7, 1e8, 1e9]", "[0.01, 0.1, 1]")},
-        ("[rubber] equilibrium_modulus_pa and moduli_pa together", "MPa"),
-    ),
-    "a modulus of 3e15": (
-        {"rubber": RUBBER.replace("3e6", "3e15")},
-        ("[rubber] equilibrium_modulus_pa", ""),
-    ),
-    "a term of 3e15": (
-        {"rubber": RUBBER.replace("1e9", "3e15")},
-        ("[rubber] equilibrium_modulus_pa and moduli_pa together", ""),
-    ),
-    "velocity in um/s": (
-        {"conditions": CONDITIONS.replace("1e-2", "1e4")},
-        ("[conditions] velocity_m_s", "mm/s"),
-    ),
-    "a pixel in um": (
-        {"surface": 'file = "scan.npy"\npixel_size_m = 5\nunit = "um"'},
-        ("[surface] pixel_size_m", "um"),
-    ),
-    "dirt in um": (
-        {"surface": ASPHALT + "\ncontamination_size_m = 20"},
-        ("[surface] contamination_size_m", "um"),
-    ),
-    "25 C as kelvin": (
-        {"rubber": ISOTHERMS + "\ntemperature_k = 25"},
-        ("[rubber] temperature_k", "C"),
-    ),
-    "-10 C as kelvin": (
-        {"rubber": ISOTHERMS + "\ntemperature_k = 293\nreference_temperature_k = -10"},
-        ("[rubber] reference_temperature_k", "C"),
-    ),
-    "adhesion in GPa": (
-        {"more": "[adhesion]\nshear_stress_pa = 8.3e-3"},
-        ("[adhesion] shear_stress_pa", "GPa"),
-    ),
-    "peaks in um": (
-        {"more": "[correction]\nkind = 'local-peaks'\nz_max_m = 3e-4\nheights_m = [100, 200, 150]"},
-        ("[correction] heights_m", "um"),
-    ),
-}
+    ("rubber", (RUBBER, ISOTHERMS + "temperature_c = 725"), "[rubber] temperature_c", ""),
+    ("rubber", (RUBBER, ISOTHERMS + "temperature_c = -200"), "[rubber] temperature_c", ""),
+    ("more", ("", "[adhesion]\nshear_stress_pa = 8.3e-3"), "[adhesion] shear_stress_pa", "GPa"),
+    ("more", ("", PEAKS), "[correction] heights_m", "um"),
+]
+UNUSUAL = [
+    ("surface", (ASPHALT, law(265.7e-6, 2, 1000)), "[surface] q1_per_m", "1/mm"),
+    ("conditions", ("81e3", "2.5"), "[conditions] pressure_pa", "bar"),
+    ("conditions", ("81e3", "81"), "[conditions] pressure_pa", "kPa"),
+    ("conditions", ("1e-2", "200"), "[conditions] velocity_m_s", "km/h"),
+    ("conditions", ("1e-2", "1000"), "[conditions] velocity_m_s", "mm/s"),
+    ("more", ("", "[adhesion]\nshear_stress_pa = 8.3"), "[adhesion] shear_stress_pa", "MPa"),
+    ("rubber", ("3e6", "3"), "[rubber] equilibrium_modulus_pa", "MPa"),
+]
+TABLES = {"surface": ASPHALT, "rubber": RUBBER, "conditions": CONDITIONS, "more": ""}
 
 
-@pytest.mark.parametrize("name", ABSURD)
-def test_what_is_absurd_is_refused_with_a_guess_of_the_unit(tmp_path, name):
-    write_scan(tmp_path, 20.0)
-    write_dma(tmp_path)
-    tables, (argument, unit) = ABSURD[name]
+def changed(folder, table, change):
+    assert change[0] in TABLES[table]
+    return scene(folder, **{table: TABLES[table].replace(*change, 1)})
+
+
+@pytest.mark.parametrize(("table", "change", "argument", "unit"), ABSURD)
+def test_what_is_absurd_is_refused_with_a_guess_of_the_unit(
+    measured, table, change, argument, unit
+):
     with pytest.raises(asperity.InvalidInput) as caught:
-        load_scene(scene(tmp_path, **tables))
+        load_scene(changed(measured, table, change))
     error = caught.value
-    assert error.code in ("absurd-value", "absurd-pressure")
+    assert error.code in ("absurd-value", "absurd-pressure", "absurd-heights")
     assert error.argument == argument
     assert error.allowed
     assert f"{unit}?" in str(error) or not unit
 
 
-def test_the_shell_refuses_what_is_absurd_in_one_line(tmp_path, capsys):
-    path = scene(tmp_path, surface=ASPHALT.replace("265.7e-6", "265.7"))
-    assert main(["friction", str(path)]) == 2
-    assert capsys.readouterr() == (
-        "",
-        f"asperity: {path}: [surface] rms_height_m = 265.7: must be at most 1 m (no road or stone "
-        "is so rough); in um? 265.7 um is 0.0002657 m\n",
-    )
-
-
-UNUSUAL = {
-    "wavenumbers in 1/mm": (
-        {"surface": ASPHALT.replace("2000", "2").replace("1e6", "1000")},
-        ("[surface] q1_per_m", "1/mm"),
-    ),
-    "pressure in bar": (
-        {"conditions": CONDITIONS.replace("81e3", "2.5")},
-        ("[conditions] pressure_pa", "bar"),
-    ),
-    "pressure in kPa": (
-        {"conditions": CONDITIONS.replace("81e3", "81")},
-        ("[conditions] pressure_pa", "kPa"),
-    ),
-    "velocity in km/h": (
-        {"conditions": CONDITIONS.replace("1e-2", "200")},
-        ("[conditions] velocity_m_s", "km/h"),
-    ),
-    "velocity in mm/s": (
-        {"conditions": CONDITIONS.replace("1e-2", "1000")},
-        ("[conditions] velocity_m_s", "mm/s"),
-    ),
-    "adhesion in MPa": (
-        {"more": "[adhesion]\nshear_stress_pa = 8.3"},
-        ("[adhesion] shear_stress_pa", "MPa"),
-    ),
-    "equilibrium modulus in MPa": (
-        {"rubber": RUBBER.replace("3e6", "3")},
-        ("[rubber] equilibrium_modulus_pa", "MPa"),
-    ),
-}
-
-
-@pytest.mark.parametrize("name", UNUSUAL)
-def test_what_is_unusual_is_noted_with_a_guess_of_the_unit(tmp_path, name):
-    tables, (argument, unit) = UNUSUAL[name]
-    notes = load_scene(scene(tmp_path, **tables)).unusual
+@pytest.mark.parametrize(("table", "change", "argument", "unit"), UNUSUAL)
+def test_what_is_unusual_is_noted_with_a_guess_of_the_unit(tmp_path, table, change, argument, unit):
+    notes = load_scene(changed(tmp_path, table, change)).unusual
     (note,) = [one for one in notes if one.argument == argument]
     assert (note.code, note.severity) == ("unusual-value", "warning")
     assert f"; in {unit}? " in note
@@ -294,190 +244,121 @@ def test_what_is_unusual_is_noted_with_a_guess_of_the_unit(tmp_path, name):
 def test_the_shell_notes_what_is_unusual_in_one_line_and_in_the_table(tmp_path, capsys):
     path = scene(tmp_path, conditions=CONDITIONS.replace("81e3", "81"))
     assert main(["friction", str(path), "--output", str(tmp_path / "mu.csv")]) == 0
-    line = (
-        f"note: {path}: [conditions] pressure_pa = 81: unusual, below 100 Pa (the weight of 1 cm "
-        "of rubber); in kPa? 81 kPa is 81000 Pa\n"
-    )
-    assert capsys.readouterr().err.count(line) == 1
-    assert (tmp_path / "mu.csv").read_text().count(f"# {line}") == 1
+    lines = capsys.readouterr().err.splitlines()
+    (line,) = [line for line in lines if "[conditions] pressure_pa = 81: unusual" in line]
+    assert (tmp_path / "mu.csv").read_text().count(f"# {line}\n") == 1
+
+
+SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "5e-6", "--unit"]
+DMA = ["rubber", "dma.csv", "--columns", "frequency=f,temperature=T,storage=a,loss=b"]
+DMA += ["--modulus", "E", "--units"]
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("arguments", "message"),
     [
-        (["--pixel-size", "5e-6", "--unit", "m"], "--unit = 'm': rms height 17"),
-        (["--pixel-size", "5", "--unit", "um"], "--pixel-size = 5: must be at most 1 m"),
-        (
-            ["--pixel-size", "5e-6", "--unit", "um", "--q-min", "1e-4"],
-            "--q-min = 1e-4: must be at least 0.001 1/m",
-        ),
+        ([*SPECTRUM, "m"], "--unit = 'm': rms height 17"),
+        ([*SPECTRUM, "um", "--pixel-size", "5"], "--pixel-size = 5: must be"),
+        ([*SPECTRUM, "um", "--q-min", "1e-4"], "--q-min = 1e-4: must be"),
+        (["map", "scene.toml", "--pressure", "0.01,0.1"], "--pressure = 0.01: must be"),
+        (["map", "scene.toml", "--pressure", "1e4,1e11"], "--pressure = 1e11: must be"),
+        (["map", "scene.toml", "--velocity", "1,1e5"], "--velocity = 1e5: must be"),
+        ([*DMA, "frequency=Hz,temperature=C,modulus=GPa"], "largest |E| = 3000.49: must be"),
+        ([*DMA, "frequency=Hz,temperature=K,modulus=MPa"], "temperature = -80: must be"),
     ],
 )
-def test_a_scan_in_another_unit_is_refused_on_the_command_line(tmp_path, capsys, options, message):
-    write_scan(tmp_path, 20.0)
-    assert main(["spectrum", str(tmp_path / "scan.npy"), *options]) == 2
+def test_the_shell_refuses_it_in_one_line_by_option(
+    measured, monkeypatch, capsys, arguments, message
+):
+    monkeypatch.chdir(measured)
+    scene(measured)
+    assert main(arguments) == 2
     err = capsys.readouterr().err
     assert err.count("\n") == 1
     assert message in err
 
 
-def test_a_scan_in_another_unit_is_refused_in_a_scene_and_noted_by_the_reader(tmp_path, caplog):
-    write_scan(tmp_path, 20.0)
-    path = scene(tmp_path, surface='file = "scan.npy"\npixel_size_m = 5e-6\nunit = "m"')
-    with pytest.raises(asperity.InvalidInput, match=r"heights in um\? 17"):
-        load_scene(path)
-    assert caplog.messages == []
+@pytest.mark.parametrize("rms", [20.0, 0.002])  # in um, and in mm
+def test_the_reader_of_scans_notes_it(tmp_path, caplog, rms):
+    write_scan(tmp_path, rms)
     asperity.read_surface(tmp_path / "scan.npy", pixel_size=5e-6, unit="m")
     (line,) = caplog.messages
-    assert "unit = 'm': rms height 17" in line
-    write_scan(tmp_path, 0.002)  # in mm
-    caplog.clear()
-    asperity.read_surface(tmp_path / "scan.npy", pixel_size=5e-6, unit="m")
-    (line,) = caplog.messages
-    assert "rms height 0.001702 m on a length of 0.00064 m: unusual" in line
-    assert "heights in mm?" in line
+    assert f"heights in {'um' if rms > 1 else 'mm'}?" in line
 
 
-def test_the_readers_note_is_one_line_on_stderr(tmp_path):
-    write_scan(tmp_path, 20.0)
+def test_the_readers_note_is_one_line_on_stderr(measured):
     code = "import asperity; asperity.read_surface('scan.npy', pixel_size=5e-6, unit='m')"
     run = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code], cwd=measured, capture_output=True, text=True, check=True
     )
     assert run.stdout == ""
     assert run.stderr.startswith("scan.npy: unit = 'm': rms height ")
     assert run.stderr.count("\n") == 1
 
 
-DMA = ["--columns", "frequency=f,temperature=T,storage=a,loss=b", "--modulus", "E"]
-
-
-@pytest.mark.parametrize(
-    ("written", "declared", "message"),
-    [
-        ({"modulus": 1e6}, "MPa", "largest |E| = 3.00049e+09: must be at most"),
-        ({"kelvin": 273.15 + 400}, "MPa", "temperature = 733.15: must be at most 426.85 C"),
-        ({"modulus": 1e-3}, "Pa", "largest |E| = 3.00049: must be at least 100 Pa"),
-    ],
-)
-def test_dma_in_other_units_is_refused(tmp_path, capsys, written, declared, message):
-    write_dma(tmp_path, **written)
-    units = f"frequency=Hz,temperature=C,modulus={declared}"
-    assert main(["rubber", str(tmp_path / "dma.csv"), *DMA, "--units", units]) == 2
-    err = capsys.readouterr().err
-    assert err.count("\n") == 1
-    assert message in err
-
-
 @pytest.mark.parametrize(
     ("written", "units", "message"),
     [
-        ({}, {"temperature": "K"}, "temperature = -80: must be at least 120 K"),
-        (
-            {"kelvin": 273.15},
-            {"temperature": "C"},
-            "temperature = 333.15: unusual, above 256.85 C (257 C; silicone rubber is used up to "
-            "250 C); in K? 333.15 K is 60 C",
-        ),
-        ({}, {"modulus": "GPa"}, "largest |E| = 3000.49: must be at most 100 GPa"),
+        ({"kelvin": 273.15}, {}, "temperature = 333.15: unusual"),
+        ({"kelvin": 273.15 + 400}, {}, "temperature = 733.15: must be at most"),
+        ({}, {"modulus": "GPa"}, "largest |E| = 3000.49: must be at most"),
+        ({"modulus": 1e-3}, {"modulus": "Pa"}, "largest |E| = 3.00049: must be at least"),
     ],
 )
 def test_the_reader_of_isotherms_notes_it(tmp_path, caplog, written, units, message):
     write_dma(tmp_path, **written)
     columns = {"frequency": "f", "temperature": "T", "storage": "a", "loss": "b"}
     units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa", **units}
-    try:
-        asperity.read_isotherms(tmp_path / "dma.csv", columns=columns, units=units, modulus="E")
-    except asperity.InvalidInput:
-        assert units["temperature"] == "K"  # -80 K is impossible, not only implausible
+    asperity.read_isotherms(tmp_path / "dma.csv", columns=columns, units=units, modulus="E")
     assert any(message in line for line in caplog.messages), caplog.messages
 
 
 def test_master_curve_and_measured_friction_in_other_units(tmp_path):
     header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa\n"
     (tmp_path / "curve.csv").write_text(header + "1,3e-3,1e-3\n1e3,0.03,0.01\n1e6,1.0,0.1\n")
-    with pytest.raises(asperity.InvalidInput, match=r"curve\.csv: largest \|E\| = 1\.00.*in MPa\?"):
+    with pytest.raises(asperity.InvalidInput, match=r"in MPa\?") as caught:
         load_scene(scene(tmp_path, rubber='master_curve = "curve.csv"'))
+    assert caught.value.code == "absurd-value"
     (tmp_path / "test.csv").write_text("velocity_m_s,mu,pressure_mpa\n0.1,1.1,81e3\n0.2,1.2,81e3\n")
-    with (
-        plausible.collected(),
-        pytest.raises(
-            asperity.InvalidInput, match=r"pressure_mpa = 81000: must be at most 1000 MPa"
-        ),
-    ):
+    with plausible.collected(), pytest.raises(asperity.InvalidInput) as caught:
         read_friction(tmp_path / "test.csv")
+    assert (caught.value.argument, caught.value.value) == ("pressure_mpa", 81000)
+
+
+def test_celsius_and_kelvin_are_the_same_rubber(measured):
+    w = np.geomspace(1, 100, 5)
+    found = [
+        load_scene(scene(measured, rubber=ISOTHERMS + keys)).rubber.modulus(w)
+        for keys in ("temperature_c = 25", "temperature_k = 298.15")
+    ]
+    np.testing.assert_array_equal(*found)
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("keys", "argument"),
     [
-        (["--pressure", "0.01,0.1"], "--pressure = 0.01: must be at least 0.1 Pa"),
-        (["--velocity", "1,1e5"], "--velocity = 1e5: must be at most 1500 m/s"),
-        (["--pressure", "1e4,1e11"], "--pressure = 1e11: must be at most 1e+09 Pa"),
+        ("", "temperature_k"),
+        ("temperature_c = 25\ntemperature_k = 298.15", "temperature_c"),
+        ("temperature_c = 25\nmoduli_pa = []", "moduli_pa"),
+        ("temperature_c = 25\nprony = 1", "prony"),
     ],
 )
-def test_sides_of_a_map(tmp_path, capsys, options, message):
-    assert main(["map", str(scene(tmp_path)), *options]) == 2
-    assert capsys.readouterr().err.startswith(f"asperity: {message}")
+def test_keys_of_isotherms_that_are_missing_or_too_many(measured, keys, argument):
+    with pytest.raises(asperity.InvalidInput) as error:
+        load_scene(scene(measured, rubber=ISOTHERMS + keys))
+    assert error.value.argument == f"[rubber] {argument}"
 
 
-class TestTemperature:
-    def test_celsius_and_kelvin_are_the_same_rubber(self, tmp_path):
-        write_dma(tmp_path)
-        w = np.geomspace(1, 100, 5)
-        found = [
-            load_scene(scene(tmp_path, rubber=f"{ISOTHERMS}\n{keys}")).rubber.modulus(w)
-            for keys in ("temperature_c = 25", "temperature_k = 298.15")
-        ]
-        np.testing.assert_array_equal(*found)
+def test_kelvin_given_as_celsius_is_noted(measured):
+    more = "temperature_c = 298.15\nreference_temperature_c = 25"
+    with pytest.raises(asperity.Error, match=r"in K\? 298.15 K is 25 C$"):  # no isotherm is so hot
+        load_scene(scene(measured, rubber=ISOTHERMS + more))
 
-    @pytest.mark.parametrize(
-        ("keys", "message"),
-        [
-            ("", "temperature_k: missing; add temperature_k or temperature_c"),
-            (
-                "temperature_c = 25\ntemperature_k = 298.15",
-                "temperature_c: must be left out where temperature_k is given",
-            ),
-            (
-                "temperature_c = 25\nreference_temperature_c = 20\nreference_temperature_k = 293",
-                "reference_temperature_c: must be left out where reference_temperature_k is given",
-            ),
-            ("temperature_c = 25\nmoduli_pa = []", "moduli_pa: must be left out where isotherms"),
-            (
-                "temperature_c = 25\nprony = 1",
-                "prony = 1: must be true or false",
-            ),
-            ("temperature_c = 725", "temperature_c = 725: must be at most 426.85 C (427 C; rubber"),
-            ("temperature_c = -200", "temperature_c = -200: must be at least -153.15 C"),
-        ],
-    )
-    def test_refused(self, tmp_path, keys, message):
-        write_dma(tmp_path)
-        path = scene(tmp_path, rubber=f"{ISOTHERMS}\n{keys}")
-        with pytest.raises(asperity.InvalidInput) as error:
-            load_scene(path)
-        assert str(error.value).startswith(f"{path}: [rubber] {message}")
 
-    def test_a_temperature_without_a_shift_is_refused_by_its_own_key(self, tmp_path):
-        path = scene(tmp_path, rubber=f"{RUBBER}\ntemperature_c = 25")
-        with pytest.raises(asperity.InvalidInput, match="temperature_c: needs shift"):
-            load_scene(path)
-
-    def test_kelvin_given_as_celsius_is_noted(self, tmp_path):
-        write_dma(tmp_path)
-        more = "\ntemperature_c = 298.15\nreference_temperature_c = 25"
-        with pytest.raises(asperity.Error) as error:  # no isotherm is so hot
-            load_scene(scene(tmp_path, rubber=ISOTHERMS + more))
-        said = str(error.value)
-        assert "[rubber] temperature_c = 298.15: " in said
-        assert "temperature_c = 298.15: unusual, above 256.85 C" in said
-        assert said.endswith("in K? 298.15 K is 25 C")
-
-    def test_a_unit_is_offered_only_where_the_number_is_likely_in_it(self):
-        with plausible.collected(), pytest.raises(asperity.InvalidInput) as error:
-            plausible.check("temperature", -300, quantities.TEMPERATURE, "C")
-        assert str(error.value).endswith("no DMA cools so far)")
+def test_a_unit_is_offered_only_where_the_number_is_likely_in_it():
+    with plausible.collected(), pytest.raises(asperity.InvalidInput) as error:
+        plausible.check("temperature", -300, quantities.TEMPERATURE, "C")
+    assert "?" not in str(error.value)
 
 
 def test_every_limit_has_its_reason():
