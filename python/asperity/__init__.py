@@ -19,7 +19,9 @@ from asperity.friction import Friction, friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap, FrictionSlopes
 from asperity.heating import Heating, heat_kernel
-from asperity.io.read_dma import read_isotherms, read_shift_factors, read_strain_sweep
+from asperity.io.read_dma import read_isotherms, read_strain_sweep
+from asperity.io.read_master_curve import read_master_curve
+from asperity.io.read_shift_factors import read_shift_factors
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import (
     Anisotropy,
@@ -98,6 +100,7 @@ __all__ = [
     "power_spectrum",
     "pressure_distribution",
     "read_isotherms",
+    "read_master_curve",
     "read_shift_factors",
     "read_strain_sweep",
     "read_surface",

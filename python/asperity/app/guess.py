@@ -8,7 +8,8 @@ from pathlib import Path
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted
 from asperity.base.diagnostics import Must
-from asperity.io.column_names import cells_of, find_header, numbered_lines
+from asperity.io.column_names import cells_of, find_header
+from asperity.io.source import read_source
 
 QUANTITIES = ("frequency", "storage", "loss", "temperature")
 UNITS = {
@@ -45,7 +46,7 @@ class Guess:
 
 def guess_columns(path: Path) -> Guess:
     """Look at the line that names the columns, the units below it and the sizes of the numbers."""
-    lines = numbered_lines(path)
+    lines = read_source(path).lines
     header = find_header(lines)
     if header is None:
         raise InvalidInput(
@@ -79,7 +80,7 @@ def guess_columns(path: Path) -> Guess:
 
 def numbers_of(path: Path, name: str) -> list[float]:
     """All numbers of the column of that name."""
-    lines = numbered_lines(path)
+    lines = read_source(path).lines
     header = find_header(lines)
     if header is None or name not in header.names:
         raise InvalidInput(f"no column is named {quoted(name)}", where=path)

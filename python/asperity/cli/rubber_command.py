@@ -15,7 +15,8 @@ from asperity.cli.options import typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.read_dma import read_isotherms, read_shift_factors
+from asperity.io.read_dma import read_isotherms
+from asperity.io.read_shift_factors import read_shift_factors
 from asperity.io.table import Table
 from asperity.plot import rubber as plot_rubber
 from asperity.prony_fit import PronyFit

@@ -1,14 +1,30 @@
-"""Lines of a text file with columns, and the line that names them."""
+"""The line of a table that names its columns, and the units below it."""
 
-from pathlib import Path
+import re
 from typing import NamedTuple
 
-from asperity._core import InvalidInput
-from asperity.io.files import check_file
+Lines = list[tuple[int, str]]
 
 _MOST_LINES = 50  # in which the names of the columns are looked for
-
-Lines = list[tuple[int, str]]
+# What units are called, by what they are of; those of the first line are what can be declared.
+_UNITS = {
+    "frequency": {"Hz": r"hz|hertz", "rad/s": r"rad[ ./·]*s(ec)?([-⁻]?[1¹])?"},
+    "modulus": {
+        "Pa": "pa|pascal|n/m(2|²|\\^2)",
+        "kPa": "kpa",
+        "MPa": "mpa|n/mm(2|²|\\^2)",
+        "GPa": "gpa",
+        "psi": "psi",
+        "bar": "bar",
+        "dyn/cm2": "dyne?s?/cm(2|²|\\^2)",
+    },
+    "temperature": {
+        "C": "([°º�]|deg\\.?)? ?c(elsius)?",
+        "K": "k(elvin)?",
+        "F": "([°º�]|deg\\.?) ?f",
+    },
+    "strain": {"%": "%|percent", "1": "-|1|m/m|mm/mm"},
+}
 
 
 class Header(NamedTuple):
@@ -19,29 +35,9 @@ class Header(NamedTuple):
     units: list[str]
 
 
-def numbered_lines(path: Path) -> Lines:
-    """Lines that are neither empty nor comments, with their numbers; UTF-8 or Latin-1."""
-    try:
-        check_file(path)
-        data = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
-    return [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-
-
 def separator_of(line: str) -> str | None:
     """The mark between cells; None for blanks."""
-    return next((mark for mark in ";\t," if mark in line), None)
+    return next((mark for mark in "\t;," if mark in line), None)
 
 
 def cells_of(line: str) -> list[str]:
@@ -50,14 +46,19 @@ def cells_of(line: str) -> list[str]:
     return [cell.strip('"') if cell.count('"') > 1 else cell for cell in cells]
 
 
+def is_wordy(cells: list[str]) -> bool:
+    """Whether cells are words, as names of columns or units are."""
+    wordy = sum(any(one.isalpha() for one in cell) for cell in cells)
+    return 2 * wordy > len(cells) > 1
+
+
 def find_header(lines: Lines) -> Header | None:
     """The line of words above the numbers; where the one above it has as many cells, parted by the
     same mark, that one has the names and the lower one the units."""
     words: list[tuple[int, str | None, list[str]]] = []
     for number, line in lines[:_MOST_LINES]:
         cells = cells_of(line)
-        wordy = sum(any(one.isalpha() for one in cell) for cell in cells)
-        if 2 * wordy > len(cells) > 1:
+        if is_wordy(cells):
             words.append((number, separator_of(line), cells))
         elif words and len(cells) > 1:
             break
@@ -69,3 +70,14 @@ def find_header(lines: Lines) -> Header | None:
         if (above, its_mark, len(its_names)) == (number - 1, mark, len(names)):
             return Header(above, its_names, names)
     return Header(number, names, [])
+
+
+def unit_in(kind: str, text: str) -> str | None:
+    """The unit that a cell below a name is, or a name ends in: "[kPa]", "G' (kPa)", "E'/MPa"."""
+    inside = re.search(r"[\[(]([^\[\]()]*)[\])]\s*$", text)
+    tail = re.search(r"[/,_ ]\s*([^/,_ ]+(?:/s)?)\s*$", text)
+    for candidate in (text, *(found[1] for found in (inside, tail) if found)):
+        for unit, pattern in _UNITS.get(kind, {}).items():
+            if re.fullmatch(pattern, candidate.strip(" []()"), re.IGNORECASE):
+                return unit
+    return None

@@ -105,6 +105,15 @@ def texts(value: object) -> dict[str, str]:
     return dict(value)
 
 
+def columns(value: object) -> dict[str, str | int]:
+    if not isinstance(value, dict) or not all(
+        isinstance(entry, str | int) and not isinstance(entry, bool) for entry in value.values()
+    ):
+        example = 'as in {frequency = "f"}, or {frequency = 1}'
+        raise _WrongValueError(_MUST, f"a table of names or places of columns, {example}")
+    return {key: int(one) if isinstance(one, int) else one for key, one in value.items()}
+
+
 def count(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or abs(value) >= 2**63:
         raise _WrongValueError(_MUST, "a whole number")

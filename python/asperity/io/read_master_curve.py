@@ -1,50 +1,106 @@
-"""Rubber from files."""
+"""Master curves from files."""
 
-from pathlib import Path
+import os
+from collections.abc import Mapping
 from typing import Literal
 
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base import quantities
-from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.base.arguments import path_of
+from asperity.base.diagnostics import Argument, Note
 from asperity.io import plausible
-from asperity.io.instrument import brief
-from asperity.io.read_surface import cell, filled_lines
-from asperity.rubber import MasterCurve
+from asperity.io.columns import Columns, Names
+from asperity.io.declared import read_declared, young
+from asperity.rubber import Extrapolation, MasterCurve
 
-_MASTER_CURVE = ["angular_frequency_rad_s", "storage_modulus_pa", "loss_modulus_pa"]
+_OWN = {
+    "frequency": "angular_frequency_rad_s",
+    "storage": "storage_modulus_pa",
+    "loss": "loss_modulus_pa",
+}
+_TOGETHER = 1.01  # of two frequencies that are one, as in an isotherm
 
 
 def read_master_curve(
-    path: Path, extrapolation: Literal["power-law", "clamp"] | None
+    path: str | os.PathLike[str],
+    *,
+    columns: Names | None = None,
+    units: Mapping[str, str] | None = None,
+    modulus: Literal["E", "G"] | None = None,
+    poisson_ratio: float = 0.5,
+    extrapolation: Extrapolation | None = None,
 ) -> MasterCurve:
-    """Master curve from a CSV file with a header line that names its three columns."""
-    table = filled_lines(path)
-    header = ",".join(_MASTER_CURVE)
-    if not table or [name.strip() for name in table[0][1]] != _MASTER_CURVE:
-        found = brief(",".join(table[0][1])) if table else "nothing"
-        raise InvalidInput(Argument("header"), f" is {found!r}", MUST_BE, f"{header!r}", where=path)
-    rows = []
-    for number, cells in table[1:]:
-        if len(cells) != len(_MASTER_CURVE):
-            raise InvalidInput(
-                f"line {number} has {len(cells)} cells", MUST_BE, f"3 ({header})", where=path
-            )
-        try:
-            rows.append([cell(text) for text in cells])
-        except ValueError as error:
-            raise InvalidInput(f"line {number}: {error}", where=path) from error
-    columns = np.array(rows).reshape(-1, 3).T
+    """Return the master curve in a table of text or of a workbook (.xlsx, .xls).
+
+    Rows may stand in any order. Those within 1 % of each other in frequency are averaged in the
+    logarithm, which a note says. Frequencies are the reduced ones, of any size.
+
+    Parameters
+    ----------
+    path : path-like
+    columns, units, modulus, poisson_ratio : optional
+        As those of `read_isotherms`, without "temperature". They are all left out for a file that
+        `asperity rubber` wrote, whose columns are angular_frequency_rad_s, storage_modulus_pa and
+        loss_modulus_pa.
+    extrapolation : {None, "power-law", "clamp"}
+        As in `MasterCurve`.
+
+    Returns
+    -------
+    MasterCurve
+
+    Raises
+    ------
+    InvalidInput
+        Naming file and line.
+
+    Examples
+    --------
+    >>> columns = {"frequency": "f", "storage": "E_stor", "loss": "E_loss"}
+    >>> units = {"frequency": "Hz", "modulus": "MPa"}
+    >>> read_master_curve("master.csv", columns=columns, units=units, modulus="E")  # doctest: +SKIP
+    """
+    path = path_of(path, "path")
+    declared = {"columns": columns, "units": units, "modulus": modulus}
+    missing = [name for name, given in declared.items() if given is None]
+    if len(missing) not in (0, 3):
+        given = next(name for name in declared if name not in missing)
+        raise InvalidInput(Argument(missing[0]), f": is missing, which goes with {given}")
+    factor = young(modulus or "E", poisson_ratio)
+    known = units or {"frequency": "rad/s", "modulus": "Pa"}
     try:
-        curve = MasterCurve(
-            angular_frequency=columns[0],
-            storage_modulus=columns[1],
-            loss_modulus=columns[2],
-            extrapolation=extrapolation,
-        )
+        (table,) = read_declared([path], columns or _OWN, known, (*_OWN,), factor, reduced=True)
+    except InvalidInput as error:
+        if columns is not None or error.code != "unknown-columns":
+            raise
+        raise error.followed_by(
+            "; columns, units and modulus say what other tables have"
+        ) from error
+    try:
+        return _curve(table, extrapolation)
     except InvalidInput as error:
         raise error.within(path) from error
-    largest = np.max(np.hypot(curve.storage_modulus, curve.loss_modulus))
-    plausible.check("largest |E|", largest, quantities.MODULUS, path=path)
-    return curve
+
+
+def _curve(table: Columns, extrapolation: Extrapolation | None) -> MasterCurve:
+    rows = np.array([table.values[name] for name in _OWN])
+    rows = rows[:, np.argsort(rows[0], kind="stable")]
+    starts, last = [], 0.0
+    for at, frequency in enumerate(rows[0]):
+        if frequency > last * _TOGETHER:
+            starts.append(at)
+            last = frequency
+    sizes = np.diff([*starts, rows.shape[1]])
+    means = np.exp(np.add.reduceat(np.log(rows), starts, axis=1) / sizes)
+    frequency, storage, loss = np.where(sizes > 1, means, rows[:, starts])
+    if np.any(sizes > 1):
+        merged = int(np.sum(sizes[sizes > 1]))
+        text = f"{merged} rows within 1 % of the frequency of others were averaged"
+        plausible.tell_again([Note(text, code="rows-averaged", where=table.path)])
+    return MasterCurve(
+        angular_frequency=frequency,
+        storage_modulus=storage,
+        loss_modulus=loss,
+        extrapolation=extrapolation,
+    )

@@ -19,6 +19,7 @@ from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
+    columns,
     fields_of,
     file_name,
     file_names,
@@ -62,13 +63,13 @@ Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
 _PRONY = fields_of(PronySeries)
-_DMA = {
-    "columns": Field(texts, "columns"),
+_TABLE = {
+    "columns": Field(columns, "columns"),
     "units": Field(texts, "units"),
     "modulus": Field(text, "modulus"),
     "poisson_ratio": Field(number, "poisson_ratio"),
-    "temperatures": Field(numbers, "temperatures"),
 }
+_DMA = {**_TABLE, "temperatures": Field(numbers, "temperatures")}
 _PRONY_FIT = {"prony": Field(truth)}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
 RUBBER = {
@@ -85,7 +86,7 @@ RUBBER = {
 # which keys go with which source of the modulus
 _WITH = {
     "isotherms": {*_DMA, *BUILD, *TEMPERATURE, *_PRONY_FIT, "extrapolation"},
-    "master_curve": {*TEMPERATURE, *_REFERENCE, *WLF_KEYS, "extrapolation"},
+    "master_curve": {*_TABLE, *TEMPERATURE, *_REFERENCE, *WLF_KEYS, "extrapolation"},
     "": {*_PRONY, *TEMPERATURE, *_REFERENCE, *WLF_KEYS},
 }
 
@@ -137,9 +138,10 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
         return _from_isotherms(path, values, measure)
     rubber: Rubber
     if source == "master_curve":
-        with rename_in_errors(path, {"extrapolation": "[rubber] extrapolation"}):
+        keys = {**_TABLE, "extrapolation": RUBBER["extrapolation"]}
+        with rename_in_errors(path, names_of("rubber", keys)):
             file = path.parent / values["master_curve"]
-            rubber = read_master_curve(file, values.get("extrapolation"))
+            rubber = read_master_curve(file, **arguments(values, keys))
     else:
         alternatives = (
             "give isotherms, master_curve, or equilibrium_modulus_pa, moduli_pa and "

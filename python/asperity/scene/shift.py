@@ -20,7 +20,7 @@ from asperity.io.fields import (
     require,
     text,
 )
-from asperity.io.read_dma import read_shift_factors
+from asperity.io.read_shift_factors import read_shift_factors
 from asperity.shift_factors import WLF, ShiftFactors
 
 Values = dict[str, Any]

@@ -78,7 +78,7 @@ def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
     assert (found["wlf_residual_decades"] < 0.05) == follows
     assert found["prony_storage_residual"] < 0.03
     assert picture.read_bytes().startswith(b"\x89PNG")
-    curve = read_master_curve(table, None)
+    curve = read_master_curve(table)
     ends = found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"]
     np.testing.assert_allclose(curve.angular_frequency[[0, -1]], ends, rtol=1e-5)
 

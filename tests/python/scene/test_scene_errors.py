@@ -168,7 +168,7 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
         (MASTER.replace("curve.csv", ""), "[rubber] master_curve = '': must be the name of a file"),
         (MASTER.replace("curve.csv", "/dev/zero"), "/dev/zero: cannot be read: not a regular"),
         (MASTER.replace("curve.csv", "none.csv"), "none.csv: cannot be read: No such file"),
-        (MASTER.replace("curve.csv", "scene.toml"), "scene.toml: header is '[surface]': must be"),
+        (MASTER.replace("curve.csv", "scene.toml"), "scene.toml: no line names the columns"),
         (
             MASTER.replace("master", "moduli_pa = []\nmaster"),
             "[rubber] moduli_pa: must be left out",
@@ -238,14 +238,14 @@ def test_foolish_scenes(folder: Path, text: str, message: str) -> None:
     ("content", "message"),
     [
         ("", "is empty"),
-        ("#\n", "header is 'nothing'"),
-        ("frequency,storage,loss\n1,2,3\n", "header is 'frequency,storage,loss': must be"),
-        ("{}\n1,2\n", "line 2 has 2 cells: must be 3"),
-        ("{}\n1,2,x\n", "line 2: 'x' is not a number"),
-        ("{}\n", "angular_frequency"),
-        ("{}\n1,1,1\n1,1,1\n", "angular_frequency[1] = 1: must be above"),
-        ("{}\n1,1,1\n2,-1,1\n", "storage_modulus[1] = -1: must be positive"),
-        ("{}\n1,1,1\n2,,1\n", "storage_modulus[1] = nan: must be positive"),
+        ("#\n", "no line names the columns 'angular_frequency_rad_s', "),
+        ("frequency,storage,loss\n1,2,3\n", "; columns, units and modulus say what other tables"),
+        ("{}\n1,2\n", "line 2 has 2 cells, must have 3 or more (loss)"),
+        ("{}\n1,2,x\n", "line 2: loss = 'x' is not a number"),
+        ("{}\n", "no numbers below the names"),
+        ("{}\n1,1e6,1e6\n1,1e6,1e6\n", "angular_frequency has 1 entries"),
+        ("{}\n1,1,1\n2,-1,1\n", "line 3: storage = -1: must be positive"),
+        ("{}\n1,1,1\n2,,1\n", "line 3: storage is empty"),
     ],
 )
 def test_foolish_master_curves(folder: Path, content: str, message: str) -> None:

@@ -1,0 +1,159 @@
+"""Columns of DMA in SI units: names, units and kind of modulus as they are declared."""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.base import quantities
+from asperity.base.arguments import brief, choice, path_of, vector
+from asperity.base.arguments import number as real
+from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
+from asperity.io import plausible
+from asperity.io.columns import Columns, Names, read_columns
+
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+UNITS = {
+    "frequency": {"Hz": 2 * np.pi, "rad/s": 1.0},
+    "modulus": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "temperature": {"K": 1.0, "C": 1.0},
+    "strain": {"1": 1.0, "%": 0.01},
+}
+_KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
+
+
+def young(modulus: str, poisson_ratio: float) -> float:
+    """What makes Young's moduli of those of a file, E = 2 (1 + nu) G."""
+    shear = choice(modulus, "modulus", ("E", "G")) == 1
+    ratio = real(poisson_ratio, "poisson_ratio")
+    if not 0 <= ratio <= 0.5:
+        raise refusal("poisson_ratio", ratio, "in [0, 0.5]", text=f"{ratio!r}")
+    return 2 * (1 + ratio) if shear else 1.0
+
+
+def files_of(paths: Paths) -> list[Path]:
+    """One path or several, at least one."""
+    one: Any = paths
+    try:
+        several = None if isinstance(one, str | os.PathLike) else list(one)
+    except TypeError:
+        several = None
+    if several is None:
+        return [path_of(one, "paths")]
+    files = [path_of(path, f"paths[{i}]") for i, path in enumerate(several)]
+    if not files:
+        raise InvalidInput(Argument("paths"), ": is empty", Must(", must have "), "1 file or more")
+    return files
+
+
+def read_declared(
+    files: Sequence[Path],
+    columns: Names,
+    units: Mapping[str, str],
+    wanted: Sequence[str],
+    factor: float,
+    temperatures: Sequence[float] | None = None,
+    *,
+    reduced: bool = False,
+) -> list[Columns]:
+    """The wanted columns of each file, in rad/s, Pa, K and 1.
+
+    `factor` makes Young's moduli of the file's; `reduced` frequencies may be of any size.
+    """
+    _check_declared(columns, units, wanted, temperatures is not None)
+    by_file = None if temperatures is None else vector(temperatures, "temperatures")
+    if by_file is not None and by_file.size != len(files):
+        raise InvalidInput(
+            Argument("temperatures"),
+            f" ({by_file.size}) and ",
+            Argument("paths"),
+            f" ({len(files)}) must have equal length",
+        )
+    tables = []
+    for at, file in enumerate(files):
+        table = read_columns(file, columns, {name: _KINDS.get(name, name) for name in columns})
+        _check_stated(table, columns, units)
+        values = table.values
+        if by_file is not None:
+            values["temperature"] = np.full(table.block.size, by_file[at])
+        for name in wanted:
+            if name != "temperature" and not np.all(values[name] > 0):
+                row = int(np.argmin(values[name] > 0))
+                problem = f"{name} = {values[name][row]:g}: must be positive"
+                raise InvalidInput(f"{table.where(row)}: {problem}", where=file)
+            kind = _KINDS.get(name, name)
+            values[name] = values[name] * UNITS[kind][units[kind]]
+        _check_sizes(table, units, factor, reduced)
+        for name in values.keys() & _KINDS.keys():
+            values[name] = factor * values[name]
+        if units.get("temperature") == "C":
+            values["temperature"] = values["temperature"] + ZERO_CELSIUS
+        tables.append(table)
+    return tables
+
+
+def _check_declared(
+    columns: Names, units: Mapping[str, str], wanted: Sequence[str], given: bool
+) -> None:
+    for name, declared in (("columns", columns), ("units", units)):
+        kinds = (str, int) if name == "columns" else str
+        if not isinstance(declared, Mapping) or not all(
+            isinstance(x, kinds) and not isinstance(x, bool) for x in declared.values()
+        ):
+            allowed = "of str, or of int for places" if name == "columns" else "of str"
+            raise refusal(name, declared, f"a dict {allowed}")
+        known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
+        if name == "columns" and given:
+            known.discard("temperature")
+        for key in declared:
+            if key not in known:
+                allowed = f"of {', '.join(sorted(known))}"
+                unknown = f": {brief(key)} is unknown"
+                raise InvalidInput(Argument(name), unknown, Must(", must be "), allowed)
+        for key in sorted(known):
+            if key not in declared:
+                alone = name == "columns" and key == "temperature"
+                hint = "; or temperatures has one for each file" if alone else ""
+                raise InvalidInput(Argument(name), f": {key!r} is missing{hint}")
+    for key, place in columns.items():
+        if isinstance(place, int) and place < 1:
+            found = f": {key} = {place}"
+            raise InvalidInput(Argument("columns"), found, MUST_BE, "1 or more, or a name")
+    for key, unit in units.items():
+        if unit not in UNITS[key]:
+            allowed = f"one of {', '.join(UNITS[key])}"
+            raise InvalidInput(Argument("units"), f": {key} = {brief(unit)}", MUST_BE, allowed)
+
+
+def _check_stated(table: Columns, columns: Names, units: Mapping[str, str]) -> None:
+    """Refuse units that are not those of the file's own row, or of its names."""
+    for name, stated in table.units.items():
+        kind = _KINDS.get(name, name)
+        if stated != units[kind]:
+            found = valued(units[kind], repr(units[kind]))
+            allowed = f"{stated!r}, as the file says of {columns[name]!r}"
+            about = Argument("units"), f": {kind} = ", found, MUST_BE, allowed
+            raise InvalidInput(*about, code="other-unit", where=table.path)
+
+
+def _check_sizes(table: Columns, units: Mapping[str, str], factor: float, reduced: bool) -> None:
+    """Refuse what the declared units make absurd; temperatures are still in theirs."""
+
+    def check(named: str, kind: str, si: Any, quantity: quantities.Quantity) -> None:
+        declared = si / UNITS[kind][units[kind]]
+        plausible.check(named, declared, quantity, units[kind], path=table.path)
+
+    values = table.values
+    if "temperature" in values:
+        check("temperature", "temperature", values["temperature"], quantities.TEMPERATURE)
+    if not reduced:
+        check("frequency", "frequency", values["frequency"], quantities.FREQUENCY)
+    if "strain" in values:
+        check("strain", "strain", values["strain"], quantities.STRAIN)
+    largest = factor * np.max(np.hypot(values["storage"], values["loss"]))
+    check("largest |E|", "modulus", largest, quantities.MODULUS)

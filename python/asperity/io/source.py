@@ -1,0 +1,143 @@
+"""Lines of a table, whatever it lies in: text in UTF-8, UTF-16 or Latin-1, or the sheets of a
+workbook, whose rows become lines with cells parted by tabs."""
+
+import codecs
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from asperity._core import InvalidInput
+from asperity.base.arguments import quoted
+from asperity.base.extras import to_install
+from asperity.io.archive import Archive
+from asperity.io.files import check_file
+
+_ZIP, _OLE = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"  # how .xlsx and .xls files begin
+WORKBOOKS = (".xlsx", ".xlsm", ".xls")
+_SEEN = 4096  # bytes that tell the encoding
+_MOSTLY = 0.3  # of the bytes of one parity being zero, text of two bytes a character shows
+
+
+def _latin_1(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeDecodeError):
+        raise error
+    return error.object[error.start : error.end].decode("latin-1"), error.end
+
+
+codecs.register_error("asperity-latin-1", _latin_1)  # of bytes that are no UTF-8
+
+
+@dataclass(frozen=True)
+class Source:
+    """Lines that are neither empty nor comments, with their numbers; and where each stands."""
+
+    lines: list[tuple[int, str]]
+    sheets: tuple[tuple[int, str], ...] = ()  # of a workbook: numbers of their first lines, names
+
+    def where(self, number: int) -> str:
+        """A line in words, as a reader of the file counts them."""
+        first, name = next(((n, s) for n, s in reversed(self.sheets) if n <= number), (1, ""))
+        return f"row {number - first + 1} of sheet {quoted(name)}" if name else f"line {number}"
+
+    def span(self, first: int, last: int) -> str:
+        """Some lines in words."""
+        if self.sheets:
+            return f"{self.where(first)} to {self.where(last)}"
+        return f"lines {first} to {last}"
+
+
+def read_source(path: Path) -> Source:
+    """The lines of a file, which errors name."""
+    try:
+        check_file(path)
+        sheets: list[tuple[int, str]] = []
+        numbered = enumerate(text_lines(path, sheets), start=1)
+        kept = [(n, one) for n, one in numbered if one.strip() and not one.lstrip().startswith("#")]
+    except OSError as error:
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
+    except InvalidInput as error:
+        raise error.within(path) from error
+    return Source(kept, tuple(sheets))
+
+
+def text_lines(path: Path, sheets: list[tuple[int, str]] | None = None) -> Iterator[str]:
+    """All lines of a file, without their ends; of a workbook `sheets` takes the names."""
+    with path.open("rb") as file:
+        begin = file.read(_SEEN)
+    if begin.startswith((_ZIP, _OLE)):
+        yield from _rows(path, begin.startswith(_ZIP), [] if sheets is None else sheets)
+        return
+    with path.open(encoding=_encoding(begin), errors="asperity-latin-1") as text:
+        try:
+            for line in text:
+                yield line.rstrip("\r\n")
+        except UnicodeError as error:
+            raise InvalidInput(f"ends or breaks within a character: {error}") from error
+
+
+def _encoding(begin: bytes) -> str:
+    """UTF-16 by its mark, or by the zeros that every other byte of plain text is; else UTF-8."""
+    if begin.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    for first, encoding in ((1, "utf-16-le"), (0, "utf-16-be")):
+        half = begin[first::2]
+        if half and half.count(0) > _MOSTLY * len(half):
+            return encoding
+    return "utf-8-sig"
+
+
+def _rows(path: Path, zipped: bool, sheets: list[tuple[int, str]]) -> Iterator[str]:
+    number = 1
+    with _sound(path, "openpyxl" if zipped else "xlrd"):
+        for name, rows in (_of_xlsx if zipped else _of_xls)(path):
+            sheets.append((number, name))
+            for row in rows:
+                number += 1
+                yield "\t".join(map(_cell, row))
+
+
+@contextmanager
+def _sound(path: Path, package: str) -> Iterator[None]:
+    """One error for all the ways in which a workbook is none, or cannot be read here."""
+    try:
+        yield
+    except (InvalidInput, OSError):
+        raise
+    except ModuleNotFoundError as error:
+        raise InvalidInput(f"needs {package}: {to_install('io')}") from error
+    except Exception as error:
+        kind = f"a sound workbook ({path.suffix or package})"
+        raise InvalidInput(f"not {kind}: {' '.join(str(error).split())[:80]}") from error
+
+
+def _of_xlsx(path: Path) -> Iterator[tuple[str, Any]]:
+    openpyxl = import_module("openpyxl")
+    with path.open("rb") as file:
+        archive = Archive(file)
+        for member in archive.members:  # one that inflates without end is refused
+            content = archive.open(member)
+            while content.read():
+                pass
+    book = openpyxl.load_workbook(path, read_only=True, data_only=True)
+    try:
+        for sheet in book.worksheets:
+            sheet.reset_dimensions()  # some programs write wrong ones
+            yield sheet.title, sheet.iter_rows(values_only=True)
+    finally:
+        book.close()
+
+
+def _of_xls(path: Path) -> Iterator[tuple[str, Any]]:
+    xlrd = import_module("xlrd")
+    with open(os.devnull, "w", encoding="utf-8") as silent:
+        book = xlrd.open_workbook(path, logfile=silent)
+    for sheet in book.sheets():
+        yield sheet.name, (sheet.row_values(row) for row in range(sheet.nrows))
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else " ".join(str(value).split())
