@@ -40,7 +40,7 @@ from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
 from asperity.sweep.run import sweep
-from asperity.sweeps import Isotherm, StrainSweep
+from asperity.sweeps import Isotherm, StrainFactors, StrainSweep
 from asperity.tiles.statistics import HeightStatistics, height_statistics
 from asperity.uncertainty.band import FrictionBand, friction_band
 
@@ -74,6 +74,7 @@ __all__ = [
     "Separation",
     "ShiftFactors",
     "SpectralDensity",
+    "StrainFactors",
     "StrainSweep",
     "TabulatedSpectrum",
     "WlfFit",

@@ -21,6 +21,7 @@ from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, refusal
 from asperity.correction import CORRECTIONS, Correction
 from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.sweeps import StrainFactors, strain_core
 
 __all__ = [
     "contact_area",
@@ -38,7 +39,12 @@ METHODS = ("gauss", "qag", "qags", "cquad")
 
 
 def contact_model(
-    poisson_ratio: float, correction: Correction | None, form: str, rtol: float, method: str
+    poisson_ratio: float,
+    correction: Correction | None,
+    form: str,
+    rtol: float,
+    method: str,
+    strain_factors: StrainFactors | None = None,
 ) -> Any:
     """Return how the contact is computed, as the core takes it."""
     if correction is not None and not isinstance(correction, CORRECTIONS):
@@ -50,6 +56,7 @@ def contact_model(
         choice(form, "form", FORMS),
         number(rtol, "rtol"),
         choice(method, "method", METHODS),
+        strain_core(strain_factors),
     )
 
 
@@ -73,6 +80,7 @@ def contact_area(
     wavenumber: ArrayLike | None = None,
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> Any:
     """Return the real over the nominal contact area, A/A0 [-].
 
@@ -100,6 +108,8 @@ def contact_area(
     method : {"gauss", "qag", "qags", "cquad"}
         Gauss-Legendre panels, or GSL's adaptive integration of that name to check them with, slower
         by hundreds of times; not with PartialContact or ScanContact.
+    strain_factors : StrainFactors, optional
+        The modulus at the strain of each magnification; by default that of small strain.
 
     Returns
     -------
@@ -113,7 +123,7 @@ def contact_area(
         v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
     NotConverged
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
     return _over_wavenumber(
         _core.contact_area, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -131,13 +141,14 @@ def mean_pressure(
     wavenumber: ArrayLike | None = None,
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> Any:
     """Return the mean contact pressure <sigma> = sigma0 A0 / A [Pa] (Eq. 1) at a magnification.
 
     It is infinite where there is no contact. Arguments, shape and errors are those of
     `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
     return _over_wavenumber(
         _core.mean_pressure, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -155,6 +166,7 @@ def correction_factor(
     wavenumber: ArrayLike,
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> Any:
     """Return the correction factor CF of Section 6.1 [-].
 
@@ -162,7 +174,7 @@ def correction_factor(
     friction PF-CF = S A / A0 with the uncorrected A. It is what the integrand of Eq. 22 is weighted
     with, 1 in full contact. Arguments, shape and errors are those of `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
     return _over_wavenumber(
         _core.correction_factor, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -179,6 +191,7 @@ def contact_notes(
     form: Form = "exact",
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> tuple[Note, ...]:
     """Return notes that say where the theory or its input leaves its range.
 
@@ -186,7 +199,7 @@ def contact_notes(
     Arguments are those of `contact_area`.
     """
     _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
-    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
     notes: tuple[Note, ...] = _core.contact_notes(
         *surface_and_rubber(spectrum, rubber), model, p, v
     )
@@ -205,6 +218,7 @@ def pressure_distribution(
     correction: Correction | None = None,
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> Any:
     """Return the probability density P(sigma) of the contact pressure [1/Pa] (Eq. 4 solved).
 
@@ -227,7 +241,7 @@ def pressure_distribution(
         In the broadcast shape of stress, pressure and velocity.
     """
     shape, (sigma, p, v) = broadcast(stress=stress, pressure=pressure, velocity=velocity)
-    model = contact_model(poisson_ratio, correction, "exact", rtol, method)
+    model = contact_model(poisson_ratio, correction, "exact", rtol, method, strain_factors)
     parts = surface_and_rubber(spectrum, rubber)
     q = number_or_none(wavenumber, "wavenumber")
     q = spectrum.q1 if q is None else q

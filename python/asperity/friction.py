@@ -28,6 +28,7 @@ from asperity.results.heat_notes import law_notes
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.spectrum import Spectrum
+from asperity.sweeps import StrainFactors
 
 __all__ = ["Friction", "friction"]
 
@@ -49,6 +50,7 @@ def friction(
     rtol: float = 1e-6,
     contributions: bool = False,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
     threads: int = 1,
     temperature: ArrayLike | None = None,
     shift: TemperatureShift | None = None,
@@ -83,6 +85,8 @@ def friction(
     method : {"gauss", "qag", "qags", "cquad"}
         "gauss" is as above; the others are GSL's adaptive integration of that name, to check it
         with, slower by hundreds of times; not with PartialContact, ScanContact or heating.
+    strain_factors : StrainFactors, optional
+        The modulus at the strain of each magnification; by default that of small strain.
     threads : int
         As many at most share the points, a hundred or more each. The numbers are the same for any
         of them.
@@ -131,7 +135,7 @@ def friction(
         given_at["temperature"] = temperature
     _check_temperature(temperature, shift, law)
     shape, (p, v, *at) = broadcast(**given_at)
-    model = contact_model(poisson_ratio, correction, form, rtol, method)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
     parts = surface_and_rubber(spectrum, rubber)
     added = adhesion_core(adhesion)
     told = flag(contributions, "contributions")

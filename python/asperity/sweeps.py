@@ -1,10 +1,11 @@
-"""Sweeps of frequency and of strain, as dynamic mechanical analysis measures them."""
+"""Sweeps of frequency and of strain, as dynamic mechanical analysis measures them, and how strain
+softens a rubber."""
 
 from collections.abc import Iterable
 from typing import Any
 
 from asperity import _core
-from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of
+from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of, of_kind
 from asperity.base.diagnostics import Note
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
@@ -150,3 +151,76 @@ class StrainSweep(Table, CoreValue):
             styles=("o-", "^:"),
         )
         axes.set_title(f"{self.temperature:.4g} K, {self.angular_frequency:.3g} rad/s")
+
+
+@value
+class StrainFactors(Table, CoreValue):
+    """Factors of E' and E'' over strain, for the strain that each magnification brings.
+
+    E'(w, q) = f(eps(q)) E'(w) and E''(w, q) = g(eps(q)) E''(w), eps(q) = strain_per_slope h'(q),
+    h'(q) the rms slope of all roughness up to q. f and g are linear in strain between the rows and
+    constant beyond the last; a row (0, 1, 1) is put before a first row above 0. So I1 becomes g I1,
+    and I2 becomes f^2 and g^2 times the parts of it that E' and E'' have.
+
+    It is the field's practice for filled rubber, whose modulus falls with strain (Payne), and no
+    derivation: what `strain_per_slope` is, and which kind of strain the sweeps have (the amplitude
+    in shear or in tension, or peak to peak), is for the caller to state.
+
+    Parameters
+    ----------
+    strain : array_like, shape (n,)
+        Amplitudes [-] from 0 or more, strictly rising; 0.5 is 50 %.
+    storage, loss : array_like, shape (n,)
+        f, g [-], positive: E' and E'' over those of the master curve's strain. g may rise first.
+    strain_per_slope : float
+        Strain per rms slope [-], of order 0.5.
+
+    Raises
+    ------
+    InvalidInput
+        The message names the row.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=2e4)
+    >>> rubber = asperity.PronySeries(
+    ...     equilibrium_modulus=3e6, moduli=[1e9], relaxation_times=[1e-6]
+    ... )
+    >>> payne = asperity.StrainFactors(strain=[0.01, 0.1, 1], storage=[0.9, 0.6, 0.3],
+    ...                                loss=[1.1, 0.8, 0.4])
+    >>> point = {"pressure": 81e3, "velocity": 1e-2}
+    >>> soft = asperity.contact_area(road, rubber, strain_factors=payne, **point)
+    >>> round(soft / asperity.contact_area(road, rubber, **point), 2)
+    2.0
+    """
+
+    strain: Vector
+    storage: Vector
+    loss: Vector
+    strain_per_slope: float = 0.5
+
+    def _columns(self) -> Columns:
+        over = ("strain",)
+        return Columns(
+            {"strain": Column(over, self.strain, "1", "strain amplitude")},
+            {
+                "storage": Column(over, self.storage, "1", "factor of E'"),
+                "loss": Column(over, self.loss, "1", "factor of E''"),
+            },
+            {"strain_per_slope": self.strain_per_slope},
+        )
+
+    def _draw(self, axes: Any) -> None:
+        axes.semilogx(self.strain, self.storage, "o-", color="C0", markersize=3, label="$E$′")
+        axes.semilogx(self.strain, self.loss, "^:", color="C1", markersize=3, label="$E$″")
+        axes.set_xlabel("Strain amplitude [-]")
+        axes.set_ylabel("Over that of small strain")
+        axes.legend()
+
+
+def strain_core(strain_factors: StrainFactors | None) -> Any:
+    """Return the factors as the core takes them, or None."""
+    if strain_factors is None:
+        return None
+    return of_kind(strain_factors, "strain_factors", StrainFactors)._core

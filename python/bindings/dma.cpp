@@ -80,6 +80,10 @@ void bind_sweeps(py::module_& m) {
                        const Array& loss) {
         return StrainSweep(temperature, angular_frequency, vector_of(strain), vector_of(storage), vector_of(loss));
       }));
+  py::classh<StrainFactors>(m, "StrainFactors")
+      .def(py::init([](const Array& strain, const Array& storage, const Array& loss, double strain_per_slope) {
+        return StrainFactors(vector_of(strain), vector_of(storage), vector_of(loss), strain_per_slope);
+      }));
 }
 
 /// (master curve, shift factors, b_T, columns of the points, residual, covariance, notes)

@@ -38,18 +38,22 @@ struct OneOf<std::variant<Classes...>> {
   std::optional<Variant> found_;
 };
 
-/// How the contact is computed: from the tuple (poisson_ratio, correction or None, form, rtol, method), which is made
-/// faster than an object of a class.
+/// How the contact is computed: from the tuple (poisson_ratio, correction or None, form, rtol, method, strain factors
+/// or None), which is made faster than an object of a class.
 struct ModelOfTuple {
   static constexpr auto name = pybind11::detail::const_name("tuple");
   template <class>
   using cast_op_type = const ContactModel&;
 
   bool load(pybind11::handle from, bool) {
-    auto [poisson_ratio, correction, form, rtol, method] =
-        from.cast<std::tuple<double, std::optional<Correction>, int, double, int>>();
-    model_ = {poisson_ratio, correction ? *std::move(correction) : NoCorrection{}, static_cast<Form>(form), rtol,
-              static_cast<Method>(method)};
+    auto [poisson_ratio, correction, form, rtol, method, strain_factors] =
+        from.cast<std::tuple<double, std::optional<Correction>, int, double, int, std::optional<StrainFactors>>>();
+    model_ = {poisson_ratio,
+              correction ? *std::move(correction) : NoCorrection{},
+              static_cast<Form>(form),
+              rtol,
+              static_cast<Method>(method),
+              std::move(strain_factors)};
     return true;
   }
   operator const ContactModel&() const { return model_; }  // NOLINT: pybind11 asks for a conversion

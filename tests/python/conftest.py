@@ -29,6 +29,9 @@ LISTS = {
     "ky",
     "amplitude",
     "phase",
+    "strain",
+    "storage",
+    "loss",
 }
 
 

@@ -10,6 +10,7 @@
 #include "asperity/export.hpp"
 #include "asperity/rubber.hpp"
 #include "asperity/spectrum.hpp"
+#include "asperity/strain_factors.hpp"
 
 namespace asperity {
 
@@ -28,6 +29,8 @@ struct ContactModel {
   Form form = Form::exact;
   double rtol = 1e-6;
   Method method = Method::gauss;
+  /// The modulus at the strain of each magnification; none: that of small strain.
+  std::optional<StrainFactors> strain_factors = std::nullopt;
 };
 
 /// A/A0 for pairs of pressure [Pa] and velocity [m/s], at each of `wavenumber` [1/m] (the last index), or at

@@ -71,6 +71,7 @@ struct Conditions {
   double rtol = 1e-6;
   bool contributions = false;
   Method method = Method::gauss;
+  std::optional<StrainFactors> strain_factors = std::nullopt;
 };
 
 /// The friction curve at one pressure.

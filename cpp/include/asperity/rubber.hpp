@@ -95,6 +95,8 @@ class ASPERITY_EXPORT MasterCurve {
   /// comes from outside.
   [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
                                        std::span<double> i1_outside = {}) const;
+  /// int (Im E(w cos phi))^2 dphi at each of `w`, the part of I2 that E'' has [Pa^2].
+  void loss_part(std::span<const double> w, std::span<double> part) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;

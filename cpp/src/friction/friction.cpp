@@ -172,11 +172,13 @@ Contributions empty_contributions(const Spectrum& spectrum, std::span<const Segm
   const auto [q0, q1] = band(spectrum);
   const auto [slowest, fastest] = std::ranges::minmax(velocity);
   double front = 1;
-  for (const RubberPoints& group : groups)
+  for (const RubberPoints& group : groups) {
+    const Excitation waves(group.rubber, model, surface);
     for (const std::size_t i : group.order) {
       heed();
-      front = std::fmin(front, front_width(surface, group.rubber, {model.poisson_ratio, pressure[i], velocity[i], 1}));
+      front = std::fmin(front, front_width(surface, waves, {model.poisson_ratio, pressure[i], velocity[i], 1}));
     }
+  }
   double end = q1;
   std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
   if (std::holds_alternative<PartialContact>(model.correction)) {
@@ -290,8 +292,8 @@ void validate(const Adhesion& adhesion) {
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
                   std::span<const double> velocity) {
   const std::vector<double> pressure(velocity.size(), conditions.pressure);
-  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form, conditions.rtol,
-                           conditions.method};
+  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form,
+                           conditions.rtol,          conditions.method,     conditions.strain_factors};
   return friction(spectrum, rubber, model, conditions.adhesion, pressure, velocity, conditions.contributions);
 }
 

@@ -47,8 +47,8 @@ AngularSums::AngularSums(std::span<const ModulusPiece> pieces) {
     if (piece.measured && first_measured_ == 0) first_measured_ = panels_.size();
     const std::complex<double> first = piece(piece.low), last = piece(piece.high);
     const double length = std::log(piece.high) - std::log(piece.low);
-    const double change =
-        std::fabs(std::log(last.real() / first.real())) + std::fabs(std::log(last.imag() / first.imag()));
+    const auto change_of = [](double from, double to) { return from > 0 ? std::fabs(std::log(to / from)) : 0; };
+    const double change = change_of(first.real(), last.real()) + change_of(first.imag(), last.imag());
     const int parts = 1 + static_cast<int>(std::fmax(length / longest, change));
     for (int part = 0; part < parts; ++part) {
       const double low = part == 0 ? piece.low : piece.low * std::exp(length * part / parts);

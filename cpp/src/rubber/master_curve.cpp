@@ -2,6 +2,7 @@
 // where it is asked for, and the angular integrals over both. M. Steffen, Astron. Astrophys. 239, 443 (1990).
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
@@ -65,6 +66,14 @@ struct MasterCurve::Table {
   std::vector<ModulusPiece> pieces;
   std::vector<double> knots;  // where they meet, and the ends [rad/s]
   AngularTable angular;
+  /// The same with a storage modulus of 0, made when first asked for.
+  struct LossAlone {
+    std::vector<ModulusPiece> pieces;
+    AngularTable angular;
+    explicit LossAlone(std::vector<ModulusPiece> of) : pieces(std::move(of)), angular(pieces) {}
+  };
+  mutable std::once_flag loss_made;
+  mutable std::unique_ptr<const LossAlone> loss_alone;
 
   Table(std::vector<double> w, std::vector<double> e1, std::vector<double> e2, std::optional<Extrapolation> beyond)
       : frequency(std::move(w)),
@@ -74,6 +83,15 @@ struct MasterCurve::Table {
         pieces(pieces_of(frequency, storage, loss, beyond)),
         angular(pieces) {
     for (const ModulusPiece& piece : pieces) knots.push_back(piece.high);
+  }
+
+  const AngularTable& of_loss() const {
+    std::call_once(loss_made, [&] {
+      std::vector<ModulusPiece> of = pieces;
+      for (ModulusPiece& piece : of) piece.storage = {0, 0};
+      loss_alone = std::make_unique<const LossAlone>(std::move(of));
+    });
+    return loss_alone->angular;
   }
 
   void check(double w) const {
@@ -142,6 +160,13 @@ bool MasterCurve::angular_integrals(std::span<const double> w, std::span<double>
   if (!all_known)
     for (const double one : w) table_->check(one);
   return table_->angular(w, i1.data(), i2.data(), i1_outside.empty() ? nullptr : i1_outside.data());
+}
+
+void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) const {
+  require_same_size("part", part.size(), "angular_frequency", w.size());
+  for (const double one : w) table_->check(one);
+  std::vector<double> i1(w.size());
+  (void)table_->of_loss()(w, i1.data(), part.data(), nullptr);
 }
 
 MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {

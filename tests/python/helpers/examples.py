@@ -33,6 +33,7 @@ SHIFTS = {
     "temperature": [273.0, 293.0, 313.0],
     "log10_a_T": [2.0, 0.0, -1.5],
 }
+SOFT = {"strain": [0.01, 0.5], "storage": [0.8, 0.4], "loss": [1.1, 0.5]}
 STRAIN = {
     "temperature": 293.0,
     "angular_frequency": 6.0,
@@ -146,6 +147,7 @@ MADE = [
     ("Heating", TREAD, {"interface_share": 0.5}),
     ("Heating", TREAD | {"macro_area": 0.2}, {"residence": "box"}),
     ("ImplicitSFactor", {"gamma": 0.45}, {"gamma": 0.4}),
+    ("StrainFactors", SOFT, {"strain_per_slope": 0.4}),
 ]
 IDS = [f"{name}{i}" for i, (name, _, _) in enumerate(MADE)]
 RESULTS = {

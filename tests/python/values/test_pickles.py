@@ -141,6 +141,8 @@ def used(value):
             return asperity.heat_kernel(1e3, [1e3, 2e4], velocity=0.3, heating=value)
         case asperity.StrainSweep():
             return large_strain(5e-3, [value])
+        case asperity.StrainFactors():
+            return asperity.friction(ROAD, RUBBER, **SLIDING, strain_factors=value)
         case asperity.FrictionMap():
             return value.mu([1.2e5, 1.9e5], [0.02, 0.9]), value.to_bytes()
         case _ if type(value).__name__ in asperity.correction.__all__:

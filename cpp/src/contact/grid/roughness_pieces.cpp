@@ -46,7 +46,7 @@ constexpr double steepest = 1.5;    // |d ln c / dy| times the length of an atom
 
 }  // namespace
 
-RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t level)
+RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops)
     : surface_(surface), window_(surface), level_(level) {
   const auto first = std::ranges::find_if(surface, [](const Segment& s) { return s.at_a > 0 || s.at_b > 0; });
   if (first == surface.end()) return;
@@ -81,7 +81,9 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   std::ranges::sort(bends_);
   // the window has kinks where it meets the ends of the band
   std::vector<double> edges{0, end};
-  for (const double q : window_.ends())
+  std::vector<double> also = window_.ends();
+  also.insert(also.end(), stops.begin(), stops.end());
+  for (const double q : also)
     if (q > foot_ && q < surface.back().b) edges.push_back(std::log1p((q - foot_) / foot_));
   std::ranges::sort(edges);
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)

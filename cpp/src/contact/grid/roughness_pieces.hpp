@@ -24,8 +24,9 @@ class RoughnessPieces {
   static constexpr double roughest(std::size_t level) {
     return 2e-6 / static_cast<double>(std::size_t{1} << (4 * level));
   }
-  /// `level` from 0 on; each piece of a level is cut on the next one. The surface must outlive it.
-  RoughnessPieces(std::span<const Segment> surface, std::size_t level);
+  /// `level` from 0 on; each piece of a level is cut on the next one. Pieces end at `stops` [1/m] too. The surface must
+  /// outlive it.
+  RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops = {});
 
   struct Nodes {
     /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.

@@ -14,9 +14,9 @@ namespace asperity {
 
 using std::numbers::pi;
 
-GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, const Point& point,
+GslSolver::GslSolver(std::span<const Segment> surface, const Excitation& waves, const Point& point,
                      std::span<const double> stops, bool resolve_front, double rtol, Adaptive rule)
-    : rubber_(rubber), point_(point), rule_(rule), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
+    : waves_(waves), point_(point), rule_(rule), rtol_(rtol), g_rtol_(std::fmax(rtol / 100, 1e-13)) {
   const double stiffening = 1 / (1 - point.poisson_ratio * point.poisson_ratio);
   const double ratio = stiffening / point.pressure / point.shift;
   g_factor_ = ratio * ratio / 8;
@@ -28,9 +28,10 @@ GslSolver::GslSolver(std::span<const Segment> surface, const Rubber& rubber, con
       if (s > 0 && s < end) edges.push_back(s);
     };
     for (int i = 1; i < end; ++i) add(i);
-    for (const double q : stops)
-      if (q > segment.a && q < segment.b) add(segment.offset(q));
-    if (const auto* curve = std::get_if<MasterCurve>(&rubber)) add_knots(segment, curve->knots(), edges);
+    for (const auto& wavenumbers : {stops, waves.kinks()})
+      for (const double q : wavenumbers)
+        if (q > segment.a && q < segment.b) add(segment.offset(q));
+    if (const auto* curve = std::get_if<MasterCurve>(&waves.rubber())) add_knots(segment, curve->knots(), edges);
     if (resolve_front && g_end_ < 1) {  // later on it is behind us
       const double width = front(segment);
       if (!(width > 0))
@@ -65,19 +66,19 @@ void GslSolver::add_segment(const Segment& segment, std::vector<double> edges) {
 double GslSolver::front(const Segment& segment) const {
   if (!segment.straight || segment.at_a > 0) return 1 / g_rate(segment, 0);
   const double q = segment.a, ramp = segment.at_b * (q / (segment.b - q));  // dC / ds at the start
-  const double curvature = g_factor_ * q * q * q * q * ramp * angular_integrals(rubber_, point_.velocity * q).i2;
+  const double curvature = g_factor_ * q * q * q * q * ramp * waves_(point_.velocity * q, q).i2;
   return std::sqrt(2 / curvature);
 }
 
-double front_width(std::span<const Segment> surface, const Rubber& rubber, const GslSolver::Point& point) {
-  return GslSolver(surface.first(1), rubber, point, {}, false, 0.1, Adaptive::bisection).front(surface.front());
+double front_width(std::span<const Segment> surface, const Excitation& waves, const GslSolver::Point& point) {
+  return GslSolver(surface.first(1), waves, point, {}, false, 0.1, Adaptive::bisection).front(surface.front());
 }
 
 double GslSolver::g_rate(const Segment& segment, double s) const {
   const double c = segment.density_at(s);
   if (c == 0) return 0;
   const double q = segment.a * std::exp(s);
-  return g_factor_ * q * q * q * q * c * angular_integrals(rubber_, point_.velocity * q).i2;
+  return g_factor_ * q * q * q * q * c * waves_(point_.velocity * q, q).i2;
 }
 
 const GslSolver::Panel& GslSolver::panel_at(double wavenumber) const {
@@ -108,7 +109,7 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
   const double c = panel.segment->density_at(s);
   if (c == 0) return 0;
   const double q = panel.segment->a * std::exp(s);
-  const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * q);
+  const AngularIntegrals angular = waves_(point_.velocity * q, q);
   if (angular.i1 == 0) return 0;
   const double share = contact_share(g_inside(panel, s), form);
   const double weight = mu_factor_ * q * q * q * q * c * share * (factor ? (*factor)(share) : 1);
@@ -120,14 +121,15 @@ double GslSolver::hysteresis_rate(const Panel& panel, double s, Form form, const
 bool GslSolver::reaches_outside(const Panel& panel) const {
   constexpr double least_share = 1e-7;
   return std::ranges::any_of(std::array{panel.lower, panel.upper}, [&](double s) {
-    const AngularIntegrals angular = angular_integrals(rubber_, point_.velocity * (panel.segment->a * std::exp(s)));
+    const double q = panel.segment->a * std::exp(s);
+    const AngularIntegrals angular = waves_(point_.velocity * q, q);
     return angular.i1_outside > least_share * angular.i1;
   });
 }
 
 GslSolver::Hysteresis GslSolver::hysteresis(Form form, const std::optional<SFunction>& factor) const {
   Hysteresis result;
-  const auto* series = std::get_if<PronySeries>(&rubber_);
+  const auto* series = std::get_if<PronySeries>(&waves_.rubber());
   const bool measured = series == nullptr || series->fitted_range();
   for (const Panel& panel : panels_) {
     const Integral part = integrate([&](double s) { return hysteresis_rate(panel, s, form, factor, nullptr); },

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/grid/excitation.hpp"
 #include "contact/theory/s_factor.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 
@@ -24,8 +25,8 @@ class GslSolver {
   };
   /// `stops`: wavenumbers [1/m] at which panels shall end too. `resolve_front`: for integrals over P(G).
   /// `rule` computes all of them.
-  GslSolver(std::span<const Segment> surface, const Rubber& rubber, const Point& point, std::span<const double> stops,
-            bool resolve_front, double rtol, Adaptive rule);
+  GslSolver(std::span<const Segment> surface, const Excitation& waves, const Point& point,
+            std::span<const double> stops, bool resolve_front, double rtol, Adaptive rule);
 
   /// G at a wavenumber, q0 to q1.
   [[nodiscard]] double g(double wavenumber) const;
@@ -64,7 +65,7 @@ class GslSolver {
   [[nodiscard]] const Panel& panel_at(double wavenumber) const;
   [[nodiscard]] bool reaches_outside(const Panel& panel) const;
 
-  const Rubber& rubber_;
+  const Excitation& waves_;
   Point point_;
   Adaptive rule_;
   double rtol_, g_rtol_, g_factor_, mu_factor_;
@@ -74,6 +75,6 @@ class GslSolver {
 };
 
 /// How far in ln q the contact takes to break up from q0 on.
-double front_width(std::span<const Segment> surface, const Rubber& rubber, const GslSolver::Point& point);
+double front_width(std::span<const Segment> surface, const Excitation& waves, const GslSolver::Point& point);
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/conditions.hpp"
+#include "rubber/loss_part.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -44,7 +45,8 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, const Rubber& rubber, const C
       model_(model),
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
       with_edges_(std::holds_alternative<PartialContact>(model.correction)),
-      edges_of_(rubber, for_edges * model.rtol) {
+      waves_(rubber, model, table_.surface().segments(table_)),
+      edges_of_(waves_, for_edges * model.rtol) {
   if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
     known_in_part_ = series->fitted_range().has_value();
     analytic_.emplace(PronySeries(series->equilibrium_modulus(), series->moduli(), series->relaxation_times()));
@@ -60,8 +62,8 @@ void LevelSolver::take_moduli(Level& level, double velocity) {
     for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity * nodes.wavenumber[i];
     const bool asked = first || any_outside_;
     if (asked) level.i1_outside.resize(n);
-    const bool any = angular_integrals(rubber_, level.frequency, {level.i1.data(), n}, {level.i2.data(), n},
-                                       asked ? std::span<double>(level.i1_outside) : std::span<double>());
+    const bool any = waves_(level.frequency, level.factors, {level.i1.data(), n}, {level.i2.data(), n},
+                            asked ? std::span<double>(level.i1_outside) : std::span<double>());
     if (first) any_outside_ = any;
     return;
   }
@@ -83,14 +85,24 @@ void LevelSolver::take_moduli(Level& level, double velocity) {
   const RoughnessCells& cells = level.pieces->cells();  // of the same points at each level
   if (first) (void)take(cells, *analytic_, {});
   cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
+  if (level.factors.empty()) return;
+  if (first) {
+    of_loss_.resize(frequency_.size());
+    loss_part(*analytic_, frequency_, of_loss_);
+  }
+  at_nodes_.resize(level.i2.size());
+  cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
+  soften(level.factors, at_nodes_, level.i1, level.i2,
+         first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());
 }
 
 LevelSolver::Level& LevelSolver::at_velocity(std::size_t number, double velocity) {
   Level& level = levels_[number];
   if (level.velocity == velocity) return level;
   if (!level.pieces) {
-    level.pieces = &roughness_pieces(table_, number);
     const std::span<const Segment> surface = table_.surface().segments(table_);
+    if (!waves_.kinks().empty()) level.cut = std::make_unique<RoughnessPieces>(surface, number, waves_.kinks());
+    level.pieces = level.cut ? level.cut.get() : &roughness_pieces(table_, number);
     level.grid = std::make_unique<ContactGrid>(surface, ContactGridOptions{.poisson_ratio = model_.poisson_ratio,
                                                                            .beyond_end = with_edges_,
                                                                            .edge_nodes = false,
@@ -98,6 +110,8 @@ LevelSolver::Level& LevelSolver::at_velocity(std::size_t number, double velocity
     if (number > 0) take_common_ends(level, levels_[number - 1]);
     level.theory = contact_theory(model_, spectrum_, surface, *level.grid);
     const std::size_t n = level.pieces->nodes().weight.size();
+    level.factors = waves_.factors(*level.grid);
+    if (!level.factors.empty()) level.factors.resize(n);
     level.frequency.resize(n);
     for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
   }
@@ -194,7 +208,7 @@ bool LevelSolver::solve(double pressure, double velocity, double shift) {
   const double root = 1 / (pressure * shift), scale = root * root, mu_factor = 4 * pressure / stiffening_ * scale;
   if (with_edges_ && velocity != velocity_) {
     const double q_e = roughness_pieces(table_, 0).window().end();
-    edges_ = edges_of_(velocity * q_e, 1, partial_contact::tail_end);
+    edges_ = edges_of_(velocity, q_e, 1, partial_contact::tail_end);
   }
   velocity_ = velocity;
   const Level* coarse = &at_velocity(0, velocity);
@@ -205,7 +219,7 @@ bool LevelSolver::solve(double pressure, double velocity, double shift) {
   const double outside = outside_share(*coarse, before);
   const double of_edges =
       with_edges_ ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0) : 0;
-  const bool knots = std::holds_alternative<MasterCurve>(rubber_);
+  const bool knots = std::holds_alternative<MasterCurve>(rubber_) || waves_.softening();
   for (std::size_t number = 1; number < RoughnessPieces::levels; ++number) {
     const Level& level = at_velocity(number, velocity);
     const ContactSums& now = level.theory->solve(scale, model_.rtol, before.kappa);

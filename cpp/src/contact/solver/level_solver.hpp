@@ -41,9 +41,11 @@ class LevelSolver {
  private:
   struct Level {
     const RoughnessPieces* pieces = nullptr;
+    std::unique_ptr<const RoughnessPieces> cut;  // where the waves' factors have kinks
     std::unique_ptr<ContactGrid> grid;
     std::unique_ptr<Theory> theory;
     std::vector<std::array<Eigen::Index, 2>> common_ends;  // of pieces of the level before, and of this one
+    std::vector<ModulusFactors> factors;                   // none where all are 1
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on the coarsest level alone
@@ -63,11 +65,13 @@ class LevelSolver {
   bool with_edges_;  // PartialContact
   std::array<Level, RoughnessPieces::levels> levels_;
   double velocity_ = 0;
+  Excitation waves_;
   Edges edges_of_;
   EdgeIntegrals edges_;
   std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
-  std::vector<double> frequency_, i1_, i2_, outside_at_points_;  // at the points of cells
-  std::vector<double> of_i1_, of_i2_;                            // what the rule misses of I1 and I2 at the nodes
+  std::vector<double> frequency_, i1_, i2_, of_loss_, outside_at_points_;  // at the points of cells
+  std::vector<double> at_nodes_;
+  std::vector<double> of_i1_, of_i2_;  // what the rule misses of I1 and I2 at the nodes
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;
   PanelSolver::Hysteresis hysteresis_;

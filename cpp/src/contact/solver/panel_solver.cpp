@@ -21,10 +21,8 @@ constexpr double least_share = 8e-7;  // of the tolerance: an error of G below i
 
 }  // namespace
 
-PanelSolver::PanelSolver(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
-    : panels_(surface, rubber, poisson_ratio, rtol),
-      stiffening_(1 / (1 - poisson_ratio * poisson_ratio)),
-      rtol_(rtol) {}
+PanelSolver::PanelSolver(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio, double rtol)
+    : panels_(surface, waves, poisson_ratio, rtol), stiffening_(1 / (1 - poisson_ratio * poisson_ratio)), rtol_(rtol) {}
 
 /// The value of a panel and its error.
 void PanelSolver::add_hysteresis(std::size_t index, double scale, const ContactIntegral& contact) {

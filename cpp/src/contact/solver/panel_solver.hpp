@@ -15,7 +15,7 @@ namespace asperity {
 /// where R does not know the front at all and pressure and shift only scale G.
 class PanelSolver {
  public:
-  PanelSolver(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+  PanelSolver(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio, double rtol);
 
   /// A velocity, at which any number of points follow.
   void start(double velocity, std::span<const double> stops) { panels_.start(velocity, stops); }

@@ -72,8 +72,8 @@ double Panel::t(double at) const {
   return square > 0 ? from_start / (half + std::sqrt(half * half + from_start)) : from_start / linear;
 }
 
-Panels::Panels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
-    : surface_(surface), rubber_(rubber), rtol_(rtol) {
+Panels::Panels(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio, double rtol)
+    : surface_(surface), waves_(waves), rtol_(rtol) {
   const double stiffening = 1 / (1 - poisson_ratio * poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
 }
@@ -89,7 +89,7 @@ void Panels::roughness_at_nodes(const Panel& p, double upper, double* wavenumber
 }
 
 std::size_t Panels::add(Panel panel) {
-  panel.tabulated = std::holds_alternative<MasterCurve>(rubber_);
+  panel.tabulated = std::holds_alternative<MasterCurve>(waves_.rubber());
   panel.decay = decay_of(panel);
   panel.rule = &legendre_rule(nodes_for(panel, rtol_));
   panel.decay = std::fmin(0.95, std::fmax(panel.decay, decay_of_power(panel, static_cast<double>(panel.rule->n))));
@@ -121,7 +121,7 @@ void Panels::fill(Panel& p) {
   double* const rows = &data_[p.data];
   double w[most], i1[most], i2[most], i1_outside[most], dg[most], ratio[most], tail[LegendreRule::kept];
   for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * rows[Panel::wavenumber * n + i];
-  p.any_outside = angular_integrals(rubber_, {w, n}, {i1, n}, {i2, n}, {i1_outside, n});
+  p.any_outside = waves_.of_waves({w, n}, {rows + Panel::wavenumber * n, n}, {i1, n}, {i2, n}, {i1_outside, n});
   for (std::size_t i = 0; i < n; ++i) {
     dg[i] = rows[Panel::roughness * n + i] * i2[i];
     ratio[i] = i1[i] / i2[i];
@@ -193,7 +193,7 @@ void Panels::lay_out(std::span<const double> stops) {
   panels_.clear();
   data_.clear();
   roots_.clear();
-  const auto* curve = std::get_if<MasterCurve>(&rubber_);
+  const auto* curve = std::get_if<MasterCurve>(&waves_.rubber());
   const std::span<const double> knots = curve ? curve->knots() : std::span<const double>{};
   double before = 0;  // int q^4 C ds
   for (const Segment& segment : surface_) {
@@ -209,7 +209,7 @@ void Panels::lay_out(std::span<const double> stops) {
 /// Panels from a knot to the next edge; `before` and `here` are int q^4 C ds up to the segment and to the knot, and
 /// what is returned is that up to the edge.
 double Panels::lay_out(const Segment& segment, double knot, double end, double before, double here) {
-  const bool table = std::holds_alternative<MasterCurve>(rubber_);
+  const bool table = std::holds_alternative<MasterCurve>(waves_.rubber());
   bool on_ramp = false;
   double from = knot;
   while (from < end) {
@@ -220,7 +220,7 @@ double Panels::lay_out(const Segment& segment, double knot, double end, double b
     p.segment = &segment;
     p.start = from;
     p.at_front = here == 0;
-    p.by_parts_twice = p.at_front && rate > 0 && !table;
+    p.by_parts_twice = p.at_front && rate > 0 && !table && !waves_.softening();
     double to = end;
     // R of a table has a root in it at the knot, sqrt(G) one before, or one on either side of it where a ramp from
     // zero begins: panels that grow away from both
@@ -262,10 +262,10 @@ double Panels::g_to(const Panel& panel, double s) const {
   const double t = panel.t(s);
   if (!(t > panel.lower)) return 0;
   const std::size_t n = panel.rule->n;
-  double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
+  double q[most], w[most], roughness[most], i1[most], i2[most], i1_outside[most];
   roughness_at_nodes(panel, t, q, roughness);
-  for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
-  (void)angular_integrals(rubber_, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
+  for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * q[i];
+  (void)waves_.of_waves({w, n}, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += panel.rule->weight[i] * roughness[i] * i2[i];
   return sum;

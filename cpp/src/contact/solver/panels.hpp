@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "asperity/rubber.hpp"
+#include "contact/grid/excitation.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/segments.hpp"
 
@@ -54,7 +54,7 @@ struct Panel {
 /// so that no result depends on the questions asked before.
 class Panels {
  public:
-  Panels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+  Panels(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio, double rtol);
   /// Starts anew for a velocity; `stops` are wavenumbers [1/m] at which panels shall end too.
   void start(double velocity, std::span<const double> stops);
 
@@ -67,9 +67,7 @@ class Panels {
   [[nodiscard]] std::size_t children(std::size_t index);
   /// int dG from the panel's lower end to s.
   [[nodiscard]] double g_to(const Panel& panel, double s) const;
-  [[nodiscard]] AngularIntegrals angular(double wavenumber) const {
-    return angular_integrals(rubber_, velocity_ * wavenumber);
-  }
+  [[nodiscard]] AngularIntegrals angular(double wavenumber) const { return waves_(velocity_ * wavenumber, wavenumber); }
 
  private:
   void lay_out(std::span<const double> stops);
@@ -81,7 +79,7 @@ class Panels {
   static void differentiate(const Panel& panel, const double* f, double* slope, Panel::Smooth& of);
 
   std::span<const Segment> surface_;
-  const Rubber& rubber_;
+  const Excitation& waves_;
   double g_factor_, rtol_, velocity_ = 0;
   std::size_t starts_ = 0;
   bool laid_out_ = false;  // once for all velocities

@@ -53,27 +53,28 @@ double partial_stress(const ContactSums& root, double g, double steepness) {
   return partial_contact::stress(share, root.obstacle * share * share * steepness);
 }
 
-/// d mu_H / dln q of the edges at unit load and window roughness 1, at x = q / q_e; `frequency` is v q_e.
-double partial_edges(const ContactSums& root, const Rubber& rubber, double frequency, double x) {
+/// d mu_H / dln q of the edges at unit load and window roughness 1; q_e is where the roughness ends.
+double partial_edges(const ContactSums& root, const Excitation& waves, double velocity, double q_e, double q) {
+  const double x = q / q_e;
   if (!(x >= 1 && x <= partial_contact::tail_end)) return 0;
-  double w = frequency * x, end = frequency;
-  if (const auto known = known_range(rubber)) {
+  double w = velocity * q_e * x, end = velocity * q_e;
+  if (const auto known = known_range(waves.rubber())) {
     w = std::fmin(w, known->highest);
     end = std::fmin(end, known->highest);
   }
-  const AngularIntegrals here = angular_integrals(rubber, w);
-  return root.edges * here.i1 * std::pow(here.i2 / angular_integrals(rubber, end).i2, partial_contact::tail_excess) *
+  const AngularIntegrals here = waves(w, q);
+  return root.edges * here.i1 * std::pow(here.i2 / waves(end, q_e).i2, partial_contact::tail_excess) *
          std::pow(x, -partial_contact::tail_power);
 }
 
 }  // namespace
 
-PartialPanelSolver::PartialPanelSolver(std::span<const Segment> surface, const Rubber& rubber,
+PartialPanelSolver::PartialPanelSolver(std::span<const Segment> surface, const Excitation& waves,
                                        const ContactModel& model, std::span<const double> stops)
     : surface_(surface),
-      rubber_(rubber),
-      panels_(surface, rubber, model.poisson_ratio, model.rtol),
-      tail_(rubber, for_tail * model.rtol),
+      waves_(waves),
+      panels_(surface, waves, model.poisson_ratio, model.rtol),
+      tail_(waves, for_tail * model.rtol),
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
       rtol_(model.rtol),
       stops_(stops) {}
@@ -83,11 +84,12 @@ void PartialPanelSolver::start(double velocity) {
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
   std::vector<double> ends = stop_wavenumbers_;  // and at knots, behind which all is smooth up to the next
-  if (const auto* const curve = std::get_if<MasterCurve>(&rubber_))
+  if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
     for (const double w : curve->knots()) ends.push_back(w / velocity);
+  ends.insert(ends.end(), waves_.kinks().begin(), waves_.kinks().end());
   panels_.start(velocity, ends);
   end_.window = panels_.end().window;
-  end_.tail = tail_(velocity * panels_.end().wavenumber, 1, partial_contact::tail_end);
+  end_.tail = tail_(velocity, panels_.end().wavenumber, 1, partial_contact::tail_end);
 }
 
 /// The numbers of the active panels side by side.
@@ -247,7 +249,7 @@ double PartialPanelSolver::stress(double wavenumber) const {
 double PartialPanelSolver::hysteresis_density(double wavenumber) const {
   if (active_.empty()) return 0;
   const double q_e = panels_.end().wavenumber;
-  const double edges = mu_factor_ * end_.window * partial_edges(root_, rubber_, velocity_ * q_e, wavenumber / q_e);
+  const double edges = mu_factor_ * end_.window * partial_edges(root_, waves_, velocity_, q_e, wavenumber);
   if (wavenumber > surface_.back().b) return edges;
   const PartialPanels::Place here = panels_.at(wavenumber);
   return edges + mu_factor_ * here.rate * here.ratio * stress(wavenumber);
@@ -266,7 +268,7 @@ std::vector<PanelSolver::PanelShare> PartialPanelSolver::shares() const {
   if (active_.empty()) return result;
   const double q_e = panels_.end().wavenumber;
   for (const auto& [lower, upper] : tail_stretches(q_e, stop_wavenumbers_)) {
-    const EdgeIntegrals part = tail_(velocity_ * q_e, lower / q_e, upper / q_e);
+    const EdgeIntegrals part = tail_(velocity_, q_e, lower / q_e, upper / q_e);
     result.push_back({lower, upper, mu_factor_ * root_.edges * end_.window * part.i1});
   }
   return result;

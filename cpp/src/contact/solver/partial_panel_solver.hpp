@@ -15,7 +15,7 @@ namespace asperity {
 class PartialPanelSolver {
  public:
   /// Panels end at the frequencies `stops` [rad/s] too, which must outlive it.
-  PartialPanelSolver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
+  PartialPanelSolver(std::span<const Segment> surface, const Excitation& waves, const ContactModel& model,
                      std::span<const double> stops);
 
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
@@ -50,7 +50,7 @@ class PartialPanelSolver {
   [[nodiscard]] double g_at(double wavenumber) const;
 
   std::span<const Segment> surface_;
-  const Rubber& rubber_;
+  const Excitation& waves_;
   PartialPanels panels_;
   Edges tail_;
   double stiffening_, rtol_, velocity_ = 0;

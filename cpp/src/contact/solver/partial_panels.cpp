@@ -22,9 +22,10 @@ bool rough(const Segment& segment) { return segment.at_a > 0 || segment.at_b > 0
 
 }  // namespace
 
-PartialPanels::PartialPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol)
+PartialPanels::PartialPanels(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio,
+                             double rtol)
     : surface_(surface),
-      rubber_(rubber),
+      waves_(waves),
       window_(surface),
       g_factor_(1 / (8 * (1 - poisson_ratio * poisson_ratio) * (1 - poisson_ratio * poisson_ratio))),
       end_(window_, g_factor_),
@@ -73,7 +74,7 @@ void PartialPanels::fill(PartialPanel& p) {
   double* const rows = &data_[p.data];
   double w[most], i1[most], i2[most], i1_outside[most], tail[LegendreRule::kept];
   for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * rows[PartialPanel::wavenumber * n + i];
-  p.any_outside = angular_integrals(rubber_, {w, n}, {i1, n}, {i2, n}, {i1_outside, n});
+  p.any_outside = waves_.of_waves({w, n}, {rows + PartialPanel::wavenumber * n, n}, {i1, n}, {i2, n}, {i1_outside, n});
   for (std::size_t i = 0; i < n; ++i) {
     rows[PartialPanel::rate * n + i] = rows[PartialPanel::roughness * n + i] * i2[i];
     rows[PartialPanel::steepness * n + i] = rows[PartialPanel::window * n + i] * i2[i];
@@ -155,7 +156,7 @@ void PartialPanels::start(double velocity, std::span<const double> stops) {
 PartialPanels::Place PartialPanels::at(double wavenumber) const {
   const auto above = std::ranges::lower_bound(surface_, wavenumber, {}, &Segment::b);
   const Segment& segment = above == surface_.end() ? surface_.back() : *above;
-  const AngularIntegrals angular = angular_integrals(rubber_, velocity_ * wavenumber);
+  const AngularIntegrals angular = waves_(velocity_ * wavenumber, wavenumber);
   const double square = wavenumber * wavenumber;
   return {g_factor_ * square * square * segment.density(wavenumber) * angular.i2,
           g_factor_ * window_(wavenumber) * angular.i2, angular.i1 / angular.i2};
@@ -165,10 +166,10 @@ double PartialPanels::g_to(const PartialPanel& panel, double wavenumber) const {
   const double y = y_of(wavenumber);
   if (!(y > panel.lower)) return 0;
   const std::size_t n = panel.rule->n;
-  double q[most], roughness[most], i1[most], i2[most], i1_outside[most];
+  double q[most], w[most], roughness[most], i1[most], i2[most], i1_outside[most];
   nodes_of(panel, y, q, roughness);
-  for (std::size_t i = 0; i < n; ++i) q[i] *= velocity_;
-  (void)angular_integrals(rubber_, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
+  for (std::size_t i = 0; i < n; ++i) w[i] = velocity_ * q[i];
+  (void)waves_.of_waves({w, n}, {q, n}, {i1, n}, {i2, n}, {i1_outside, n});
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += panel.rule->weight[i] * roughness[i] * i2[i];
   return sum;

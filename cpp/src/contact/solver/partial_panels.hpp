@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "asperity/rubber.hpp"
+#include "contact/grid/excitation.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/theory/partial_root.hpp"
 #include "contact/theory/rule_error.hpp"
@@ -38,7 +38,7 @@ struct PartialPanel {
 /// depends on the questions asked before.
 class PartialPanels {
  public:
-  PartialPanels(std::span<const Segment> surface, const Rubber& rubber, double poisson_ratio, double rtol);
+  PartialPanels(std::span<const Segment> surface, const Excitation& waves, double poisson_ratio, double rtol);
   /// Starts anew for a velocity; `stops` are wavenumbers [1/m] at which panels shall end too.
   void start(double velocity, std::span<const double> stops);
 
@@ -69,7 +69,7 @@ class PartialPanels {
   void fill(PartialPanel& panel);
 
   std::span<const Segment> surface_;
-  const Rubber& rubber_;
+  const Excitation& waves_;
   RoughnessWindow window_;
   double g_factor_, velocity_ = 0;
   RoughnessEnd end_;

@@ -42,27 +42,29 @@ Adaptive adaptive_rule(Method method) {
 Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
                const std::optional<SFunction>& factor, std::span<const double> stops)
     : surface_(surface),
-      rubber_(rubber),
       model_(model),
+      waves_(rubber, model, surface),
       factor_(factor),
       with_hysteresis_(with_hysteresis),
-      panel_solver_(surface, rubber, model.poisson_ratio, model.rtol),
+      panel_solver_(surface, waves_, model.poisson_ratio, model.rtol),
       stops_(stops) {
   check_scales(surface);
   if (std::holds_alternative<PartialContact>(model.correction))
-    partial_.emplace(surface, rubber, model, stops);
+    partial_.emplace(surface, waves_, model, stops);
   else if (with_hysteresis && model.method == Method::gauss)
     contact_.emplace(model.form, factor);
 }
 
 void Solver::use_levels_of(const Spectrum& spectrum) {
-  if (LevelSolver::serves(spectrum, model_)) levels_.emplace(spectrum, rubber_, model_);
+  if (LevelSolver::serves(spectrum, model_)) levels_.emplace(spectrum, waves_.rubber(), model_);
 }
 
 void Solver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
   for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
+  if (model_.method == Method::gauss)
+    stop_wavenumbers_.insert(stop_wavenumbers_.end(), waves_.kinks().begin(), waves_.kinks().end());
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
@@ -79,7 +81,7 @@ void Solver::solve(double pressure, double velocity, double shift) {
     panel_solver_.solve(pressure, shift, contact_ ? &*contact_ : nullptr);
     return;
   }
-  gsl_solver_.emplace(surface_, rubber_, GslSolver::Point{model_.poisson_ratio, pressure, velocity, shift},
+  gsl_solver_.emplace(surface_, waves_, GslSolver::Point{model_.poisson_ratio, pressure, velocity, shift},
                       stop_wavenumbers_, with_hysteresis_, model_.rtol, adaptive_rule(model_.method));
   if (const double g = gsl_solver_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!with_hysteresis_) return;

@@ -53,8 +53,8 @@ class Solver {
   void start(double velocity);
 
   std::span<const Segment> surface_;
-  const Rubber& rubber_;
   const ContactModel& model_;
+  Excitation waves_;
   std::optional<SFunction> factor_;
   std::optional<ContactIntegral> contact_;
   bool with_hysteresis_;

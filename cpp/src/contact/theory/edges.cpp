@@ -22,23 +22,45 @@ constexpr std::size_t nodes = 16;
 constexpr double longest = 2;  // in ln x: I1 and I2 of a Prony series have singularities pi / 2 off the axis
 constexpr double power = partial_contact::tail_power;
 
-struct Piece {
-  double lower, upper;  // in ln x
-};
-
 /// (I2 / I2(v q_e))^(1/4) x^-3
 double factor(double of_i2, double x) {
   static_assert(power == 3 && partial_contact::tail_excess == 0.25);
   return std::sqrt(std::sqrt(of_i2)) / (x * x * x);
 }
 
-EdgeIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end, const Piece& piece) {
+void add(EdgeIntegrals& to, const EdgeIntegrals& part) {
+  to.i1 += part.i1;
+  to.i2 += part.i2;
+  to.i1_outside += part.i1_outside;
+  to.i1_error += part.i1_error;
+  to.i2_error += part.i2_error;
+}
+
+}  // namespace
+
+Edges::Edges(const Excitation& waves, double rtol)
+    : waves_(waves),
+      unlimited_(unlimited(waves.rubber())),
+      highest_(std::numeric_limits<double>::infinity()),
+      rtol_(rtol) {
+  if (unlimited_) unlimited_waves_.emplace(*unlimited_, waves);
+  limited_ = unlimited_ || std::holds_alternative<MasterCurve>(waves.rubber());
+  if (const auto known = known_range(waves.rubber())) highest_ = known->highest;
+}
+
+EdgeIntegrals Edges::on_piece(const Place& place, const Piece& piece) const {
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
-  std::array<double, nodes> w, i1, i2, weight;
+  const double frequency = place.velocity * place.q_e;
+  std::array<double, nodes> w, x, q, i1, i2, weight;
   for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
-  (void)angular_integrals(rubber, w, i1, i2, {});
-  for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / i2_at_end, w[k] / frequency);
+  for (std::size_t k = 0; k < nodes; ++k) {
+    x[k] = w[k] / frequency;
+    q[k] = place.q_e * x[k];
+    w[k] = std::fmin(w[k], highest_);
+  }
+  (void)waves().of_waves(w, q, i1, i2, {});
+  for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / place.i2_at_end, x[k]);
   EdgeIntegrals result;
   double tail[LegendreRule::kept];
   for (std::size_t k = 0; k < nodes; ++k) {
@@ -50,53 +72,64 @@ EdgeIntegrals on_piece(const Rubber& rubber, double frequency, double i2_at_end,
   result.i1_error = rule_error(tail);
   loops.add_up(rule, i2.data(), &result.i2, tail);
   result.i2_error = rule_error(tail);
+  if (frequency * std::exp(middle) > highest_) result.i1_outside = result.i1;
   return result;
 }
 
-void add(EdgeIntegrals& to, const EdgeIntegrals& part) {
-  to.i1 += part.i1;
-  to.i2 += part.i2;
-  to.i1_error += part.i1_error;
-  to.i2_error += part.i2_error;
-}
-
-}  // namespace
-
-Edges::Edges(const Rubber& rubber, double rtol)
-    : rubber_(rubber), unlimited_(unlimited(rubber)), highest_(std::numeric_limits<double>::infinity()), rtol_(rtol) {
-  limited_ = unlimited_ || std::holds_alternative<MasterCurve>(rubber);
-  if (const auto known = known_range(rubber)) highest_ = known->highest;
-}
-
 /// By the Gauss rule of four nodes in x^-3.
-double Edges::outside(double frequency, double lower, double upper, double i2_at_end) const {
+double Edges::outside(const Place& place, double lower, double upper) const {
   constexpr std::array node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
       weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
   const double from = std::pow(upper, -power), to = std::pow(lower, -power);
-  std::array<double, 4> w, i1, i2, i1_outside{};
-  for (std::size_t k = 0; k < 4; ++k)
-    w[k] = frequency * std::pow((from + to) / 2 + (to - from) / 2 * node[k], -1 / power);
-  if (!angular_integrals(rubber_, w, i1, i2, i1_outside)) return 0;
+  std::array<double, 4> w, q, i1, i2, i1_outside{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double x = std::pow((from + to) / 2 + (to - from) / 2 * node[k], -1 / power);
+    w[k] = place.velocity * place.q_e * x;
+    q[k] = place.q_e * x;
+  }
+  if (!waves_.of_waves(w, q, i1, i2, i1_outside)) return 0;
   double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * factor(i2[k] / i2_at_end, 1) * i1_outside[k];
+  for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * factor(i2[k] / place.i2_at_end, 1) * i1_outside[k];
   return sum * (to - from) / (2 * power);
 }
 
-EdgeIntegrals Edges::operator()(double frequency, double lower, double upper) const {
-  const Rubber& rubber = unlimited_ ? *unlimited_ : rubber_;
+/// Where the modulus changes its formula, in ln x.
+std::vector<double> Edges::stops(const Place& place, double lower, double upper) const {
+  std::vector<double> result;
+  const auto add = [&](double at) {
+    if (at > lower && at < upper) result.push_back(at);
+  };
+  if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
+    for (const double w : curve->knots()) add(std::log(w / (place.velocity * place.q_e)));
+  if (const Softening* const softening = waves_.softening()) {
+    for (const double q : softening->kinks()) add(std::log(q / place.q_e));
+    add(std::log(softening->end() / place.q_e));
+    add(std::log(highest_ / (place.velocity * place.q_e)));
+    std::ranges::sort(result);
+  }
+  return result;
+}
+
+EdgeIntegrals Edges::operator()(double velocity, double q_e, double lower, double upper) const {
+  const double frequency = velocity * q_e;
   double from = std::log(lower), to = std::log(upper);
-  const double i2_at_end = angular_integrals(rubber, std::fmin(frequency, highest_)).i2;
+  const double i2_at_end = waves()(std::fmin(frequency, highest_), q_e).i2;
+  const Place place{velocity, q_e, i2_at_end};
   EdgeIntegrals held;
   held.i2_at_end = i2_at_end;
+  double known_to = to;
   if (highest_ < frequency * upper) {
     const double at = std::fmax(lower, highest_ / frequency);
-    const AngularIntegrals last = angular_integrals(rubber, highest_);
-    const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
-    held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0, i2_at_end};
-    to = std::log(at);
+    known_to = std::log(at);
+    if (!waves_.softening()) {
+      const AngularIntegrals last = angular_integrals(waves().rubber(), highest_);
+      const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
+      held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0, i2_at_end};
+      to = known_to;
+    }
   }
   if (!(to > from)) return held;
-  if (limited_) held.i1_outside += outside(frequency, std::exp(from), std::exp(to), i2_at_end);
+  if (limited_ && known_to > from) held.i1_outside += outside(place, std::exp(from), std::exp(known_to));
   std::vector<Piece> pieces;
   const auto add_pieces_to = [&](double end) {
     const double count = std::ceil((end - from) / longest), begin = from;
@@ -106,17 +139,11 @@ EdgeIntegrals Edges::operator()(double frequency, double lower, double upper) co
       from = next;
     }
   };
-  if (const auto* const curve = std::get_if<MasterCurve>(&rubber)) {
-    const std::span<const double> knots = curve->knots();
-    for (auto knot = std::ranges::upper_bound(knots, frequency * lower); knot != knots.end(); ++knot) {
-      const double at = std::log(*knot / frequency);
-      if (!(at < to)) break;
-      if (at > from) add_pieces_to(at);
-    }
-  }
+  for (const double at : stops(place, from, to))
+    if (at > from) add_pieces_to(at);
   add_pieces_to(to);
   std::vector<EdgeIntegrals> values;
-  for (const Piece& piece : pieces) values.push_back(on_piece(rubber, frequency, i2_at_end, piece));
+  for (const Piece& piece : pieces) values.push_back(on_piece(place, piece));
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   constexpr std::size_t most_pieces = 20000;
   for (;;) {
@@ -131,9 +158,9 @@ EdgeIntegrals Edges::operator()(double frequency, double lower, double upper) co
       const Piece whole = pieces[i];
       const double middle = (whole.lower + whole.upper) / 2;
       pieces[i] = {whole.lower, middle};
-      values[i] = on_piece(rubber, frequency, i2_at_end, pieces[i]);
+      values[i] = on_piece(place, pieces[i]);
       pieces.push_back({middle, whole.upper});
-      values.push_back(on_piece(rubber, frequency, i2_at_end, pieces.back()));
+      values.push_back(on_piece(place, pieces.back()));
     }
   }
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "asperity/rubber.hpp"
+#include "contact/grid/excitation.hpp"
 
 namespace asperity {
 
@@ -15,18 +16,28 @@ struct EdgeIntegrals {
   double i2_at_end = 0;  // I2(v q_e)
 };
 
-/// Of one rubber. Beyond the frequencies that are known, I1 and I2 keep the values that they have at the last of them.
+/// Of one rubber. Beyond the frequencies that are known, the modulus keeps the value that it has at the last of them.
 class Edges {
  public:
-  Edges(const Rubber& rubber, double rtol);
-  /// For the frequency v q_e, from x = `lower` to `upper`.
-  [[nodiscard]] EdgeIntegrals operator()(double frequency, double lower, double upper) const;
+  Edges(const Excitation& waves, double rtol);
+  /// At a velocity, with the end q_e of the roughness [1/m], from x = `lower` to `upper`.
+  [[nodiscard]] EdgeIntegrals operator()(double velocity, double q_e, double lower, double upper) const;
 
  private:
-  [[nodiscard]] double outside(double frequency, double lower, double upper, double i2_at_end) const;
+  struct Piece {
+    double lower, upper;  // in ln x
+  };
+  struct Place {
+    double velocity, q_e, i2_at_end;
+  };
+  [[nodiscard]] double outside(const Place& place, double lower, double upper) const;
+  [[nodiscard]] EdgeIntegrals on_piece(const Place& place, const Piece& piece) const;
+  [[nodiscard]] std::vector<double> stops(const Place& place, double lower, double upper) const;
+  [[nodiscard]] const Excitation& waves() const { return unlimited_waves_ ? *unlimited_waves_ : waves_; }
 
-  const Rubber& rubber_;
+  const Excitation& waves_;
   std::optional<Rubber> unlimited_;  // for all but the parts from outside
+  std::optional<Excitation> unlimited_waves_;
   bool limited_;
   double highest_, rtol_;
 };

@@ -1,0 +1,75 @@
+// What waves feel of a rubber: its angular integrals at their frequencies, with what depends on the wave itself.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "asperity/contact.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+class ContactGrid;
+
+/// eps(q) = strain_per_slope h'(q), h'(q)^2 = 2 pi int_q0^q k^3 C dk, and the factors of the modulus that follow.
+class Softening {
+ public:
+  /// The surface must outlive it.
+  Softening(const StrainFactors& factors, std::span<const Segment> surface);
+  /// At a wavenumber [1/m]; beyond the band those at its end.
+  [[nodiscard]] ModulusFactors operator()(double wavenumber) const;
+  [[nodiscard]] double strain(double wavenumber) const;
+  [[nodiscard]] double end() const { return surface_.back().b; }  // of the band, up to which it grows
+  /// At the nodes of a grid on this surface: in the band by its own integrals, in which pieces take rings together.
+  [[nodiscard]] std::vector<ModulusFactors> at_nodes(const ContactGrid& grid) const;
+  /// Whether all factors are 1 as far as the strain goes.
+  [[nodiscard]] bool idle() const;
+  /// Where eps passes a row: the wavenumbers at which f and g have kinks [1/m].
+  [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
+
+ private:
+  [[nodiscard]] double roughness_to(double wavenumber) const;
+
+  StrainFactors factors_;
+  std::span<const Segment> surface_;
+  std::vector<double> before_;  // int q^3 C dq up to each segment, and up to the end
+  double strain_at_end_ = 0;
+  std::vector<double> kinks_;
+};
+
+/// I1 and I2 at frequencies, times the factors of the waves: g I1, and f^2 I2 + (g^2 - f^2) I2'' with the part I2'' of
+/// I2 that E'' has. Without factors they are those of the rubber, bit by bit.
+class Excitation {
+ public:
+  Excitation(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface);
+  /// The same waves on another rubber.
+  Excitation(const Rubber& rubber, const Excitation& waves) : rubber_(rubber), softening_(waves.softening_) {}
+
+  [[nodiscard]] const Rubber& rubber() const { return rubber_; }
+  [[nodiscard]] const Softening* softening() const { return softening_ ? &*softening_ : nullptr; }
+  /// Wavenumbers at which the factors have kinks [1/m].
+  [[nodiscard]] std::span<const double> kinks() const {
+    return softening_ ? std::span<const double>(softening_->kinks()) : std::span<const double>();
+  }
+  /// Of waves; none where they are all 1.
+  [[nodiscard]] std::vector<ModulusFactors> factors(const ContactGrid& grid) const;
+
+  /// At frequencies [rad/s], with the factors of as many waves or none. As `angular_integrals` otherwise.
+  bool operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
+                  std::span<double> i2, std::span<double> i1_outside) const;
+  /// With the factors of as many wavenumbers.
+  bool of_waves(std::span<const double> w, std::span<const double> wavenumber, std::span<double> i1,
+                std::span<double> i2, std::span<double> i1_outside) const;
+  [[nodiscard]] AngularIntegrals operator()(double w, double wavenumber) const;
+
+ private:
+  const Rubber& rubber_;
+  std::optional<Softening> softening_;
+};
+
+/// I1 and I2 of the small strain become those with factors; `loss_part` is I2''. `i1_outside` may be empty.
+void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
+            std::span<double> i2, std::span<double> i1_outside);
+
+}  // namespace asperity

@@ -1,0 +1,126 @@
+"""The modulus at the strain of each magnification: its reference table and its limits."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import PartialContact, SFactor, StrainFactors
+from helpers import table_rows
+
+KINDS = {"": None, "_s": SFactor(gamma=0.5), "_partial": PartialContact()}
+
+
+def scene(row):
+    spectrum = table_rows.tabulated if row["rms_height"] is None else table_rows.self_affine
+    rubber = table_rows.prony if row["table_frequency"].size == 0 else table_rows.master_curve
+    names = ("strain", "storage", "loss", "strain_per_slope")
+    return {
+        "spectrum": spectrum(row),
+        "rubber": rubber(row),
+        "strain_factors": StrainFactors(**{name: row[name] for name in names}),
+        **{name: row[name] for name in ("pressure", "velocity", "poisson_ratio")},
+    }
+
+
+@pytest.mark.reference("strain")
+@pytest.mark.parametrize("rtol", [1e-4, 1e-7])
+@pytest.mark.parametrize("kind", KINDS)
+def test_reference(row, kind, rtol):
+    found = asperity.friction(**scene(row), correction=KINDS[kind], rtol=rtol)
+    off = abs(found.hysteresis - row["hysteresis" + kind])
+    assert off <= found.error_estimate + row["rtol"] * found.hysteresis
+    assert found.error_estimate <= rtol * found.mu
+    area = row["area_partial" if kind == "_partial" else "area"]
+    assert found.contact_area == pytest.approx(area, rel=rtol)
+
+
+ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
+Q = 2e3 * np.arange(1, 60)
+RINGS = asperity.TabulatedSpectrum(
+    wavenumber=Q, density=ROAD.at(Q) * (1 + 0.3 * np.sin(7.0 * np.arange(59) ** 1.5))
+)
+SERIES = asperity.PronySeries(
+    equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
+)
+W = np.geomspace(1e-3, 1e9, 60)
+E = SERIES.modulus(W)
+CURVE = asperity.MasterCurve(angular_frequency=W, storage_modulus=E.real, loss_modulus=E.imag)
+PAYNE = StrainFactors(strain=[0.01, 0.1, 0.5], storage=[0.8, 0.5, 0.3], loss=[1.2, 0.8, 0.4])
+POINTS = {"pressure": [[1e4], [3e5]], "velocity": [1e-4, 1e-2, 1]}
+
+
+def constant(f, g):
+    return StrainFactors(strain=[0], storage=[f], loss=[g])
+
+
+@pytest.mark.parametrize("kind", KINDS.values())
+@pytest.mark.parametrize("spectrum", [ROAD, RINGS])
+@pytest.mark.parametrize("rubber", [SERIES, CURVE])
+def test_factors_of_one_change_no_bit(spectrum, rubber, kind):
+    ones = StrainFactors(strain=[0.1, 0.5, 90, 99], storage=[1, 1, 1, 9], loss=[1, 1, 1, 0.1])
+    plain = asperity.friction(spectrum, rubber, **POINTS, correction=kind)
+    found = asperity.friction(spectrum, rubber, **POINTS, correction=kind, strain_factors=ones)
+    for name in ("mu", "contact_area", "error_estimate"):
+        assert np.array_equal(getattr(found, name), getattr(plain, name))
+
+
+@pytest.mark.parametrize("kind", KINDS.values())
+@pytest.mark.parametrize("spectrum", [ROAD, RINGS])
+def test_constant_factors_are_another_rubber(spectrum, kind):
+    f, g = 0.4, 0.7
+    scaled = asperity.MasterCurve(
+        angular_frequency=W, storage_modulus=f * E.real, loss_modulus=g * E.imag
+    )
+    expected = asperity.friction(spectrum, scaled, **POINTS, correction=kind)
+    found = asperity.friction(
+        spectrum, CURVE, **POINTS, correction=kind, strain_factors=constant(f, g)
+    )
+    np.testing.assert_allclose(found.mu, expected.mu, rtol=2e-6)
+    np.testing.assert_allclose(found.contact_area, expected.contact_area, rtol=2e-6)
+
+
+def test_a_soft_rubber_is_a_higher_load():
+    # f = g = c: G and the areas are those at the pressure over c
+    c = 0.5
+    load = asperity.friction(ROAD, SERIES, pressure=1e5 / c, velocity=POINTS["velocity"])
+    found = asperity.friction(
+        ROAD, SERIES, pressure=1e5, velocity=POINTS["velocity"], strain_factors=constant(c, c)
+    )
+    np.testing.assert_allclose(found.mu, load.mu, rtol=2e-6)
+    np.testing.assert_allclose(found.contact_area, load.contact_area, rtol=2e-6)
+
+
+@pytest.mark.parametrize("rubber", [SERIES, CURVE])
+def test_gsl_agrees(rubber):
+    scene = {"pressure": 1e5, "velocity": 1e-2, "strain_factors": PAYNE}
+    found = asperity.friction(ROAD, rubber, **scene, rtol=1e-6)
+    check = asperity.friction(ROAD, rubber, **scene, rtol=1e-6, method="qag")
+    assert found.mu == pytest.approx(check.mu, rel=2e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS.values())
+def test_parts_sum_to_the_whole(kind):
+    found = asperity.friction(
+        ROAD, SERIES, **POINTS, correction=kind, strain_factors=PAYNE, contributions=True
+    )
+    np.testing.assert_allclose(found.decade_share.sum(axis=-1), 1, rtol=1e-6)
+    whole = np.trapezoid(found.dmu_dlnq, np.log(found.wavenumber), axis=-1)
+    np.testing.assert_allclose(whole, found.hysteresis, rtol=5e-3)  # of the trapezoids
+
+
+@pytest.mark.parametrize(
+    ("argument", "values"),
+    [
+        ("strain", {"strain": [0.1, 0.1, 0.5]}),
+        ("strain[0]", {"strain": [-0.1, 0.1, 0.5]}),
+        ("storage[1]", {"storage": [1, 0, 0.5]}),
+        ("loss[2]", {"loss": [1, 1, float("nan")]}),
+        ("loss", {"loss": [1, 1]}),
+        ("strain_per_slope", {"strain_per_slope": 0}),
+    ],
+)
+def test_bad_input(argument, values):
+    good = {"strain": [0.01, 0.1, 0.5], "storage": [0.8, 0.5, 0.3], "loss": [1.2, 0.8, 0.4]}
+    with pytest.raises(asperity.InvalidInput) as error:
+        StrainFactors(**{**good, **values})
+    assert argument in str(error.value)
