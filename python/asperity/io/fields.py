@@ -99,6 +99,10 @@ def file_names(value: object) -> list[str]:
     return [file_name(entry) for entry in value]
 
 
+def file_or_files(value: object) -> str | list[str]:
+    return file_names(value) if isinstance(value, list) else file_name(value)
+
+
 def texts(value: object) -> dict[str, str]:
     if not isinstance(value, dict) or not all(isinstance(entry, str) for entry in value.values()):
         raise _WrongValueError(_MUST, 'a table of texts, as in {frequency = "Hz"}')

@@ -114,7 +114,7 @@ def _read_channel(
     sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
     topography = reader.topography(channel_index=channel, **sizes)
     if not topography.is_uniform:
-        _check_equal_distances(np.asarray(topography.positions()))
+        check_equal_distances(np.asarray(topography.positions()))
     metres = 1.0 if unit is None else METRES[unit]
     if unit is None:
         topography = topography.to_unit("m")
@@ -127,7 +127,7 @@ def _read_channel(
     return surface_of(heights, metres, pixel_size)
 
 
-def _check_equal_distances(positions: NDArray[Any]) -> None:
+def check_equal_distances(positions: NDArray[Any]) -> None:
     """Refuse positions that are not equal steps even within their last printed digit."""
     if positions.size < 2 or not np.all(np.diff(positions) > 0):
         raise InvalidInput("holds a line scan whose positions do not increase: must do so")

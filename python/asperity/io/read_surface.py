@@ -27,7 +27,12 @@ from asperity.io.instrument import (
     read_instrument,
     surface_of,
 )
+from asperity.io.positions import FEWEST, has_positions, surface_at
+from asperity.io.source import WORKBOOKS, text_lines
 from asperity.surface import HeightMap, LineScan
+
+_TEXT = (".csv", ".txt", ".xyz", *WORKBOOKS)
+_MOST_HEADER = 50  # lines above rows of positions
 
 
 def read_surface(
@@ -39,16 +44,20 @@ def read_surface(
 ) -> HeightMap | LineScan:
     """Height map h(y, x) or line scan h(x) [m] from a file.
 
-    Matrices in .npy, .npz, .csv and .txt are read directly. Such files state neither pixel size
-    nor unit, so both are required. An array of one dimension and a text of one column or one line
-    are line scans. Files larger than memory: give numpy.load(path, mmap_mode="r") to
-    `power_spectrum` and `height_statistics`, which read it by tiles.
+    Matrices in .npy, .npz, .csv, .txt and workbooks (.xlsx, .xls) are read directly. Such files
+    state neither pixel size nor unit, so both are required. An array of one dimension and a text of
+    one column or one line are line scans. Files larger than memory: give numpy.load(path,
+    mmap_mode="r") to `power_spectrum` and `height_statistics`, which read it by tiles.
 
     Text has one line per y, cells parted by semicolons, tabs, commas or blanks; where they are not
     parted by commas, a comma is a decimal one. NaN and empty cells are drop-outs (a separator that
     ends every line is no cell), blank lines and those that begin with ``#`` are passed over. A text
     that is no matrix but begins with a header, and one for which neither `pixel_size` nor `unit` is
     given, is taken where SurfaceTopography knows it and finds its unit stated.
+
+    Rows of two or three numbers, 10 or more, are positions and heights: x, z of a line scan or
+    x, y, z of a map, at equal steps. Lines above them may name the columns and their units; else
+    `unit` is that of all, unless `pixel_size` is the step and so tells the unit of x and y.
 
     Any other format is read through SurfaceTopography (``pip install asperity[io]``). Of a line
     scan with positions they must be equally spaced, to within their last printed digit.
@@ -106,7 +115,7 @@ def _read(
             MUST_BE,
             "a scan (.npy, .npz, .csv, .txt or the file of an instrument)",
         )
-    if suffix in (".csv", ".txt"):
+    if suffix in _TEXT:
         return _read_text(path, channel, pixel_size, unit)
     if suffix not in _LOADERS:
         return read_instrument(path, channel, pixel_size, unit)
@@ -176,6 +185,7 @@ def _read_text(
     path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
 ) -> HeightMap | LineScan:
     """A matrix of numbers, or what SurfaceTopography knows and finds the unit of."""
+    names: list[str] = []
     try:
         heights, no_matrix = _load_text(path), None
     except UnrecognisedError as error:
@@ -185,26 +195,44 @@ def _read_text(
             return read_instrument(path, channel, pixel_size, unit, must_state_unit=True)
         except UnrecognisedError as error:
             if no_matrix is not None:
-                message = f"{no_matrix} (and as the file of an instrument: {error})"
-                raise InvalidInput(message) from error
+                heights, names = _below_header(path)
+                if not has_positions(heights):
+                    message = f"{no_matrix} (and as the file of an instrument: {error})"
+                    raise InvalidInput(message) from error
     check_channel(channel, 1)
+    if has_positions(heights, fewest=2 if path.suffix.lower() == ".xyz" else FEWEST):
+        return surface_at(heights, pixel_size, unit, names)
     return surface_of(heights, *required(path, pixel_size, unit))
 
 
-def _load_text(path: Path) -> NDArray[Any]:
+def _below_header(path: Path) -> tuple[NDArray[Any], list[str]]:
+    """Numbers below lines of text, with the names that the last of these has for them."""
+    names: list[str] = []
+    for number, text in enumerate(text_lines(path), start=1):
+        cells = _split(text, _separator(text))
+        try:
+            if any(np.isfinite([cell(one) for one in cells])):
+                return _load_text(path, begin=number), names
+        except ValueError:
+            names = cells
+        if number > _MOST_HEADER:
+            break
+    return np.empty(0), names
+
+
+def _load_text(path: Path, begin: int = 1) -> NDArray[Any]:
     """Matrix, or the vector of one line or column; UnrecognisedError where a header begins it."""
     values = array("d")
     width = blank = gap = 0  # numbers of cells, of the first blank line, of one between numbers
     trailing = True
-    for number, cells in lines(path):
+    for number, cells in lines(path, begin):
         if not cells:
             blank = blank or (number if values else 0)
             continue
         try:
             row = [cell(text) for text in cells]
         except ValueError as error:
-            header = number == 1 and re.search(r"[^\W\d_]{2}", cells[0]) is not None
-            kind = UnrecognisedError if header else InvalidInput
+            kind = InvalidInput if values else UnrecognisedError
             raise kind(f"line {number}: {error}") from error
         width = width or len(row)
         if len(row) != width:
@@ -224,22 +252,24 @@ def _load_text(path: Path) -> NDArray[Any]:
     return matrix.reshape(-1) if 1 in matrix.shape else matrix
 
 
-def lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+def lines(path: Path, begin: int = 1) -> Iterator[tuple[int, list[str]]]:
     """Numbers and cells of the lines that are no comments; a blank line has no cells."""
     separator: str | None = ""
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
-        for number, line in enumerate(file, start=1):
-            text = line.rstrip("\r\n")
-            if text.lstrip().startswith("#"):
-                continue
-            if not text.strip(" " if separator == "\t" else None):
-                yield number, []
-                continue
-            if separator == "":
-                separator = _separator(text)
-            if separator != "," and "," in text:
-                text = re.sub(r",(?=\d)", ".", text)  # decimal commas
-            yield number, text.split(separator)
+    for number, text in enumerate(text_lines(path), start=1):
+        if number < begin or text.lstrip().startswith("#"):
+            continue
+        if not text.strip(" " if separator == "\t" else None):
+            yield number, []
+            continue
+        if separator == "":
+            separator = _separator(text)
+        yield number, _split(text, separator)
+
+
+def _split(text: str, separator: str | None) -> list[str]:
+    if separator != "," and "," in text:
+        text = re.sub(r",(?=\d)", ".", text)  # decimal commas
+    return text.split(separator)
 
 
 def _separator(line: str) -> str | None:

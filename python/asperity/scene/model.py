@@ -120,7 +120,8 @@ class Scene:
     def sources(self) -> list[Path]:
         """The scene file and the files that it names."""
         rubber = self.inputs["rubber"]
-        names = [self.inputs["surface"].get("file"), rubber.get("master_curve")]
+        scans = self.inputs["surface"].get("file")
+        names = [*(scans if isinstance(scans, list) else [scans]), rubber.get("master_curve")]
         names += [rubber.get("shift"), *rubber.get("isotherms", [])]
         return [self.path, *(self.path.parent / name for name in names if name is not None)]
 

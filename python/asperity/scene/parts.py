@@ -104,7 +104,7 @@ def build_correction(
 def _map_of(path: Path, surface: Scan | None, surface_values: Mapping[str, Any]) -> HeightMap:
     """Return the scan of the scene, without the trend that the scene takes off."""
     if not isinstance(surface, HeightMap):
-        refuse(path, "[correction] kind", "scan-contact needs a [surface] file with a map")
+        refuse(path, "[correction] kind", "scan-contact needs one [surface] file with a map")
     detrended = surface_values["detrend"] == "quadratic"
     return surface.detrend("quadratic") if detrended else surface
 

@@ -16,7 +16,7 @@ from asperity.io.fields import (
     arguments,
     defaults_of,
     fields_of,
-    file_name,
+    file_or_files,
     names_of,
     number,
     pixel_size,
@@ -27,7 +27,7 @@ from asperity.io.fields import (
     text,
 )
 from asperity.io.read_surface import read_surface
-from asperity.measured_spectrum import power_spectrum
+from asperity.measured_spectrum import merge_spectra, power_spectrum
 from asperity.scene.scan import (
     Scan,
     lay,
@@ -57,10 +57,11 @@ _READ = {
     "max_dropouts": fields_of(HeightMap.fill_dropouts, "max_fraction")["max_fraction"],
 }
 _TRANSFORM = fields_of(power_spectrum, "window", "detrend")
+_MERGED = 10.0  # bins a decade of the spectrum of several scans
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
 SURFACE = {
-    "file": Field(file_name),
+    "file": Field(file_or_files),
     **_READ,
     **_TRANSFORM,
     **_FIT,
@@ -75,7 +76,7 @@ class Surface:
     """What a scene's surface turned out to be."""
 
     spectrum: Spectrum
-    scan: Scan | None  # it was measured on
+    scan: Scan | None  # it was measured on, where that is one
     values: Values  # the table with its defaults
     derived: Values
     notes: Sequence[Note]
@@ -95,8 +96,9 @@ def build_surface(path: Path, table: object) -> Surface:
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
         values = {**defaults_of(_READ), **defaults_of(_TRANSFORM), **values}
-        scan = _read_scan(path, values, derived)
-        measured, fit, floor = _measure(path, scan, values)
+        scans = _read_scans(path, values, derived)
+        measured, fit, floor = _measure(path, scans, values)
+        scan = scans[0] if len(scans) == 1 else None
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
     else:
         for key in (*_READ, *_TRANSFORM, *_FIT):
@@ -128,14 +130,21 @@ def build_surface(path: Path, table: object) -> Surface:
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, of_heights)
 
 
-def _read_scan(path: Path, values: Values, derived: Values) -> Scan:
-    """The scan without drop-outs; trends are still in it."""
-    with rename_in_errors(path, names_of("surface", _READ)):
-        raw, filled = read_filled(path.parent / values["file"], **arguments(values, _READ))
-    derived["shape"] = list(raw.heights.shape)
-    derived["pixel_size_m"] = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
-    derived["dropout_fraction"] = raw.dropout_fraction
-    return filled
+def _read_scans(path: Path, values: Values, derived: Values) -> list[Scan]:
+    """The scans without drop-outs; trends are still in them."""
+    named = values["file"] if isinstance(values["file"], list) else [values["file"]]
+    facts: dict[str, list[Any]] = {"shape": [], "pixel_size_m": [], "dropout_fraction": []}
+    scans = []
+    for name in named:
+        with rename_in_errors(path, names_of("surface", _READ)):
+            raw, filled = read_filled(path.parent / name, **arguments(values, _READ))
+        scans.append(filled)
+        facts["shape"].append(list(raw.heights.shape))
+        pixel = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
+        facts["pixel_size_m"].append(pixel)
+        facts["dropout_fraction"].append(raw.dropout_fraction)
+    derived |= {key: of[0] if len(of) == 1 else of for key, of in facts.items()}
+    return scans
 
 
 def _transform(values: Values) -> dict[str, Any]:
@@ -146,22 +155,29 @@ def _transform(values: Values) -> dict[str, Any]:
 
 
 def _measure(
-    path: Path, scan: Scan, values: Values
+    path: Path, scans: Sequence[Scan], values: Values
 ) -> tuple[TabulatedSpectrum, SelfAffineFit | None, float | None]:
-    """The scan's spectrum, the self-affine fit to it where the scene asks for one, and where the
-    noise of the instrument begins in it, if it shows."""
+    """The scans' spectrum, the self-affine fit to it where the scene asks for one, and where the
+    noise of the instrument begins in it, if it shows in that of one map."""
     settings = _transform(values)
     band = arguments(values, _BAND)
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
         refuse(path, "[surface] fit", 'must be "self-affine", or left out', valued(wanted))
     with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
-        spectrum = surface_spectrum(scan, **settings)
+        spectra = [surface_spectrum(scan, **settings) for scan in scans]
+        ends = [min(nyquist(scan), one.q1) for scan, one in zip(scans, spectra, strict=True)]
+        spectrum, end = spectra[0], ends[0]  # beyond an end rings are incomplete
+        if len(scans) > 1:
+            whole = [one.truncated(q1=q1) for one, q1 in zip(spectra, ends, strict=True)]
+            spectrum = merge_spectra(whole, per_decade=_MERGED)
+            end = spectrum.q1
         if wanted is not None:
             return spectrum, _fitted(spectrum), None
-        band.setdefault("q1", min(nyquist(scan), spectrum.q1))  # beyond it rings are incomplete
+        band.setdefault("q1", end)
         try:
-            floor = noise_floor(spectrum, nyquist(scan)) if isinstance(scan, HeightMap) else None
+            of_map = len(scans) == 1 and isinstance(scans[0], HeightMap)
+            floor = noise_floor(spectrum, end) if of_map else None
             return spectrum.truncated(**band), None, floor
         except OutOfRange as error:
             raise error.followed_by('; fit = "self-affine" goes on beyond it') from error

@@ -1,0 +1,132 @@
+"""Rows of positions and heights: maps and line scans, or refused by their name."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import HeightMap, InvalidInput, LineScan, read_surface
+from asperity.scene.scene import load_scene
+from helpers.scenes import CONDITIONS
+
+HEIGHTS = np.random.default_rng(3).normal(size=(5, 7))
+DY, DX = 3.0, 1 / 3  # um; the second is rounded in a file
+X, Y = np.meshgrid(np.arange(7) * DX + 40, np.arange(5) * DY - 6)
+ROWS = np.column_stack([X.ravel(), Y.ravel(), HEIGHTS.ravel()])
+RUBBER = """
+[rubber]
+equilibrium_modulus_pa = 3e6
+moduli_pa = [1e7, 1e8, 1e9]
+relaxation_times_s = [1e-2, 1e-4, 1e-6]
+"""
+
+
+def text(rows: np.ndarray, head: str = "", mark: str = "\t") -> str:
+    return head + "".join(mark.join(f"{cell:.3f}" for cell in row) + "\n" for row in rows)
+
+
+@pytest.mark.parametrize("order", ["by rows", "by columns", "shuffled"])
+@pytest.mark.parametrize("name", ["map.txt", "map.csv", "map.xyz"])
+def test_rows_of_x_y_z_are_a_map(tmp_path: Path, name: str, order: str) -> None:
+    at = np.arange(35).reshape(5, 7)
+    places = {
+        "by rows": at.ravel(),
+        "by columns": at.T.ravel(),
+        "shuffled": np.random.default_rng(1).permutation(35),
+    }[order]
+    (tmp_path / name).write_text(text(ROWS[places], mark="," if name == "map.csv" else " "))
+    surface = read_surface(tmp_path / name, unit="um")
+    assert isinstance(surface, HeightMap)
+    np.testing.assert_allclose(surface.heights, 1e-6 * HEIGHTS, atol=6e-10)
+    np.testing.assert_allclose(surface.pixel_size, (DY * 1e-6, DX * 1e-6), rtol=1e-3)
+
+
+def test_points_that_are_missing_are_dropouts(tmp_path: Path) -> None:
+    (tmp_path / "map.txt").write_text(text(np.delete(ROWS, [3, 11, 20], axis=0)))
+    surface = read_surface(tmp_path / "map.txt", unit="um")
+    missing = np.flatnonzero(np.isnan(surface.heights.ravel()))
+    np.testing.assert_array_equal(missing, [3, 11, 20])
+
+
+@pytest.mark.parametrize(
+    ("head", "given", "metres"),
+    [
+        ("x [mm];y [mm];z [µm]\n", {}, (1e-3, 1e-6)),
+        ("made by hand\nX (mm);Y (mm);Height (nm)\n\n", {}, (1e-3, 1e-9)),
+        ("X;Y;Z\nmm;mm;um\n", {}, (1e-3, 1e-6)),
+        ("x;y;z\n", {"unit": "nm"}, (1e-9, 1e-9)),
+        ("x;y;z\n", {"unit": "um", "pixel_size": (3e-3, 1e-3 / 3)}, (1e-3, 1e-6)),
+    ],
+)
+def test_units_are_those_of_the_file_or_given(
+    tmp_path: Path, head: str, given: dict[str, object], metres: tuple[float, float]
+) -> None:
+    (tmp_path / "map.txt").write_text(text(ROWS, head, ";"), encoding="utf-8")
+    surface = read_surface(tmp_path / "map.txt", **given)  # type: ignore[arg-type]
+    np.testing.assert_allclose(surface.pixel_size[0], DY * metres[0], rtol=1e-3)
+    np.testing.assert_allclose(surface.heights, metres[1] * HEIGHTS, atol=6e-4 * metres[1])
+
+
+def test_rows_of_x_z_are_a_line_scan(tmp_path: Path) -> None:
+    profile = np.column_stack([np.arange(35) * 0.5, HEIGHTS.ravel()])
+    for rows in (profile, profile[::-1]):
+        (tmp_path / "line.csv").write_text(text(rows, "pos [um],z [nm]\n", ","))
+        scan = read_surface(tmp_path / "line.csv")
+        assert isinstance(scan, LineScan)
+        assert scan.spacing == pytest.approx(0.5e-6, rel=1e-12, abs=0)
+        np.testing.assert_allclose(scan.heights, 1e-9 * HEIGHTS.ravel(), atol=6e-13)
+
+
+CLOUD = np.random.default_rng(2).normal(size=(40, 3))
+HOLED = ROWS * [1, 1, np.nan]
+
+
+@pytest.mark.parametrize(
+    ("rows", "given", "message"),
+    [
+        (CLOUD, {"unit": "um"}, "rows x, y, z whose points lie on no regular grid"),
+        (ROWS, {"unit": "um", "pixel_size": 1e-6}, "pixel_size = 1e-06: must be left out, or the"),
+        (ROWS, {}, "unit is missing"),
+        (np.vstack([ROWS, ROWS[:1]]), {"unit": "um"}, "two heights at one x and y"),
+        (CLOUD[:, :2], {"unit": "um"}, "positions do not increase"),
+        (HOLED, {"unit": "um"}, "heights"),
+        (np.column_stack([np.arange(30) ** 2, CLOUD[:30, 0]]), {"unit": "um"}, "equally spaced"),
+    ],
+)
+def test_what_is_no_scan_is_refused_by_its_name(
+    tmp_path: Path, rows: np.ndarray, given: dict[str, object], message: str
+) -> None:
+    (tmp_path / "map.txt").write_text(text(rows))
+    with pytest.raises(InvalidInput) as caught:
+        read_surface(tmp_path / "map.txt", **given)  # type: ignore[arg-type]
+    assert str(caught.value).startswith(f"{tmp_path / 'map.txt'}: ")
+    assert message in str(caught.value)
+
+
+SCANS = """
+[surface]
+file = ["coarse.asc", "fine.asc"]
+detrend = "offset"
+window = "none"
+"""
+
+
+def test_a_scene_merges_scans_of_two_magnifications(tmp_path: Path) -> None:
+    pytest.importorskip("SurfaceTopography")
+    law = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=4.5e4, q1=3.2e7)
+    for name, pixel in (("coarse.asc", 1e-6), ("fine.asc", 1e-7)):
+        seen = law.truncated(q0=2 * np.pi / (128 * pixel), q1=np.pi / pixel)
+        made = asperity.synthesize(seen, shape=(128, 128), pixel_size=pixel, seed=1)
+        side = f"{128e6 * pixel:g} µm"
+        head = f"Channel: a\nWidth: {side}\nHeight: {side}\nValue units: m"
+        np.savetxt(tmp_path / name, made.heights, header=head, encoding="utf-8")
+    (tmp_path / "scene.toml").write_text(SCANS + RUBBER + CONDITIONS)
+    scene = load_scene(tmp_path / "scene.toml")
+    assert scene.spectrum.q0 < 6e4
+    assert scene.spectrum.q1 > 2.5e7
+    q = np.geomspace(1e5, 2e7, 40)  # two rings from the lower end
+    off = np.log(scene.spectrum.at(q) / law.at(q))
+    assert np.abs(off[(q < 3e5) | (q > 1e6)]).max() < 0.15  # a bin is a factor of 1.26 wide
+    assert scene.friction().mu.min() > 0
+    assert [path.name for path in scene.sources[1:]] == ["coarse.asc", "fine.asc"]
