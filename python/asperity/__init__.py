@@ -19,6 +19,7 @@ from asperity.friction import Friction, friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap, FrictionSlopes
 from asperity.heating import Heating, heat_kernel
+from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms, read_strain_sweep
 from asperity.io.read_master_curve import read_master_curve
 from asperity.io.read_shift_factors import read_shift_factors
@@ -100,6 +101,7 @@ __all__ = [
     "merge_spectra",
     "power_spectrum",
     "pressure_distribution",
+    "prony_input",
     "read_isotherms",
     "read_master_curve",
     "read_shift_factors",

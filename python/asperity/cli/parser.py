@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Callable
 
-from asperity.cli import fit_command, map_command, rubber_command, spectrum_command
+from asperity.cli import fit_command, map_command, spectrum_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.app_command import app
@@ -23,6 +23,7 @@ from asperity.cli.options import (
     whole,
 )
 from asperity.cli.report_command import report
+from asperity.cli.rubber_parser import add_rubber
 from asperity.cli.sweep_parser import add_sweep
 from asperity.measured_spectrum import WINDOWS
 from asperity.plot.style import STYLES
@@ -173,57 +174,7 @@ def parser() -> argparse.ArgumentParser:
     )
     outputs(spectrum)
 
-    rubber = verb(
-        "rubber",
-        rubber_command.rubber,
-        "master curve, shift factors and Prony series of DMA isotherms",
-        "dma.csv --columns frequency=f,temperature=T,storage=G1,loss=G2 "
-        "--units frequency=Hz,temperature=C,modulus=MPa --modulus G --plot rubber.png",
-    )
-    rubber.add_argument("file", metavar="FILE", nargs="+")
-    rubber.add_argument(
-        "--columns",
-        type=pairs,
-        required=True,
-        metavar="NAME=COLUMN,...",
-        help="names in the files of frequency, temperature, storage, loss",
-    )
-    rubber.add_argument(
-        "--units",
-        type=pairs,
-        required=True,
-        metavar="NAME=UNIT,...",
-        help="frequency=Hz or rad/s, temperature=K or C, modulus=Pa, kPa, MPa or GPa",
-    )
-    rubber.add_argument(
-        "--modulus", choices=("E", "G"), required=True, help="Young's or shear moduli"
-    )
-    rubber.add_argument(
-        "--poisson-ratio",
-        type=number,
-        default=0.5,
-        metavar="NU",
-        help="for E = 2 (1 + nu) G (default: %(default)s)",
-    )
-    rubber.add_argument(
-        "--temperatures",
-        type=numbers,
-        metavar="T,T,...",
-        help="one for each file, where the files have no column of them",
-    )
-    rubber.add_argument(
-        "--reference-temperature",
-        type=number,
-        metavar="T",
-        help="[K] (default: that of the middle isotherm)",
-    )
-    rubber.add_argument(
-        "--vertical-shift", choices=("T/T_ref",), help="divide moduli by b_T (default: none)"
-    )
-    rubber.add_argument(
-        "--shift", metavar="FILE", help="take a_T from a table, temperature_k,log10_a_t"
-    )
-    outputs(rubber)
+    outputs(add_rubber(verb))
     fit = verb(
         "fit",
         fit_command.fit,

@@ -1,6 +1,9 @@
 """The verb `rubber`: DMA sweeps to a master curve, shift factors and a Prony series."""
 
+import os
 from argparse import Namespace
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +12,14 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Note, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
+from asperity.io.files import check_output, write_files
+from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors
 from asperity.io.table import Table
@@ -23,6 +28,7 @@ from asperity.prony_fit import PronyFit
 from asperity.scene.rubber import quiet_prony
 from asperity.shift_factors import WlfFit
 
+_PRONY: dict[str, Any] = {".csv": None, ".inp": "abaqus", ".mac": "ansys"}
 _FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for
 
 _FLAGS = {
@@ -40,7 +46,7 @@ def rubber(args: Namespace) -> None:
     """Master curve of the isotherms in files; its table can be a scene's master_curve."""
     files = [FilePath(name) for name in args.file]
     shift_file = [] if args.shift is None else [FilePath(args.shift)]
-    refuse_overwrite(check_outputs(args), [*files, *shift_file])
+    refuse_overwrite([*check_outputs(args), *_tables_wanted(args)], [*files, *shift_file])
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:
             flag, given = "--reference-temperature", args.reference_temperature
@@ -95,10 +101,57 @@ def rubber(args: Namespace) -> None:
 
     celsius = (args.units or {}).get("temperature") == "C"
 
+    write_files({path: make(build, prony) for path, make in _tables_wanted(args).items()})
+
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path, celsius=celsius)
 
     write_outputs(args, table, draw, found)
+
+
+def _tables_wanted(args: Namespace) -> dict[Path, Callable[..., bytes]]:
+    """The files that shift factors and Prony terms go into, and what makes them."""
+    wanted: dict[Path, Callable[..., bytes]] = {}
+    if args.write_shift is not None:
+        wanted[FilePath(args.write_shift)] = _shift_table
+    if args.write_prony is not None:
+        path: Path = FilePath(args.write_prony)
+        if path.suffix not in _PRONY:
+            allowed = "a name in .csv, .inp (Abaqus) or .mac (Ansys)"
+            raise refusal("--write-prony", str(path), allowed)
+        wanted[path] = partial(_prony_table, args, path)
+    others = [FilePath(name) for name in (args.output, args.plot) if name is not None]
+    for path in wanted:
+        check_output(path)
+    if len({os.path.realpath(path) for path in (*wanted, *others)}) < len(others) + sum(
+        one is not None for one in (args.write_shift, args.write_prony)
+    ):
+        raise InvalidInput("every output must be a file of its own", where=next(iter(wanted)))
+    return wanted
+
+
+def _shift_table(build: MasterCurveBuild, prony: PronyFit | None) -> bytes:
+    facts = {"reference_temperature_k": build.reference_temperature}
+    return Table("rubber", [facts], build.notes, _isotherms(build)).csv().encode()
+
+
+def _prony_table(
+    args: Namespace, path: Path, build: MasterCurveBuild, prony: PronyFit | None
+) -> bytes:
+    if prony is None:
+        raise InvalidInput("there is no Prony fit to write; --output tells why", where=path)
+    if program := _PRONY[path.suffix]:
+        with rename_in_errors(path, _FLAGS):
+            return f"{prony_input(prony, program, poisson_ratio=args.poisson_ratio)}\n".encode()
+    facts = {
+        "reference_temperature_k": build.reference_temperature,
+        "equilibrium_modulus_pa": prony.equilibrium_modulus,
+    }
+    columns = {
+        "relaxation_time_s": prony.relaxation_times.tolist(),
+        "modulus_pa": prony.moduli.tolist(),
+    }
+    return Table("rubber", [facts], prony.notes, columns).csv().encode()
 
 
 def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[Note]]:

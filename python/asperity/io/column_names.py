@@ -21,7 +21,7 @@ _UNITS = {
     "temperature": {
         "C": "([°º�]|deg\\.?)? ?c(elsius)?",
         "K": "k(elvin)?",
-        "F": "([°º�]|deg\\.?) ?f",
+        "F": "([°º�]|deg\\.?)? ?f(ahrenheit)?",
     },
     "strain": {"%": "%|percent", "1": "-|1|m/m|mm/mm"},
 }

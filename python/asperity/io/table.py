@@ -21,6 +21,7 @@ UNITS = {
     "_pa": "Pa",
     "_m_s": "m/s",
     "_rad_s": "rad/s",
+    "_time_s": "s",
     "_per_m": "1/m",
     "_m4": "m^4",
     "temperature_k": "K",

@@ -137,7 +137,7 @@ def test_a_table_from_a_file_is_as_good_as_a_fit(tmp_path):
         ("temperature_k,log10_a_t\n280,1\n", "temperature has 1 entries: must be 2 or more"),
         ("temperature_k,log10_a_t\n280,x\n", "line 2: log10_a_T = 'x' is not a number"),
         ("temperature_k,log10_a_t\n280,nan\n", "line 2: log10_a_T = nan: must be finite"),
-        ("temperature,a_t\n280,1\n", "no line names the columns 'temperature_k', 'log10_a_t'"),
+        ("temperature,tan\n280,1\n", "no line names the columns 'temperature_k', 'log10_a_t'"),
     ],
 )
 def test_bad_files_of_shift_factors(tmp_path, text, message):
