@@ -99,6 +99,7 @@ ERRORS = {
     "unequal-lengths": "two arguments must be equally long",
     "other-unit": "a file states another unit than was declared",
     "unknown-columns": "no line of a file names the columns",
+    "temperature-ramp": "a temperature ramp at so few frequencies does not tell how it shifts",
     "absurd-value": "a number that no rubber, road or test rig has in this unit",
     "absurd-heights": "heights far above the length of the scan",
     "absurd-pressure": "a pressure far above the modulus",

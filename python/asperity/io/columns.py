@@ -126,7 +126,9 @@ class _Reader:
         """Numbers; texts that are none; None beyond the last cell."""
         separator = block.separator
         # names parted by tabs may stand over numbers parted by blanks
-        cells = line.split(separator if separator != "\t" or separator in line else None)
+        number = line.lstrip()[:1] in set("+-.0123456789")
+        blanks = separator == "\t" and separator not in line and number
+        cells = line.split(None if blanks else separator)
         values: dict[str, float | str | None] = {}
         for name, place in block.places.items():
             if place >= len(cells):

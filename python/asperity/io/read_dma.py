@@ -11,9 +11,8 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import Paths, files_of, read_declared, young
+from asperity.io.ramps import STEP, is_ramp, isotherms_of_ramp, without_other_tests
 from asperity.sweeps import Isotherm, StrainSweep
-
-_STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
 
 
 def read_isotherms(
@@ -52,7 +51,9 @@ def read_isotherms(
     Returns
     -------
     list of Isotherm
-        In rising temperature [K]; rows within 1 K are one isotherm at their mean.
+        In rising temperature [K]; rows within 1 K are one isotherm at their mean. Of a temperature
+        ramp at four frequencies or more they are at temperatures 1 K apart, or as far as measured,
+        ln E' and ln E'' interpolated over T at each frequency.
 
     Raises
     ------
@@ -69,9 +70,13 @@ def read_isotherms(
     wanted = ("frequency", "storage", "loss", "temperature")
     result = []
     for table in read_declared(files_of(paths), columns, units, wanted, factor, temperatures):
+        table = without_other_tests(table)
+        if is_ramp(table):
+            result += isotherms_of_ramp(table)
+            continue
         temperature = table.values["temperature"]
         order = np.argsort(temperature, kind="stable")
-        steps = np.flatnonzero(np.diff(temperature[order]) > _STEP) + 1
+        steps = np.flatnonzero(np.diff(temperature[order]) > STEP) + 1
         result += [_isotherm(table.taken(np.sort(rows))) for rows in np.split(order, steps)]
     return sorted(result, key=lambda isotherm: isotherm.temperature)
 
