@@ -15,6 +15,7 @@ NOTES = {
         WARNING,
         "the spectrum does not know that tops are worn or peaked",
     ),
+    "lines-in-spectrum": (WARNING, "a machined surface: its roughness is no random one"),
     "lay": (WARNING, "the surface is rougher in one direction"),
     "few-long-waves": (WARNING, "the scan holds few of its longest waves"),
     "few-periods": (WARNING, "long waves were measured a few times only"),

@@ -90,6 +90,8 @@ def truth(value: object) -> bool:
 def file_name(value: object) -> str:
     if not isinstance(value, str) or not value or "\0" in value:
         raise _WrongValueError(_MUST, "the name of a file")
+    if any(one in value for one in "\b\t\n\f\r"):  # "C:\temp" has a tab
+        raise _WrongValueError(_MUST, "a name with / or in '...', as \\ begins a code in \"...\"")
     return value
 
 

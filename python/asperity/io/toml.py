@@ -19,6 +19,15 @@ _TOKEN = re.compile(
     rf"|(?P<key>{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+)",
     re.DOTALL,
 )
+_SLIPS = {  # how a value that is wrong begins, and what to do about it
+    r'"(?!"")(?:[^"\\]|\\[btnfr"\\]|\\u[0-9a-fA-F]{4})*+\\(?![btnfr"\\])': (
+        "in \"...\" a \\ begins a code: use / or '...' for the names of files"
+    ),
+    r'"(?!"")(?:[^"\\]|\\.)*+$': "the quotation mark at the end is missing",
+    r"'(?!'')[^']*$": "the quotation mark at the end is missing",
+    r"(True|False)\b": "must be true or false, in small letters",
+    r"(?!true\b|false\b|inf\b|nan\b)([^\W\d][^#\s]*)": 'texts stand in quotation marks: "{}"',
+}
 _DOT = re.compile(rf"{_PART}|(?P<dot>\.)")
 
 
@@ -33,13 +42,24 @@ def read_toml_text(content: bytes, parse_float: Callable[[str], Any] = float) ->
         line = _long_key(text)
         if line is None:
             return tomllib.loads(text, parse_float=parse_float)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
         raise InvalidInput(f"not a TOML file: {error}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidInput(f"not a TOML file: {error}{_slip(text)}") from error
     except (ValueError, RecursionError):  # Python's limits
         problem = "nested too deeply, or a number of thousands of digits"
         raise InvalidInput(f"not a TOML file: {problem}") from None
     problem = f"must have at most {_MOST_PARTS} parts"
     raise InvalidInput(f"not a TOML file: a key at line {line}: {problem}")
+
+
+def _slip(text: str) -> str:
+    """What is often wrong with a value of one line, in words; empty where it is not."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        for pattern, problem in _SLIPS.items():
+            if found := re.match(rf"\s*[\w.-]+\s*=\s*\[?\s*{pattern}", line):
+                return f"; line {number}: {problem.format(*found.groups())}"
+    return ""
 
 
 def _long_key(text: str) -> int | None:

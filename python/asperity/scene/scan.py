@@ -28,6 +28,9 @@ _FEW_PERIODS, _NEAR_NYQUIST = 1, 2  # bits of TabulatedSpectrum.flag
 # H = 0.2 that is rough down to an 80th of a pixel, summed over its aliases: what falls less than
 # these is no surface, or none that the pixels show.
 _FOLDED = ((2**0.25, -0.43), (2**0.5, -0.59), (2.0, -0.89))
+# C(q) of a random surface falls, so that a row is above the median of some before it by scatter
+# alone: a ring of four modes by a factor of 9 in a thousand.
+_LINE, _BESIDE = 20.0, 5  # times the rows beside it, of which there are so many at each side
 _ROWS = 6  # fewer tell no exponent with its error
 _SMOOTHED = 5  # rows of a running median, past which a single line does not reach
 
@@ -89,6 +92,29 @@ def scan_notes(scan: Scan, ratio: float | None) -> list[Note]:
         step = "measure friction along and across the lay"
         notes.append(Note(text, code="lay", next_step=step))
     return notes
+
+
+def line_notes(spectrum: TabulatedSpectrum) -> list[Note]:
+    """What there is to say of lines of a spectrum, as grooves at equal distances have them."""
+    q, density = spectrum.wavenumber, spectrum.density
+    if density.size < 2 * _BESIDE + 1:
+        return []
+    medians = np.median(sliding_window_view(density, _BESIDE), axis=-1)
+    beside = np.maximum(medians[: -_BESIDE - 1], medians[_BESIDE + 1 :])
+    inner = slice(_BESIDE, -_BESIDE)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        times = np.where(beside > 0, density[inner] / beside, 0.0)
+    if not times.max() > _LINE:
+        return []
+    at = int(np.argmax(times))
+    wave = 2 * math.pi / q[inner][at]
+    text = (
+        f"C(q) has {np.count_nonzero(times > _LINE)} lines, one of {wave:.3g} m {times[at]:.3g} "
+        "times its neighbours: the surface looks turned or ground, and theories of random "
+        "roughness may not hold on it"
+    )
+    step = 'take the scan itself, kind = "scan-contact", and slide across and along'
+    return [Note(text, code="lines-in-spectrum", next_step=step)]
 
 
 def trusted(spectrum: TabulatedSpectrum) -> Sequence[float] | None:

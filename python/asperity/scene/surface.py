@@ -31,6 +31,7 @@ from asperity.measured_spectrum import merge_spectra, power_spectrum
 from asperity.scene.scan import (
     Scan,
     lay,
+    line_notes,
     noise_floor,
     nyquist,
     read_filled,
@@ -120,6 +121,7 @@ def build_surface(path: Path, table: object) -> Surface:
     notes = _slope_notes(spectrum, values, table)
     if scan is not None:
         notes += scan_notes(scan, lay(scan, **_transform(values)))
+        notes += line_notes(measured) if isinstance(scan, HeightMap) else []
         notes += _noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
     if fit is not None:

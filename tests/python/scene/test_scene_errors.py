@@ -48,6 +48,17 @@ GW = "[correction]\nkind = 'greenwood-williamson'\n"
     ("text", "message"),
     [
         ("[surface", "not a TOML file"),
+        *(
+            (f"[surface]\nfile = {value}\n", f"line 2: {problem}")
+            for value, problem in (
+                (r'"C:\scans\road.csv"', "in \"...\" a \\ begins a code: use / or '...'"),
+                (r'"C:\Users\road.csv"', "in \"...\" a \\ begins a code: use / or '...'"),
+                ('"road.csv', "the quotation mark at the end is missing"),
+                ("'road.csv", "the quotation mark at the end is missing"),
+                ("road.csv", 'texts stand in quotation marks: "road.csv"'),
+            )
+        ),
+        (SCAN.replace("scan.npy", r"C:\temp\road.npy") + RUBBER + CONDITIONS, "a name with / or"),
         ("\n", "[surface]: missing"),
         (SURFACE + CONDITIONS, "[rubber]: missing"),
         (SURFACE + RUBBER, "[conditions]: missing"),
