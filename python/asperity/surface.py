@@ -25,6 +25,7 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
+from asperity.iso_25178 import height_parameters, measured_parameters
 
 Detrend = Literal["offset", "plane", "quadratic"]
 DETRENDS: tuple[Detrend, ...] = get_args(Detrend)  # in the order of the core's enumeration
@@ -254,6 +255,19 @@ class HeightMap(_Surface):
         pixel_size = pixel_sizes(self.pixel_size)
         core = _core.HeightMap(_heights(self.heights, "(ny, nx)"), pixel_size)
         self._set(_core=core, heights=frozen(core.heights), pixel_size=pixel_size)
+
+    @property
+    def iso_25178(self) -> dict[str, float]:
+        """Parameters of ISO 25178-2 by their names, of the map as it is.
+
+        Take trends away and fill drop-outs first. Sq, Sa, Sp, Sv, Sz [m], Ssk, Sku [-]; Sdq and Sdr
+        [-] by central differences; Spd [1/m^2] of hills of 5 % of Sz and more, after Wolf's
+        pruning, without those whose peaks lie on the edge; of maps of up to 2^22 points, all
+        measured.
+        """
+        known = self.rms_height, self.skewness, self.kurtosis, self.z_max, self.z_min
+        more = measured_parameters(self.heights, self.pixel_size)
+        return {**height_parameters(*known, self.rms_slope), **more}
 
     def _summary(self) -> dict[str, Any]:
         shown = {"shape": self.heights.shape, "pixel_size": self.pixel_size}

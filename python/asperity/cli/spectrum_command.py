@@ -18,6 +18,7 @@ from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.open_map import open_map
 from asperity.io.table import Table
+from asperity.iso_25178 import height_parameters
 from asperity.measured_spectrum import power_spectrum_of
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
@@ -75,6 +76,8 @@ def spectrum(args: Namespace) -> None:
         "z_min_m": found.statistics.z_min,
         "slope_cutoff_1.3_per_m": cutoff if reached else None,
     }
+    if isinstance(found.flat, HeightMap):
+        numbers |= _iso_25178(found.statistics)
     if found.lay is not None:
         numbers["slope_anisotropy"] = found.lay
     if (band := scan.trusted(measured)) is not None:
@@ -106,6 +109,17 @@ def spectrum(args: Namespace) -> None:
     drawn = cutoff if reached else None
     draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn, floor)
     write_outputs(args, table, draw, numbers)
+
+
+def _iso_25178(of: Any) -> dict[str, float]:
+    """By their names and units; of a map by tiles those that its statistics have."""
+    if isinstance(of, HeightMap):
+        known = of.iso_25178
+    else:
+        heights = of.rms_height, of.skewness, of.kurtosis, of.z_max, of.z_min
+        known = height_parameters(*heights, of.rms_slope)
+    units = dict.fromkeys(("Sq", "Sa", "Sp", "Sv", "Sz"), "_m") | {"Spd": "_per_m2"}
+    return {f"{name}{units.get(name, '')}": value for name, value in known.items()}
 
 
 def _serves(band: Sequence[float] | None, floor: float | None) -> str:
