@@ -23,6 +23,7 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import MUST_BE, Argument, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
+from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
 from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize, around
 from asperity.tiles.grid import TileSides, grid_of, tile_shape
@@ -83,7 +84,8 @@ def power_spectrum(
     ----------
     surface : HeightMap, or array of shape (ny, nx)
         A map without drop-outs; by tiles it may have some. An array holds heights [m], NaN where
-        there is none, and is always taken by tiles.
+        there is none, and is always taken by tiles. A Topography of SurfaceTopography, a DataArray
+        with coordinates or a DataFrame is what `read_surface` makes of it.
     window : {"split-cosine-bell", "hann", "none", "blackman"}
         "none" is right for periodic maps only, and then with detrend=None: a plane subtracted from
         a periodic map leaves a saw-tooth.
@@ -136,6 +138,8 @@ def power_spectrum(
     how = _prepared(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
     side = choice(part, "part", PARTS)
+    if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
+        surface = surface_from(surface) or surface
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
             raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')

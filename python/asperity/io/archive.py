@@ -31,6 +31,13 @@ class Archive:
             raise InvalidInput("is compressed in an unusual way", MUST_BE, "stored or deflated")
         return _Member(self, self._archive.open(member))
 
+    def check(self) -> None:
+        """Refuse an archive that inflates without end, before another library opens it."""
+        for member in self.members:
+            content = self.open(member)
+            while content.read():
+                pass
+
     def count(self, inflated: int) -> None:
         """InvalidInput where more has been inflated than an archive of this size should hold."""
         self._left -= inflated

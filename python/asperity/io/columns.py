@@ -13,7 +13,7 @@ from asperity.base.diagnostics import MUST_BE, Note
 from asperity.io import plausible
 from asperity.io.column_names import cells_of, find_header, is_wordy, separator_of, unit_in
 from asperity.io.instrument import brief
-from asperity.io.source import Source, read_source
+from asperity.io.source import Frame, Source, read_source
 
 Column = NDArray[np.float64]
 Names = Mapping[str, str | int]  # in the file, by ours; whole numbers count columns from 1
@@ -37,7 +37,7 @@ class _Block:
 class Columns:
     """Columns by our names, as numbers, and where they stand."""
 
-    path: Path
+    path: Path | Frame
     values: dict[str, Column]
     block: NDArray[np.int64]  # of each row
     units: Mapping[str, str]  # what the file calls the units, where it does
@@ -59,7 +59,7 @@ class Columns:
         return Columns(self.path, values, *of_rows, self._source)
 
 
-def read_columns(path: Path, names: Names, kinds: Mapping[str, str]) -> Columns:
+def read_columns(path: Path | Frame, names: Names, kinds: Mapping[str, str]) -> Columns:
     """Columns of a table of text or of a workbook.
 
     A line with the names precedes the numbers; rows below other names are left out, which a note
@@ -79,7 +79,7 @@ def read_columns(path: Path, names: Names, kinds: Mapping[str, str]) -> Columns:
 
 
 class _Reader:
-    def __init__(self, path: Path, source: Source, names: Names) -> None:
+    def __init__(self, path: Path | Frame, source: Source, names: Names) -> None:
         self.path, self.source, self.names = path, source, names
         self.blocks: list[_Block] = []
         self.block: _Block | None = None

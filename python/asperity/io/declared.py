@@ -15,8 +15,10 @@ from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names, read_columns
+from asperity.io.objects import frame_of
+from asperity.io.source import Frame
 
-Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]] | Any
 
 UNITS = {
     "frequency": {"Hz": 2 * np.pi, "rad/s": 1.0},
@@ -36,23 +38,31 @@ def young(modulus: str, poisson_ratio: float) -> float:
     return 2 * (1 + ratio) if shear else 1.0
 
 
-def files_of(paths: Paths) -> list[Path]:
-    """One path or several, at least one."""
+def file_of(path: Any, name: str) -> Path | Frame:
+    """A path, or a table of another library."""
+    frame = frame_of(path)
+    return path_of(path, name) if frame is None else Frame(frame)
+
+
+def files_of(paths: Paths) -> list[Path | Frame]:
+    """One path or table, or several, at least one."""
     one: Any = paths
+    if frame_of(one) is not None:
+        return [file_of(one, "paths")]
     try:
         several = None if isinstance(one, str | os.PathLike) else list(one)
     except TypeError:
         several = None
     if several is None:
-        return [path_of(one, "paths")]
-    files = [path_of(path, f"paths[{i}]") for i, path in enumerate(several)]
+        return [file_of(one, "paths")]
+    files = [file_of(path, f"paths[{i}]") for i, path in enumerate(several)]
     if not files:
         raise InvalidInput(Argument("paths"), ": is empty", Must(", must have "), "1 file or more")
     return files
 
 
 def read_declared(
-    files: Sequence[Path],
+    files: Sequence[Path | Frame],
     columns: Names,
     units: Mapping[str, str],
     wanted: Sequence[str],

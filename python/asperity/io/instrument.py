@@ -1,6 +1,8 @@
 """Files of instruments through SurfaceTopography, and what all scans from files share."""
 
+import re
 import warnings
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.base.extras import to_install
+from asperity.io.archive import Archive
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
 
@@ -24,6 +27,14 @@ _ROUNDED = 0.7  # of the last printed digit: rounding shifts them by 0.5, and th
 
 class UnrecognisedError(InvalidInput):
     """A file is not of the format that it was taken for."""
+
+
+def checked_unit(unit: str) -> str:
+    """The unit, micro signs (there are two) written as u."""
+    plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
+    if plain not in METRES:
+        raise refusal("unit", unit, f"one of {', '.join(METRES)}")
+    return plain
 
 
 def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> HeightMap | LineScan:
@@ -94,6 +105,47 @@ def read_instrument(
             raise UnrecognisedError(f"damaged or not supported: {brief(error)}") from error
 
 
+def scans_of_container(path: Path) -> list[Any]:
+    """What reads the scans of a ZIP archive of contact.engineering, one after the other."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            with path.open("rb") as file:
+                Archive(file).check()
+            reader = import_module("SurfaceTopography.Container.IO").CEReader(str(path))
+            every = range(reader.nb_containers)
+            return [
+                partial(container.__getitem__, at)
+                for container in map(reader.container, every)
+                for at in range(len(container))
+            ]
+        except (InvalidInput, OSError):
+            raise
+        except ModuleNotFoundError as error:
+            problem = f"needs SurfaceTopography: {to_install('io')}"
+            raise UnrecognisedError(problem) from error
+        except Exception as error:
+            problem = f"no archive of contact.engineering, or damaged: {brief(error)}"
+            raise UnrecognisedError(problem) from error
+
+
+def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | LineScan:
+    """One scan of such an archive; `channel` counts them."""
+    scans = scans_of_container(path)
+    check_channel(channel, len(scans))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            topography = scans[channel]()
+        except Exception as error:
+            raise UnrecognisedError(f"scan {channel}: {brief(error)}") from error
+    if topography.unit is None and unit is None:
+        raise InvalidInput(Argument("unit"), " is missing: the file does not state it")
+    if topography.unit is not None and unit is not None:
+        raise refusal("unit", unit, "left out, the file states its own", text=f"{unit!r}")
+    return of_topography(topography, None if unit is None else METRES[unit], None)
+
+
 def _read_channel(
     reader: Any, channel: int, pixel_size: PixelSize | None, unit: str | None
 ) -> HeightMap | LineScan:
@@ -113,11 +165,17 @@ def _read_channel(
 
     sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
     topography = reader.topography(channel_index=channel, **sizes)
+    return of_topography(topography, None if unit is None else METRES[unit], pixel_size)
+
+
+def of_topography(
+    topography: Any, metres: float | None, pixel_size: PixelSize | None
+) -> HeightMap | LineScan:
+    """An object of SurfaceTopography; `metres` and `pixel_size` where it knows none itself."""
     if not topography.is_uniform:
         check_equal_distances(np.asarray(topography.positions()))
-    metres = 1.0 if unit is None else METRES[unit]
-    if unit is None:
-        topography = topography.to_unit("m")
+    if metres is None:
+        metres, topography = 1.0, topography.to_unit("m")
     masked: np.ma.MaskedArray[Any, Any] = np.ma.asarray(topography.heights(), dtype=np.float64)
     heights = masked.filled(np.nan).T
     if pixel_size is None:  # SurfaceTopography counts (x, y), we count (y, x)

@@ -12,8 +12,8 @@ from asperity.base.diagnostics import MUST_BE
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.io.files import check_file
-from asperity.io.instrument import PixelSize, brief, check_channel
-from asperity.io.read_surface import checked_unit, required
+from asperity.io.instrument import PixelSize, brief, check_channel, checked_unit
+from asperity.io.read_surface import required
 from asperity.tiles.source import Source, source_of
 
 _SAMPLED = 64  # rows that tell the order of the heights

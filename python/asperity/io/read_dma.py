@@ -2,15 +2,14 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import path_of
 from asperity.io.columns import Columns, Names
-from asperity.io.declared import Paths, files_of, read_declared, young
+from asperity.io.declared import Paths, file_of, files_of, read_declared, young
 from asperity.io.ramps import STEP, is_ramp, isotherms_of_ramp, without_other_tests
 from asperity.sweeps import Isotherm, StrainSweep
 
@@ -34,7 +33,7 @@ def read_isotherms(
 
     Parameters
     ----------
-    paths : path-like or iterable of path-like
+    paths : path-like, DataFrame or xarray.Dataset, or iterable of them
     columns : mapping
         Names in the files of "frequency", "storage", "loss" and "temperature"; not the last where
         `temperatures` are given. Whole numbers are places, counted from 1.
@@ -100,7 +99,7 @@ def _mean(values: NDArray[np.float64]) -> float:
 
 
 def read_strain_sweep(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     *,
     columns: Names,
     units: Mapping[str, str],
@@ -112,10 +111,10 @@ def read_strain_sweep(
     Arguments and errors are those of `read_isotherms`, with one `path` and a column and a unit ("1"
     or "%") of "strain" [-] besides.
     """
-    path = path_of(path, "path")
+    file = file_of(path, "path")
     factor = young(modulus, poisson_ratio)
     wanted = ("strain", "frequency", "storage", "loss", "temperature")
-    (table,) = read_declared([path], columns, units, wanted, factor)
+    (table,) = read_declared([file], columns, units, wanted, factor)
     values = table.taken(np.argsort(table.values["strain"], kind="stable")).values
     try:
         return StrainSweep(
@@ -126,4 +125,4 @@ def read_strain_sweep(
             loss_modulus=values["loss"],
         )
     except InvalidInput as error:
-        raise error.within(path) from error
+        raise error.within(file) from error

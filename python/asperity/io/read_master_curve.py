@@ -2,16 +2,16 @@
 
 import os
 from collections.abc import Mapping
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import path_of
 from asperity.base.diagnostics import Argument, Note
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
-from asperity.io.declared import read_declared, young
+from asperity.io.declared import file_of, read_declared, young
+from asperity.io.source import Frame
 from asperity.rubber import Extrapolation, MasterCurve
 
 _OWN = {
@@ -19,11 +19,16 @@ _OWN = {
     "storage": "storage_modulus_pa",
     "loss": "loss_modulus_pa",
 }
+_OF_FRAME = {  # as `MasterCurve.to_dataframe` has them
+    "frequency": "angular_frequency",
+    "storage": "storage_modulus",
+    "loss": "loss_modulus",
+}
 _TOGETHER = 1.01  # of two frequencies that are one, as in an isotherm
 
 
 def read_master_curve(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     *,
     columns: Names | None = None,
     units: Mapping[str, str] | None = None,
@@ -38,11 +43,11 @@ def read_master_curve(
 
     Parameters
     ----------
-    path : path-like
+    path : path-like, DataFrame or xarray.Dataset
     columns, units, modulus, poisson_ratio : optional
         As those of `read_isotherms`, without "temperature". They are all left out for a file that
         `asperity rubber` wrote, whose columns are angular_frequency_rad_s, storage_modulus_pa and
-        loss_modulus_pa.
+        loss_modulus_pa, and for what `MasterCurve.to_dataframe` and `to_xarray` gave.
     extrapolation : {None, "power-law", "clamp"}
         As in `MasterCurve`.
 
@@ -61,7 +66,8 @@ def read_master_curve(
     >>> units = {"frequency": "Hz", "modulus": "MPa"}
     >>> read_master_curve("master.csv", columns=columns, units=units, modulus="E")  # doctest: +SKIP
     """
-    path = path_of(path, "path")
+    file = file_of(path, "path")
+    own = _OF_FRAME if isinstance(file, Frame) else _OWN
     declared = {"columns": columns, "units": units, "modulus": modulus}
     missing = [name for name, given in declared.items() if given is None]
     if len(missing) not in (0, 3):
@@ -70,7 +76,7 @@ def read_master_curve(
     factor = young(modulus or "E", poisson_ratio)
     known = units or {"frequency": "rad/s", "modulus": "Pa"}
     try:
-        (table,) = read_declared([path], columns or _OWN, known, (*_OWN,), factor, reduced=True)
+        (table,) = read_declared([file], columns or own, known, (*_OWN,), factor, reduced=True)
     except InvalidInput as error:
         if columns is not None or error.code != "unknown-columns":
             raise
@@ -80,7 +86,7 @@ def read_master_curve(
     try:
         return _curve(table, extrapolation)
     except InvalidInput as error:
-        raise error.within(path) from error
+        raise error.within(file) from error
 
 
 def _curve(table: Columns, extrapolation: Extrapolation | None) -> MasterCurve:

@@ -24,9 +24,12 @@ from asperity.io.instrument import (
     UnrecognisedError,
     brief,
     check_channel,
+    checked_unit,
+    read_container,
     read_instrument,
     surface_of,
 )
+from asperity.io.objects import surface_from
 from asperity.io.positions import FEWEST, has_positions, surface_at
 from asperity.io.source import WORKBOOKS, text_lines
 from asperity.surface import HeightMap, LineScan
@@ -36,13 +39,13 @@ _MOST_HEADER = 50  # lines above rows of positions
 
 
 def read_surface(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     *,
     channel: int = 0,
     pixel_size: PixelSize | None = None,
     unit: str | None = None,
 ) -> HeightMap | LineScan:
-    """Height map h(y, x) or line scan h(x) [m] from a file.
+    """Height map h(y, x) or line scan h(x) [m] from a file, or from an object of another library.
 
     Matrices in .npy, .npz, .csv, .txt and workbooks (.xlsx, .xls) are read directly. Such files
     state neither pixel size nor unit, so both are required. An array of one dimension and a text of
@@ -59,13 +62,15 @@ def read_surface(
     x, y, z of a map, at equal steps. Lines above them may name the columns and their units; else
     `unit` is that of all, unless `pixel_size` is the step and so tells the unit of x and y.
 
-    Any other format is read through SurfaceTopography (``pip install asperity[io]``). Of a line
+    A ZIP archive of contact.engineering has one scan a channel. It and any other format is read
+    through SurfaceTopography (``pip install asperity[io]``). Of a line
     scan with positions they must be equally spaced, to within their last printed digit.
 
     Parameters
     ----------
-    path : path-like
-        File to read.
+    path : path-like, or an object
+        File to read; or a Topography of SurfaceTopography, an `xarray.DataArray` with its units in
+        `attrs` (also what `HeightMap.to_xarray` gives), a DataFrame of x, (y,) and height.
     channel : int
         Index of the map or line scan in a file that holds several.
     pixel_size : float or (float, float), optional
@@ -90,6 +95,11 @@ def read_surface(
     --------
     >>> surface = read_surface("scan.npy", pixel_size=(2e-6, 1e-6), unit="um")  # doctest: +SKIP
     """
+    if not isinstance(path, str | os.PathLike):
+        check_channel(channel, 1)
+        found = surface_from(path, pixel_size, None if unit is None else checked_unit(unit))
+        if found is not None:
+            return found
     path = path_of(path, "path")
     try:
         if unit is not None:
@@ -115,20 +125,16 @@ def _read(
             MUST_BE,
             "a scan (.npy, .npz, .csv, .txt or the file of an instrument)",
         )
+    if suffix == ".zip":
+        if pixel_size is not None:
+            raise refusal("pixel_size", pixel_size, "left out, the file states its own")
+        return read_container(path, channel, unit)
     if suffix in _TEXT:
         return _read_text(path, channel, pixel_size, unit)
     if suffix not in _LOADERS:
         return read_instrument(path, channel, pixel_size, unit)
     given = required(path, pixel_size, unit)
     return surface_of(_LOADERS[suffix](path, channel), *given)
-
-
-def checked_unit(unit: str) -> str:
-    """The unit, micro signs (there are two) written as u."""
-    plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
-    if plain not in METRES:
-        raise refusal("unit", unit, f"one of {', '.join(METRES)}")
-    return plain
 
 
 def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tuple[float, PixelSize]:

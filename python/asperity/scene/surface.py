@@ -1,6 +1,6 @@
 """Surface of a scene: a self-affine spectrum, or what a scan gives."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -26,6 +26,7 @@ from asperity.io.fields import (
     require,
     text,
 )
+from asperity.io.instrument import scans_of_container
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import merge_spectra, power_spectrum
 from asperity.scene.scan import (
@@ -96,8 +97,9 @@ def build_surface(path: Path, table: object) -> Surface:
         for key in _SELF_AFFINE:
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
+        every = "channel" not in values
         values = {**defaults_of(_READ), **defaults_of(_TRANSFORM), **values}
-        scans = _read_scans(path, values, derived)
+        scans = _read_scans(path, values, derived, every=every)
         measured, fit, floor = _measure(path, scans, values)
         scan = scans[0] if len(scans) == 1 else None
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
@@ -132,14 +134,15 @@ def build_surface(path: Path, table: object) -> Surface:
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, of_heights)
 
 
-def _read_scans(path: Path, values: Values, derived: Values) -> list[Scan]:
-    """The scans without drop-outs; trends are still in them."""
+def _read_scans(path: Path, values: Values, derived: Values, *, every: bool) -> list[Scan]:
+    """The scans without drop-outs; trends are still in them. Of an archive all or one."""
     named = values["file"] if isinstance(values["file"], list) else [values["file"]]
+    how = arguments(values, _READ)
     facts: dict[str, list[Any]] = {"shape": [], "pixel_size_m": [], "dropout_fraction": []}
     scans = []
-    for name in named:
+    for name, channel in _channels(path, named, how["channel"], every):
         with rename_in_errors(path, names_of("surface", _READ)):
-            raw, filled = read_filled(path.parent / name, **arguments(values, _READ))
+            raw, filled = read_filled(path.parent / name, **{**how, "channel": channel})
         scans.append(filled)
         facts["shape"].append(list(raw.heights.shape))
         pixel = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
@@ -147,6 +150,18 @@ def _read_scans(path: Path, values: Values, derived: Values) -> list[Scan]:
         facts["dropout_fraction"].append(raw.dropout_fraction)
     derived |= {key: of[0] if len(of) == 1 else of for key, of in facts.items()}
     return scans
+
+
+def _channels(
+    path: Path, named: Sequence[str], channel: int, every: bool
+) -> Iterator[tuple[str, int]]:
+    for name in named:
+        file = path.parent / name
+        if every and file.suffix.lower() == ".zip" and file.is_file():
+            with rename_in_errors(file, {}):
+                yield from ((name, at) for at in range(len(scans_of_container(file))))
+        else:
+            yield name, channel
 
 
 def _transform(values: Values) -> dict[str, Any]:

@@ -1,0 +1,103 @@
+"""Surfaces and tables that other libraries hold: SurfaceTopography, xarray, pandas.
+
+They are known by what they can do, and none of the libraries is imported.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from asperity._core import InvalidInput
+from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.io.instrument import (
+    METRES,
+    PixelSize,
+    check_equal_distances,
+    checked_unit,
+    of_topography,
+)
+from asperity.io.instrument import surface_of as made
+from asperity.io.positions import surface_at
+from asperity.surface import HeightMap, LineScan
+
+
+def is_frame(found: Any) -> bool:
+    """Whether it is a table of columns, as pandas has them."""
+    return hasattr(found, "columns") and hasattr(found, "to_numpy") and hasattr(found, "iloc")
+
+
+def frame_of(found: Any) -> Any:
+    """A table of columns: itself, or what an xarray.Dataset makes of it; None of all else."""
+    if is_frame(found):
+        return found
+    if hasattr(found, "data_vars") and hasattr(found, "to_dataframe"):
+        return found.to_dataframe().reset_index()
+    return None
+
+
+def surface_from(
+    found: Any, pixel_size: PixelSize | None = None, unit: str | None = None
+) -> HeightMap | LineScan | None:
+    """The surface that an object of another library is; None of what is none.
+
+    A Topography or line scan of SurfaceTopography; an `xarray.DataArray` along x, or along y and x,
+    whose units are in `attrs`, or a Dataset with one; a DataFrame of columns x, (y and) height.
+    `pixel_size` [m] and `unit` are those that the object does not state.
+    """
+    if callable(getattr(found, "heights", None)) and hasattr(found, "physical_sizes"):
+        _left_out("pixel_size", pixel_size)
+        stated = getattr(found, "unit", None)
+        if stated is not None:
+            _left_out("unit", unit)
+        elif unit is None:
+            raise InvalidInput(Argument("unit"), " is missing: the topography has none")
+        return of_topography(found, None if unit is None else METRES[unit], None)
+    if hasattr(found, "data_vars"):
+        maps = [one for one in found.data_vars.values() if one.ndim in (1, 2)]
+        if len(maps) == 1 and maps[0].dims[-1] == "x":
+            return _of_xarray(maps[0], pixel_size, unit)
+    elif hasattr(found, "dims") and hasattr(found, "coords") and hasattr(found, "attrs"):
+        return _of_xarray(found, pixel_size, unit)
+    elif is_frame(found):
+        return _of_frame(found, pixel_size, unit)
+    return None
+
+
+def _left_out(name: str, given: Any) -> None:
+    if given is not None:
+        raise refusal(name, given, "left out, the object states its own", text=f"{given!r}")
+
+
+def _of_xarray(found: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+    stated = found.attrs.get("units")
+    if stated is not None:
+        _left_out("unit", unit)
+    of_heights = stated or unit
+    if of_heights is None:
+        raise InvalidInput(Argument("unit"), ' is missing: attrs have no "units" of the heights')
+    steps: list[float | None] = []
+    for name in found.dims:
+        if name not in found.coords:
+            steps.append(None)
+            continue
+        places = found.coords[name]
+        check_equal_distances(np.asarray(places.values, float))
+        length = checked_unit(places.attrs.get("units", of_heights))
+        steps.append(float(places[-1] - places[0]) / (places.size - 1) * METRES[length])
+    if None not in steps:
+        _left_out("pixel_size", pixel_size)
+        sizes: Any = steps  # numbers all
+        pixel_size = sizes[0] if len(sizes) == 1 else tuple(sizes)
+    elif pixel_size is None:
+        raise InvalidInput(Argument("pixel_size"), " is missing: there are no coordinates")
+    return made(np.array(found.values), METRES[checked_unit(of_heights)], pixel_size)
+
+
+def _of_frame(found: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+    names = [name for name in ("x", "y") if name in found.columns]
+    heights = [name for name in ("height", "z") if name in found.columns]
+    if "x" not in names or len(heights) != 1:
+        have = ", ".join(map(repr, list(found.columns)[:6]))
+        raise InvalidInput(f"a table of the columns {have}", MUST_BE, "of x, (y,) and height")
+    matrix = found[[*names, *heights]].to_numpy(dtype=float)
+    return surface_at(matrix, pixel_size, unit or "m", ())
