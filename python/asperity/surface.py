@@ -23,9 +23,9 @@ from asperity.base.arguments import (
     whole,
 )
 from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.iso_25178 import height_parameters, measured_parameters
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
-from asperity.iso_25178 import height_parameters, measured_parameters
 
 Detrend = Literal["offset", "plane", "quadratic"]
 DETRENDS: tuple[Detrend, ...] = get_args(Detrend)  # in the order of the core's enumeration

@@ -12,13 +12,13 @@ from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
+from asperity.base.iso_25178 import height_parameters
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.open_map import open_map
 from asperity.io.table import Table
-from asperity.iso_25178 import height_parameters
 from asperity.measured_spectrum import power_spectrum_of
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
