@@ -131,6 +131,8 @@ def scans_of_container(path: Path) -> list[Any]:
 
 def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | LineScan:
     """One scan of such an archive; `channel` counts them."""
+    import gc  # here, as logging
+
     scans = scans_of_container(path)
     check_channel(channel, len(scans))
     with warnings.catch_warnings():
@@ -139,6 +141,8 @@ def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | Li
             topography = scans[channel]()
         except Exception as error:
             raise UnrecognisedError(f"scan {channel}: {brief(error)}") from error
+        finally:
+            gc.collect()  # the library leaves files open, in circles of references
     if topography.unit is None and unit is None:
         raise InvalidInput(Argument("unit"), " is missing: the file does not state it")
     if topography.unit is not None and unit is not None:
