@@ -11,14 +11,12 @@ Then what builds take, and their check of a million points, on measured inputs t
 ASPERITY_DATA names their folder.
 """
 
-import importlib.util
-import subprocess
-import sysconfig
 import tempfile
 import time
 from pathlib import Path
 from typing import Any
 
+import compiled
 import measured
 import numpy as np
 import timing
@@ -26,52 +24,22 @@ from scipy.interpolate import RegularGridInterpolator
 
 import asperity
 
-ROOT = Path(__file__).parents[2]
+HOST = ("-std=c++17", "-O2")  # as hosts compile, nothing linked
 BOX = {"pressure": (1e4, 1e6), "velocity": (1e-6, 10.0)}
+ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=3e6, moduli=np.full(20, 3e7), relaxation_times=np.geomspace(1e-12, 1, 20)
+)
 ADHESION = asperity.Adhesion(shear_stress=8.3e6)
 COUNT = 1 << 14
 RUNS = 41
-
-
-def module(name: str) -> Any:
-    """A C++ file beside this one, compiled as hosts compile: -O2, C++17, nothing linked."""
-    import pybind11
-
-    with tempfile.TemporaryDirectory() as folder:
-        built = Path(folder) / f"{name}_timing{sysconfig.get_config_var('EXT_SUFFIX')}"
-        headers = (ROOT / "cpp/include", pybind11.get_include(), sysconfig.get_path("include"))
-        includes = [f"-I{path}" for path in headers]
-        source = Path(__file__).with_name(f"{name}.cpp")
-        command = [
-            "c++",
-            "-std=c++17",
-            "-O2",
-            "-shared",
-            "-fPIC",
-            "-fvisibility=hidden",
-            *includes,
-            source,
-        ]
-        subprocess.run([*command, "-o", built], check=True)
-        spec = importlib.util.spec_from_file_location(f"{name}_timing", built)
-        if spec is None or spec.loader is None:
-            raise SystemExit(f"{built}: cannot be loaded")
-        loaded = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(loaded)
-        return loaded
 
 
 class Scene:
     """Table 1's asphalt to its slope cut-off, a rubber of 20 terms, with or without adhesion."""
 
     def __init__(self, adhesion: asperity.Adhesion | None) -> None:
-        road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-        rubber = asperity.PronySeries(
-            equilibrium_modulus=3e6,
-            moduli=np.full(20, 3e7),
-            relaxation_times=np.geomspace(1e-12, 1, 20),
-        )
-        self.parts = (road, rubber)
+        self.parts = (ROAD, RUBBER)
         self.adhesion = adhesion
         start = time.perf_counter()
         self.map = asperity.friction_map(*self.parts, **BOX, adhesion=adhesion, checked=0)
@@ -95,11 +63,10 @@ class Scene:
 
 def builds() -> timing.Report:
     """Seconds of one thread for maps at 1e-4, and at 1e-8 over 18 decades of velocity."""
-    road, rubber = Scene(None).parts
     wide = {"pressure": BOX["pressure"], "velocity": (1e-12, 1e6), "rtol": 1e-8}
     scenes: dict[str, tuple[Any, Any, dict[str, Any]]] = {
-        "closed form, 20 terms": (road, rubber, BOX),
-        "the same at 1e-8, 18 decades of velocity": (road, rubber, wide),
+        "closed form, 20 terms": (ROAD, RUBBER, BOX),
+        "the same at 1e-8, 18 decades of velocity": (ROAD, RUBBER, wide),
     }
     if measured.folder() is not None:
         scan = measured.spectra()["opd-1.opd"]
@@ -144,7 +111,7 @@ def points(count: int) -> tuple[Any, Any]:
 
 
 def look_ups() -> timing.Report:
-    compiled = module("friction_map")
+    timed = compiled.module("friction_map", *HOST)
     rows: list[tuple[str, float, float, float, float]] = []
     p, v = points(COUNT)
 
@@ -162,7 +129,7 @@ def look_ups() -> timing.Report:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "bench.fmap"
             scene.map.save(path)
-            mu, many, whole, yardstick = compiled.queries(str(path), p.tolist(), v.tolist(), RUNS)
+            mu, many, whole, yardstick = timed.queries(str(path), p.tolist(), v.tolist(), RUNS)
         add(f"C++, mu: {name}", mu, yardstick, error)
         add(f"C++, mu, one call for all points: {name}", many, yardstick, error)
         add(f"C++, all with derivatives: {name}", whole, yardstick, error)

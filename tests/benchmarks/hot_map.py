@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import compiled
 import numpy as np
 import timing
 
@@ -37,15 +38,9 @@ CALLS = {
 
 
 def scene() -> dict[str, Any]:
-    road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=np.full(20, 3e7),
-        relaxation_times=np.geomspace(1e-12, 1, 20),
-    )
     return {
-        "spectrum": road,
-        "rubber": rubber,
+        "spectrum": friction_map.ROAD,
+        "rubber": friction_map.RUBBER,
         **BOX,
         "adhesion": friction_map.ADHESION,
         "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
@@ -78,7 +73,7 @@ def arrays(
 
 
 def make() -> timing.Report:
-    compiled = friction_map.module("hot_map")
+    timed = compiled.module("hot_map", *friction_map.HOST)
     draws = np.random.default_rng(20261123)
     drawn = (np.exp(draws.uniform(*np.log(side), friction_map.COUNT)) for side in BOX.values())
     p, v = (column.clip(*side).tolist() for column, side in zip(drawn, BOX.values(), strict=True))
@@ -89,7 +84,7 @@ def make() -> timing.Report:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "bench.fmap"
             made.save(path)
-            found = compiled.queries(str(path), p, v, own, SHARED, DISTANCE, friction_map.RUNS)
+            found = timed.queries(str(path), p, v, own, SHARED, DISTANCE, friction_map.RUNS)
         found |= arrays(made, p, v, own)
         for call, before in CALLS.items():
             cold = found[f"{before}cold"]

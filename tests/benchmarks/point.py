@@ -8,22 +8,18 @@ a libasperity.a of this very source. The grid is 1000 pressures times 1000 veloc
 from Python, over that C++ call for one of its points: what it would take point by point.
 """
 
-import importlib.util
 import os
 import subprocess
-import sysconfig
-import tempfile
 from functools import partial
 from pathlib import Path
-from typing import Any
 
+import compiled
 import numpy as np
 import timing
 from curves import curves
 
 import asperity
 
-ROOT = Path(__file__).parents[2]
 VELOCITY = 1e-2
 RTOLS = (1e-3, 1e-6, 1e-9)
 SIDE = 1000  # of the grid
@@ -38,32 +34,14 @@ def library() -> Path:
         ["--preset", "release"],
         ["--build", "--preset", "release", "--target", "asperity"],
     ):
-        subprocess.run(["cmake", *step], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    return ROOT / "build/release/cpp/libasperity.a"
-
-
-def module() -> Any:
-    """point.cpp, compiled."""
-    import pybind11
-
-    with tempfile.TemporaryDirectory() as folder:
-        built = Path(folder) / f"point_timing{sysconfig.get_config_var('EXT_SUFFIX')}"
-        headers = (ROOT / "cpp/include", pybind11.get_include(), sysconfig.get_path("include"))
-        includes = [f"-I{path}" for path in headers]
-        source = Path(__file__).with_suffix(".cpp")
-        command = ["c++", "-std=c++20", "-O3", "-shared", "-fPIC", *includes, source]
-        subprocess.run([*command, library(), "-o", built], check=True)
-        spec = importlib.util.spec_from_file_location("point_timing", built)
-        if spec is None or spec.loader is None:
-            raise SystemExit(f"{built}: cannot be loaded")
-        loaded = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(loaded)
-    return loaded
+        subprocess.run(["cmake", *step], cwd=compiled.ROOT, check=True, stdout=subprocess.DEVNULL)
+    return compiled.ROOT / "build/release/cpp/libasperity.a"
 
 
 def measure() -> dict[float, dict[str, float]]:
     """Seconds by rtol and by CALLS."""
-    timed, curve = module(), curves()["Table 1"]
+    timed = compiled.module("point", "-std=c++20", "-O3", libraries=(library(),))
+    curve = curves()["Table 1"]
     inputs, found = curve.inputs, {}
     names = ("rms_height", "hurst", "q0", "q1", "equilibrium_modulus", "moduli", "relaxation_times")
     for rtol in RTOLS:

@@ -1,14 +1,11 @@
 """What a sweep adds to the plain loop, what workers gain, and the memory of the driver.
 
     python tests/benchmarks/sweep.py overhead          processor time over that of the plain loop
-    python tests/benchmarks/sweep.py measured          the same of two scans with a measured rubber
     python tests/benchmarks/sweep.py workers           one and two Dask workers: wall and processor
     python tests/benchmarks/sweep.py memory            peak memory of the driver over the points
-    python tests/benchmarks/sweep.py model             what 100 workers would take
 
-Points are pressures times velocities of three treads on a self-affine road. `measured` needs
-ASPERITY_DATA. Wall times say something on an idle machine alone; processor times do on a busy one
-too.
+Points are pressures times velocities of three treads on a self-affine road. Wall times say
+something on an idle machine alone; processor times do on a busy one too.
 """
 
 import argparse
@@ -18,17 +15,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
-import measured as inputs
 import numpy as np
 
 import asperity
-from asperity.scene.rubber import BuiltRubber, build_rubber
-from asperity.scene.scene import Builders, build_scene
-from asperity.sweep import parts, plan, run, work
+from asperity.sweep import plan
 from asperity.sweep.executors import local_cluster
 
 SCENE = {
@@ -97,72 +89,6 @@ def overhead(points: int) -> None:
         )
 
 
-def measured(points: int) -> None:
-    """Overhead where parts take long to build: opd-1 and al3d-1 with the isotherms of epdm_70."""
-    data = inputs.folder()
-    if data is None:
-        sys.exit("ASPERITY_DATA is not set: it names the folder of measured inputs")
-    tables = {
-        "surface": {},
-        "rubber": {
-            "isotherms": [str(data / "dma/epdm_70/tf_015p.csv")],
-            "columns": inputs.COLUMNS,
-            "units": inputs.UNITS,
-            "modulus": "G",
-            "temperature_c": 20,
-            "extrapolation": "power-law",
-        },
-        "conditions": {"pressure_pa": 1e5, "velocity_m_s": 1e-3},
-    }
-    scans = [str(data / "topography" / name) for name in inputs.SCANS]
-    p, v = np.geomspace(5e4, 5e5, 20), np.geomspace(1e-5, 1e-1, max(1, points // 80))
-    corrections = {"none": None, "partial-contact": asperity.PartialContact()}
-    axes = {
-        "surface.file": scans,
-        "correction.kind": list(corrections),
-        "conditions.pressure_pa": p,
-        "conditions.velocity_m_s": v,
-    }
-
-    def rubber() -> BuiltRubber:
-        return build_rubber(Path(), tables["rubber"], None)
-
-    def loop(each_anew: bool) -> float:
-        began = time.process_time()
-        one_rubber = cache(rubber)
-        kept = {name: np.full((2, 2, p.size, v.size), np.nan) for name in plan.PLAIN}
-        builders = Builders(rubber=build_rubber if each_anew else lambda *_: one_rubber())
-        for i, scan in enumerate(scans):
-            scene = tables | {"surface": {"file": scan}}
-            made = None
-            for k, correction in enumerate(corrections.values()):
-                if made is None or each_anew:
-                    made = build_scene(Path(), scene, for_friction=True, builders=builders)
-                found = replace(made, correction=correction).friction_at(p[:, None], v)
-                for name, array in kept.items():
-                    array[i, k] = getattr(found, name)
-        return time.process_time() - began
-
-    def swept(store: Path) -> float:
-        for kept in (parts._SCANS, parts._SURFACES, parts._RUBBERS, parts._CORRECTIONS):
-            kept._made.clear()  # as in a new worker
-        began = time.process_time()
-        asperity.sweep(tables, axes, store=store).close()
-        return time.process_time() - began
-
-    with tempfile.TemporaryDirectory() as folder:
-        swept(Path(folder) / "first.zarr")  # what is imported is imported now
-        turns = []
-        for turn in range(3):
-            once, anew = loop(False), loop(True)
-            turns.append((swept(Path(folder) / f"{turn}.zarr") / once, anew / once, once))
-    ratio, anew, once = (sorted(column)[1] for column in zip(*turns, strict=True))
-    print(
-        f"{4 * p.size * v.size} points of two scans: {ratio:.3f} of the {once:.2f} s of a loop "
-        f"that builds both scans and the rubber once; {anew:.2f} if it builds them for each scene"
-    )
-
-
 def workers(points: int) -> None:
     """Wall and processor seconds with one worker and with two."""
     told = {}
@@ -213,43 +139,9 @@ def memory(points: int) -> None:
         print(f"{count} points: {int(out.stdout) / 1024:.0f} MB, store of {size / 1e6:.0f} MB")
 
 
-def _hide_store() -> None:
-    work._sees = lambda _: False
-
-
-def model(points: int) -> None:
-    """Seconds of many workers: their processors in parallel, and the driver's one task by one."""
-    loop = plain(points) / points
-    tasks, per_task, sent = 200, {}, 0.0
-    with local_cluster(1) as client:
-        for seen in (True, False):
-            if not seen:
-                client.run(_hide_store)
-            for size in (1, 100):  # points of a task: what it costs, and what its numbers do
-                axes = {
-                    "conditions.velocity_m_s": np.geomspace(1e-5, 1, tasks),
-                    "conditions.pressure_pa": np.geomspace(5e4, 5e5, size * size),
-                }
-                run.cut_of = lambda *_, size=size: (1, size * size)
-                with tempfile.TemporaryDirectory() as folder:
-                    own = time.process_time()
-                    asperity.sweep(SCENE, axes, executor=client, store=f"{folder}/r.zarr").close()
-                    per_task[seen, size] = (time.process_time() - own) / tasks
-    sent = (per_task[False, 100] - per_task[False, 1]) / 1e4
-    print(
-        f"a point {loop * 1e6:.2f} us of a worker, {sent * 1e6:.3f} us of the driver if it is sent"
-    )
-    for seen in (True, False):
-        task = per_task[seen, 1]
-        print(f"workers see the store: {seen}; a task takes {task * 1e3:.1f} ms of the driver")
-        for count in (1, 10, 100):
-            driver = task * 1e9 / plan.MOST_POINTS + (0 if seen else sent * 1e9)
-            print(f"  1e9 points, {count} workers: {max(loop * 1e9 / count, driver):.0f} s")
-
-
 if __name__ == "__main__":
     what = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    what.add_argument("what", choices=("overhead", "measured", "workers", "memory", "model"))
+    what.add_argument("what", choices=("overhead", "workers", "memory"))
     what.add_argument("--points", type=float, default=1e7)
     given = what.parse_args()
     globals()[given.what](int(given.points))
