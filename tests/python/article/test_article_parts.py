@@ -1,8 +1,6 @@
 """Parts of `asperity article`: readings of the printed p_T, Eqs 25 to 27, verdicts, files."""
 
 import itertools
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +8,6 @@ import pytest
 import asperity
 from asperity.article import inputs, readings, sliding, statement, surfaces
 from asperity.article.statement import Finding
-from asperity.base.extras import to_install
-from asperity.cli import article_command as command
-from asperity.cli.main import main
 from asperity.plot.style import drawn_in
 
 H_RMS = 76.572e-6
@@ -99,51 +94,9 @@ def test_verdicts_follow_from_tests(
     assert statement.verdict(rule, {**found, "untuned": Finding(untuned)}) == verdict
 
 
-def test_numbers_are_put_into_words() -> None:
-    found = {
-        "": Finding(d=0.123),
-        "a": Finding(p=[2.464, 2.0], q=np.array([])),
-        "b": Finding(p=(4e-4, -0.2), q=[3, 1, 2]),
-    }
-    text = "{d:%} of [{p:%}, {p:.2f}, {q:~}]"
-    wanted = (
-        "+12 % of a: +2.5e+02 %, +2e+02 %, 2.46, 2.00, none; b: 0.0 %, -20 %, 0.00, -0.20, 1 to 3"
-    )
-    assert statement.worded(text, found) == wanted
-
-
 def test_a_statement_without_its_finding_is_an_error() -> None:
     with pytest.raises(ValueError, match=r"statements\.csv and findings differ"):
         statement.judge({"T3": {}})
-
-
-def test_it_writes_over_files_when_it_is_told_to(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
-
-    def stub(mark: bytes) -> None:
-        made = dict.fromkeys(command.FILES, mark)
-        monkeypatch.setattr(command, "remake", lambda: (made, []))
-
-    stub(b"old")
-    assert main(["article", "--output", str(tmp_path)]) == 0
-    stub(b"new")
-    assert main(["article", "--output", str(tmp_path)]) == 2
-    assert "table1.png, summary.md already; choose another --output" in capsys.readouterr().err
-    assert {(tmp_path / name).read_bytes() for name in command.FILES} == {b"old"}
-    assert main(["article", "--output", str(tmp_path), "--force"]) == 0
-    assert {(tmp_path / name).read_bytes() for name in command.FILES} == {b"new"}
-
-
-def test_without_matplotlib_it_says_what_to_install(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert main(["article", "--output", str(tmp_path / "out")]) == 2
-    line = f"pictures are drawn by matplotlib: {to_install('plot')}"
-    assert capsys.readouterr().err == f"asperity: {tmp_path / 'out' / 'fig01.png'}: {line}\n"
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(("style", "width"), [("print", 8.4), ("single", 3.4)])

@@ -1,12 +1,11 @@
 """ImplicitSFactor: one area for each load, its limits, and what it leaves alone."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import asperity
-from asperity.scene.scene import load_scene
+from helpers.examples import TREAD
+from helpers.heat import LAW
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
 RUBBER = asperity.PronySeries(
@@ -16,6 +15,7 @@ RUBBER = asperity.PronySeries(
 )
 LOADS = np.geomspace(1e2, 1e9, 29)
 STICKY = asperity.Adhesion(shear_stress=8e6)
+HOT = {"temperature": 293.15, "shift": LAW, "heating": asperity.Heating(**TREAD)}
 
 
 def area(pressure, correction=None, **more):
@@ -68,17 +68,8 @@ def test_every_magnification_has_its_own_area():
 
 @pytest.mark.parametrize("heat", [False, True])
 def test_eq_22_is_left_alone_and_the_adhesion_goes_with_the_area(heat):
-    hot = {}
-    if heat:
-        tread = asperity.Heating(
-            density=1200,
-            heat_capacity=1650,
-            conductivity=0.23,
-            contact_diameter=1e-3,
-            interface_share=0,
-        )
-        law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-        hot = {"temperature": 293.15, "shift": law, "heating": tread}
+    cold_interface = asperity.Heating(**TREAD | {"interface_share": 0})
+    hot = HOT | {"heating": cold_interface} if heat else {}
     at = {"pressure": [1e5, 1e6], "velocity": 0.1, "adhesion": STICKY, **hot}
     plain = asperity.friction(ROAD, RUBBER, **at)
     found = asperity.friction(ROAD, RUBBER, correction=asperity.ImplicitSFactor(), **at)
@@ -87,64 +78,12 @@ def test_eq_22_is_left_alone_and_the_adhesion_goes_with_the_area(heat):
     ratio = found.contact_area / plain.contact_area
     assert found.adhesion == pytest.approx(ratio * plain.adhesion, rel=1e-9)
     assert np.array_equal(found.model_error, plain.model_error, equal_nan=True)
-    if not heat:
-        assert found.contact_area == pytest.approx(
-            asperity.contact_area(
-                ROAD,
-                RUBBER,
-                pressure=[1e5, 1e6],
-                velocity=0.1,
-                correction=asperity.ImplicitSFactor(),
-            ),
-            rel=1e-6,
-        )
 
 
 def test_heat_of_the_adhesion_finds_the_state_of_a_tight_tolerance():
     """The fixed point takes the slope of the area over the temperature."""
-    tread = asperity.Heating(
-        density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3
-    )
-    law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-    at = {
-        "pressure": 1e5,
-        "velocity": 0.3,
-        "temperature": 293.15,
-        "shift": law,
-        "heating": tread,
-        "adhesion": STICKY,
-        "correction": asperity.ImplicitSFactor(gamma=0.4),
-        "rtol": 1e-4,
-    }
-    found = asperity.friction(ROAD, RUBBER, **at)
-    check = asperity.friction(ROAD, RUBBER, **at | {"rtol": 1e-9})
+    correction = asperity.ImplicitSFactor(gamma=0.4)
+    at = {"pressure": 1e5, "velocity": 0.3, "adhesion": STICKY, "correction": correction, **HOT}
+    found, check = (asperity.friction(ROAD, RUBBER, **at, rtol=rtol) for rtol in (1e-4, 1e-9))
     assert found.mu == pytest.approx(check.mu, abs=found.error_estimate + check.error_estimate)
     assert found.temperature == pytest.approx(check.temperature, abs=0.05)
-
-
-def test_a_scene_takes_it_by_name(tmp_path: Path):
-    text = """
-[surface]
-rms_height_m = 1e-4
-hurst = 0.8
-q0_per_m = 1e3
-q1_per_m = 1e5
-[rubber]
-equilibrium_modulus_pa = 1e6
-moduli_pa = [1e8]
-relaxation_times_s = [1e-4]
-[conditions]
-pressure_pa = 1e5
-velocity_m_s = [1e-3, 1e-1]
-[correction]
-kind = "implicit-s-factor"
-"""
-    (tmp_path / "scene.toml").write_text(text)
-    scene = load_scene(tmp_path / "scene.toml")
-    assert scene.correction == asperity.ImplicitSFactor(gamma=0.45)
-    assert scene.inputs["correction"] == {"kind": "implicit-s-factor", "gamma": 0.45}
-    (tmp_path / "scene.toml").write_text(text + "gamma = 1.5\n")
-    with pytest.raises(
-        asperity.InvalidInput, match=r"\[correction\] gamma = 1.5: must be in \[0, 1\]"
-    ):
-        load_scene(tmp_path / "scene.toml")

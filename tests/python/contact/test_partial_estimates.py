@@ -9,7 +9,7 @@ import pytest
 import asperity
 from asperity import MasterCurve, PartialContact, PronySeries, SelfAffineSpectrum
 from helpers import table_rows
-from helpers.cases import case, each, long
+from helpers.cases import case, long
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import partial_truth
@@ -47,7 +47,7 @@ def test_the_rule_has_one_root(count):
             assert random_roots.compute(3, scene).kept
 
 
-@each(("scene", "kind"), [(1459, "faint, two steps"), (4182, "steps, one step")])
+@pytest.mark.parametrize(("scene", "kind"), [(1459, "faint, two steps"), (4182, "steps, one step")])
 def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
     # with T of I2(v q_e) and w(q_e) alone there are three, at G = 10^5.5 and 10^10, and areas jump
     # by 20 beside them: rows beyond q_e have nearly all of G, or q_e falls in a gap
@@ -111,7 +111,7 @@ def test_estimates_hold_against_brute_force(count):
             assert all(excess <= 1 for _, excess in points)
 
 
-@each("scene", [180, 714, 809, 873, 1160, 1785])
+@pytest.mark.parametrize("scene", [180, 714, 809, 873, 1160, 1785])
 def test_estimates_hold_beside_knots_that_nearly_meet(scene):
     # levels of rings missed knots alike, and the sums beyond q_e did not see them: up to 315 times
     # the error that was told
@@ -208,7 +208,7 @@ def rough_table(rng, kind):
     return asperity.TabulatedSpectrum(wavenumber=500.0 * k, density=density)
 
 
-@each("kind", ["scatter", "levels", "lines", "random"])
+@pytest.mark.parametrize("kind", ["scatter", "levels", "lines", "random"])
 @pytest.mark.parametrize("count", [3, long(60)])
 def test_rings_keep_their_estimates(kind, count):
     rng = np.random.default_rng(7)

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import each
 
 BAND = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 1e5}
 SERIES = {"equilibrium_modulus": 3e6, "moduli": [1e7, 1e8], "relaxation_times": [1e-2, 1e-5]}
@@ -56,17 +55,19 @@ def pressure_of(g, form="exact"):
     return math.sqrt(low * high)
 
 
-@each("value", [mu, area])
-@each("correction", [None, asperity.SFactor(), asperity.NayakSFactor()])
-@each(("g", "form"), [(0.007, "exact"), (0.03, "exact"), (1.0, "exact"), (1e-8, "interpolated")])
+@pytest.mark.parametrize("value", [mu, area])
+@pytest.mark.parametrize("correction", [None, asperity.SFactor(), asperity.NayakSFactor()])
+@pytest.mark.parametrize(
+    ("g", "form"), [(0.007, "exact"), (0.03, "exact"), (1.0, "exact"), (1e-8, "interpolated")]
+)
 def test_pressure_where_contact_is_whole_no_more(value, correction, g, form):
     at = pressure_of(g, form)
     smooth(lambda p: value(pressure=p, correction=correction, form=form), at)
 
 
-@each("gamma", [0.0, 1.0])
-@each("applies_to", ["friction", "area", "both"])
-@each("value", [mu, area])
+@pytest.mark.parametrize("gamma", [0.0, 1.0])
+@pytest.mark.parametrize("applies_to", ["friction", "area", "both"])
+@pytest.mark.parametrize("value", [mu, area])
 def test_gamma_at_its_ends(gamma, applies_to, value):
     def at(x):
         return value(correction=asperity.SFactor(gamma=x, applies_to=applies_to), pressure=1e4)
@@ -108,7 +109,7 @@ def test_a_rubber_without_terms_and_with_a_trace_of_one():
         assert mu(rubber=rubber(modulus)) == pytest.approx(per_pascal * modulus, rel=1e-8, abs=0)
 
 
-@each("at", [1.0, 1e150 / 1e-2])
+@pytest.mark.parametrize("at", [1.0, 1e150 / 1e-2])
 def test_forms_of_a_relaxation_for_slow_and_fast(at):
     one = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-2])
     w = at * 100 if at == 1 else at
@@ -132,7 +133,7 @@ def test_relaxation_times_from_which_on_terms_are_summed_one_by_one():
     smooth(at, slowest)
 
 
-@each("w", [W[0], W[-1], W[0] / 9.999, W[-1] * 9.999, *W[1:-1:5]])
+@pytest.mark.parametrize("w", [W[0], W[-1], W[0] / 9.999, W[-1] * 9.999, *W[1:-1:5]])
 def test_a_measured_modulus_across_its_rows_and_its_ends(w):
     smooth(lambda x: MEASURED.modulus(x).real, w)
     smooth(lambda x: MEASURED.modulus(x).imag, w)
@@ -168,8 +169,8 @@ def test_a_roll_off_at_the_end(value):
     assert value(near) == pytest.approx(value(), rel=2e-12, abs=0)
 
 
-@each("value", [mu, area])
-@each("length", [4, 8])
+@pytest.mark.parametrize("value", [mu, area])
+@pytest.mark.parametrize("length", [4, 8])
 def test_bands_at_which_a_panel_is_added(value, length):
     def at(q1):
         return value(asperity.SelfAffineSpectrum(**{**BAND, "q1": q1}))
@@ -177,8 +178,8 @@ def test_bands_at_which_a_panel_is_added(value, length):
     smooth(at, BAND["q0"] * math.exp(length), steepest=4.0)
 
 
-@each("t", [-100.0, -1.0, 0.0, 8.0])
-@each("peaks", [None, [1e-4, 3e-5, 2e-5]])
+@pytest.mark.parametrize("t", [-100.0, -1.0, 0.0, 8.0])
+@pytest.mark.parametrize("peaks", [None, [1e-4, 3e-5, 2e-5]])
 def test_separations_where_the_moments_take_over(t, peaks):
     stiffness = 2e3 / (3 * math.pi**2 * math.sqrt(3 * math.sqrt(2) * 1e-4)) * 1e-6
     # of the order of the load at which d is t rms heights

@@ -7,7 +7,6 @@ import pytest
 
 import asperity
 from asperity import AffineShift, HeightMap, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
-from helpers.cases import each
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
@@ -94,8 +93,8 @@ def test_a_spectrum_and_its_table_make_the_same_contact():
         assert function(table, RUBBER, **SCENE) == pytest.approx(expected, rel=1e-6)
 
 
-@each("pressure", [1e4, 1e6, 3e7])
-@each("correction", [None, AffineShift(2), asperity.SFactor(applies_to="area")])
+@pytest.mark.parametrize("pressure", [1e4, 1e6, 3e7])
+@pytest.mark.parametrize("correction", [None, AffineShift(2), asperity.SFactor(applies_to="area")])
 def test_pressure_distribution_integrates_to_area_and_load(pressure, correction):
     options = {"pressure": pressure, "velocity": 0.01, "correction": correction, "rtol": 1e-10}
     for q in WAVENUMBERS:

@@ -14,6 +14,7 @@ from asperity import (
     ShiftFactors,
     read_shift_factors,
 )
+from helpers.refusals import refused
 from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_shift, worst
 
 TABLE = Path(__file__).parents[2] / "reference/master_build.csv"
@@ -92,16 +93,16 @@ def test_too_few_temperatures_for_wlf():
     shifts = ShiftFactors(
         reference_temperature=300, temperature=[290, 300, 310], log10_a_T=[1, 0, -1]
     )
-    with pytest.raises(InvalidInput, match=r"^temperature has 3 entries: must be 4 or more"):
+    with refused("temperature", "invalid-input"):
         shifts.fit_wlf()
 
 
 @pytest.mark.parametrize("outside", [243.1, 348.2, -20.0, 1e3])
 def test_a_temperature_outside_of_the_table(outside):
     shifts = built(sweeps()).shift_factors
-    with pytest.raises(OutOfRange, match=rf"^temperature = {outside:g}: .*\[243\.15, 348\.15\] K"):
+    with refused("temperature", "unknown-shift", OutOfRange):
         shifts.shift_factor(outside)
-    with pytest.raises(InvalidInput, match=r"^temperature = nan: must be finite"):
+    with refused("temperature"):
         shifts.shift_factor(np.nan)
 
 

@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, OutOfRange, ShiftFactors
+from helpers.refusals import refused
 from helpers.rubbers import (
     SWEEP,
     T_REF,
@@ -68,7 +69,7 @@ def test_the_reference_temperature_is_free():
 
 @pytest.mark.parametrize("outside", [243.0, 348.5])
 def test_a_reference_temperature_outside_of_the_isotherms(outside):
-    with pytest.raises(OutOfRange, match=rf"^reference_temperature = {outside:g}: isotherms"):
+    with refused("reference_temperature", "unknown-shift", OutOfRange):
         built(sweeps(), outside)
 
 
@@ -142,17 +143,11 @@ def test_a_vertical_shift_that_changes_nothing_is_not_talked_about():
     assert not built(sweeps(TEMPERATURES[:6]), TEMPERATURES[3]).notes
 
 
-@pytest.mark.parametrize(
-    ("vertical_shift", "message"),
-    [
-        ("T", 'vertical_shift = "T": must be None, "T/T_ref" or an array of b_T'),
-        ([1.0, 1.0], r"vertical_shift \(2\) and isotherms \(22\) must have equal length"),
-        ([0.0] + [1.0] * 21, r"vertical_shift\[0\] = 0: must be positive"),
-    ],
-)
-def test_bad_vertical_shifts(vertical_shift, message):
-    with pytest.raises(InvalidInput, match=message):
+@pytest.mark.parametrize("vertical_shift", ["T", [1.0, 1.0], [0.0] + [1.0] * 21])
+def test_bad_vertical_shifts(vertical_shift):
+    with pytest.raises(InvalidInput) as caught:
         built(sweeps(), vertical_shift=vertical_shift)
+    assert caught.value.argument == "vertical_shift"
 
 
 def test_shift_factors_from_outside_instead_of_a_fit():
@@ -167,5 +162,5 @@ def test_shift_factors_from_outside_instead_of_a_fit():
     again = built(sweeps(noise=0.01), 303.15, shift_factors=known)
     step = build.log10_a_T - again.log10_a_T
     np.testing.assert_allclose(step, true_shift(303.15), atol=1e-12)
-    with pytest.raises(OutOfRange, match=r"temperature = 353\.15: shift factors are known in"):
+    with refused("temperature", "unknown-shift", OutOfRange):
         built(sweeps([*TEMPERATURES, 353.15]), shift_factors=known)

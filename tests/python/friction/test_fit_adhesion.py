@@ -7,7 +7,7 @@ import pytest
 
 import asperity
 from asperity import Adhesion, AffineShift, InvalidInput, fit_adhesion, friction
-from helpers.cases import each
+from helpers.refusals import refused
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
 ROAD = ROAD.truncated(q1=ROAD.cutoff_for_slope(1.3))
@@ -61,7 +61,7 @@ def test_reference_fits(row):
             assert fit.standard_errors[name] == pytest.approx(expected, rel=10 * row["rtol"])
 
 
-@each(
+@pytest.mark.parametrize(
     "truth",
     [
         Adhesion(shear_stress=5.3e6),
@@ -70,7 +70,7 @@ def test_reference_fits(row):
         Adhesion(shear_stress=3e7, reference_velocity=1e-5, width=2.0),
     ],
 )
-@each("correction", [None, asperity.SFactor(applies_to="both")])
+@pytest.mark.parametrize("correction", [None, asperity.SFactor(applies_to="both")])
 def test_exact_friction_gives_its_adhesion_back(truth, correction):
     scene = {"velocity": np.geomspace(1e-6, 1, 20), "pressure": 2e5, "correction": correction}
     mu = friction(ROAD, RUBBER, adhesion=truth, rtol=1e-9, **scene).mu
@@ -112,8 +112,8 @@ def test_points_count_by_their_relative_error():
     assert fit.residual == pytest.approx(0.05, rel=0.3)  # 48 points: a scale to 15 %
 
 
-@each("factor", [4.0, 0.25])
-@each("first", [0, 5, 10, 15, 20])
+@pytest.mark.parametrize("factor", [4.0, 0.25])
+@pytest.mark.parametrize("first", [0, 5, 10, 15, 20])
 def test_a_row_of_outliers_moves_nothing(factor, first):
     points = measured(noise=0.03)
     rows = slice(first, first + 4)  # of 24
@@ -123,7 +123,7 @@ def test_a_row_of_outliers_moves_nothing(factor, first):
     fit = fit_adhesion(ROAD, RUBBER, **points)
     assert fit.outliers[rows].all()
     assert fit.outliers.sum() == 4
-    assert any(note.startswith("4 of 24 points were put aside") for note in fit.notes)
+    assert "points-aside" in {note.code for note in fit.notes}
     # the points that are left weigh a little differently where the scale is larger
     assert fit.shear_stress == pytest.approx(alone.shear_stress, rel=0.01)
     shift = np.log10(fit.reference_velocity / alone.reference_velocity)
@@ -183,14 +183,14 @@ def test_friction_without_a_maximum_is_width_zero_about_a_held_velocity():
     fit = fit_adhesion(ROAD, RUBBER, fixed={"reference_velocity": 6e-3}, **points)
     assert fit.width <= 2 * fit.standard_errors["width"] < 0.01
     assert fit.shear_stress == pytest.approx(8.3e6, rel=0.05)
-    with pytest.raises(InvalidInput, match=r"do not determine .*fixed = \{\"width\": 0\.1\}"):
+    with refused("velocity", "undetermined"):
         fit_adhesion(ROAD, RUBBER, **points)
 
 
 @pytest.mark.parametrize("upper", [1e-5, 3e-5])
 def test_a_flank_alone_does_not_settle_the_maximum(upper):
     points = measured(np.geomspace(1e-6, upper, 24), noise=0.05, seed=2)
-    with pytest.raises(InvalidInput, match=r"^velocity, mu: do not determine .*width"):
+    with refused("velocity", "undetermined"):
         fit_adhesion(ROAD, RUBBER, **points)
     fit = fit_adhesion(ROAD, RUBBER, fixed={"width": 0.1, "reference_velocity": 6e-3}, **points)
     assert fit.shear_stress == pytest.approx(8.3e6, rel=0.05)
@@ -198,105 +198,67 @@ def test_a_flank_alone_does_not_settle_the_maximum(upper):
 
 def test_a_maximum_beyond_the_points_is_said_to_be_extrapolated():
     fit = fit_adhesion(ROAD, RUBBER, **measured(np.geomspace(1e-6, 1e-3, 24), noise=0.005))
-    assert any("lies outside of the measured velocities, 1e-06 to 0.001" in x for x in fit.notes)
+    assert "maximum-extrapolated" in {note.code for note in fit.notes}
     inside = fit_adhesion(ROAD, RUBBER, **measured(np.geomspace(1e-6, 1e-2, 24), noise=0.005))
-    assert not any("lies outside" in x for x in inside.notes)
+    assert "maximum-extrapolated" not in {note.code for note in inside.notes}
 
 
 def test_hysteresis_that_is_wrong_is_noticed_where_scatter_allows():
     points = measured(np.geomspace(1e-6, 1, 60), noise=0.03)
-    told = "neighbours in velocity"
-    assert not any(told in note for note in fit_adhesion(ROAD, RUBBER, **points).notes)
+    right = fit_adhesion(ROAD, RUBBER, **points)
+    assert "systematic-misfit" not in {note.code for note in right.notes}
     wrong = fit_adhesion(ROAD, RUBBER, **{**points, "correction": AffineShift(1.5)})
-    assert any(told in note for note in wrong.notes)
+    assert "systematic-misfit" in {note.code for note in wrong.notes}
 
 
-def test_notes_of_the_theory_come_along():
-    fit = fit_adhesion(ROAD, RUBBER, **measured())
-    assert any("flash heating" in note for note in fit.notes)
-
-
-NONE = "mu: leaves nothing for the adhesion, the hysteresis alone exceeds it at 24 of 24 points"
-
-
-@pytest.mark.parametrize(
-    ("correction", "cause"),
-    [(None, "plain Persson overestimates"), (AffineShift(2.0), "the spectrum may reach too far")],
-)
-def test_friction_below_the_hysteresis(correction, cause):
+@pytest.mark.parametrize("correction", [None, AffineShift(2.0)])
+def test_friction_below_the_hysteresis(correction):
     scene = {"velocity": np.geomspace(1e-6, 1, 24), "pressure": 81e3, "correction": correction}
     mu = friction(ROAD, RUBBER, **scene).mu / 1.5
-    with pytest.raises(InvalidInput, match=rf"^{NONE} \(mean ratio 1\.5\).*{cause}"):
+    with refused("mu", "no-adhesion-left"):
         fit_adhesion(ROAD, RUBBER, mu=mu, **scene)
 
 
 def test_friction_of_the_hysteresis_alone():
     points = measured(truth=None, noise=0.02)
-    with pytest.raises(InvalidInput, match=r"^velocity, mu: do not determine shear_stress|^mu: "):
+    with refused("velocity", "undetermined"):
         fit_adhesion(ROAD, RUBBER, **points)
 
 
-FEW = "must be 4 or more to fit 3 parameters; fixed = {...} holds some"
 V = [1e-4, 1e-3, 1e-2, 1e-1]
 MU = [0.8, 0.9, 1.0, 0.9]
+HELD = {"width": 0.1, "reference_velocity": 6e-3}
 REFUSED = [
-    ({"velocity": V[:3], "mu": MU[:3]}, f"velocity: different values: 3, {FEW}"),
-    ({"velocity": [1e-3] * 9, "mu": [1.0] * 9}, f"velocity: different values: 1, {FEW}"),
-    (
-        {"velocity": 1e-3, "mu": 1.0, "fixed": {"width": 0.1, "reference_velocity": 6e-3}},
-        "velocity: different values: 1, must be 2 or more to fit 1 parameter",
-    ),
-    ({"mu": [0.8, 0.9, -1.0, 0.9]}, "mu[2] = -1: must be positive and finite"),
-    ({"mu": [0.8, 0.0, 1.0, 0.9]}, "mu[1] = 0: must be positive and finite"),
-    ({"mu": [0.8, 0.9, 1.0, np.nan]}, "mu[3] = nan: must be positive and finite"),
-    ({"mu": [0.8, 0.9, 1.0, np.inf]}, "mu[3] = inf: must be positive and finite"),
-    ({"mu": MU[:3]}, "mu has shape (3,): must be that of pressure and velocity together, (4,)"),
-    ({"mu": 1.0}, "mu has shape (): must be that of pressure and velocity together, (4,)"),
-    (
-        {"pressure": [[1e5], [2e5]]},
-        "mu has shape (4,): must be that of pressure and velocity together, (2, 4)",
-    ),
-    ({"pressure": [1e5, 2e5]}, "shapes pressure (2,), velocity (4,): must broadcast together"),
-    ({"velocity": [1e-4, 1e-3, 0.0, 1.0]}, "velocity = 0: must be positive and finite"),
-    ({"pressure": -1.0}, "pressure = -1: must be positive and finite"),
-    ({"mu": ["a"] * 4}, "mu = ['a', 'a', 'a', 'a']: must be a number or an array"),
-    (
-        {"fixed": {"tau": 1.0}},
-        'fixed = "tau": must be one of "shear_stress", "reference_velocity", "width"',
-    ),
-    ({"fixed": ["width"]}, "fixed = ['width']: must be a dict"),
-    ({"fixed": {"width": -0.1}}, "fixed: width = -0.1: must be finite and not negative"),
-    ({"fixed": {"width": np.nan}}, "fixed: width = nan: must be finite and not negative"),
-    ({"fixed": {"width": [0.1]}}, "fixed: width = [0.1]: must be a number"),
-    ({"fixed": {"width": None}}, "fixed: width = None: must be a number"),
-    ({"fixed": {"shear_stress": 0.0}}, "fixed: shear_stress = 0: must be positive and finite"),
-    (
-        {"fixed": {"reference_velocity": 0}},
-        "fixed: reference_velocity = 0: must be positive and finite",
-    ),
-    (
-        {"fixed": {"width": 0.0}},
-        "fixed: width = 0: must be positive where reference_velocity, without effect then, is",
-    ),
-    (
-        {"fixed": dict.fromkeys(NAMES, 1.0)},
-        "fixed: shear_stress, reference_velocity and width: must leave one of them to be fitted",
-    ),
-    ({"rtol": 1.0}, "rtol = 1: must be in [1e-12, 0.1]"),
+    ("velocity", {"velocity": V[:3], "mu": MU[:3]}),  # fewer than parameters
+    ("velocity", {"velocity": [1e-3] * 9, "mu": [1.0] * 9}),
+    ("velocity", {"velocity": 1e-3, "mu": 1.0, "fixed": HELD}),
+    *(("mu", {"mu": [0.8, wrong, 1.0, 0.9]}) for wrong in (-1.0, 0.0, np.nan, np.inf)),
+    *(("mu", {"mu": wrong}) for wrong in (MU[:3], 1.0, ["a"] * 4)),
+    ("mu", {"pressure": [[1e5], [2e5]]}),
+    ("", {"pressure": [1e5, 2e5]}),  # shapes of two arguments
+    ("velocity", {"velocity": [1e-4, 1e-3, 0.0, 1.0]}),
+    ("pressure", {"pressure": -1.0}),
+    ("fixed", {"fixed": {"tau": 1.0}}),
+    ("fixed", {"fixed": ["width"]}),
+    ("fixed", {"fixed": dict.fromkeys(NAMES, 1.0)}),  # leaves nothing to fit
+    *(("fixed: width", {"fixed": {"width": wrong}}) for wrong in (-0.1, np.nan, [0.1], None, 0.0)),
+    ("fixed: shear_stress", {"fixed": {"shear_stress": 0.0}}),
+    ("fixed: reference_velocity", {"fixed": {"reference_velocity": 0}}),
+    ("rtol", {"rtol": 1.0}),
 ]
 
 
-@each(("changed", "message"), REFUSED)
-def test_bad_arguments(changed, message):
+@pytest.mark.parametrize(("argument", "changed"), REFUSED)
+def test_bad_arguments(argument, changed):
     arguments = {"velocity": V, "mu": MU, "pressure": 81e3} | changed
     with pytest.raises(InvalidInput) as caught:
         fit_adhesion(ROAD, RUBBER, **arguments)
-    assert str(caught.value).startswith(message)
+    assert caught.value.argument == argument
 
 
 def test_a_point_without_contact():
     lost = asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-1e-3)
     scene = {"pressure": 1.0, "velocity": V, "correction": lost}
     assert np.isinf(friction(ROAD, RUBBER, **scene).shift_factor).all()
-    with pytest.raises(InvalidInput, match=r"^mu\[0\] = 0\.8 at pressure = 1, velocity = 0\.0001:"):
+    with refused("mu", "no-contact"):
         fit_adhesion(ROAD, RUBBER, mu=MU, **scene)

@@ -19,7 +19,6 @@ from asperity import (
     SelfAffineSpectrum,
     SFactor,
 )
-from helpers.cases import each
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)  # rms slope below 1.3
 MODES = {
@@ -266,8 +265,8 @@ def test_peaks_then_greenwood_williamson_multiplies_the_two_shifts(reading):
     assert found.shift_factor == pytest.approx(first * (top - bottom) / (top - d), rel=1e-10)
 
 
-@each("correction", [None, SFactor(applies_to="area"), NayakSFactor()])
-@each("q", [2e3, 2.001e3, 3e3, 1.99e4])
+@pytest.mark.parametrize("correction", [None, SFactor(applies_to="area"), NayakSFactor()])
+@pytest.mark.parametrize("q", [2e3, 2.001e3, 3e3, 1.99e4])
 def test_roughness_above_the_wavenumber_asked_for_is_not_looked_at(correction, q):
     scene = {**SCENE, "correction": correction, "rtol": 1e-10}
     whole = asperity.contact_area(ROAD, RUBBER, wavenumber=[q, ROAD.q1], **scene)[0]

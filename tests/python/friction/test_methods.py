@@ -5,7 +5,6 @@ import pytest
 
 import asperity
 from helpers import table_rows
-from helpers.cases import each
 
 METHODS = ("qag", "qags", "cquad")
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
@@ -39,8 +38,8 @@ def rubber_of(row):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@each("method", METHODS)
-@each("rtol", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
 def test_methods_agree_within_their_estimates(scene, method, rtol):
     spectrum, rubber, more = SCENES[scene]
     options = {"pressure": 81e3, "velocity": [1e-4, 0.1, 2.0], "rtol": rtol} | more
@@ -68,27 +67,29 @@ def meets(row, spectrum, method, rtol, some):
 
 
 @pytest.mark.reference("friction_curves")
-@each("method", ["gauss", *METHODS])
-@each("rtol", [1e-3, 1e-6, 1e-9, 1e-10])
+@pytest.mark.parametrize("method", ["gauss", *METHODS])
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9, 1e-10])
 def test_methods_meet_curves_known_to_sixteen_digits(row, method, rtol):
     spectrum = table_rows.self_affine({**row, "rolloff": None})
     meets(row, spectrum, method, rtol, slice(None))
 
 
 @pytest.mark.reference("friction_rings")
-@each("rtol", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11])
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-11])
 def test_ours_meets_curves_on_rings(row, rtol):
     meets(row, table_rows.tabulated(row), "gauss", rtol, slice(None))
 
 
 @pytest.mark.reference("friction_rings")
-@each("method", METHODS)
+@pytest.mark.parametrize("method", METHODS)
 def test_gsl_meets_curves_on_rings(row, method):
     meets(row, table_rows.tabulated(row), method, 1e-9, slice(None, None, 7))
 
 
-@each("method", METHODS)
-@each("call", [asperity.contact_area, asperity.mean_pressure, asperity.correction_factor])
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "call", [asperity.contact_area, asperity.mean_pressure, asperity.correction_factor]
+)
 def test_methods_agree_at_every_magnification(call, method):
     options = {"pressure": 81e3, "velocity": [1e-4, 1.0], "wavenumber": np.geomspace(2000, 1e6, 7)}
     ours = call(ROAD, RUBBER, rtol=1e-9, **options)

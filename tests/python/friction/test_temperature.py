@@ -5,8 +5,9 @@ import pytest
 
 import asperity
 from asperity import _core
-from helpers.cases import case, each
+from helpers.cases import case
 from helpers.examples import BUILD, ROAD, RUBBER, SHIFTS, STICKY
+from helpers.refusals import refused
 
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 FACTORS = asperity.ShiftFactors(**SHIFTS)
@@ -31,7 +32,7 @@ def a_t(shift, temperature):
     return shift.shift_factor(temperature)
 
 
-@each("name", SHIFTING)
+@pytest.mark.parametrize("name", SHIFTING)
 def test_a_temperature_is_the_rubber_shifted(name):
     shift = SHIFTING[name]
     hot = asperity.friction(
@@ -101,7 +102,7 @@ def test_a_curve_that_knows_its_shift_factors_needs_no_second_step():
     assert known == asperity.friction(road, curve, shift=BUILD, **at)
 
 
-@each("name", SHIFTING)
+@pytest.mark.parametrize("name", SHIFTING)
 def test_slopes_are_those_of_the_law(name):
     shift, t, step = SHIFTING[name], np.array([285.0, 290.0, 301.0]), 1e-3
     value, slope = _core.shift_at(shift._core, t)
@@ -113,44 +114,40 @@ def test_slopes_are_those_of_the_law(name):
         np.testing.assert_array_equal(shift.log10_a_T_slope(t), slope)
 
 
-@each(
-    "given",
+@pytest.mark.parametrize(
+    ("argument", "changed"),
     [
-        ({"temperature": 20.0}, "temperature = 20: must be finite and at least 150; its unit"),
-        ({"temperature": -3.0}, "temperature = -3: must be"),
-        ({"temperature": np.nan}, "temperature = nan: must be"),
-        ({"shift": None}, "temperature = 280.0: needs shift="),
-        ({"temperature": None}, "shift = WLF"),
-        ({"shift": 1.0}, "shift = 1.0: must be a WLF"),
-        ({"temperature": [280.0, 281.0]}, "temperature (2,): must broadcast"),
+        *(("temperature", {"temperature": wrong}) for wrong in (20.0, -3.0, np.nan)),
+        ("temperature", {"shift": None}),
+        ("shift", {"temperature": None}),
+        ("shift", {"shift": 1.0}),
+        ("", {"temperature": [280.0, 281.0]}),  # shapes of several arguments
     ],
 )
-def test_bad_temperatures_are_refused(given):
-    change, message = given
-    given = {"pressure": 1e5, "velocity": V, "temperature": 280.0, "shift": LAW} | change
-    with pytest.raises(asperity.InvalidInput) as error:
+def test_bad_temperatures_are_refused(argument, changed):
+    given = {"pressure": 1e5, "velocity": V, "temperature": 280.0, "shift": LAW} | changed
+    with pytest.raises(asperity.InvalidInput) as caught:
         asperity.friction(ROAD, RUBBER, **given)
-    assert message in str(error.value)
+    assert caught.value.argument == argument
 
 
 def test_a_shift_that_is_not_known_is_out_of_range():
     at = {"pressure": 1e5, "velocity": 0.01}
-    with pytest.raises(asperity.OutOfRange, match=r"temperature = 190: the WLF law has no a_T at"):
+    with refused("temperature", "unknown-shift", asperity.OutOfRange):
         asperity.friction(ROAD, RUBBER, temperature=190.0, shift=LAW, **at)
-    with pytest.raises(asperity.OutOfRange, match=r"shift factors are known in \[273, 313\] K"):
+    with refused("temperature", "unknown-shift", asperity.OutOfRange):
         asperity.friction(ROAD, RUBBER, temperature=320.0, shift=FACTORS, **at)
     steep = asperity.WLF(c1=7e99, c2=101.6, reference_temperature=293.15)
-    with pytest.raises(asperity.OutOfRange, match=r"changes by -6.8\d+e\+97 per kelvin"):
+    with refused("temperature", "out-of-range", asperity.OutOfRange):
         asperity.friction(ROAD, RUBBER, temperature=293.15, shift=steep, **at)
-    with pytest.raises(asperity.OutOfRange, match=r"temperature = 301: velocity = 10: q0 = 1000"):
+    with refused("velocity", "unknown-modulus", asperity.OutOfRange):
         asperity.friction(ROAD, BUILD.master_curve, pressure=1e5, velocity=10.0, temperature=301.0)
 
 
-def test_constants_of_a_law_must_be_possible():
-    given = {"c1": 8.86, "c2": 101.6, "reference_temperature": 293.15}
-    for name in ("c1", "c2"):
-        with pytest.raises(asperity.InvalidInput, match=f"{name} = 0: must be positive"):
-            asperity.WLF(**given | {name: 0.0})
-    for celsius in (0.0, 20.0, np.nan):  # the law would take it, and be off by decades
-        with pytest.raises(asperity.InvalidInput, match=r"reference_temperature = .* is kelvin"):
-            asperity.WLF(**given | {"reference_temperature": celsius})
+@pytest.mark.parametrize(
+    ("argument", "value"),  # the law would take Celsius, and be off by decades
+    [("c1", 0.0), ("c2", 0.0), *(("reference_temperature", t) for t in (0.0, 20.0, np.nan))],
+)
+def test_constants_of_a_law_must_be_possible(argument, value):
+    with refused(argument):
+        asperity.WLF(**{"c1": 8.86, "c2": 101.6, "reference_temperature": 293.15, argument: value})

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import each
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
 RUBBER = asperity.PronySeries(
@@ -27,7 +26,7 @@ PEAKS = asperity.GreenwoodWilliamson(z_max=4e-4, z_min=-4e-4, rms_height=1e-4, q
 STICKY = asperity.Adhesion(shear_stress=5e6)
 
 
-@each(
+@pytest.mark.parametrize(
     ("spectrum", "rubber", "options"),
     [
         (ROAD, RUBBER, {"correction": asperity.NayakSFactor(), "adhesion": STICKY}),
@@ -114,7 +113,7 @@ def test_an_error_is_that_of_the_slowest_point_that_fails():
     assert len(said) == 1
 
 
-@each(
+@pytest.mark.parametrize(
     ("threads", "message"),
     [
         (0, "threads = 0: must be a whole number, from 1 to 1024"),

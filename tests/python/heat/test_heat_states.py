@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import case, each
+from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, LAW, hot
 
@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
 
 
-@each("scene", [336, 1044, 1584, 1785, 1949])
+@pytest.mark.parametrize("scene", [336, 1044, 1584, 1785, 1949])
 def test_of_several_states_all_tolerances_find_the_coldest(scene):
     """From the velocity before, or where cold heat takes from itself, Newton may miss it."""
     outcome = random_heat.compute(1, scene, rings=0.1)
@@ -35,7 +35,7 @@ COLDEST = {  # of three states, by a march in strides of 0.08 in ln theta(q1)
 }
 
 
-@each("point", list(COLDEST))
+@pytest.mark.parametrize("point", list(COLDEST))
 def test_states_that_are_near_each_other_or_at_a_thin_front(point):
     scene, which = point
     road, compound, at = random_heat.draw_scene(np.random.default_rng([1, scene]), rings=0.1)
@@ -55,7 +55,7 @@ LINES = [
 ]
 
 
-@each("line", LINES)
+@pytest.mark.parametrize("line", LINES)
 def test_a_line_that_runs_away_by_itself(line):
     """The rise at q1 turns about along the states; PartialContact's rule has three roots there."""
     terms, height, lines, q1, v, temperature, correction, states = line
@@ -82,7 +82,7 @@ def test_a_line_that_runs_away_by_itself(line):
     assert abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate
 
 
-@each("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
+@pytest.mark.parametrize("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
 def test_states_about_a_gain_of_one(temperature):
     """Two of three states meet at 275.71 K, from where on the rise is 47 instead of 38 K."""
     compound = asperity.PronySeries(
@@ -137,7 +137,7 @@ def test_past_a_sharp_turn_the_curve_of_states_leads_on():
     assert asperity.friction(road, compound, **at, rtol=1e-3).branches == 5
 
 
-@each("temperature", [685.0, 690.0, 699.0])
+@pytest.mark.parametrize("temperature", [685.0, 690.0, 699.0])
 def test_rubber_near_the_highest_temperature_has_a_state(temperature):
     """The search ends at twice the rise that is left, which a first stride may be longer than."""
     for branch in ("cold", "hot"):
@@ -146,7 +146,7 @@ def test_rubber_near_the_highest_temperature_has_a_state(temperature):
         assert temperature < found.temperature < temperature + 0.1
 
 
-@each("bump", [0.0, 1.2])
+@pytest.mark.parametrize("bump", [0.0, 1.2])
 def test_a_row_of_a_table_where_the_shift_is_flat(bump):
     """The slope there is 0; a few kelvin further on the rubber is another one."""
     temperature = np.arange(233.15, 354, 5.0)
@@ -203,7 +203,7 @@ RUNAWAY = {  # at a gain of 0.94 to 0.98, where a residual counts 15 to 50 times
 }
 
 
-@each("rtol", [3e-4, 1e-4, 3e-5, 1e-5])
+@pytest.mark.parametrize("rtol", [3e-4, 1e-4, 3e-5, 1e-5])
 def test_near_runaway_every_tolerance_is_met(rtol):
     temperature = np.linspace(285.28, 285.30, 200)
     fine = asperity.friction(**RUNAWAY, temperature=temperature, rtol=1e-7)

@@ -5,7 +5,7 @@ import pytest
 
 import asperity
 from helpers import table_rows
-from helpers.cases import case, each
+from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, STICKY, hot, rubber
 
@@ -30,7 +30,7 @@ STILL = asperity.ArrheniusFit(
 SPEEDS = np.array([1e-3, 0.1, 10.0])
 
 
-@each("name", list(CORRECTIONS))
+@pytest.mark.parametrize("name", list(CORRECTIONS))
 def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
     for spectrum in (CUT, ASPHALT):
         found = hot(
@@ -56,8 +56,8 @@ def rings_with_lines(rng):
     return rings.scaled(rings.rms_slope**-2)
 
 
-@each("rtol", [1e-7, 1e-9])
-@each("name", ["partial", "nayak"])
+@pytest.mark.parametrize("rtol", [1e-7, 1e-9])
+@pytest.mark.parametrize("name", ["partial", "nayak"])
 def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name, rtol):
     """It has no friction by which grids could be judged: areas were up to 13e-7 off at 1e-7.
 
@@ -76,7 +76,7 @@ def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name, rtol):
             np.testing.assert_allclose(found.contact_area, truth, rtol=rtol)
 
 
-@each("name", ["partial", "nayak"])
+@pytest.mark.parametrize("name", ["partial", "nayak"])
 def test_rings_with_strong_lines_are_as_near_as_they_say(name):
     """Lines, steps and empty rings, each a kink of the window a unit of ln q away."""
     rng = np.random.default_rng(6)
@@ -102,7 +102,7 @@ def test_rings_with_strong_lines_are_as_near_as_they_say(name):
                 assert found.contact_area == pytest.approx(truth.contact_area, rel=rtol)
 
 
-@each("name", list(CORRECTIONS))
+@pytest.mark.parametrize("name", list(CORRECTIONS))
 def test_the_profile_is_what_the_heat_of_the_contributions_makes(name):
     """theta(q) = (2 v sigma0 / (rho c_v P_m)) int q' g(q, q') dmu_H(q'), by the trapezoid."""
     for velocity in (0.01, 3.0):
@@ -121,7 +121,7 @@ def test_the_profile_is_what_the_heat_of_the_contributions_makes(name):
             np.testing.assert_allclose(found.decade_share.sum(), 1, rtol=1e-12)
 
 
-@each("name", list(CORRECTIONS))
+@pytest.mark.parametrize("name", list(CORRECTIONS))
 def test_the_estimate_is_kept_and_tight_solutions_agree(name):
     for adhesion in (None, STICKY):
         given = {"velocity": SPEEDS, "correction": CORRECTIONS[name], "adhesion": adhesion}
@@ -161,7 +161,7 @@ def of_row(row, **more):
     return hot(spectrum(row), rubber=table_rows.prony(row), **at, **given | more)
 
 
-@each("rtol", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
 def test_partial_contact_is_that_of_its_definition(reference_table, rtol):
     for row in reference_table("hot_partial_contact"):
         with case(case=row["case"], rtol=rtol):
@@ -214,7 +214,7 @@ def measured(noise):
     )
 
 
-@each("noise", [0.0, 0.01])
+@pytest.mark.parametrize("noise", [0.0, 0.01])
 def test_edges_of_contacts_beyond_the_measured_frequencies(noise):
     """There the modulus is held: at its kink panels end, which moves with the temperature."""
     curve = measured(noise)

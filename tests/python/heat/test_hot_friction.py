@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import case, each
+from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
+from helpers.refusals import refused
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -74,7 +75,7 @@ def test_every_branch_of_the_thermal_runaway(reference_table):
             assert found.branches == 3
             assert found.mu == pytest.approx(row["mu_h"], rel=1e-8)
             assert found.temperature - row["temperature"] == pytest.approx(row["rise_q1"], 1e-8)
-            assert any("more than one steady state" in note for note in found.notes)
+            assert "several-states" in {note.code for note in found.notes}
 
 
 def test_temperature_profiles(reference_table):
@@ -167,7 +168,7 @@ def test_the_energy_arrives_at_long_waves():
     assert rise / (2 * 1e-2) == pytest.approx(residence * flux, rel=5e-6)
 
 
-@each("faint", [0.0, 1e-60, 1e-12, 1e-6])
+@pytest.mark.parametrize("faint", [0.0, 1e-60, 1e-12, 1e-6])
 def test_a_contact_may_break_up_far_beyond_the_first_wave(faint):
     """Roughness that begins at 2000 1/m, after decades of next to none."""
     table = asperity.TabulatedSpectrum(
@@ -250,9 +251,9 @@ def test_the_estimate_is_kept_on_random_scenes():
     assert not any(outcome.refused for outcome in told)
 
 
-@each("correction", [None, asperity.PartialContact(), "rings"])
+@pytest.mark.parametrize("correction", [None, asperity.PartialContact(), "rings"])
 def test_points_do_not_depend_on_the_threads_that_share_them(correction):
-    v = np.geomspace(1e-4, 1, 150)
+    v = np.geomspace(1e-4, 1, 40)
     q = np.geomspace(CUT.q0, CUT.q1, 40)
     table = asperity.TabulatedSpectrum(wavenumber=q, density=CUT.at(q))
     rings = isinstance(correction, str)
@@ -263,29 +264,22 @@ def test_points_do_not_depend_on_the_threads_that_share_them(correction):
     assert one == two == three
 
 
-@each(
-    "given",
+@pytest.mark.parametrize(
+    ("argument", "changed"),
     [
-        ({"shift": None, "temperature": None}, "heating: needs temperature="),
-        ({"method": "qag"}, "method = qag: must be gauss where heating is given"),
-        (
-            {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})},
-            "interface_share = 0.2: must be 1, its default, where there is no adhesion",
-        ),
-        (
-            {"heating": asperity.Heating(**TREAD | {"macro_wavenumber": 1e3})},
-            "macro_wavenumber = 1000: must be in the spectrum's band, [2000, ",
-        ),
-        ({"heating": TREAD}, "heating = {'density': 1200.0"),
-        ({"heating": None, "branch": "hot"}, 'branch = "hot": needs heating='),
-        ({"branch": "warm"}, 'branch = "warm": must be one of "cold", "hot"'),
+        ("heating", {"shift": None, "temperature": None}),
+        ("heating", {"heating": TREAD}),
+        ("method", {"method": "qag"}),
+        ("interface_share", {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})}),
+        ("macro_wavenumber", {"heating": asperity.Heating(**TREAD | {"macro_wavenumber": 1e3})}),
+        ("branch", {"heating": None, "branch": "hot"}),
+        ("branch", {"branch": "warm"}),
     ],
 )
-def test_what_heating_cannot_be_asked_with_is_refused(given):
-    change, message = given
-    with pytest.raises(asperity.InvalidInput) as error:
-        hot(**{"velocity": 1.0} | change)
-    assert message in str(error.value)
+def test_what_heating_cannot_be_asked_with_is_refused(argument, changed):
+    with pytest.raises(asperity.InvalidInput) as caught:
+        hot(**{"velocity": 1.0} | changed)
+    assert caught.value.argument == argument
 
 
 def test_heat_beyond_what_is_known_is_out_of_range():
@@ -296,7 +290,7 @@ def test_heat_beyond_what_is_known_is_out_of_range():
     )
     known = hot(velocity=1e-2, shift=table)
     assert known.mu == pytest.approx(hot(velocity=1e-2).mu, rel=1e-3)
-    with pytest.raises(asperity.OutOfRange, match=r"heats itself to .* K: temperature = .*: shift"):
+    with refused("temperature", "unknown-shift", asperity.OutOfRange):
         hot(velocity=1.0, shift=table)
     fitted = asperity.PronyFit(
         equilibrium_modulus=2e6,
@@ -308,28 +302,26 @@ def test_heat_beyond_what_is_known_is_out_of_range():
         lowest_frequency=1900.0,
         highest_frequency=1e6,
     )
-    with pytest.raises(asperity.OutOfRange, match=r"asked for its modulus from 1.* to .*known in"):
+    with refused("temperature", "unknown-hot-modulus", asperity.OutOfRange):
         hot(velocity=1.0, rubber=fitted)  # heat leaves the range at its low end
     hot(velocity=1.0, rubber=rubber())
     burning = {"conductivity": 0.01, "contact_diameter": 0.1, "macro_area": 1e-3}
-    with pytest.raises(asperity.OutOfRange, match="above 700 K, which it does not stand"):
+    with refused("temperature", "too-hot", asperity.OutOfRange):
         hot(velocity=30.0, pressure=5e6, heating=asperity.Heating(**TREAD | burning))
 
 
 def test_notes_say_where_the_model_leaves_its_range():
-    def notes(**more):
-        return " ".join(hot(**{"velocity": 1.0} | more).notes)
+    def codes(**more):
+        return {note.code for note in hot(**{"velocity": 1.0} | more).notes}
 
-    assert "flash heating" not in notes()
-    assert "flash heating" in " ".join(
-        asperity.friction(CUT, rubber(), pressure=2e5, velocity=1.0).notes
-    )
-    assert "heats itself by more than 100 K" in notes(spectrum=ASPHALT, velocity=10.0)
+    assert "heat-left-out" not in codes()
+    cold = asperity.friction(CUT, rubber(), pressure=2e5, velocity=1.0)
+    assert "heat-left-out" in {note.code for note in cold.notes}
+    assert "hot-rubber" in codes(spectrum=ASPHALT, velocity=10.0)
     small = {"contact_diameter": 2e-6, "macro_area": 1e-6}
-    assert "heat flows to the sides" in notes(heating=asperity.Heating(**TREAD | small))
+    assert "heat-flows-sideways" in codes(heating=asperity.Heating(**TREAD | small))
     wide = asperity.Heating(**TREAD | {"contact_diameter": 4e-3})
-    assert "is held to the spectrum's end" in notes(heating=wide)
-    assert "cover more than 0.3 of the surface" in notes(heating=wide)
+    assert {"macro-wavenumber-held", "crowded-contacts"} <= codes(heating=wide)
 
 
 def test_sliding_lengths_of_the_history_of_the_heat(reference_table):
@@ -357,12 +349,12 @@ def test_friction_without_heat_has_no_sliding_length():
     cold = asperity.friction(CUT, rubber(), pressure=2e5, velocity=1.0)
     assert cold.sliding_length is None
     assert cold.mu_at(0.1) == cold.mu
-    with pytest.raises(asperity.InvalidInput, match="distance = -1: must be 0 or more"):
+    with refused("distance"):
         cold.mu_at(-1)
     many = hot(velocity=np.array([0.1, 1.0]))
     assert many.mu_at([[0.0], [1e-4], [1e-2]]).shape == (3, 2)
     for result in (many, many.cold):
-        with pytest.raises(asperity.InvalidInput, match=r"shapes distance \(3,\), mu \(2,\): must"):
+        with refused("", "invalid-input"):  # of two arguments
             result.mu_at([0.0, 1e-4, 1e-2])
 
 

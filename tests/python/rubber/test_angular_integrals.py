@@ -5,7 +5,6 @@ import pytest
 
 from asperity import InvalidInput, MasterCurve, NotConverged
 from helpers.by_definition import Definition
-from helpers.cases import each
 
 RNG = np.random.default_rng(20)
 
@@ -55,8 +54,8 @@ TABLES = {
 }
 
 
-@each("extrapolation", [None, "power-law", "clamp"])
-@each("name", TABLES)
+@pytest.mark.parametrize("extrapolation", [None, "power-law", "clamp"])
+@pytest.mark.parametrize("name", TABLES)
 def test_angular_integrals_are_those_of_the_definition(name, extrapolation):
     w, storage, loss = TABLES[name]
     curve = MasterCurve(

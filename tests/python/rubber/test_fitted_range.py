@@ -9,7 +9,6 @@ from scipy.integrate import quad
 
 import asperity
 from asperity import OutOfRange, PronySeries, SelfAffineSpectrum
-from helpers.cases import each
 
 ROAD = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
 TRUE = PronySeries(
@@ -58,7 +57,9 @@ def parts_outside(series, w):
         yield 1 - inside / part(weigh, 0.0, w)
 
 
-@each("w", [1e-3, 1.0, 9.99, 10.0, 10.001, 12.0, 49.0, 51.0, 300.0, 1e4, 1.0001e4, 3e4, 1e7])
+@pytest.mark.parametrize(
+    "w", [1e-3, 1.0, 9.99, 10.0, 10.001, 12.0, 49.0, 51.0, 300.0, 1e4, 1.0001e4, 3e4, 1e7]
+)
 def test_the_shares_from_beyond_the_fit_are_those_of_the_definition(w):
     found = BEYOND.extrapolated_shares(w)
     np.testing.assert_allclose(found, [*parts_outside(BEYOND, w)], rtol=0, atol=1e-10)
@@ -89,7 +90,7 @@ def test_a_shift_moves_the_range():
         pickle.loads(pickle.dumps(SERIES.shifted(100.0))).modulus(101.0)
 
 
-@each("velocity", [1e-3, 0.1])
+@pytest.mark.parametrize("velocity", [1e-3, 0.1])
 def test_friction_and_area_stay_on_the_fitted_frequencies(velocity):
     inside = asperity.friction(ROAD.truncated(q1=1e5), SERIES, pressure=1e5, velocity=0.05)
     assert 0 < inside.extrapolated_share < 0.02  # where cos(phi) ends
@@ -101,7 +102,7 @@ def test_friction_and_area_stay_on_the_fitted_frequencies(velocity):
         ask(ROAD, BEYOND, pressure=1e5, velocity=velocity)
 
 
-@each("velocity", [1e-3, 0.1, 10.0])
+@pytest.mark.parametrize("velocity", [1e-3, 0.1, 10.0])
 def test_friction_beyond_the_fit_tells_its_share(velocity):
     found = asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=velocity, contributions=True)
     outside = BEYOND.extrapolated_shares(velocity * found.wavenumber)[0]
@@ -139,7 +140,7 @@ def test_a_series_given_by_hand_has_no_range():
     assert found.mu == asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=10.0).mu
 
 
-@each("extrapolation", ["power-law", "clamp", "Prony", 1])
+@pytest.mark.parametrize("extrapolation", ["power-law", "clamp", "Prony", 1])
 def test_no_other_extrapolation(extrapolation):
     with pytest.raises(asperity.InvalidInput, match=r"^extrapolation = "):
         fitted(extrapolation=extrapolation)

@@ -11,7 +11,6 @@ from asperity import (
     power_spectrum,
     synthesize,
 )
-from helpers.cases import each
 from helpers.plain_spectrum import modes, plain
 
 RNG = np.random.default_rng(11)
@@ -27,9 +26,9 @@ GRIDS = [
 ]
 
 
-@each("detrend", ["plane", "quadratic", "offset", None])
-@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
-@each(("shape", "pixel"), GRIDS)
+@pytest.mark.parametrize("detrend", ["plane", "quadratic", "offset", None])
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "none", "blackman"])
+@pytest.mark.parametrize(("shape", "pixel"), GRIDS)
 def test_every_ring_is_that_of_a_plain_transform(shape, pixel, window, detrend):
     z = RNG.normal(size=shape) * 1e-6 + 2e-6
     found = power_spectrum(HeightMap(z, pixel_size=pixel), window=window, detrend=detrend)
@@ -46,7 +45,7 @@ def test_plane_and_split_cosine_bell_are_the_defaults():
     )
 
 
-@each(("shape", "pixel"), GRIDS)
+@pytest.mark.parametrize(("shape", "pixel"), GRIDS)
 def test_parseval_holds_with_the_counts(shape, pixel):
     z = RNG.normal(size=shape)
     found = power_spectrum(HeightMap(z, pixel_size=pixel), window="none", detrend="offset")
@@ -81,7 +80,7 @@ def test_a_float32_map_has_the_spectrum_of_its_own_numbers_in_single_precision(o
     np.testing.assert_allclose(found, expected, rtol=2e-6)
 
 
-@each("threads", [2, 3, 7])
+@pytest.mark.parametrize("threads", [2, 3, 7])
 def test_threads_share_the_work_without_changing_the_result(threads):
     surface = HeightMap(RNG.normal(size=(37, 53)), pixel_size=(1e-6, 2e-6))
     one, many = power_spectrum(surface), power_spectrum(surface, threads=threads)
@@ -102,8 +101,8 @@ BAND = SelfAffineSpectrum(rms_height=3e-5, hurst=0.8, q0=2e4, q1=8e5, rolloff=5e
 TABLE = TabulatedSpectrum(wavenumber=[2e4, 1e5, 8e5], density=[1e-18, 1e-20, 0.0])
 
 
-@each("spectrum", [BAND, TABLE])
-@each(("shape", "pixel"), GRIDS[:6])
+@pytest.mark.parametrize("spectrum", [BAND, TABLE])
+@pytest.mark.parametrize(("shape", "pixel"), GRIDS[:6])
 def test_a_synthesized_map_has_exactly_the_spectrum_asked_for(spectrum, shape, pixel):
     surface = synthesize(spectrum, shape=shape, pixel_size=pixel, seed=3)
     q, ring = modes(shape, pixel)
@@ -144,7 +143,7 @@ def exact_rows(hurst, q):
     return spectrum, spectrum.at(q)
 
 
-@each("hurst", [0.05, 0.5, 0.87, 1.0])
+@pytest.mark.parametrize("hurst", [0.05, 0.5, 0.87, 1.0])
 def test_fit_restores_an_exact_power_law(hurst):
     q = np.geomspace(1e3, 1e6, 40)
     spectrum, density = exact_rows(min(hurst, 1 - 1e-12), q)

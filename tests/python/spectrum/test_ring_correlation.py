@@ -6,7 +6,6 @@ import pytest
 import asperity
 from asperity import HeightMap, InvalidInput, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import _draw_rows
-from helpers.cases import each
 
 WINDOWS = ["split-cosine-bell", "hann", "blackman"]
 
@@ -53,8 +52,8 @@ def surface(seed, shape, hurst=0.8):
     return HeightMap(heights=np.asarray(whole.heights)[: shape[0], : shape[1]], pixel_size=1e-6)
 
 
-@each("shape", [(160, 160), (100, 160), (40, 160)])
-@each("window", WINDOWS)
+@pytest.mark.parametrize("shape", [(160, 160), (100, 160), (40, 160)])
+@pytest.mark.parametrize("window", WINDOWS)
 def test_the_correlation_is_that_of_every_pair_of_modes(window, shape):
     spectrum = asperity.power_spectrum(surface(1, shape), window=window)
     found = np.zeros(3)
@@ -169,7 +168,7 @@ def test_draws_of_rows_have_their_deviations_and_their_correlation():
     np.testing.assert_allclose(np.cov(relative.T), expected, atol=4e-3)
 
 
-@each(
+@pytest.mark.parametrize(
     "correlation",
     [[0.1, 0.2], [[0.1]], [[1.1]] * 40, [[np.nan]] * 40, np.zeros((40, 0)), "alike"],
 )

@@ -11,7 +11,6 @@ from asperity import (
     spectral_density,
     synthesize,
 )
-from helpers.cases import each
 
 N, PIXEL = 512, 1e-6
 DQ = 2 * np.pi / (N * PIXEL)
@@ -35,8 +34,10 @@ def apart(angle, other):
     return abs((angle - other + np.pi / 2) % np.pi - np.pi / 2)
 
 
-@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
-@each(("shape", "pixel"), [((64, 64), (1, 1)), ((63, 80), (1, 1)), ((80, 51), (0.5, 2))])
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "none", "blackman"])
+@pytest.mark.parametrize(
+    ("shape", "pixel"), [((64, 64), (1, 1)), ((63, 80), (1, 1)), ((80, 51), (0.5, 2))]
+)
 def test_slopes_and_direction_are_those_of_the_definition(shape, pixel, window):
     z = np.cumsum(np.random.default_rng(5).normal(size=shape), axis=1)
     surface = HeightMap(z, pixel_size=pixel)

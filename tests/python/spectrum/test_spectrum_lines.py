@@ -15,7 +15,7 @@ from asperity import (
     power_spectrum,
     synthesize,
 )
-from helpers.cases import each, long
+from helpers.cases import long
 from helpers.plain_spectrum import profile
 
 
@@ -59,8 +59,8 @@ def test_line_density_integrates_to_the_mean_square_height():
     assert 2 * total == pytest.approx(spectrum.rms_height**2, rel=1e-9, abs=0)
 
 
-@each("rows", [2, 40, 300])
-@each("hurst", [0.3, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("rows", [2, 40, 300])
+@pytest.mark.parametrize("hurst", [0.3, 0.5, 0.8, 1.0])
 def test_isotropic_restores_a_power_law(hurst, rows):
     q = np.geomspace(1e3, 1e6, rows)
     c = 1e-5 * q ** (-2 * hurst - 2)
@@ -132,10 +132,10 @@ def test_rows_of_a_map_tell_the_spectrum_of_the_surface(hurst):
     assert wrong < 0.75
 
 
-@each("rows", [0, 1, 6])  # 0: a LineScan
-@each("n", [4, 5, 64, 97, 210])
-@each("window", ["split-cosine-bell", "hann", "none", "blackman"])
-@each("detrend", ["plane", "quadratic", "offset", None])
+@pytest.mark.parametrize("rows", [0, 1, 6])  # 0: a LineScan
+@pytest.mark.parametrize("n", [4, 5, 64, 97, 210])
+@pytest.mark.parametrize("window", ["split-cosine-bell", "hann", "none", "blackman"])
+@pytest.mark.parametrize("detrend", ["plane", "quadratic", "offset", None])
 def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
     z = np.random.default_rng(n + rows).normal(size=(max(rows, 1), n)) * 1e-6 + 2e-6
     dx = 0.7e-6

@@ -13,7 +13,6 @@ from asperity import (
     power_spectrum,
     synthesize,
 )
-from helpers.cases import each
 
 
 def power_law(hurst, rows, counted, kind=TabulatedSpectrum):
@@ -22,9 +21,9 @@ def power_law(hurst, rows, counted, kind=TabulatedSpectrum):
     return kind(wavenumber=1e3 * k, density=(1e3 * k) ** (-2 * hurst - 2), **count)
 
 
-@each("per_decade", [3, 10, 30])
-@each("counted", [False, True])
-@each("hurst", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("per_decade", [3, 10, 30])
+@pytest.mark.parametrize("counted", [False, True])
+@pytest.mark.parametrize("hurst", [0.1, 0.5, 1.0])
 def test_bins_of_a_power_law_lie_on_it(hurst, counted, per_decade):
     for kind in (TabulatedSpectrum, LineSpectrum):
         spectrum = power_law(hurst, 1000, counted, kind)
@@ -33,7 +32,7 @@ def test_bins_of_a_power_law_lie_on_it(hurst, counted, per_decade):
         np.testing.assert_allclose(binned.density, expected, rtol=1e-6)
 
 
-@each("per_decade", [1, 3, 10, 30, 100])
+@pytest.mark.parametrize("per_decade", [1, 3, 10, 30, 100])
 def test_every_row_is_in_the_bin_of_its_own_decade(per_decade):
     spectrum = power_law(0.8, 700, True)
     binned = spectrum.log_binned(per_decade=per_decade)

@@ -16,7 +16,6 @@ from asperity import (
     spectral_density,
     synthesize,
 )
-from helpers.cases import each
 from helpers.plain_spectrum import detrended, modes, plain, profile
 
 RNG = np.random.default_rng(21)
@@ -24,8 +23,8 @@ WINDOWS = ["split-cosine-bell", "hann", "none", "blackman"]
 ORDERS = ["plane", "quadratic", "offset", None]
 
 
-@each("window", WINDOWS)
-@each(
+@pytest.mark.parametrize("window", WINDOWS)
+@pytest.mark.parametrize(
     ("shape", "pixel"), [((127, 131), (1e-6, 1e-6)), ((211, 64), (1e-6, 3e-6)), ((97, 300), (2, 1))]
 )
 def test_rings_of_prime_and_long_maps_are_those_of_a_plain_transform(shape, pixel, window):
@@ -38,9 +37,9 @@ def test_rings_of_prime_and_long_maps_are_those_of_a_plain_transform(shape, pixe
     np.testing.assert_allclose(found.density, density, rtol=1e-12, atol=1e-15 * density.max())
 
 
-@each("detrend", ORDERS)
-@each("window", WINDOWS)
-@each(
+@pytest.mark.parametrize("detrend", ORDERS)
+@pytest.mark.parametrize("window", WINDOWS)
+@pytest.mark.parametrize(
     ("shape", "pixel"),
     [((32, 48), (1e-6, 2e-6)), ((31, 48), (1, 1)), ((32, 47), (3, 1)), ((7, 5), (1, 1))],
 )
@@ -57,8 +56,8 @@ def test_the_plane_is_that_of_a_plain_transform(shape, pixel, window, detrend):
     np.testing.assert_allclose(found.density, expected, rtol=1e-11, atol=1e-15 * expected.max())
 
 
-@each("window", WINDOWS)
-@each(("shape", "pixel"), [((40, 64), (1e-6, 1e-6)), ((33, 50), (1e-6, 2e-6))])
+@pytest.mark.parametrize("window", WINDOWS)
+@pytest.mark.parametrize(("shape", "pixel"), [((40, 64), (1e-6, 1e-6)), ((33, 50), (1e-6, 2e-6))])
 def test_rings_are_means_over_the_plane(shape, pixel, window):
     surface = HeightMap(RNG.normal(size=shape), pixel_size=pixel)
     plane = np.fft.ifftshift(spectral_density(surface, window=window).density)
@@ -76,9 +75,9 @@ def test_the_plane_integrates_to_the_mean_square_height():
     assert found.density.sum() * cell == pytest.approx(z.var(), rel=1e-12, abs=0)
 
 
-@each("part", ["top", "bottom"])
-@each("detrend", ORDERS)
-@each("window", ["split-cosine-bell", "none"])
+@pytest.mark.parametrize("part", ["top", "bottom"])
+@pytest.mark.parametrize("detrend", ORDERS)
+@pytest.mark.parametrize("window", ["split-cosine-bell", "none"])
 def test_a_top_spectrum_is_that_of_the_clipped_heights_over_their_share(window, detrend, part):
     y, x = np.indices((48, 64))
     z = RNG.gumbel(size=(48, 64)) + 0.05 * y - 0.02 * x

@@ -1,13 +1,9 @@
 """Line scans: what they take, what they share, their statistics, filling, detrending, peaks."""
 
-import copy
-import pickle
-
 import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, LineScan
-from helpers.cases import each
 
 RNG = np.random.default_rng(17)
 ROUGH = RNG.gumbel(size=301) * 1e-6 + 4e-6
@@ -27,7 +23,7 @@ LAYOUTS = {
 }
 
 
-@each("name", LAYOUTS)
+@pytest.mark.parametrize("name", LAYOUTS)
 def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     given = LAYOUTS[name]
     expected = np.asarray(given, dtype=float)
@@ -39,7 +35,9 @@ def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     assert scan.spacing == SPACING
 
 
-@each("name", ["float64", "float32", "backwards", "every third", "column", "read-only"])
+@pytest.mark.parametrize(
+    "name", ["float64", "float32", "backwards", "every third", "column", "read-only"]
+)
 def test_float_scans_are_shared_and_never_written_to(name):
     given = LAYOUTS[name]
     scan = LineScan(given, spacing=SPACING)
@@ -76,7 +74,7 @@ def test_statistics_are_those_of_the_measured_points(holes):
     assert scan.rms_slope == pytest.approx(np.sqrt(np.nanmean(slope**2)), rel=1e-12)
 
 
-@each("bins", [1, 7, 100])
+@pytest.mark.parametrize("bins", [1, 7, 100])
 def test_the_histogram_is_numpys(bins):
     for surface in (LineScan(ROUGH, spacing=1), HeightMap(ROUGH.reshape(7, 43), pixel_size=1)):
         edges, density = surface.height_histogram(bins=bins)
@@ -87,8 +85,8 @@ def test_the_histogram_is_numpys(bins):
         assert np.sum(density * np.diff(edges)) == pytest.approx(1, rel=1e-12)
 
 
-@each("gaps", [False, True])
-@each(("order", "degree"), [("offset", 0), ("plane", 1), ("quadratic", 2)])
+@pytest.mark.parametrize("gaps", [False, True])
+@pytest.mark.parametrize(("order", "degree"), [("offset", 0), ("plane", 1), ("quadratic", 2)])
 def test_detrend_takes_out_a_polynomial(order, degree, gaps):
     u = np.linspace(-1, 1, ROUGH.size)
     heights = ROUGH + 1e-6 * (3 - 7 * u + 5 * u**2)
@@ -128,8 +126,8 @@ def greedy(z, min_distance, periodic):
     return z[taken] - z.mean()
 
 
-@each("periodic", [False, True])
-@each("min_distance", [1e-9, 1.7e-6, 9.3e-6, 1e-3])
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("min_distance", [1e-9, 1.7e-6, 9.3e-6, 1e-3])
 def test_peaks_are_those_of_the_plain_greedy_search(min_distance, periodic):
     found = LineScan(ROUGH, spacing=SPACING).local_peaks(
         min_distance=min_distance, periodic=periodic
@@ -147,19 +145,7 @@ def test_an_affine_shift_keeps_the_highest_point():
     np.testing.assert_allclose(shifted.heights, expected, atol=1e-18)
 
 
-@pytest.mark.parametrize("dtype", ["f4", "f8"])
-def test_copies_and_pickles_are_equal(dtype):
-    heights = ROUGH.astype(dtype)
-    heights[7] = np.nan
-    scan = LineScan(heights, spacing=SPACING)
-    for other in (pickle.loads(pickle.dumps(scan)), copy.copy(scan), copy.deepcopy(scan)):
-        assert other == scan
-        assert other.heights.dtype == np.dtype(dtype)
-    assert scan != LineScan(heights, spacing=2 * SPACING)
-    assert scan != LineScan(heights[:-1], spacing=SPACING)
-
-
-@each(
+@pytest.mark.parametrize(
     ("heights", "spacing", "message"),
     [
         (np.zeros((3, 4)), 1, r"^heights"),

@@ -16,7 +16,7 @@ from asperity import (
     power_spectrum,
     synthesize,
 )
-from helpers.cases import each, long
+from helpers.cases import long
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 from fit_coverage import fitted, scans
@@ -46,7 +46,7 @@ def misses(surfaces, hurst, window, **band):
     return np.array([fit_self_affine(s, **band).hurst for s in spectra]) - hurst
 
 
-@each("window", WINDOWS)
+@pytest.mark.parametrize("window", WINDOWS)
 @pytest.mark.parametrize("hurst", [long(0.3), long(0.5), 0.87])
 def test_hurst_exponent_of_crops_has_no_bias(hurst, window):
     for band in ({}, {"q_min": 16 * 2 * np.pi / (1024 * PIXEL), "q_max": np.pi / PIXEL}):

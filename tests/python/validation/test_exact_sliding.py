@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.cases import case, each
+from helpers.cases import case
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
 import fit_partial_contact
@@ -123,7 +123,7 @@ def cells(scenes, correction):
     "correction",
     [None, asperity.SFactor(gamma=0.4), asperity.SFactor(gamma=0.5), asperity.PartialContact()],
 )
-@each(("chosen", "count"), [("wide", 12), ("narrow", 7), ("road", 3)])
+@pytest.mark.parametrize(("chosen", "count"), [("wide", 12), ("narrow", 7), ("road", 3)])
 def test_model_error_is_what_contacts_that_no_fit_saw_are_off(correction, chosen, count):
     if chosen == "wide":
         scenes = [(*parts(row), float(row["mu"])) for row in gaussian("judge") + gaussian("curve")]
@@ -236,7 +236,7 @@ def test_nested_contacts_are_near_those_of_one_grid():
         assert excess.std(ddof=1) == pytest.approx(deviation, abs=1e-4)
 
 
-@each(
+@pytest.mark.parametrize(
     ("kind", "mu", "area"),
     [("sliding", 0.1007, 0.0419), ("nested", 0.0778, 0.0317), ("elastic", None, 0.0438)],
 )

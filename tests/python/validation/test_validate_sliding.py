@@ -10,7 +10,6 @@ from asperity.cli.main import main
 from asperity.cli.sliding_command import own_map
 from asperity.validation import slide
 from asperity.validation.compared import compare
-from helpers.cases import each
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2.5e3, q1=1.5e4)
 PIXEL = 4 * 2 * np.pi / SURFACE.q0 / 64
@@ -69,7 +68,7 @@ def test_the_map_where_none_is_given_holds_its_waves():
     assert own_map().rms_height == pytest.approx(265.7e-6, rel=0.1)
 
 
-@each(
+@pytest.mark.parametrize(
     ("options", "message"),
     [
         (["--rubber", "x.toml"], "--rubber: only goes with --sliding"),

@@ -8,7 +8,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.validation.own import own_contacts
-from helpers.cases import each, long
+from helpers.cases import long
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2.5e3, q1=2e4)
 SIDE = 256
@@ -89,14 +89,16 @@ BAD = {
 }
 
 
-@each("message", BAD)
+@pytest.mark.parametrize("message", BAD)
 def test_bad_options(message, tmp_path, capsys):
     assert main(["validate", *BAD[message], "--output", str(tmp_path / "worth")]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert message in line
 
 
-@each(("loads", "message"), [("0", "--loads = 0: must be positive"), ("nan", "--loads")])
+@pytest.mark.parametrize(
+    ("loads", "message"), [("0", "--loads = 0: must be positive"), ("nan", "--loads")]
+)
 def test_bad_loads(loads, message, scan, tmp_path, capsys):
     assert main(arguments(scan, "--loads", loads, "--output", str(tmp_path / "worth"))) == 2
     assert message in capsys.readouterr().err
