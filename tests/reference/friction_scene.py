@@ -174,3 +174,16 @@ def by_differential_equation(scene, integrals, knots):
         ).y[:, -1]
     g, g_s = np.exp(state[:2])
     return np.array([law(g), law(g_s), state[2], state[3], g])
+
+
+def columns(results):
+    """Return the columns of a table from what `solve` returns first."""
+    area, area_s, hysteresis, hysteresis_s, g = (float(value) for value in results)
+    return {
+        "g": g,
+        "contact_area": area,
+        "contact_area_s": area_s,
+        "hysteresis": hysteresis,
+        "hysteresis_s": hysteresis_s,
+        "rtol": 1e-6,
+    }

@@ -15,11 +15,11 @@ with judge and bent were first looked at when the rule stood: other seeds, H and
 are for a picture. Contacts that did not converge (loss tangents of 5 and more) are not in it.
 """
 
-import csv
-import sys
 from pathlib import Path
 
+import contact_tables
 import numpy as np
+from contact_tables import Row
 
 import asperity
 from asperity.validation import slide
@@ -67,10 +67,9 @@ BENT = {
 }
 
 
-def rows() -> list[dict[str, str]]:
+def rows() -> list[Row]:
     """Return the rows of the table."""
-    with TABLE.open(encoding="ascii") as file:
-        return [*csv.DictReader(line for line in file if line[0] != "#")]
+    return contact_tables.rows(TABLE)
 
 
 def rubber(name: str) -> asperity.PronySeries:
@@ -79,7 +78,7 @@ def rubber(name: str) -> asperity.PronySeries:
     return asperity.PronySeries(equilibrium_modulus=1.0, moduli=moduli, relaxation_times=times)
 
 
-def surface(row: dict[str, str]) -> asperity.HeightMap:
+def surface(row: Row) -> asperity.HeightMap:
     """Return the map of a row."""
     points, k0, k1, seed = (int(row[name]) for name in INPUTS)
     spectrum = asperity.SelfAffineSpectrum(
@@ -97,7 +96,7 @@ def surface(row: dict[str, str]) -> asperity.HeightMap:
     return asperity.HeightMap((h - h.mean()) / slope, pixel_size=1 / points)
 
 
-def solved(row: dict[str, str]) -> dict[str, str]:
+def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
     found = slide(
         surface(row),
@@ -107,34 +106,15 @@ def solved(row: dict[str, str]) -> dict[str, str]:
         periodic=True,
         rtol=1e-4,
     )
-    figures = {
-        "A": found.contact_area,
-        "A_raw": found.contact_area_raw,
-        "mu": found.hysteresis,
-        "work": found.work_of_slopes,
-        "energy": found.elastic_energy,
-        "error": found.error,
-    }
-    return row | {name: f"{value:.5g}" for name, value in figures.items()}
-
-
-def main() -> None:
-    """Write exact_sliding.csv, or compare the rows that are named."""
-    table = rows()
-    if named := sys.argv[1:]:
-        for row in table:
-            if row["case"] in named:
-                new = solved(row)
-                apart = {n: float(new[n]) / float(row[n]) - 1 for n in ("A", "mu") if float(row[n])}
-                print(row["case"], {name: f"{value:+.1e}" for name, value in apart.items()})
-        return
-    new = [solved(row) for row in table]
-    with TABLE.open("w", encoding="ascii", newline="") as file:
-        file.write(COMMENT)
-        writer = csv.DictWriter(file, list(table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(new)
+    return row | contact_tables.figures(
+        A=found.contact_area,
+        A_raw=found.contact_area_raw,
+        mu=found.hysteresis,
+        work=found.work_of_slopes,
+        energy=found.elastic_energy,
+        error=found.error,
+    )
 
 
 if __name__ == "__main__":
-    main()
+    contact_tables.solve_again(TABLE, COMMENT, solved, ("A", "mu"))

@@ -16,12 +16,12 @@ All but the sharp ones go to a fifth of the points. Rows with narrow have k1/k0 
 what `model_error` is there. Speeds and loads were drawn evenly in their logarithms.
 """
 
-import csv
-import sys
 from pathlib import Path
 
+import contact_tables
 import make_exact_sliding
 import numpy as np
+from contact_tables import Row
 
 import asperity
 from asperity.validation import slide
@@ -43,13 +43,12 @@ ENDS = {
 }
 
 
-def rows() -> list[dict[str, str]]:
+def rows() -> list[Row]:
     """Return the rows of the table."""
-    with TABLE.open(encoding="ascii") as file:
-        return [*csv.DictReader(line for line in file if line[0] != "#")]
+    return contact_tables.rows(TABLE)
 
 
-def density(row: dict[str, str], k: np.ndarray) -> np.ndarray:
+def density(row: Row, k: np.ndarray) -> np.ndarray:
     """Return C at k waves to a side, but for a factor."""
     k0, k1 = float(row["k0"]), float(row["k1"])
     highest = k1 if row["end"] == "sharp" else int(row["points"]) / 5
@@ -58,7 +57,7 @@ def density(row: dict[str, str], k: np.ndarray) -> np.ndarray:
     return np.where(known, k ** (-2 - 2 * float(row["hurst"])) * ENDS[row["end"]](k / k1), 0)
 
 
-def surface(row: dict[str, str]) -> asperity.HeightMap:
+def surface(row: Row) -> asperity.HeightMap:
     """Return the map of a row."""
     if row["set"] == "narrow":
         return make_exact_sliding.surface(row | {"skewness": "0", "kind": "gauss"})
@@ -71,7 +70,7 @@ def surface(row: dict[str, str]) -> asperity.HeightMap:
     return asperity.HeightMap((h - h.mean()) / slope, pixel_size=1 / points)
 
 
-def spectrum(row: dict[str, str]) -> asperity.TabulatedSpectrum:
+def spectrum(row: Row) -> asperity.TabulatedSpectrum:
     """Return what the map was drawn from, at rms slope 1."""
     last = float(row["k1"]) if row["end"] == "sharp" else int(row["points"]) / 5
     k = np.geomspace(float(row["k0"]), last, 400)
@@ -82,7 +81,7 @@ def spectrum(row: dict[str, str]) -> asperity.TabulatedSpectrum:
     return made.scaled(1 / made.rms_slope**2)
 
 
-def solved(row: dict[str, str]) -> dict[str, str]:
+def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
     found = slide(
         surface(row),
@@ -92,32 +91,13 @@ def solved(row: dict[str, str]) -> dict[str, str]:
         periodic=True,
         rtol=1e-3,
     )
-    figures = {
-        "A": found.contact_area,
-        "A_raw": found.contact_area_raw,
-        "mu": found.hysteresis,
-        "work": found.work_of_slopes,
-    }
-    return row | {name: f"{value:.5g}" for name, value in figures.items()}
-
-
-def main() -> None:
-    """Write exact_sliding_ends.csv, or compare the rows that are named."""
-    table = rows()
-    if named := sys.argv[1:]:
-        for row in table:
-            if row["case"] in named:
-                new = solved(row)
-                apart = {n: float(new[n]) / float(row[n]) - 1 for n in ("A", "mu")}
-                print(row["case"], {name: f"{value:+.1e}" for name, value in apart.items()})
-        return
-    new = [solved(row) for row in table]
-    with TABLE.open("w", encoding="ascii", newline="") as file:
-        file.write(COMMENT)
-        writer = csv.DictWriter(file, list(table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(new)
+    return row | contact_tables.figures(
+        A=found.contact_area,
+        A_raw=found.contact_area_raw,
+        mu=found.hysteresis,
+        work=found.work_of_slopes,
+    )
 
 
 if __name__ == "__main__":
-    main()
+    contact_tables.solve_again(TABLE, COMMENT, solved, ("A", "mu"))

@@ -20,10 +20,9 @@ map, which tells the error; the others have nested contacts alone, the first par
 the mean. Rows w, x and e are those of 30 drawn that were solved in the time there was.
 """
 
-import csv
-import sys
 from pathlib import Path
 
+import contact_tables
 import make_exact_sliding
 import numpy as np
 from make_exact_spectra import NU, compliance
@@ -43,10 +42,9 @@ PRESSURES = 8
 MAPS = (1, 4)  # of patches, and of the first part
 
 
-def rows() -> list[dict[str, str]]:
+def rows():
     """Return the rows of the table."""
-    with TABLE.open(encoding="ascii") as file:
-        return [*csv.DictReader(line for line in file if line[0] != "#")]
+    return contact_tables.rows(TABLE)
 
 
 def excess(rows, name):
@@ -176,27 +174,8 @@ def solved(row):
             "mu": found.hysteresis,
             "work": found.work_of_slopes,
         }
-    return row | {name: f"{value:.5g}" for name, value in figures.items()}
-
-
-def main():
-    """Write exact_sliding_wide.csv, or compare the rows that are named."""
-    table = rows()
-    if named := sys.argv[1:]:
-        for row in table:
-            if row["case"] in named:
-                new = solved(row)
-                names = ("A", "mu", "A_nested", "mu_nested")
-                apart = {n: float(new[n]) / float(row[n]) - 1 for n in names if float(row[n] or 0)}
-                print(row["case"], {name: f"{value:+.1e}" for name, value in apart.items()})
-        return
-    new = [solved(row) for row in table]
-    with TABLE.open("w", encoding="ascii", newline="") as file:
-        file.write(COMMENT)
-        writer = csv.DictWriter(file, list(table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(new)
+    return row | contact_tables.figures(**figures)
 
 
 if __name__ == "__main__":
-    main()
+    contact_tables.solve_again(TABLE, COMMENT, solved, ("A", "mu", "A_nested", "mu_nested"))

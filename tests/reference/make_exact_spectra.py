@@ -14,10 +14,10 @@ the points; the first has those below k0, the corners of the grid are in none. O
   even      the same with |p_q|^2 = R |h_q / K_q|^2, R = stress / complete for all directions.
 """
 
-import csv
 import sys
 from pathlib import Path
 
+import contact_tables
 import make_exact_sliding
 import numpy as np
 
@@ -85,10 +85,9 @@ def solved(row):
     rough = (edges[:-1] > 0.5) & (edges[:-1] < 0.999 * float(row["k1"]))
     sums["complete"] = np.where(rough, sums["complete"], 0)
     sums["even"] *= sums["stress"] / np.where(rough, sums["complete"], np.inf)
-    figures = {"A": found.contact_area, "mu": found.hysteresis}
     return (
         {"case": row["case"]}
-        | {name: f"{value:.5g}" for name, value in figures.items()}
+        | contact_tables.figures(A=found.contact_area, mu=found.hysteresis)
         | {
             name: ";".join(f"{x:.5g}" for x in values)
             for name, values in ({"edges": edges} | sums).items()
@@ -98,21 +97,10 @@ def solved(row):
 
 def rows():
     """Return the rows of the table, lists as arrays."""
-    with TABLE.open(encoding="ascii") as file:
-        found = csv.DictReader(line for line in file if line[0] != "#")
-        return [
-            row | {name: np.array([float(x) for x in row[name].split(";")]) for name in LISTS}
-            for row in found
-        ]
-
-
-def write(table):
-    """Write exact_spectra.csv."""
-    with TABLE.open("w", encoding="ascii", newline="") as file:
-        file.write(COMMENT)
-        writer = csv.DictWriter(file, list(table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(table)
+    return [
+        row | {name: np.array([float(x) for x in row[name].split(";")]) for name in LISTS}
+        for row in contact_tables.rows(TABLE)
+    ]
 
 
 def main():
@@ -131,7 +119,7 @@ def main():
                     )
                 print(row["case"], {name: f"{value:.1e}" for name, value in apart.items()})
         return
-    write([solved(row) for row in chosen])
+    contact_tables.write(TABLE, COMMENT, [solved(row) for row in chosen])
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ definition (trapezoidal rule in z, cos(phi) = sech(z)), method two from the clos
 
 import numpy as np
 import tables
-from friction_scene import area_law, solve
+from friction_scene import area_law, columns, solve
 from scipy.integrate import cumulative_simpson, simpson
 
 Z = np.arange(0, 45, 0.2)
@@ -86,15 +86,7 @@ def row(case, changes):
     print(f"{case:36s}", " ".join(f"{x:.10g}" for x in first))
     keys = ["case", "rms_height", "hurst", "q0", "q1", "rolloff", *SBR, "pressure", "velocity"]
     keys += ["poisson_ratio", "shift_factor", "gamma", "form"]
-    area, area_s, hysteresis, hysteresis_s, g = (float(value) for value in first)
-    return {key: scene[key] for key in keys} | {
-        "g": g,
-        "contact_area": area,
-        "contact_area_s": area_s,
-        "hysteresis": hysteresis,
-        "hysteresis_s": hysteresis_s,
-        "rtol": 1e-6,
-    }
+    return {key: scene[key] for key in keys} | columns(first)
 
 
 def check_literally(answer):

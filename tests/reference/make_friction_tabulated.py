@@ -7,7 +7,7 @@ both split where w cos(phi) passes a knot.
 
 import numpy as np
 import tables
-from friction_scene import solve
+from friction_scene import columns, solve
 from make_friction import ASPHALT, SANDPAPER, SBR, USUAL
 from steffen import Table
 
@@ -47,12 +47,12 @@ SCENES = {
 }
 
 
-def angular_integrals(columns):
+def angular_integrals(table):
     """Return w -> (I1, I2) by Gauss rules in z, and in phi."""
-    exact = Table(*columns)
-    knots, x = np.array(columns[0]), np.array([float(v) for v in exact.x])
+    exact = Table(*table)
+    knots, x = np.array(table[0]), np.array([float(v) for v in exact.x])
     cubics = [np.array([[float(v) for v in piece] for piece in c]) for c in exact.cubics]
-    storage0, loss0 = columns[1][0], columns[2][0]
+    storage0, loss0 = table[1][0], table[2][0]
     every = np.arange(len(knots) - 1)
     parts = np.ceil(np.diff(x)).astype(int)  # the rules in phi need shorter pieces
     numbers = np.repeat(every, parts)
@@ -117,19 +117,11 @@ def row(case, changes):
         tables.agree("friction_tabulated", a, b, 1e-8)
     print(f"{case:24s}", " ".join(f"{x:.10g}" for x in first))
     keys = ["pressure", "velocity", "poisson_ratio", "shift_factor", "gamma", "form"]
-    area, area_s, hysteresis, hysteresis_s, g = (float(value) for value in first)
     return (
         {key: scene[key] for key in ["case", "rms_height", "hurst", "q0", "q1", "rolloff"]}
         | {"table_frequency": frequency, "table_storage": storage, "table_loss": loss}
         | {key: scene[key] for key in keys}
-        | {
-            "g": g,
-            "contact_area": area,
-            "contact_area_s": area_s,
-            "hysteresis": hysteresis,
-            "hysteresis_s": hysteresis_s,
-            "rtol": 1e-6,
-        }
+        | columns(first)
     )
 
 
