@@ -16,67 +16,39 @@ import timing
 from models_sliding import MuError
 
 import asperity
-from asperity.validation import slide
 
 WORN = ("worn", "polished tops", "honed plateaus")
 SCAN = "ScanContact"
 CURVE = np.geomspace(1e-5, 10, 60)
 
 
-def corrections(surface: asperity.HeightMap) -> dict[str, Any]:
-    q0 = 2 * np.pi * scan_contact.LONGEST / scan_contact.LENGTH
-    ends: dict[str, Any] = {"z_max": surface.z_max, "z_min": surface.z_min, "q0": q0}
-
-    def peaks(waves: float) -> Any:
-        return surface.local_peaks(min_distance=waves * 2 * np.pi / q0, periodic=True)
-
-    measured = peaks(0.5)
-    igw = asperity.GreenwoodWilliamson
-    return {
-        "Persson, exact": None,
-        "S on the integrand, 0.40": asperity.SFactor(gamma=0.4),
-        "S on the integrand, 0.50": asperity.SFactor(gamma=0.5),
-        "S inside G, 5/9": asperity.SFactor(gamma=5 / 9, applies_to="area"),
-        "S by bandwidth (Nayak)": asperity.NayakSFactor(),
-        "$p_T$ from peaks, $\\lambda_0$": asperity.LocalPeaks(peaks(1)),
-        "$p_T$ from peaks, $\\lambda_0/2$": asperity.LocalPeaks(measured),
-        "$p_T$ from IGW, implicit": igw(peaks=measured, **ends),
-        "$p_T$ from IGW, added": igw(peaks=measured, reading="added", **ends),
-        "PartialContact": asperity.PartialContact(),
-        SCAN: asperity.ScanContact(surface, periodic=True),
-    }
+NAMES = {  # of scan_contact, by the name that the chart gives them
+    "Persson, exact": "none",
+    "S on the integrand, 0.40": "S on the integrand, 0.40",
+    "S on the integrand, 0.50": "S on the integrand, 0.50",
+    "S inside G, 5/9": "S inside G, 5/9",
+    "S by bandwidth (Nayak)": "`NayakSFactor`",
+    "$p_T$ from peaks, $\\lambda_0$": "local peaks, lambda0",
+    "$p_T$ from peaks, $\\lambda_0/2$": "local peaks, lambda0 / 2",
+    "$p_T$ from IGW, implicit": "IGW, measured peaks",
+    "$p_T$ from IGW, added": "IGW, added",
+    "PartialContact": "`PartialContact`",
+    SCAN: "`ScanContact`",
+}
 
 
 @cache
 def errors(kinds: Sequence[str]) -> dict[str, MuError]:
     """By the chart's names; of the single scale too."""
     found: dict[str, list[float]] = defaultdict(list)
-    for kind in kinds:
-        surface = scan_contact.height_map(kind, 9000 + [*scan_contact.KINDS].index(kind))
-        spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
-        band = (scan_contact.LONGEST, scan_contact.SHORTEST)
-        q0, q1 = (2 * np.pi * end / scan_contact.LENGTH for end in band)
-        spectrum = spectrum.truncated(q0=q0, q1=q1)
-        models = corrections(surface)
-        for rubber in scan_contact.RUBBERS.values():
-            modulus = rubber.modulus(scan_contact.VELOCITIES * q1) / (1 - 0.5**2)
-            for pressure in scan_contact.PRESSURES:
-                exact = np.array(
-                    [
-                        slide(
-                            surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5
-                        ).hysteresis
-                        for v in scan_contact.VELOCITIES
-                    ]
-                )
-                single = models_sliding.friction_of_a_single_scale(
-                    spectrum.rms_slope, modulus, pressure
-                )
-                found["single scale at $q_1$"] += [*(single / exact - 1)]
-                for name, correction in models.items():
-                    at = {"pressure": pressure, "velocity": scan_contact.VELOCITIES}
-                    mu = asperity.friction(spectrum, rubber, correction=correction, **at).mu
-                    found[name] += [*(mu / exact - 1)]
+    for of in scan_contact.cases(kinds):
+        for name, key in NAMES.items():
+            found[name] += [*scan_contact.errors(of, key, "mu")]
+        modulus = of.rubber.modulus(scan_contact.VELOCITIES * of.spectrum.q1) / (1 - 0.5**2)
+        single = models_sliding.friction_of_a_single_scale(
+            of.spectrum.rms_slope, modulus, of.pressure
+        )
+        found["single scale at $q_1$"] += [*(single / of.mu - 1)]
     return {name: models_sliding.of(values) for name, values in found.items()}
 
 

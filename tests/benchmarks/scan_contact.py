@@ -12,7 +12,8 @@ Prints Markdown.
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -89,55 +90,77 @@ if LARGE:
 
 def corrections(surface: asperity.HeightMap, scan: asperity.ScanContact) -> dict[str, Any]:
     q0 = 2 * np.pi * LONGEST / LENGTH
-    ends = {"z_max": surface.z_max, "z_min": surface.z_min, "q0": q0}
-    peaks = {"heights_or_map": surface.local_peaks(min_distance=np.pi / q0, periodic=True)}
+    ends: dict[str, Any] = {"z_max": surface.z_max, "z_min": surface.z_min, "q0": q0}
+    far, near = (
+        surface.local_peaks(min_distance=waves * 2 * np.pi / q0, periodic=True)
+        for waves in (1, 0.5)
+    )
+    igw = asperity.GreenwoodWilliamson
     return {
         "none": None,
+        "S on the integrand, 0.40": asperity.SFactor(gamma=0.4),
         "S on the integrand, 0.50": asperity.SFactor(gamma=0.5),
+        "S inside G, 5/9": asperity.SFactor(gamma=5 / 9, applies_to="area"),
         "`NayakSFactor`": asperity.NayakSFactor(),
-        "local peaks, lambda0 / 2": asperity.LocalPeaks(**peaks),
-        "IGW, measured peaks": asperity.GreenwoodWilliamson(peaks=peaks["heights_or_map"], **ends),
-        "peaks, then IGW": asperity.PeaksThenGreenwoodWilliamson(**peaks, **ends),
+        "local peaks, lambda0": asperity.LocalPeaks(far),
+        "local peaks, lambda0 / 2": asperity.LocalPeaks(near),
+        "IGW, measured peaks": igw(peaks=near, **ends),
+        "IGW, added": igw(peaks=near, reading="added", **ends),
+        "peaks, then IGW": asperity.PeaksThenGreenwoodWilliamson(near, **ends),
         "`PartialContact`": asperity.PartialContact(),
         "`ScanContact`": scan,
     }
 
 
-def cases() -> Iterator[tuple[str, str, dict[str, Array], dict[str, float]]]:
-    """(kind, correction, errors of mu and A and what was stated, cost)."""
-    for index, kind in enumerate(KINDS):
-        surface = height_map(kind, (7000 if LARGE else 9000) + index)
-        spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
-        spectrum = spectrum.truncated(
-            q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH
-        )
+@dataclass(frozen=True)
+class Contacts:
+    """A map under a pressure, at all velocities: exact, and by correction."""
+
+    kind: str
+    spectrum: asperity.TabulatedSpectrum
+    rubber: asperity.PronySeries
+    pressure: float
+    mu: Array
+    area: Array
+    found: dict[str, asperity.Friction]
+    seconds: dict[str, float]
+
+
+def rings(surface: asperity.HeightMap) -> asperity.TabulatedSpectrum:
+    q0, q1 = (2 * np.pi * end / LENGTH for end in (LONGEST, SHORTEST))
+    spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
+    return spectrum.truncated(q0=q0, q1=q1)
+
+
+def exact(
+    surface: asperity.HeightMap, rubber: asperity.PronySeries, pressure: float
+) -> tuple[Array, Array]:
+    """mu and A at all velocities."""
+    contacts = [
+        slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
+        for v in VELOCITIES
+    ]
+    mu, area = zip(*((c.hysteresis, c.contact_area) for c in contacts), strict=True)
+    return np.array(mu), np.array(area)
+
+
+def cases(kinds: Sequence[str] = tuple(KINDS)) -> Iterator[Contacts]:
+    for kind in kinds:
+        surface = height_map(kind, (7000 if LARGE else 9000) + [*KINDS].index(kind))
+        spectrum = rings(surface)
         for rubber in RUBBERS.values():
-            scan = asperity.ScanContact(surface, periodic=True)
+            models = corrections(surface, asperity.ScanContact(surface, periodic=True))
             for pressure in PRESSURES:
-                exact = [
-                    slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
-                    for v in VELOCITIES
-                ]
-                mu = np.array([c.hysteresis for c in exact])
-                area = np.array([c.contact_area for c in exact])
-                for correction, value in corrections(surface, scan).items():
+                scene = {"pressure": pressure, "velocity": VELOCITIES}
+                found, seconds = {}, {}
+                for name, correction in models.items():
                     begin = time.process_time()
-                    found = asperity.friction(
-                        spectrum, rubber, pressure=pressure, velocity=VELOCITIES, correction=value
+                    found[name] = asperity.friction(
+                        spectrum, rubber, correction=correction, **scene
                     )
-                    seconds = time.process_time() - begin
-                    errors = {
-                        "mu": found.mu / mu - 1,
-                        "A": found.contact_area / area - 1,
-                        "stated": found.model_error,
-                        "area": area,
-                    }
-                    yield (
-                        kind,
-                        correction,
-                        errors,
-                        {"seconds": seconds, "nodes": len(scan.contacts)},
-                    )
+                    seconds[name] = time.process_time() - begin
+                truth = exact(surface, rubber, pressure)
+                yield Contacts(kind, spectrum, rubber, pressure, *truth, found, seconds)
 
 
 def shown(error: Array) -> str:
@@ -146,15 +169,19 @@ def shown(error: Array) -> str:
     return f"{rms:.{digits}f} ({100 * error.min():+.{digits}f} / {100 * error.max():+.{digits}f})"
 
 
+def errors(of: Contacts, name: str, what: str) -> Array:
+    result = of.found[name]
+    return result.mu / of.mu - 1 if what == "mu" else result.contact_area / of.area - 1
+
+
 def main() -> None:
-    found = [*cases()]
-    names = list(dict.fromkeys(correction for _, correction, _, _ in found))
+    solved = [*cases()]
     for what in ("mu", "A"):
         print(f"\n{what}, errors in %, rms (lowest / highest):\n")
         print("| correction | " + " | ".join(KINDS) + " |\n| --- |" + " --- |" * len(KINDS))
-        for name in names:
+        for name in solved[0].found:
             row = [
-                shown(np.concatenate([e[what] for k, c, e, _ in found if (k, c) == (kind, name)]))
+                shown(np.concatenate([errors(of, name, what) for of in solved if of.kind == kind]))
                 for kind in KINDS
             ]
             print(f"| {name} | " + " | ".join(row) + " |")
@@ -162,11 +189,11 @@ def main() -> None:
         "\nShare of mu within one and two `model_error`, and seconds of processor time a curve:\n"
     )
     for name in ("`PartialContact`", "`ScanContact`"):
-        mine = [(e, cost) for _, c, e, cost in found if c == name]
-        error, stated = (np.concatenate([e[key] for e, _ in mine]) for key in ("mu", "stated"))
+        error = np.concatenate([errors(of, name, "mu") for of in solved])
+        stated = np.concatenate([of.found[name].model_error for of in solved])
         known = ~np.isnan(stated)
         shares = [np.mean(np.abs(error[known]) <= k * stated[known]) for k in (1, 2)]
-        seconds = np.median([cost["seconds"] for _, cost in mine])
+        seconds = np.median([of.seconds[name] for of in solved])
         print(f"- {name}: {shares[0]:.2f}, {shares[1]:.2f}; median {seconds:.3f} s")
     if len(sys.argv) > 1 and not LARGE:
         draw(sys.argv[1])
@@ -195,15 +222,10 @@ def draw(path: str) -> None:
     import matplotlib.pyplot as plt
 
     surface, rubber, pressure = height_map("worn", 9001), RUBBERS["8 terms, 300"], 2e5
-    spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
-    spectrum = spectrum.truncated(q0=2 * np.pi * LONGEST / LENGTH, q1=2 * np.pi * SHORTEST / LENGTH)
+    spectrum = rings(surface)
     scan = asperity.ScanContact(surface, periodic=True)
     dense = np.geomspace(1e-5, 10, 91)
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.9), layout="constrained", sharex=True)
-    exact = [
-        slide(surface, rubber, pressure=pressure, velocity=v, periodic=True, rtol=1e-5)
-        for v in VELOCITIES
-    ]
     models = corrections(surface, scan)
     for name, look in LOOKS.items():
         curve = asperity.friction(
@@ -211,9 +233,7 @@ def draw(path: str) -> None:
         )
         for ax, values in zip(axes, (curve.mu, curve.contact_area), strict=True):
             ax.plot(dense, values, **{"label": name, "linewidth": 1.3} | look)
-    for ax, values in zip(
-        axes, ([c.hysteresis for c in exact], [c.contact_area for c in exact]), strict=True
-    ):
+    for ax, values in zip(axes, exact(surface, rubber, pressure), strict=True):
         ax.plot(VELOCITIES, values, "ko", markersize=5, zorder=4, label="exact contact")
         ax.set(xscale="log", xlabel="Sliding velocity $v$ [m/s]", ylim=(0, None))
         ax.tick_params(which="both", direction="in", top=True, right=True)

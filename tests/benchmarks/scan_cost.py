@@ -26,10 +26,7 @@ VELOCITIES, PRESSURES = (1e-5, 10.0), (2e4, 2e6)
 
 def prepared(kind: str, seed: int) -> tuple[asperity.TabulatedSpectrum, asperity.ScanContact]:
     surface = maps.height_map(kind, seed)
-    spectrum = asperity.power_spectrum(surface, window="none", detrend=None)
-    ends = 2 * np.pi * np.array([maps.LONGEST, maps.SHORTEST]) / maps.LENGTH
-    scan = asperity.ScanContact(surface, periodic=True)
-    return spectrum.truncated(q0=ends[0], q1=ends[1]), scan
+    return maps.rings(surface), asperity.ScanContact(surface, periodic=True)
 
 
 def curves() -> None:

@@ -7,8 +7,8 @@ Every second row of 512^2 points of tests/reference/sliding_contacts.csv, maps o
 points, with the memory that the process held at most.
 """
 
-import csv
 import resource
+import sys
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,50 +18,30 @@ import timing
 
 import asperity
 
-ROWS = Path(__file__).parents[1] / "reference" / "sliding_contacts.csv"
+sys.path.insert(0, str(Path(__file__).parents[1] / "reference"))
+import contact_tables
+from contact_tables import Row
 
 
-def surface(row: dict[str, str], points: int) -> asperity.HeightMap:
-    spectrum = asperity.SelfAffineSpectrum(
-        rms_height=1,
-        hurst=float(row["hurst"]),
-        q0=2 * np.pi * float(row["k0"]),
-        q1=2 * np.pi * float(row["k1"]),
-    )
-    shape = (points, points)
-    made = asperity.synthesize(spectrum, shape=shape, pixel_size=1 / points, seed=1)
-    scale = float(row["rms_height"]) / made.rms_height
-    return asperity.HeightMap(made.heights * scale, pixel_size=1 / points)
-
-
-def rubber(row: dict[str, str]) -> asperity.PronySeries:
-    return asperity.PronySeries(
-        equilibrium_modulus=float(row["E_inf"]),
-        moduli=[float(x) for x in row["moduli"].split()],
-        relaxation_times=[float(x) for x in row["times"].split()],
-    )
-
-
-def solve(row: dict[str, str], map: asperity.HeightMap) -> Any:
-    load, velocity = float(row["pressure"]), float(row["velocity"])
+def solve(row: Row, surface: asperity.HeightMap) -> Any:
+    _, rubber, at = contact_tables.scene_of_another_program(row)
     try:
-        return asperity.validation.slide(
-            map, rubber(row), pressure=load, velocity=velocity, periodic=True
-        )
+        return asperity.validation.slide(surface, rubber, **at, periodic=True)
     except asperity.NotConverged:
         return None
 
 
 def make() -> timing.Report:
-    with ROWS.open(encoding="utf-8") as file:
-        listed = [*csv.DictReader(line for line in file if line[0] != "#")]
+    listed = contact_tables.rows(contact_tables.ANOTHER_PROGRAM)
     columns: dict[str, list[object]] = {
         name: []
         for name in ("rubber", "k1", "pressure", "log10_v_q0", "points", "seconds", "error")
     }
 
-    def add(row: dict[str, str], points: int) -> float:
-        taken, found = timing.timed(partial(solve, row, surface(row, points)))
+    def add(row: Row, points: int) -> float:
+        taken, found = timing.timed(
+            partial(solve, row, contact_tables.map_of_another_program(row, points))
+        )
         values = (row["material"], row["k1"], row["pressure"], row["log10_v_q0"], points, taken)
         for name, value in zip(columns, values, strict=False):
             columns[name].append(value)

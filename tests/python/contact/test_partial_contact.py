@@ -1,6 +1,6 @@
 """The rule of PartialContact: its reference table, and what it promises."""
 
-import csv
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +12,9 @@ from asperity import InvalidInput, MasterCurve, PartialContact, PronySeries, Sel
 from helpers import table_rows
 from helpers.cases import case
 
-CONTACTS = Path(__file__).parents[2] / "reference" / "sliding_contacts.csv"
-TEXTS = ("material", "moduli", "times")
+sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
+import contact_tables
+
 RULE = PartialContact()
 ROAD = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
 MODES = {
@@ -213,28 +214,15 @@ def test_other_forms_and_methods_know_no_rule(function, argument, value):
 
 
 def test_exact_sliding_contacts():
-    lines = (line for line in CONTACTS.read_text().splitlines() if line[0] != "#")
     off, area = [], []
-    for row in csv.DictReader(lines):
-        one = {name: float(cell) for name, cell in row.items() if name not in TEXTS}
-        if not (0.02 < one["A"] < 0.95 and one["error"] <= 1e-4):
+    for row in contact_tables.rows(contact_tables.ANOTHER_PROGRAM):
+        exact = {name: float(row[name]) for name in ("mu", "A", "error")}
+        if not (0.02 < exact["A"] < 0.95 and exact["error"] <= 1e-4):
             continue
-        spectrum = SelfAffineSpectrum(
-            rms_height=one["rms_height"],
-            hurst=one["hurst"],
-            q0=2 * np.pi * one["k0"],
-            q1=2 * np.pi * one["k1"],
-        )
-        rubber = PronySeries(
-            equilibrium_modulus=one["E_inf"],
-            moduli=[float(x) for x in row["moduli"].split()],
-            relaxation_times=[float(x) for x in row["times"].split()],
-        )
-        found = asperity.friction(
-            spectrum, rubber, pressure=one["pressure"], velocity=one["velocity"], correction=RULE
-        )
-        off.append(found.mu / one["mu"] - 1)
-        area.append(found.contact_area / one["A"] - 1)
+        spectrum, rubber, at = contact_tables.scene_of_another_program(row)
+        found = asperity.friction(spectrum, rubber, **at, correction=RULE)
+        off.append(found.mu / exact["mu"] - 1)
+        area.append(found.contact_area / exact["A"] - 1)
     assert len(off) == 80
     rms_of_mu, rms_of_area = (np.sqrt(np.mean(np.square(one))) for one in (off, area))
     assert rms_of_mu < 0.06  # 0.052

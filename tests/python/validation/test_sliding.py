@@ -1,7 +1,7 @@
 """Exact sliding contact against closed forms, other solvers, and its own symmetries."""
 
-import csv
 import pickle
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,9 @@ from asperity.validation.boundary_elements import mirrored
 from asperity.validation.sliding import continued
 from helpers import boundary_elements
 from helpers.cases import case
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "reference"))
+import contact_tables
 
 LENGTH = 0.01
 SOLID = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[9e6], relaxation_times=[1e-3])
@@ -97,39 +100,16 @@ def test_both_limits_are_elastic(velocity: float, modulus: float) -> None:
         assert abs(found.hysteresis) < 1e-8
 
 
-ROWS = Path(__file__).parents[2] / "reference" / "sliding_contacts.csv"
-
-
 def shipped(kind: Callable[[dict[str, str]], bool]) -> list[tuple[float, float]]:
     """Relative errors of mu and A against rows of the table."""
-    with ROWS.open(encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(x for x in file if x[0] != "#") if kind(row)]
+    rows = [row for row in contact_tables.rows(contact_tables.ANOTHER_PROGRAM) if kind(row)]
     assert len(rows) > 2
     errors = []
     for row in rows:
-        n = int(row["N"])
-        spectrum = asperity.SelfAffineSpectrum(
-            rms_height=1,
-            hurst=float(row["hurst"]),
-            q0=2 * np.pi * float(row["k0"]),
-            q1=2 * np.pi * float(row["k1"]),
-        )
-        made = asperity.synthesize(spectrum, shape=(n, n), pixel_size=1 / n, seed=1)
-        scale = float(row["rms_height"]) / made.rms_height
-        rubber = asperity.PronySeries(
-            equilibrium_modulus=float(row["E_inf"]),
-            moduli=[float(x) for x in row["moduli"].split()],
-            relaxation_times=[float(x) for x in row["times"].split()],
-        )
+        surface = contact_tables.map_of_another_program(row, int(row["N"]))
+        _, rubber, at = contact_tables.scene_of_another_program(row)
         with case(**row):
-            found = slide(
-                with_heights(made, made.heights * scale),
-                rubber,
-                pressure=float(row["pressure"]),
-                velocity=float(row["velocity"]),
-                periodic=True,
-                rtol=1e-5,
-            )
+            found = slide(surface, rubber, **at, periodic=True, rtol=1e-5)
         mu, area = found.hysteresis / float(row["mu"]) - 1, found.contact_area / float(row["A"]) - 1
         with case(**row, mu_error=mu, area_error=area):
             # four times the scatter of maps
