@@ -6,16 +6,10 @@ Each step runs in a process of its own, after a small one of its kind, so that i
 already. The peak is the kernel's high-water mark, forgotten before the step.
 """
 
-import re
-import subprocess
-import sys
-from pathlib import Path
-
+import peaks
 import timing
 
 SETUP = """
-import re, sys
-from pathlib import Path
 import numpy as np
 import asperity
 from rings import VELOCITY, rings, rubber
@@ -40,15 +34,6 @@ def curve(rows):
     return asperity.MasterCurve(
         angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag
     )
-def kilobytes(key):
-    return int(re.search(key + r":\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
-def peak(make, step):
-    step(*make(True))
-    inputs = make(False)
-    Path("/proc/self/clear_refs").write_text("5")
-    before = kilobytes("VmRSS")
-    kept = step(*inputs)
-    print(kilobytes("VmHWM") - before)
 """
 CONDITIONS = "pressure=81e3, velocity=VELOCITY, correction=asperity.NayakSFactor()"
 # name, what the step needs (small or not), the step
@@ -93,15 +78,8 @@ STEPS = {
 
 
 def megabytes(make: str, step: str) -> float:
-    code = f"{SETUP}\npeak(lambda small: {make}, {step})"
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd=Path(__file__).parent,
-    )
-    return int(re.search(r"-?\d+", done.stdout)[0]) / 1024  # type: ignore[index]
+    code = f"{SETUP}\nmake, step = lambda small: {make}, {step}\nstep(*make(True))\n"
+    return peaks.printed(code + "print(peak(step, *make(False)))")[0] / 1024
 
 
 def make() -> timing.Report:

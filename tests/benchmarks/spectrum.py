@@ -10,7 +10,6 @@ the heights: plane, split cosine bell, transform, rings. All runs alternate; med
 import argparse
 import ctypes
 import ctypes.util
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -18,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import peaks
 
 import asperity
 
@@ -135,21 +135,13 @@ def measure(side: int, dtype: Any, runs: int) -> dict[str, float]:
 def extra_maps(side: int) -> float:
     """Peak memory above that of the map itself, in maps, of one call in a process of its own."""
     child = f"""
-import re
-from pathlib import Path
 import numpy as np, asperity
-def kilobytes(key):
-    return int(re.search(key + r":\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
 z = np.random.default_rng(1).standard_normal(({side}, {side}))
 scan = asperity.HeightMap(z, pixel_size=1e-6)
 asperity.power_spectrum(asperity.HeightMap(z[:64, :64], pixel_size=1e-6))  # its code is in memory
-Path("/proc/self/clear_refs").write_text("5")  # forget the highest mark so far
-before = kilobytes("VmRSS")
-asperity.power_spectrum(scan)
-print((kilobytes("VmHWM") - before) * 1024 / z.nbytes)
+print(peak(asperity.power_spectrum, scan) * 1024 / z.nbytes)
 """
-    done = subprocess.run([sys.executable, "-c", child], capture_output=True, text=True, check=True)
-    return float(done.stdout)
+    return peaks.printed(child)[0]
 
 
 def table(results: dict[tuple[int, str], dict[str, float]], memory: dict[int, float]) -> str:

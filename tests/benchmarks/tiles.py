@@ -7,13 +7,11 @@ the spectrum of a .npy file of 32768 x 32768 heights (4 GiB, made here and remov
 threads, in a process of its own; the peak of its resident memory, the interpreter's included.
 """
 
-import re
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
+import peaks
 import timing
 
 import asperity
@@ -21,8 +19,7 @@ import asperity
 SIDE, TILES, OVERLAPS = 8192, (1024, 2048, 4096), (0.0, 0.5)
 LARGE, LARGE_TILE, RUNS = 32768, 4096, 7
 CHILD = """
-import re, sys, time
-from pathlib import Path
+import sys, time
 import numpy as np
 import asperity
 
@@ -32,8 +29,7 @@ spectrum = asperity.power_spectrum(
     heights, pixel_size=1e-6, tiles=int(sys.argv[2]), overlap=float(sys.argv[3]), threads=2
 )
 seconds = time.process_time() - start
-peak = re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1]
-print(seconds, int(peak) / 2**20, asperity.fit_self_affine(spectrum).hurst)
+print(seconds, kilobytes("VmHWM") / 2**20)
 """
 
 
@@ -95,11 +91,7 @@ def memory() -> list[dict[str, float]]:
         path = Path(folder, "large.npy")
         write_large(path)
         for overlap in OVERLAPS:
-            given = [str(path), str(LARGE_TILE), str(overlap)]
-            done = subprocess.run(
-                [sys.executable, "-c", CHILD, *given], capture_output=True, text=True, check=True
-            )
-            seconds, peak, _ = map(float, re.findall(r"\S+", done.stdout))
+            seconds, peak = peaks.printed(CHILD, str(path), str(LARGE_TILE), str(overlap))
             found.append({"overlap": overlap, "seconds": seconds, "peak_gib": peak})
     return found
 
