@@ -112,48 +112,9 @@ def test_pressure_distribution_integrates_to_area_and_load(pressure, correction)
         assert density(np.float64(0)) == 0
 
 
-def test_mean_pressure_carries_the_load_at_every_magnification():
-    area = asperity.contact_area(ROAD, RUBBER, **SCENE, wavenumber=WAVENUMBERS)
-    mean = asperity.mean_pressure(ROAD, RUBBER, **SCENE, wavenumber=WAVENUMBERS)
-    np.testing.assert_allclose(mean * area, SCENE["pressure"], rtol=1e-14)
-
-
-@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.5])
-def test_small_loads_give_an_area_proportional_to_the_load(poisson_ratio):
-    modulus = asperity.effective_modulus(modulus=1e7, poisson_ratio=poisson_ratio)
-    for p_star in (1e-3, 1e-6):
-        pressure = p_star * modulus * ROAD.rms_slope
-        area = asperity.contact_area(
-            ROAD, elastic(1e7), pressure=pressure, velocity=1, poisson_ratio=poisson_ratio
-        )
-        assert area == pytest.approx(
-            math.sqrt(8 / math.pi) * p_star, rel=max(p_star**2, 1e-7), abs=0
-        )
-
-
 def test_full_contact_under_a_crushing_load_and_at_q0():
     assert asperity.contact_area(ROAD, RUBBER, pressure=1e12, velocity=0.01) == 1
     assert asperity.contact_area(ROAD, RUBBER, **SCENE, wavenumber=2e3) == 1
-
-
-@pytest.mark.parametrize("form", ["exact", "interpolated"])
-def test_area_is_a_share_that_rises_with_load_and_falls_with_roughness_and_magnification(form):
-    pressure = np.geomspace(1e2, 1e9, 40)
-    options = {"velocity": 0.01, "form": form}
-    by_load = asperity.contact_area(ROAD, RUBBER, pressure=pressure, **options)
-    assert np.all((by_load > 0) & (by_load <= 1))
-    assert np.all(np.diff(by_load[by_load < 1]) > 0)
-    by_roughness = [
-        asperity.contact_area(ROAD.scaled(s), RUBBER, pressure=1e6, **options)
-        for s in np.geomspace(1e-3, 1e3, 9)
-    ]
-    assert np.all(np.diff(by_roughness) < 0)
-    by_magnification = asperity.contact_area(
-        ROAD, RUBBER, pressure=1e6, wavenumber=np.geomspace(2.01e3, 1e6, 30), **options
-    )
-    assert np.all(np.diff(by_magnification) < 0)
-    stiffer = asperity.contact_area(ROAD, RUBBER, pressure=1e6, velocity=10, form=form)
-    assert stiffer < asperity.contact_area(ROAD, RUBBER, pressure=1e6, velocity=0.01, form=form)
 
 
 def test_interpolation_of_the_area_is_as_far_off_as_stated():
@@ -170,15 +131,6 @@ def test_interpolation_of_the_area_is_as_far_off_as_stated():
     assert 0.025 < error.max() < 0.027
     assert 0.08 < g[error.argmin()] < 0.12
     assert 0.8 < g[error.argmax()] < 1.1
-
-
-@pytest.mark.parametrize("p", [1.0, 2.0, 3.7])
-def test_affine_shift_is_a_spectrum_divided_by_its_square(p):
-    shifted = asperity.friction(ROAD, RUBBER, **SCENE, correction=AffineShift(p))
-    scaled = asperity.friction(ROAD.scaled(1 / p**2), RUBBER, **SCENE)
-    assert shifted.mu == pytest.approx(scaled.mu, rel=1e-12, abs=0)
-    assert shifted.contact_area == pytest.approx(scaled.contact_area, rel=1e-12, abs=0)
-    assert (shifted.shift_factor, scaled.shift_factor) == (p, 1)
 
 
 @pytest.mark.parametrize("p", [1.0, 2.0, 3.7])

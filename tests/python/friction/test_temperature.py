@@ -94,14 +94,6 @@ def test_threads_share_points_of_several_temperatures():
     assert one == two
 
 
-def test_a_curve_that_knows_its_shift_factors_needs_no_second_step():
-    curve = BUILD.master_curve
-    at = {"pressure": 1e5, "velocity": 1e-4, "temperature": 288.0}
-    road = ROAD.truncated(q1=3e4)
-    known = asperity.friction(road, curve, **at)
-    assert known == asperity.friction(road, curve, shift=BUILD, **at)
-
-
 @pytest.mark.parametrize("name", SHIFTING)
 def test_slopes_are_those_of_the_law(name):
     shift, t, step = SHIFTING[name], np.array([285.0, 290.0, 301.0]), 1e-3
