@@ -15,7 +15,7 @@ from asperity.contact import (
 from asperity.correction import *  # noqa: F403
 from asperity.dma import MasterCurveBuild, MasterPoints, build_master_curve
 from asperity.fmu import export_fmu
-from asperity.friction import Friction, friction
+from asperity.friction import Friction, Gradients, friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap, FrictionSlopes
 from asperity.heating import Heating, heat_kernel
@@ -56,6 +56,7 @@ __all__ = [
     "FrictionBand",
     "FrictionMap",
     "FrictionSlopes",
+    "Gradients",
     "Heating",
     "HeightMap",
     "HeightStatistics",

@@ -19,18 +19,20 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
-from asperity.base.diagnostics import Argument, valued
+from asperity.base.diagnostics import MUST_BE, Argument, valued
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.heating import Heating
 from asperity.results.friction import COLUMNS, Friction
+from asperity.results.gradients import Gradients
+from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors
 
-__all__ = ["Friction", "friction"]
+__all__ = ["Friction", "Gradients", "friction"]
 
 Branch = Literal["cold", "hot"]
 BRANCHES = ("cold", "hot")  # in the order of the core's enumeration
@@ -56,6 +58,7 @@ def friction(
     shift: TemperatureShift | None = None,
     heating: Heating | None = None,
     branch: Branch = "cold",
+    gradients: bool = False,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -104,6 +107,9 @@ def friction(
     branch : {"cold", "hot"}
         Where the heat has several steady states, the one that sliding from rest reaches, or the
         hottest.
+    gradients : bool
+        Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
+        curves. Not with GSL's methods or heating.
 
     Returns
     -------
@@ -139,6 +145,7 @@ def friction(
     parts = surface_and_rubber(spectrum, rubber)
     added = adhesion_core(adhesion)
     told = flag(contributions, "contributions")
+    slopes = flag(gradients, "gradients")
     count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     which = choice(branch, "branch", BRANCHES)
     t = at[0] if at else None
@@ -153,11 +160,24 @@ def friction(
                 ": needs heating=, without which there is one",
             )
         result = _made(_core.friction(*points), shape)
+        if slopes:
+            of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
+            result = _with(result, gradients=gradients_of_core(of, shape))
         if t is None:
             return result
         notes = (*result.notes, *law_notes(law, t))
         return _with(result, temperature=_shaped(t, shape), notes=notes)
     core = of_kind(heating, "heating", Heating)._core
+    if slopes:
+        raise InvalidInput(
+            Argument("gradients"),
+            " = ",
+            valued(True, "True"),
+            MUST_BE,
+            "False with ",
+            Argument("heating"),
+            ", whose T(q) has no slopes yet",
+        )
     if t is None:
         raise InvalidInput(
             Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"

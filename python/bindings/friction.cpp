@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
+#include "asperity/gradients.hpp"
 #include "asperity/heating.hpp"
 #include "topics.hpp"
 #include "value.hpp"
@@ -54,6 +55,24 @@ py::tuple flash_friction_of(const Spectrum& spectrum, const Rubber& rubber, cons
                         array_of(std::move(f.temperature_profile)));
 }
 
+/// ((rows of C, density), (rows of the modulus, densities of E' and E''), over p, v, T, {argument: values}, error).
+py::tuple gradients_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                       const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
+                       unsigned threads, const std::optional<TemperatureShift>& shift,
+                       const std::optional<Array>& temperature) {
+  Gradients g = released([&] {
+    const auto p = span_of(pressure), v = span_of(velocity);
+    return shift ? gradients(spectrum, rubber, *shift, model, adhesion, p, v, span_of(*temperature), threads)
+                 : gradients(spectrum, rubber, model, adhesion, p, v, threads);
+  });
+  py::dict arguments;
+  for (Gradients::OfArgument& one : g.arguments) arguments[one.name.c_str()] = array_of(std::move(one.values));
+  return py::make_tuple(array_of(std::move(g.wavenumber)), array_of(std::move(g.spectrum)),
+                        array_of(std::move(g.angular_frequency)), array_of(std::move(g.storage)),
+                        array_of(std::move(g.loss)), array_of(std::move(g.pressure)), array_of(std::move(g.velocity)),
+                        array_of(std::move(g.temperature)), arguments, array_of(std::move(g.error_estimate)));
+}
+
 /// ((tau_f0, v0, c), covariance row by row, residual, outliers, notes).
 py::tuple fit(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const Array& pressure,
               const Array& velocity, const Array& mu, std::optional<double> shear_stress,
@@ -82,6 +101,7 @@ void bind_friction(py::module_& m) {
   bind_value(m, "Adhesion", &Adhesion::shear_stress, &Adhesion::reference_velocity, &Adhesion::width);
   m.def("friction", &friction_of);
   m.def("flash_friction", &flash_friction_of);
+  m.def("gradients", &gradients_of);
   m.def("sliding_length", [](const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                              const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
                              const TemperatureShift& shift, const Array& temperature, const Heating& heating) {

@@ -60,12 +60,12 @@ RoughnessWindow::RoughnessWindow(std::span<const Segment> surface) : surface_(su
     sum += segment.moment(3, segment.b);
   }
   total_ = sum;
-  end_ = surface.back().b;
+  end_ = last_from_ = surface.back().b;
   if (total_ > 0) end_ = std::fmax(surface.front().a, end_ * std::exp(-mean_of_last()));
 }
 
 /// Of ln(q1 / q) over that last part of the band that has a tenth of the integral, summed from its upper end on.
-double RoughnessWindow::mean_of_last() const {
+double RoughnessWindow::mean_of_last() {
   constexpr double last = 0.1;
   const double needed = last * total_;
   double found = 0, sum = 0, behind = 0;  // of the integral; of ln(q1 / q) over it; ln(q1 / b) of the segment
@@ -79,6 +79,7 @@ double RoughnessWindow::mean_of_last() const {
       from = bracketed_root([&](double t) { return roughness_moments(segment, t, length).zeroth - rest; }, 0, length);
       part = roughness_moments(segment, from, length);
     }
+    last_from_ = segment.a * std::exp(from);
     found += part.zeroth;
     sum += part.zeroth * (behind + length - from) - part.first;
     if (enough) break;

@@ -23,11 +23,14 @@ class RoughnessWindow {
 
   explicit RoughnessWindow(std::span<const Segment> surface);
   [[nodiscard]] double operator()(double wavenumber) const;
-  /// int c d ln q over the band.
+  /// int c d ln q from the start of the band up to a wavenumber in it, and over the band.
+  [[nodiscard]] double below(double wavenumber) const { return between(surface_.front().a, wavenumber); }
   [[nodiscard]] double total() const { return total_; }
   /// Where the roughness ends [1/m]: the mean of ln q over the last tenth of the integral. Rows with hardly any
   /// roughness beyond it do not count.
   [[nodiscard]] double end() const { return end_; }
+  /// Where that tenth begins [1/m].
+  [[nodiscard]] double last_from() const { return last_from_; }
   /// The wavenumbers at which it changes its formula because it meets the end of the band [1/m].
   [[nodiscard]] std::vector<double> ends() const;
 
@@ -36,11 +39,11 @@ class RoughnessWindow {
   [[nodiscard]] double between(double lower, double upper) const;
   [[nodiscard]] double up_to(std::size_t index, double wavenumber) const;
   [[nodiscard]] std::size_t segment_at(double wavenumber) const;
-  [[nodiscard]] double mean_of_last() const;
+  [[nodiscard]] double mean_of_last();
 
   std::span<const Segment> surface_;
   std::vector<double> before_, at_start_;  // of each segment: the integral up to it, and c where it starts
-  double total_ = 0, end_;
+  double total_ = 0, end_, last_from_;
 };
 
 }  // namespace asperity

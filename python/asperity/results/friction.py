@@ -12,6 +12,7 @@ from asperity.base.arguments import Array, Shape, broadcast, frozen, real_array
 from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
+from asperity.results.gradients import Gradients
 
 
 def column(unit: str, meaning: str) -> Any:
@@ -97,6 +98,8 @@ class Friction(Table):
         one, by the history of the heat at a velocity that is held; to about 1 % of the contact's
         diameter. Computed when it is first asked for, some ten milliseconds a point. None without
         heating, and with GSL's methods, which know nothing of the history.
+    gradients : Gradients or None
+        Slopes of mu, where they were asked for.
     """
 
     # in the order of the core's `friction_columns`
@@ -122,6 +125,7 @@ class Friction(Table):
     branches: Any = None
     temperature_profile: Array | None = None
     sliding_length: Any = _WhenAsked(None)
+    gradients: Gradients | None = None
 
     def mu_at(self, distance: ArrayLike) -> Any:
         """Return the friction coefficient [-] after a `distance` s [m] slid from rest.

@@ -27,6 +27,7 @@ TOPICS = re.search(r"set\(ASPERITY_TOPICS ([^)]*)\)", CMAKE)[1].split()
 FOLDER_OF = {
     "asperities": "contact",
     "correction": "contact",
+    "gradients": "friction",
     "heating": "heat",
     "scan_contact": "sliding",
     "contact_progress": "sliding",

@@ -195,6 +195,30 @@ void ContactGrid::integrate(const Eigen::MatrixXd& i2, Eigen::MatrixXd& at_nodes
   }
 }
 
+Eigen::VectorXd ContactGrid::integrate_back(const Eigen::VectorXd& at_nodes, const Eigen::VectorXd& at_ends) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(band_size_));
+  double behind = 0;  // what multiplies G at the upper end of a cell, that of all behind it included
+  for (std::size_t c = cells_.size(); c-- > 0;) {
+    const auto first = static_cast<Eigen::Index>(cells_[c].first), count = static_cast<Eigen::Index>(cells_[c].count);
+    behind += at_ends[static_cast<Eigen::Index>(c) + 1];
+    const auto nodes = at_nodes.segment(first, count);
+    auto here = result.segment(first, count);
+    if (pieces_) {
+      const RoughnessPieces::Nodes& of = pieces_->nodes();
+      here.setZero();
+      for (Eigen::Index i = 0; i < count; ++i) {
+        here[0] += g_factor_ * of.of_first[cells_[c].first + static_cast<std::size_t>(i)] * nodes[i];
+        here[1] += g_factor_ * of.of_second[cells_[c].first + static_cast<std::size_t>(i)] * nodes[i];
+      }
+    } else {
+      here.noalias() = cells_[c].to_g.transpose() * nodes;
+    }
+    here += behind * weight_.segment(first, count);
+    behind += nodes.sum();
+  }
+  return result;
+}
+
 void ContactGrid::add_beyond(const ContactGridOptions& options) {
   const RoughnessWindow& window = options.pieces ? options.pieces->window() : *beyond_.of_surface;
   beyond_.g_factor = g_factor_;

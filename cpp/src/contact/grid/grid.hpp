@@ -52,6 +52,8 @@ class ContactGrid {
   void integrate(const Eigen::VectorXd& i2, Eigen::VectorXd& at_nodes, std::vector<double>& at_ends) const;
   /// The same of as many columns of I2.
   void integrate(const Eigen::MatrixXd& i2, Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& at_ends) const;
+  /// The transpose: from numbers that multiply G at the nodes and at the ends of cells to those that multiply I2.
+  [[nodiscard]] Eigen::VectorXd integrate_back(const Eigen::VectorXd& at_nodes, const Eigen::VectorXd& at_ends) const;
   /// What the cells are made of, none with panels.
   [[nodiscard]] const RoughnessPieces* pieces() const { return pieces_; }
   /// dG at I2 = 1 and unit load of each node of the band, with the weights of the rule.

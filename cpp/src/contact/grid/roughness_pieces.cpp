@@ -152,7 +152,7 @@ void RoughnessPieces::cut(double lower, double upper, std::size_t reached) {
     const Points points = points_of(lower, upper);
     const bool fine_enough = end || smooth(points, reached);
     if (end || (fine_enough && reached == level_)) {
-      add_piece(points);
+      add_piece(points, upper);
       return;
     }
     if (fine_enough) ++next;
@@ -269,7 +269,7 @@ bool RoughnessPieces::smooth(const Points& p, std::size_t level) const {
   return rest(of, p.y, p.weight, p.m) <= most * m * m && rest(of, p.y, p.weight, p.window) <= most * window * window;
 }
 
-void RoughnessPieces::add_piece(const Points& p) {
+void RoughnessPieces::add_piece(const Points& p, double upper) {
   if (p.y.empty()) return;
   const Measure of = measure(p.y, p.weight, p.y.front());
   if (!(of.all > 0)) return;
@@ -301,6 +301,7 @@ void RoughnessPieces::add_piece(const Points& p) {
     }
     return line;
   };
+  nodes_.end.push_back(std::fmin(surface_.back().b, foot_ * std::exp(upper)));
   const Line one = project(of_one), first = project(of_z), window = project(p.window);
   for (const double at : z) {
     const double of_c = one.at_mean + one.slope * at, of_c_z = first.at_mean + first.slope * at;

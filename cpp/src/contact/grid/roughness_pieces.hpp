@@ -31,6 +31,7 @@ class RoughnessPieces {
   struct Nodes {
     /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.
     std::vector<double> wavenumber;
+    std::vector<double> end;     // of the pieces, their upper ends [1/m]
     std::vector<double> weight;  // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
     std::vector<double> window;  // of RoughnessWindow
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
@@ -63,7 +64,7 @@ class RoughnessPieces {
   [[nodiscard]] Points points_of(double lower, double upper) const;
   [[nodiscard]] std::size_t segment_at(double y) const;
   [[nodiscard]] double m_at(double y) const;
-  void add_piece(const Points& points);
+  void add_piece(const Points& points, double upper);
   void take_differences();
 
   std::span<const Segment> surface_;

@@ -38,6 +38,7 @@ class PartialContactTheory final : public Theory {
   [[nodiscard]] double off_rule() const override { return off_rule_; }
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
+  void gradient(double by_part, double by_area, ContactGradient& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
   [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
@@ -46,6 +47,12 @@ class PartialContactTheory final : public Theory {
   [[nodiscard]] partial_contact::AtEnd rule(double log_g, double excess) const {
     return {std::exp(log_g) * kappa_ * g(), kappa_, {grid_.beyond().end->factor, excess}};
   }
+  /// Of logarithms at a fixed kappa, over ln G1 and over the excess.
+  struct RuleSlopes {
+    partial_contact::AtEnd at;
+    double obstacle_by_g, edges_by_g, spread_by_g, spread_by_excess, edges_by_excess;
+  };
+  [[nodiscard]] RuleSlopes rule_slopes() const;
   [[nodiscard]] Index end_node() const { return static_cast<Index>(grid_.beyond().first + grid_.beyond().count); }
   /// 1 - 1 / rho, which raises T where stiff waves beyond q_e have most of G. With heat long waves are colder and may
   /// have it, too: then it is not below that at T0, by which the limit of no heat is the contact without heat.
@@ -146,6 +153,22 @@ void PartialContactTheory::evaluate(double scale, std::optional<double> log_kapp
   macro_ = share_of(kappa_ * scale * g_macro_);
 }
 
+/// By differences over ln G1 and the excess.
+PartialContactTheory::RuleSlopes PartialContactTheory::rule_slopes() const {
+  constexpr double step = 1e-4;
+  const partial_contact::AtEnd more = rule(step, excess_), less = rule(-step, excess_);
+  const auto slope = [](const partial_contact::Factor& upper, const partial_contact::Factor& lower) {
+    return upper.value > 0 && lower.value > 0 ? std::log(upper.value / lower.value) / (2 * step) : 0;
+  };
+  const bool raised = partial_contact::last * (1 - excess_) > 1;
+  return {rule(0, excess_),
+          slope(more.obstacle, less.obstacle),
+          slope(more.edges, less.edges),
+          slope(more.spread, less.spread),
+          slope(rule(0, excess_ + step).spread, rule(0, excess_ - step).spread),
+          raised ? 1 / (excess_ - 1) : 0};
+}
+
 void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
@@ -160,18 +183,9 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   const RowVectorXd log_g1 = slopes.edge.bottomRows(1) / g(), at_end = along.i2.row(end_node());
   const RowVectorXd excess = (held_ ? 0 : excess_ - 1) * (log_g1 - along.scale - at_end);
 
-  // the rule at a fixed kappa, by differences over ln G1 and the excess
-  constexpr double step = 1e-4;
-  const partial_contact::AtEnd at = rule(0, excess_), more = rule(step, excess_), less = rule(-step, excess_);
-  const auto by_g = [&](const partial_contact::Factor& upper, const partial_contact::Factor& lower) {
-    return upper.value > 0 && lower.value > 0 ? std::log(upper.value / lower.value) / (2 * step) : 0;
-  };
-  const double obstacle_by_g = by_g(more.obstacle, less.obstacle), edges_by_g = by_g(more.edges, less.edges),
-               spread_by_g = by_g(more.spread, less.spread);
-  const double spread_by_excess =
-      std::log(rule(0, excess_ + step).spread.value / rule(0, excess_ - step).spread.value) / (2 * step);
-  const bool raised = partial_contact::last * (1 - excess_) > 1;
-  const RowVectorXd log_edges = edges_by_g * log_g1 + (raised ? 1 / (excess_ - 1) : 0) * excess;
+  const RuleSlopes of = rule_slopes();
+  const partial_contact::AtEnd& at = of.at;
+  const RowVectorXd log_edges = of.edges_by_g * log_g1 + of.edges_by_excess * excess;
 
   // d ln R of each node: along the directions at a fixed kappa, and over ln kappa
   MatrixXd log_stress(n, directions);
@@ -186,7 +200,7 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
       log_stress.row(j) = (slope * (1 - 2 * passed) / g) * slopes.node.row(j);
     else
       log_stress.row(j).setZero();
-    log_stress.row(j) -= passed * (obstacle_by_g * log_g1 + along.i2.row(j) + along.scale);
+    log_stress.row(j) -= passed * (of.obstacle_by_g * log_g1 + along.i2.row(j) + along.scale);
     const double part = ratio_[j] > 0 ? part_[j] / ratio_[j] : 0;  // R dG
     variance += part * (along.i2.row(j) + along.scale + log_stress.row(j));
     variance_by_kappa += part * by_kappa[j];
@@ -202,7 +216,8 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   }
   // ln(F spread) - ln variance stays 0
   const double integral_by_g = g1 * at.share / at.integral;
-  const RowVectorXd residual = (integral_by_g + spread_by_g) * log_g1 + spread_by_excess * excess - variance / sum;
+  const RowVectorXd residual =
+      (integral_by_g + of.spread_by_g) * log_g1 + of.spread_by_excess * excess - variance / sum;
   const double residual_by_kappa = integral_by_g + at.spread.log_slope - variance_by_kappa / sum;
   const RowVectorXd log_kappa = along.log_kappa.value_or(residual / -residual_by_kappa);
   result.rule = residual + residual_by_kappa * log_kappa;
@@ -216,6 +231,64 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
   result.area = at.share_slope * (log_g1 + log_kappa);
   if (const double g = scale_ * g_macro_; g > 0)
     result.macro = macro_ * share_slope(kappa_ * g, macro_) * (slopes.macro / g + log_kappa);
+}
+
+/// The number and `tied` times the rule, ln(F spread) - ln variance, which stays 0: `tied` is such that both together
+/// do not change with ln kappa.
+void PartialContactTheory::gradient(double by_part, double by_area, ContactGradient& result) {
+  const ContactGrid::Beyond& beyond = grid_.beyond();
+  const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
+  result = {};
+  result.i2.setZero(i2_.size());
+  result.ratio = by_part * part_;
+  result.weight.setZero(n);
+  result.window.setZero(n);
+  if (unit_g() == 0) return;
+  const RuleSlopes of = rule_slopes();
+  const partial_contact::AtEnd& at = of.at;
+  VectorXd slope(n), passed(n), stressed(n);
+  double variance = 0, variance_by_kappa = 0, number_by_kappa = by_area * at.share_slope;
+  for (Index j = 0; j < n; ++j) {
+    const double z = of_waves_[j], a = slope[j] = share_slope(kappa_ * scale_ * g_[j], share_[j]);
+    passed[j] = 2 * z / (1 + z);
+    stressed[j] = scale_ * weight_[j] * partial_contact::stress(share_[j], z);
+    const double by_kappa = a - passed[j] * (at.obstacle.log_slope + 2 * a);
+    variance += stressed[j];
+    variance_by_kappa += stressed[j] * by_kappa;
+    number_by_kappa += by_part * part_[j] * by_kappa;
+  }
+  const VectorXd in_tail = scale_ * edges_ * beyond.end->window * in_tail_.head(count);
+  variance += in_tail.sum();
+  variance_by_kappa += in_tail.sum() * at.edges.log_slope;
+  number_by_kappa += by_part * part_.segment(first, count).sum() * at.edges.log_slope;
+  const double integral_by_g = kappa_ * g() * at.share / at.integral;
+  const double tied = -number_by_kappa / (integral_by_g + at.spread.log_slope - variance_by_kappa / variance);
+
+  // over ln(R dG) of the nodes and ln(T d ln x), and from there over each factor in them
+  const VectorXd by_stress = by_part * part_.head(n) - tied / variance * stressed;
+  const VectorXd by_tail = by_part * part_.segment(first, count) - tied / variance * in_tail;
+  result.window = -passed.cwiseProduct(by_stress);
+  const double by_obstacle = result.window.sum(), by_edges = by_tail.sum();
+  const double by_excess = tied * of.spread_by_excess + by_edges * of.edges_by_excess;
+  const double off = held_ ? 0 : by_excess * (excess_ - 1);  // of 1 - 1 / rho over ln G1, -ln M and -ln I2(v q_e)
+  const double by_g1 = tied * (integral_by_g + of.spread_by_g) + by_edges * of.edges_by_g +
+                       by_obstacle * of.obstacle_by_g + by_area * at.share_slope + off;
+  VectorXd by_node(n), by_edge = VectorXd::Zero(static_cast<Index>(g_edge_.size()));
+  for (Index j = 0; j < n; ++j) {
+    const double g = scale_ * g_[j];
+    by_node[j] = g > 1e-250 ? by_stress[j] * slope[j] * (1 - 2 * passed[j]) / g : 0;
+  }
+  by_edge[by_edge.size() - 1] = by_g1 / g();
+  const VectorXd through_g = back_through_g(by_node, by_edge);
+  constexpr double tail = partial_contact::tail_excess;
+  result.weight = by_stress + through_g;
+  result.i2.head(n) = result.weight + result.window;
+  result.i2.segment(first, count) = (1 + tail) * by_tail;
+  result.i2[end_node()] -= tail * by_edges + off;
+  result.scale = by_part * part_.sum() - tied + by_obstacle - off + through_g.sum();
+  constexpr double end_power = 0.2;  // of 4 w_e / M in Z
+  result.end_window = by_edges + end_power * by_obstacle;
+  result.total = -end_power * by_obstacle - off;
 }
 
 double PartialContactTheory::density(std::size_t panel, double u, double wavenumber, double i1, double i2,

@@ -33,6 +33,10 @@ void Theory::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
   slopes.macro += scale_ * g_macro_ * along.scale;
 }
 
+VectorXd Theory::back_through_g(const VectorXd& by_node, const VectorXd& by_edge) const {
+  return scale_ * grid_.integrate_back(by_node, by_edge).cwiseProduct(i2_.head(g_.size()));
+}
+
 double Theory::g_on(std::size_t panel, double u) const {
   const ContactGrid::Cell& cell = grid_.cells()[panel];
   double weights[LegendreRule::most], sum = g_edge_[panel];
@@ -62,6 +66,7 @@ class PerssonTheory final : public Theory {
   void evaluate(double scale, std::optional<double> log_kappa) override;
   [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
+  void gradient(double by_part, double by_area, ContactGradient& result) override;
   [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                double rate) const override;
 
@@ -189,6 +194,45 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
   const CorrectedG area = area_g_.at(g());
   result.area = contact_slope(area.g, form_) * area.slope * slopes.edge.bottomRows(1);
   result.macro = contact_slope(scale_ * g_macro_, form_) * slopes.macro;
+}
+
+void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& result) {
+  const auto& cells = grid_.cells();
+  const Index n = g_.size();
+  VectorXd by_node = VectorXd::Zero(n), by_edge = VectorXd::Zero(static_cast<Index>(cells.size()) + 1);
+  result = {};
+  result.ratio = by_part * part_;
+  result.i2.setZero(i2_.size());
+  result.weight.setZero(n);
+  result.window.setZero(n);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
+    const auto edge = static_cast<Index>(c);
+    if (cells[c].rule) {  // by dF = P S dG
+      const LegendreRule& rule = *cells[c].rule;
+      using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
+      const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
+      const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
+      const VectorXd by_measure = by_part * ratio_.segment(first, count), by_f = -(slope * by_measure);
+      for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
+      by_edge[edge + 1] += p_s(edge_[c + 1]) * at_upper.dot(by_measure);
+      by_edge[edge] -= p_s(edge_[c]) * at_lower.dot(by_measure);
+    } else {
+      for (Index i = first; i < first + count; ++i) {
+        const double g = g_at_load_[i], share = p_s(g);
+        if (!(share > 0)) continue;
+        by_node[i] = by_part * part_[i] * p_s_slope(g) / share;
+        result.weight[i] = by_part * part_[i];
+      }
+    }
+  }
+  const double explicitly = result.weight.sum();  // dG has the scale, too
+  const CorrectedG area = area_g_.at(g());
+  by_edge[by_edge.size() - 1] += by_area * contact_slope(area.g, form_) * area.slope;
+  const VectorXd through_g = back_through_g(by_node, by_edge);
+  result.weight += through_g;
+  result.i2.head(n) = result.weight;
+  result.scale = explicitly + through_g.sum();
 }
 
 double PerssonTheory::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {

@@ -36,6 +36,15 @@ struct ContactSlopes {
   Eigen::RowVectorXd rule;         // of what the rule of kappa is off, where ln kappa has slopes of its own
 };
 
+/// The slopes of one number over the logarithms of all that it is made of.
+struct ContactGradient {
+  Eigen::VectorXd i2, ratio;         // of I2 and of I1 / I2, of all nodes
+  Eigen::VectorXd weight;            // of the roughness of the band's nodes, as far as it is in G and in the stress
+  Eigen::VectorXd window;            // of the mean roughness about them, with PartialContact
+  double scale = 0;                  // of the scale of G
+  double end_window = 0, total = 0;  // of w_e and of M
+};
+
 /// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
 class Theory {
  public:
@@ -64,6 +73,8 @@ class Theory {
   virtual void begin_at(double /*log_kappa*/) {}
   /// Of the last evaluation.
   virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
+  /// The same, of `by_part` times the sum of all parts plus `by_area` times A / A0, over all directions at once.
+  virtual void gradient(double by_part, double by_area, ContactGradient& result) = 0;
   /// dmu_H / dln q over 4 (1 - nu^2) sigma0 where G has the slope `rate` over ln q, at u in [-1, 1] of a panel.
   [[nodiscard]] virtual double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
                                        double rate) const = 0;
@@ -89,6 +100,8 @@ class Theory {
     Eigen::RowVectorXd macro;
   };
   void add_up(const ModulusSlopes& along, GSlopes& slopes) const;
+  /// From slopes of a number over G at the nodes and at the ends of cells to those over ln I2, which go through G.
+  [[nodiscard]] Eigen::VectorXd back_through_g(const Eigen::VectorXd& by_node, const Eigen::VectorXd& by_edge) const;
   /// G at u on a panel, at the load.
   [[nodiscard]] double g_on(std::size_t panel, double u) const;
 

@@ -1,0 +1,295 @@
+// I1 = 4 int u E'' du / sqrt(1 - u^2) and I2 = 4 int |E|^2 du / sqrt(1 - u^2), E at u w, over u from 0 to 1. Their
+// slopes over the rows of ln E' and ln E'' are these integrals with the slopes of both at u w in them: by rules that
+// know no w where u is small, and in acos u elsewhere. Between two breaks they are polynomials of sqrt(ln(w / break)),
+// as a row that begins to count does so with the power 3/2.
+#include "rubber/modulus_gradient.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "numerics/gauss_legendre.hpp"
+#include "rubber/unlimited_rubber.hpp"
+
+namespace asperity {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double far = 0.7;                      // of u
+constexpr double step = std::numbers::ln10 / 5;  // of ln w between the rows of a series
+constexpr double below = 1e-3;                   // of the lowest frequency, from where the lowest row stands for all
+constexpr double longest = 0.5;                  // in ln w, between breaks
+
+/// Places in s = sqrt(ln(w / low) / ln(high / low)), Chebyshev's points of the first kind.
+std::array<double, 6> chebyshev_places() {
+  std::array<double, 6> result{};
+  for (std::size_t i = 0; i < 6; ++i) result[i] = (1 - std::cos(pi * (static_cast<double>(i) + 0.5) / 6)) / 2;
+  return result;
+}
+const std::array<double, 6> place_of = chebyshev_places();
+
+/// What makes the products of lagrange() 1 at their own place.
+std::array<double, 6> lagrange_norms() {
+  std::array<double, 6> result{1, 1, 1, 1, 1, 1};
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      if (j != i) result[i] /= place_of[i] - place_of[j];
+  return result;
+}
+const std::array<double, 6> norm_of = lagrange_norms();
+
+/// The polynomials that are 1 at one place and 0 at the others.
+std::array<double, 6> lagrange(double s) {
+  std::array<double, 6> result = norm_of;
+  double before = 1, behind = 1;
+  for (std::size_t i = 0; i < 6; ++i) {
+    result[i] *= before;
+    before *= s - place_of[i];
+    result[5 - i] *= behind;
+    behind *= s - place_of[5 - i];
+  }
+  return result;
+}
+
+/// The cubic through values at 0, 1/3, 2/3 and 1.
+Eigen::RowVector4d cubic_through(const Eigen::RowVector4d& f) {
+  return {f[0], -5.5 * f[0] + 9 * f[1] - 4.5 * f[2] + f[3], 9 * f[0] - 22.5 * f[1] + 18 * f[2] - 4.5 * f[3],
+          -4.5 * f[0] + 13.5 * f[1] - 13.5 * f[2] + 4.5 * f[3]};
+}
+
+}  // namespace
+
+ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double highest) : rubber_(rubber) {
+  if (const auto* const curve = std::get_if<MasterCurve>(&rubber))
+    take_rows(*curve);
+  else
+    take_hats(lowest, highest);
+  for (Stretch& stretch : stretches_) {
+    stretch.per_length = 1 / std::log(stretch.high / stretch.low);
+    breaks_.push_back(stretch.low);
+  }
+  take_integrals();
+}
+
+void ModulusGradient::take_hats(double lowest, double highest) {
+  const double first = lowest * below, n = std::ceil(std::fmax(1, std::log(highest / first) / step));
+  for (double k = 0; k <= n; ++k) rows_.push_back(k == n ? highest : first * std::pow(highest / first, k / n));
+  for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
+    Stretch stretch{rows_[k], rows_[k + 1], static_cast<Index>(k), 2};
+    stretch.storage.topLeftCorner<2, 2>() << 1, -1, 0, 1;
+    stretch.loss = stretch.storage;
+    stretches_.push_back(stretch);
+  }
+}
+
+/// By differences of the curve itself, whose interpolant depends on two rows to each side at most: rows that stand five
+/// apart are moved together.
+void ModulusGradient::take_rows(const MasterCurve& curve) {
+  constexpr std::size_t apart = 5;
+  constexpr double moved = 1e-5;
+  rows_ = curve.angular_frequency();
+  std::vector<std::array<MasterCurve, 2>> changed;  // less and more
+  for (std::size_t colour = 0; colour < apart; ++colour) {
+    const auto with = [&](double by) {
+      std::vector<double> storage = curve.storage_modulus(), loss = curve.loss_modulus();
+      for (std::size_t k = colour; k < rows_.size(); k += apart) {
+        storage[k] *= std::exp(by);
+        loss[k] *= std::exp(by);
+      }
+      return MasterCurve(rows_, storage, loss, curve.extrapolation());
+    };
+    changed.push_back({with(-moved), with(moved)});
+  }
+  std::vector<double> edges{curve.knots().begin(), curve.knots().end()};
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double pieces = std::ceil(std::log(edges[i + 1] / edges[i]) / longest);
+    const auto at = static_cast<std::size_t>(std::ranges::upper_bound(rows_, edges[i]) - rows_.begin());
+    // the line beyond an end has the slope of the end, and that has three rows
+    const std::size_t reach = at == 0 || at == rows_.size() ? 3 : 2;
+    const std::size_t begin = at > reach ? at - reach : 0, end = std::min(rows_.size(), at + reach);
+    for (double k = 0; k < pieces; ++k) {
+      const auto edge = [&](double j) { return edges[i] * std::pow(edges[i + 1] / edges[i], j / pieces); };
+      Stretch stretch{edge(k), k + 1 == pieces ? edges[i + 1] : edge(k + 1), static_cast<Index>(begin),
+                      static_cast<Index>(end - begin)};
+      for (std::size_t row = begin; row < end; ++row) {
+        const auto& [less, more] = changed[row % apart];
+        Eigen::RowVector4d storage, loss;
+        for (int j = 0; j < 4; ++j) {
+          const double w =
+              std::clamp(stretch.low * std::pow(stretch.high / stretch.low, j / 3.0), edges.front(), edges.back());
+          const std::complex<double> below_it = less.modulus(w), above_it = more.modulus(w);
+          storage[j] = std::log(above_it.real() / below_it.real()) / (2 * moved);
+          loss[j] = std::log(above_it.imag() / below_it.imag()) / (2 * moved);
+        }
+        stretch.storage.row(static_cast<Index>(row - begin)) = cubic_through(storage);
+        stretch.loss.row(static_cast<Index>(row - begin)) = cubic_through(loss);
+      }
+      stretches_.push_back(stretch);
+    }
+  }
+}
+
+double ModulusGradient::place(const Stretch& stretch, double w) const {
+  return std::clamp(std::log(w / stretch.low) * stretch.per_length, 0.0, 1.0);
+}
+
+std::size_t ModulusGradient::stretch_at(double w) const {
+  const auto above = std::ranges::upper_bound(breaks_, w);
+  return above == breaks_.begin() ? 0 : static_cast<std::size_t>(above - breaks_.begin()) - 1;
+}
+
+ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, double weight) const {
+  const auto* const curve = std::get_if<MasterCurve>(&rubber);
+  const double lowest = breaks_.front();
+  std::complex<double> e =
+      modulus(rubber, curve ? std::clamp(w, curve->lowest_frequency(), curve->highest_frequency()) : w);
+  if (curve && w < lowest) e.imag(e.imag() * w / lowest);  // there E' is constant
+  const Stretch& stretch = stretches_[stretch_at(w)];
+  const double x = place(stretch, w);
+  const Eigen::Vector4d powers(1, x, x * x, x * x * x);
+  return {w,
+          weight,
+          e.imag(),
+          stretch.first,
+          stretch.count,
+          e.real() * e.real() * (stretch.storage * powers),
+          e.imag() * e.imag() * (stretch.loss * powers)};
+}
+
+/// What a node has in the integrals at w, `kernel` its weight there.
+void ModulusGradient::add_node(const Node& node, double w, double kernel, Index column) {
+  const auto rows = Eigen::seqN(node.first, node.count), of = Eigen::seqN(Index{0}, node.count);
+  const double linear = node.loss > 0 ? 4 * kernel * (node.w / w) / node.loss : 0;
+  i2_storage_(rows, column) += 8 * kernel * node.storage_square(of);
+  i2_loss_(rows, column) += 8 * kernel * node.loss_square(of);
+  i1_loss_(rows, column) += linear * node.loss_square(of);
+}
+
+void ModulusGradient::take_integrals() {
+  const std::optional<Rubber> unlimited = asperity::unlimited(rubber_);
+  const Rubber& rubber = unlimited ? *unlimited : rubber_;
+  const double lowest = breaks_.front();
+  const auto n = static_cast<Index>(rows_.size()), columns = static_cast<Index>(stretches_.size()) * places;
+  for (auto* const matrix : {&i2_storage_, &i2_loss_, &i1_loss_}) matrix->setZero(n, columns);
+  // nodes in ln w' that serve all w far above them; those of the tail in w'
+  const LegendreRule &rule = legendre_rule(4), &fine = legendre_rule(8);
+  std::vector<Node> nodes;
+  std::vector<std::size_t> first;  // of each stretch, those of the tail before
+  for (std::size_t j = 0; j < fine.n; ++j)
+    nodes.push_back(node_at(rubber, lowest * (1 + fine.node[j]) / 2, lowest * fine.weight[j] / 2));
+  for (const Stretch& stretch : stretches_) {
+    first.push_back(nodes.size());
+    const double half = std::log(stretch.high / stretch.low) / 2;
+    for (std::size_t j = 0; j < rule.n; ++j) {
+      const double w = stretch.low * std::exp(half * (1 + rule.node[j]));
+      nodes.push_back(node_at(rubber, w, half * rule.weight[j] * w));
+    }
+  }
+  for (std::size_t i = 0; i < stretches_.size(); ++i)
+    for (int p = 0; p < places; ++p) {
+      const double s = place_of[static_cast<std::size_t>(p)];
+      const double w = stretches_[i].low * std::pow(stretches_[i].high / stretches_[i].low, s * s);
+      const Index column = static_cast<Index>(i) * places + p;
+      std::size_t near = 0;  // the first stretch that reaches beyond `far`
+      while (stretches_[near].high <= far * w) ++near;
+      for (std::size_t k = near == 0 && lowest > far * w ? fine.n : 0; k < first[near]; ++k) {
+        const double u = nodes[k].w / w;
+        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), column);
+      }
+      const auto add_near = [&](double low, double high) {
+        const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
+        for (std::size_t j = 0; j < fine.n; ++j) {
+          const double at = w * std::cos(from + half * (1 + fine.node[j]));
+          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], column);
+        }
+      };
+      if (near == 0 && lowest > far * w) add_near(0, lowest);
+      for (std::size_t k = near; k <= i; ++k) add_near(stretches_[k].low, std::fmin(stretches_[k].high, w));
+    }
+}
+
+void ModulusGradient::operator()(std::span<const double> w, std::span<const double> by_i1,
+                                 std::span<const double> by_i2, VectorXd& storage, VectorXd& loss) const {
+  VectorXd i1 = VectorXd::Zero(i1_loss_.cols()), i2 = i1;
+  Index begin = i1.size(), end = 0;
+  for (std::size_t j = 0; j < w.size(); ++j) {
+    if (by_i1[j] == 0 && by_i2[j] == 0) continue;
+    const double at = std::clamp(w[j], breaks_.front(), stretches_.back().high);
+    const std::size_t k = stretch_at(at);
+    const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], at)));
+    const Index first = static_cast<Index>(k) * places;
+    for (int p = 0; p < places; ++p) {
+      i1[first + p] += by_i1[j] * share[static_cast<std::size_t>(p)];
+      i2[first + p] += by_i2[j] * share[static_cast<std::size_t>(p)];
+    }
+    begin = std::min(begin, first);
+    end = std::max(end, first + places);
+  }
+  const Index n = std::max<Index>(end - begin, 0);
+  storage = i2_storage_.middleCols(begin, n) * i2.segment(begin, n);
+  loss = i2_loss_.middleCols(begin, n) * i2.segment(begin, n) + i1_loss_.middleCols(begin, n) * i1.segment(begin, n);
+}
+
+void ModulusGradient::add_at(double w, double by_storage, double by_loss, VectorXd& storage, VectorXd& loss) const {
+  const Stretch& stretch = stretches_[stretch_at(w)];
+  const double x = place(stretch, w);
+  const Eigen::Vector4d powers(1, x, x * x, x * x * x);
+  storage.segment(stretch.first, stretch.count) += by_storage * (stretch.storage * powers).head(stretch.count);
+  loss.segment(stretch.first, stretch.count) += by_loss * (stretch.loss * powers).head(stretch.count);
+}
+
+// I1 = 2 pi sum_k E_k s_k / t_k and I2 = 2 pi (E_inf^2 + sum_k w_k s_k), w_k = 2 E_k (E_inf + sum_l E_l / (1 + tau_k /
+// tau_l)), t_k = w tau_k, s_k = 1 - 1 / sqrt(1 + t_k^2), of which ds / d ln t = t^2 / (1 + t^2)^(3/2).
+SeriesGradient series_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_i1,
+                               std::span<const double> by_i2) {
+  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
+  const auto n = static_cast<Index>(e.size());
+  const double e_inf = series.equilibrium_modulus();
+  // of the number: over E_k as it stands in I1 and over w_k, and over ln t_k
+  VectorXd linear = VectorXd::Zero(n), weight = VectorXd::Zero(n), weights(n);
+  SeriesGradient result{0, VectorXd::Zero(n), VectorXd::Zero(n)};
+  for (Index k = 0; k < n; ++k) {
+    double sum = e_inf;
+    for (Index l = 0; l < n; ++l)
+      sum += e[static_cast<std::size_t>(l)] / (1 + tau[static_cast<std::size_t>(k)] / tau[static_cast<std::size_t>(l)]);
+    weights[k] = 2 * e[static_cast<std::size_t>(k)] * sum;
+  }
+  const auto size = static_cast<Index>(w.size());
+  const auto of_w = Eigen::ArrayXd::Map(w.data(), size), of_i1 = Eigen::ArrayXd::Map(by_i1.data(), size),
+             of_i2 = Eigen::ArrayXd::Map(by_i2.data(), size);
+  Eigen::ArrayXd t(size), share(size), over_t(size), slope(size);
+  for (Index k = 0; k < n; ++k) {
+    t = (of_w * tau[static_cast<std::size_t>(k)]).min(1e140);  // whose square is a double
+    share = (1 + t.square()).rsqrt();                          // 1 / r
+    over_t = t * share / (1 / share + 1);
+    slope = (t * share).square() * share;
+    linear[k] = 2 * pi * (of_i1 * over_t).sum();
+    weight[k] = 2 * pi * (of_i2 * t * over_t).sum();
+    result.relaxation_times[k] =
+        2 * pi *
+        (e[static_cast<std::size_t>(k)] * (of_i1 * (slope / t - over_t)).sum() + weights[k] * (of_i2 * slope).sum());
+  }
+  result.equilibrium_modulus = 4 * pi * e_inf * e_inf * of_i2.sum();
+  for (Index k = 0; k < n; ++k) {
+    const double modulus = e[static_cast<std::size_t>(k)], time = tau[static_cast<std::size_t>(k)];
+    result.moduli[k] += modulus * linear[k] + weight[k] * weights[k];
+    result.equilibrium_modulus += weight[k] * 2 * modulus * e_inf;
+    for (Index l = 0; l < n; ++l) {
+      const double other = e[static_cast<std::size_t>(l)], ratio = time / tau[static_cast<std::size_t>(l)];
+      const double part = weight[k] * 2 * modulus * other / (1 + ratio);
+      result.moduli[l] += part;
+      const double moved = part * ratio / (1 + ratio);  // d / d ln(tau_k / tau_l), its sign apart
+      result.relaxation_times[k] -= moved;
+      result.relaxation_times[l] += moved;
+    }
+  }
+  return result;
+}
+
+}  // namespace asperity

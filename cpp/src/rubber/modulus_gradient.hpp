@@ -1,0 +1,67 @@
+// From slopes over I1 and I2 at some frequencies to those over the modulus itself, row by row.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "asperity/rubber.hpp"
+
+namespace asperity {
+
+/// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
+/// which ln E' and ln E'' change linearly. With the integrals of a number over E at the rows known once, a point takes
+/// three products of a matrix and a vector.
+class ModulusGradient {
+ public:
+  /// For integrals at frequencies in [lowest, highest] [rad/s].
+  ModulusGradient(const Rubber& rubber, double lowest, double highest);
+
+  [[nodiscard]] const std::vector<double>& angular_frequency() const { return rows_; }
+  /// The slopes of a number over ln E' and ln E'' of each row, from those over I1 and I2 at the frequencies `w`, which
+  /// are held to the range.
+  void operator()(std::span<const double> w, std::span<const double> by_i1, std::span<const double> by_i2,
+                  Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
+  /// The slopes of ln E' and ln E'' at one frequency over those of the rows, times these factors.
+  void add_at(double w, double by_storage, double by_loss, Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
+
+ private:
+  static constexpr int places = 6;     // of the integrals between two breaks
+  static constexpr int most_rows = 6;  // that a modulus depends on between two breaks
+  /// Between two breaks the slopes of ln E' and ln E'' over those rows are cubics of x = ln(w / low) / ln(high / low).
+  struct Stretch {
+    double low, high;  // [rad/s]
+    Eigen::Index first, count;
+    double per_length = 0;  // 1 / ln(high / low)
+    Eigen::Matrix<double, most_rows, 4> storage = decltype(storage)::Zero(), loss = decltype(loss)::Zero();
+  };
+  /// A frequency of a rule: its weight, and what E'^2 and E''^2, E'' have there for each of the rows.
+  struct Node {
+    double w, weight, loss;
+    Eigen::Index first, count;
+    Eigen::Matrix<double, most_rows, 1> storage_square, loss_square;
+  };
+  [[nodiscard]] double place(const Stretch& stretch, double w) const;
+  void take_hats(double lowest, double highest);
+  void take_rows(const MasterCurve& curve);
+  void take_integrals();
+  [[nodiscard]] Node node_at(const Rubber& rubber, double w, double weight) const;
+  void add_node(const Node& node, double w, double kernel, Eigen::Index column);
+  [[nodiscard]] std::size_t stretch_at(double w) const;
+
+  const Rubber& rubber_;
+  std::vector<double> rows_, breaks_;
+  std::vector<Stretch> stretches_;
+  // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'': a row a row of the modulus, a column a place
+  Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;
+};
+
+/// Slopes of a number over ln E_inf, ln E_k and ln tau_k of a series, from those over I1 and I2 at frequencies.
+struct SeriesGradient {
+  double equilibrium_modulus = 0;
+  Eigen::VectorXd moduli, relaxation_times;
+};
+SeriesGradient series_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_i1,
+                               std::span<const double> by_i2);
+
+}  // namespace asperity

@@ -1,0 +1,126 @@
+"""The slopes of mu over all that it follows from: what makes the friction."""
+
+from typing import Any
+
+import numpy as np
+
+from asperity.base.arguments import Array, Shape, frozen
+from asperity.base.table import Column, Columns, Table
+from asperity.base.value import value
+
+DENSITIES = ("spectrum", "storage", "loss")
+DECADE = np.log(10)
+
+
+@value
+class Gradients(Table):
+    """Slopes of mu, as `friction(..., gradients=True)` gives them.
+
+    A density is a mean over hats, which are 1 at a row and fall to 0 at its neighbours, linearly in
+    the logarithm: the trapezoid rule over `ln wavenumber` or `ln angular_frequency` is exact, and a
+    value times its weight in that rule is d mu for the logarithm of the row.
+
+    Attributes
+    ----------
+    wavenumber : ndarray, shape (n,)
+        Rows of C [1/m]: those of a table, or two a unit of ln q of a law.
+    spectrum : ndarray, shape mu.shape + (n,)
+        Density over ln q of d mu / d ln C. For the hysteresis alone its integral is
+        (mu - d mu / d ln pressure) / 2.
+    angular_frequency : ndarray, shape (m,)
+        Rows of the modulus, reduced: omega a_T [rad/s]; those of a master curve, or five a decade.
+        The lowest has all below it, too.
+    storage, loss : ndarray, shape mu.shape + (m,)
+        Densities over ln omega of d mu / d ln E' and d mu / d ln E''. For the hysteresis alone the
+        integral of both is -d mu / d ln pressure.
+    pressure, velocity : float or ndarray
+        d mu / d ln p and d mu / d ln v.
+    temperature : float or ndarray, or None
+        d mu / dT [1/K].
+    equilibrium_modulus, moduli, relaxation_times : float or ndarray, or None
+        d mu / d ln of each, of a Prony series; the last two have shape mu.shape + (terms,).
+    rms_height, hurst, q0, q1, rolloff : float or ndarray, or None
+        d mu / d ln of each, of a self-affine spectrum. q0 and q1 move the end of the band at a kept
+        rms height.
+    shear_stress, reference_velocity, width : float or ndarray, or None
+        d mu / d ln of each, of the adhesion.
+    error_estimate : float or ndarray
+        Absolute error of a slope, and of the integral of a density's error: what a finer grid
+        changes.
+    """
+
+    wavenumber: Array
+    spectrum: Array
+    angular_frequency: Array
+    storage: Array
+    loss: Array
+    pressure: Any
+    velocity: Any
+    temperature: Any = None
+    equilibrium_modulus: Any = None
+    moduli: Array | None = None
+    relaxation_times: Array | None = None
+    rms_height: Any = None
+    hurst: Any = None
+    q0: Any = None
+    q1: Any = None
+    rolloff: Any = None
+    shear_stress: Any = None
+    reference_velocity: Any = None
+    width: Any = None
+    error_estimate: Any = None
+
+    def _summary(self) -> dict[str, Any]:
+        shape = {"shape": np.shape(self.pressure)} if np.shape(self.pressure) else {}
+        slopes = {name: at for name, at in self._arguments().items() if np.ndim(at) == 0}
+        return shape | {name: at for name, at in slopes.items() if at is not None}
+
+    def _columns(self) -> Columns:
+        axes = tuple(f"axis_{i}" for i in range(np.ndim(self.pressure)))
+        coordinates = {
+            "wavenumber": Column(("wavenumber",), self.wavenumber, "1/m"),
+            "angular_frequency": Column(("angular_frequency",), self.angular_frequency, "rad/s"),
+        }
+        along = {"spectrum": "wavenumber", "storage": "angular_frequency"}
+        along |= {"loss": "angular_frequency", "moduli": "term", "relaxation_times": "term"}
+        variables = {}
+        for name, slope in self._arguments().items():
+            if name in coordinates or slope is None:
+                continue
+            unit = "1/K" if name == "temperature" else "1"
+            over = (*axes, along[name]) if name in along else axes
+            of = name if name == "temperature" else f"ln {name}"
+            meaning = "error estimate" if name == "error_estimate" else f"d mu / d {of}"
+            variables[name] = Column(over, slope, unit, meaning)
+        return Columns(coordinates, variables)
+
+    def _draw(self, axes: Any) -> None:
+        """Draw what 10 % of each decade of the modulus is worth, a line a point."""
+        x = self.angular_frequency
+        parts = {"E'": (self.storage, "C0"), "E''": (self.loss, "C3")}
+        for label, (density, color) in parts.items():
+            rows = density.reshape(-1, x.size)
+            for i, row in enumerate(rows):
+                axes.plot(x, row * DECADE, color=color, label=label if i == 0 else None)
+        axes.axhline(0, color="0.7", lw=0.8, zorder=0)
+        axes.set(xscale="log", xlabel=r"$\omega a_T$ [rad/s]")
+        axes.set_ylabel(r"d$\mu$ / d ln $E$ of a decade")
+        axes.legend(frameon=False)
+
+
+def of_core(parts: tuple[Any, ...], shape: Shape) -> Gradients:
+    """Return the gradients from the core's columns."""
+    q, spectrum, w, storage, loss, p, v, temperature, arguments, error = parts
+    columns = {"pressure": p, "velocity": v, "error_estimate": error, **arguments}
+    if temperature.size:
+        columns["temperature"] = temperature
+    tables = {"spectrum": spectrum, "storage": storage, "loss": loss}
+    tables |= {
+        name: columns.pop(name) for name in ("moduli", "relaxation_times") if name in columns
+    }
+    made: dict[str, Any] = {"wavenumber": frozen(q), "angular_frequency": frozen(w)}
+    points = max(p.size, 1)
+    made |= {name: frozen(a).reshape(*shape, a.size // points) for name, a in tables.items()}
+    for name, slope in columns.items():
+        made[name] = frozen(slope).reshape(shape) if shape else slope.item()
+    return Gradients._made(made)
