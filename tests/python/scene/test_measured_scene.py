@@ -125,47 +125,43 @@ def test_a_picture_is_grey_where_most_is_extrapolated(
         loaded(dma, text)
         drawn = [str(dma / name) for name in ("scene.toml", "mu.csv", "mu.png")]
         assert main(["friction", drawn[0], "--output", drawn[1], "--plot", drawn[2]]) == 0
-    beyond_figure, within = figures
-    labels = beyond_figure.axes[0].get_legend_handles_labels()[1]
-    assert "most of the hysteresis from\nan extrapolated modulus" in labels
-    (halo,) = [x for x in beyond_figure.axes[0].collections if x.get_label().startswith("most of")]
-    marked = halo.get_datalim(beyond_figure.axes[0].transData)
-    assert fastest < marked.x0 < 9 * fastest
-    assert marked.x1 == pytest.approx(9.9 * fastest)
-    assert beyond_figure.get_supxlabel().startswith("fatal: most of the hysteresis")
-    told = [one.get_label() for one in within.axes[0].collections]
-    assert not any(label.startswith("most of the") for label in told)
-    assert within.get_supxlabel() == ""
-    assert within.axes[0].get_ylabel() == "Friction coefficient $\\mu$ [-]\nof hysteresis alone"
+    marked = [
+        [one for one in figure.axes[0].collections if one.get_label().startswith("most of the")]
+        for figure in figures
+    ]
+    (halo,) = marked[0]
+    grey = halo.get_datalim(figures[0].axes[0].transData)
+    assert fastest < grey.x0 < 9 * fastest
+    assert grey.x1 == pytest.approx(9.9 * fastest)
+    assert marked[1] == []
 
 
 @pytest.mark.parametrize(
-    ("text", "named"),
+    ("text", "argument"),
     [
-        (
-            SCENE.replace("= 20", "= 80"),
-            "[rubber] temperature_c = 80: isotherms were measured in [0, 50] C",
-        ),
+        (SCENE.replace("= 20", "= 80"), "[rubber] temperature_c"),
         (
             SCENE.replace("= 20", "= 80\nreference_temperature_c = 20"),
-            "[rubber] temperature_c = 80: shift factors are known in [",
+            "[rubber] temperature_c",
         ),
         (
             SCENE.replace("temperature_c = 20\n", "") + "temperature_c = 80\n",
-            "[conditions] temperature_c = 80: isotherms were measured in [0, 50] C",
+            "[conditions] temperature_c",
         ),
     ],
 )
-def test_a_temperature_beyond_the_isotherms_has_a_way_out(
-    dma: Path, text: str, named: str, capsys: pytest.CaptureFixture[str]
+def test_a_temperature_beyond_the_isotherms_is_out_of_range(
+    dma: Path, text: str, argument: str
 ) -> None:
     with pytest.raises(OutOfRange) as caught:
         loaded(dma, text)
-    message = str(caught.value)
-    assert named in message
-    way = "; beyond them a scene needs their master curve, wlf_c1 and wlf_c2_k, which asperity "
-    assert message.endswith(way + "rubber gives")
-    # and the way leads there
+    assert caught.value.argument == argument
+    assert "wlf_c1 and wlf_c2_k, which asperity rubber gives" in str(caught.value)
+
+
+def test_the_law_that_the_shell_gives_leads_beyond_the_isotherms(
+    dma: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     names = ["--columns", "frequency=f,temperature=T,storage=E1,loss=E2", "--modulus", "E"]
     names += ["--units", "frequency=Hz,temperature=C,modulus=MPa"]
     names += ["--reference-temperature", "293.15", "--output", str(dma / "curve.csv")]
@@ -203,11 +199,6 @@ def test_the_lay_of_a_scan_is_noted(dma: Path) -> None:
     surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 1e-4\nunit = "um"\n'
     slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
     assert any("across the lay" in note for note in loaded(dma, slow, surface).notes)
-
-
-def test_several_temperatures_in_the_wrong_table_are_sent_to_the_right_one(dma: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"several temperatures go into \[conditions\]$"):
-        loaded(dma, SCENE.replace("= 20", "= [0, 20]"))
 
 
 def test_what_is_said_of_one_temperature_names_it(
@@ -281,23 +272,3 @@ def test_a_decade_is_offered_where_it_serves(dma: Path) -> None:
     assert decade in refused(0.1 * fastest, 9 * fastest)
     assert decade not in refused(0.1 * fastest, 1e3)
     assert decade not in refused(1e-9, 0.1 * fastest)
-
-
-def test_the_note_on_a_clipped_wavenumber_names_the_key_of_a_scene(dma: Path) -> None:
-    wide = SCENE + HEATING.replace("1e-3", "1e-2")  # 2 pi / 1 cm lies below q0
-    notes = loaded(dma, wide, for_friction=True).friction().notes
-    assert any(note.endswith("give macro_wavenumber_per_m or macro_area") for note in notes)
-
-
-def test_heat_beyond_the_modulus_tells_the_temperature_as_it_was_given(
-    dma: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    _, fastest = known(dma)
-    text = swept(SCENE.replace("temperature_c = 20", ""), fastest, 100 * fastest)
-    text += "temperature_c = 20\n[heating]\ndensity_kg_m3 = 1200\nheat_capacity_j_kg_k = 1650\n"
-    text += "conductivity_w_m_k = 0.23\ncontact_diameter_m = 1e-3\n"
-    loaded(dma, text, for_friction=True)
-    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 2
-    told = capsys.readouterr().err
-    assert "[conditions] temperature_c = 20" in told
-    assert "temperature_k" not in told

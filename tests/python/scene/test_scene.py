@@ -1,6 +1,5 @@
 """Scene files: what they build."""
 
-import tomllib
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -181,10 +180,31 @@ def test_asperities_take_their_extremes_from_the_scan(folder: Path) -> None:
     assert scene.inputs["correction"]["reading"] == "implicit"
 
 
-def test_gaussian_asperities_have_no_peaks(folder: Path) -> None:
-    table = "[correction]\nkind = 'greenwood-williamson'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
-    scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table))
-    assert scene.correction == asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-3e-4)
+LISTED = "heights_m = [1e-4, 2e-4, 1e-4]\nreading = 'added'\nrms_height_m = 7e-5\nq0_per_m = 2e3\n"
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "expected"),
+    [
+        ("greenwood-williamson", "", asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-3e-4)),
+        (
+            "peaks-then-greenwood-williamson",
+            LISTED,
+            asperity.PeaksThenGreenwoodWilliamson(
+                [1e-4, 2e-4, 1e-4],
+                z_max=3e-4,
+                z_min=-3e-4,
+                reading="added",
+                rms_height=7e-5,
+                q0=2e3,
+            ),
+        ),
+    ],
+)
+def test_asperities_of_numbers(folder: Path, kind: str, more: str, expected: object) -> None:
+    table = f"[correction]\nkind = '{kind}'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
+    scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table + more))
+    assert scene.correction == expected
 
 
 ROLLED = SURFACE + "rolloff_per_m = 4000.0\n" + RUBBER + CONDITIONS
@@ -214,18 +234,7 @@ def test_macro_asperities_are_recorded_as_the_core_took_them(
     assert scene.friction().notes == stated.friction().notes
 
 
-def test_both_combined(folder: Path) -> None:
-    table = (
-        "[correction]\nkind = 'peaks-then-greenwood-williamson'\nheights_m = [1e-4, 2e-4, 1e-4]\n"
-        "z_max_m = 3e-4\nz_min_m = -3e-4\nreading = 'added'\nrms_height_m = 7e-5\nq0_per_m = 2e3\n"
-    )
-    scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table))
-    assert scene.correction == asperity.PeaksThenGreenwoodWilliamson(
-        [1e-4, 2e-4, 1e-4], z_max=3e-4, z_min=-3e-4, reading="added", rms_height=7e-5, q0=2e3
-    )
-
-
-@pytest.mark.parametrize("points", [1, 4, 11])
+@pytest.mark.parametrize("points", [1, 11])
 def test_points_are_computed_in_chunks_that_change_nothing(
     folder: Path, points: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -264,10 +273,3 @@ def test_contact_notes_are_the_cores(folder: Path) -> None:
     )
     assert set(scene.contact_notes()) == set(expected) == set(scene.friction().notes)
     assert len(expected) > 1
-
-
-def test_shipped_scene_is_a_toml_file_with_matching_lists() -> None:
-    from asperity.demo import scene_text
-
-    rubber = tomllib.loads(scene_text())["rubber"]
-    assert len(rubber["moduli_pa"]) == len(rubber["relaxation_times_s"]) >= 20
