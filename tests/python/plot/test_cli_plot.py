@@ -33,14 +33,13 @@ def test_plot_by_ending(folder: Path, verb: list[str], ending: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("verb", "old", "new"),
     [
-        ("{from = 1e-4, to = 1, points = 5}", "1e-2"),
-        ("[81e3, 2e5]", "{from = 1e4, to = 1e6, points = 12}"),
-        ("[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
+        ("friction", "{from = 1e-4, to = 1, points = 5}", "1e-2"),
+        ("area", "{from = 1e-4, to = 1, points = 5}", "1e-2"),
+        ("friction", "[adhesion]\nshear_stress_pa = 8.3e6\n", ""),
     ],
 )
-@pytest.mark.parametrize("verb", ["friction", "area"])
 def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> None:
     (folder / "scene.toml").write_text(SCENE.replace(old, new))
     assert main([verb, "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0

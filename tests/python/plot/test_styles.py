@@ -8,6 +8,7 @@ import pytest
 
 from asperity.base.diagnostics import Note
 from asperity.cli.main import main
+from helpers.dropped import dma_bytes
 from helpers.scenes import SCENE
 
 pytest.importorskip("matplotlib")
@@ -40,12 +41,11 @@ def bars(figure: Any) -> list[Any]:
     return [axes for axes in figure.axes if hasattr(axes, "_colorbar")]
 
 
-@pytest.mark.parametrize("verb", ["friction", "area"])
 def test_many_curves_have_a_colour_bar_instead_of_a_legend(
-    folder: Path, figures: list[Any], verb: str
+    folder: Path, figures: list[Any]
 ) -> None:
     (folder / "scene.toml").write_text(MANY)
-    assert main([verb, "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
     (figure,) = figures
     (bar,) = bars(figure)
     assert bar.get_ylabel().startswith("Nominal pressure")
@@ -61,19 +61,6 @@ def test_many_curves_have_a_colour_bar_instead_of_a_legend(
     assert len(shown) == 40
     for line, load in zip(shown, np.geomspace(1e4, 1e6, 40), strict=True):
         assert tuple(line.get_color()) == pytest.approx(tuple(colours(norm(load))))
-
-
-def test_of_many_pressures_and_velocities_four_pressures_are_drawn_and_it_says_so(
-    folder: Path, figures: list[Any]
-) -> None:
-    (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 60"))
-    assert (
-        main(["area", "scene.toml", "--points", "9", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    )
-    legend = figures[0].axes[0].get_legend()
-    assert legend.get_title().get_text() == "4 of 40"
-    named = [text.get_text() for text in legend.get_texts()]
-    assert (named[0], named[-1], len(named)) == ("10 kPa", "1 MPa", 4)
 
 
 def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[Any]) -> None:
@@ -119,67 +106,24 @@ def test_few_curves_have_their_names_beside_them(folder: Path, figures: list[Any
         assert f"- {line.get_color()}" in touches(axes, box, apart=2 * box.height)
 
 
-def test_the_kinds_of_a_single_curve_are_named_and_not_in_a_legend(
-    folder: Path, figures: list[Any]
-) -> None:
-    (folder / "scene.toml").write_text(SCENE.replace("[81e3, 2e5]", "81e3"))
-    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    (axes,) = figures[0].axes
-    assert all("error" in entry for entry in entries(figures[0]))
-    assert axes.get_title() == "81 kPa"
-    assert sorted(written(axes)) == ["adhesion", "hysteresis", "total"]
-    dashes = {"total": "-", "hysteresis": "--", "adhesion": ":"}
-    for name, text in written(axes).items():
-        box = text.get_window_extent()
-        assert touches(axes, box) == []
-        assert any(x.startswith(f"{dashes[name]} ") for x in touches(axes, box, 2 * box.height))
+SCAN = ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m", "--output", "a.csv"]
+VERBS = [["friction", "scene.toml", "--output", "a.csv"], SCAN]
 
 
-@pytest.mark.parametrize("pressures", ["81e3", "[81e3, 2e5]", "[5e4, 81e3, 2e5, 4e5]"])
-@pytest.mark.parametrize("verb", ["friction", "area"])
-def test_a_legend_covers_no_curve_and_each_of_its_entries_shows_something(
-    folder: Path, figures: list[Any], verb: str, pressures: str
-) -> None:
-    (folder / "scene.toml").write_text(SCENE.replace("[81e3, 2e5]", pressures))
-    assert main([verb, "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    (figure,) = figures
-    for axes in figure.axes[:1]:
-        if legend := axes.get_legend():
-            assert touches(axes, legend.get_window_extent()) == []
-    for legend in [*figure.legends, *(axes.get_legend() for axes in figure.axes)]:
-        for handle in legend.legend_handles if legend else ():
-            empty = getattr(handle, "get_linestyle", lambda: "-")() == "None"
-            assert not (empty and handle.get_marker() == "None")
-
-
-def test_levels_of_a_map_are_labelled(folder: Path, figures: list[Any]) -> None:
-    assert main(["map", "scene.toml", "--plot", "a.png", "--checked", "100"]) == 0
-    labels = [float(text.get_text()) for text in figures[0].axes[0].texts]
-    assert len(labels) >= 2
-    ticks = bars(figures[0])[0].get_yticks()
-    assert all(np.isclose(ticks, label, rtol=1e-2).any() for label in labels)
-
-
-@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
-def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str) -> None:
+@pytest.mark.parametrize("arguments", VERBS, ids=["friction", "spectrum"])
+def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, arguments: list[str]) -> None:
     from matplotlib.image import imread
 
-    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
-    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
     for options, low, high in ((["--style", "dark"], 0, 0.15), ([], 0.99, 1)):
         assert main([*arguments, "--plot", "a.png", *options]) == 0
         corner = imread("a.png")[:3, :3, :3]
         assert low <= corner.min() <= corner.max() <= high
 
 
-@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
+@pytest.mark.parametrize("arguments", VERBS, ids=["friction", "spectrum"])
 def test_a_picture_of_a_single_column_is_as_wide_as_one(
-    folder: Path, figures: list[Any], verb: str
+    folder: Path, figures: list[Any], arguments: list[str]
 ) -> None:
-    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
-    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
     assert main([*arguments, "--plot", "a.png", "--style", "single"]) == 0
     (figure,) = figures
     assert figure.get_size_inches()[0] == pytest.approx(3.4)
@@ -190,44 +134,12 @@ def test_a_picture_of_a_single_column_is_as_wide_as_one(
         assert not text.get_text() or 4 <= text.get_fontsize() <= 10
 
 
-def test_a_style_goes_with_a_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["friction", "scene.toml", "--style", "dark"]) == 2
-    assert "--style: goes with --plot" in capsys.readouterr().err
-
-
-def test_the_article_and_the_demo_are_drawn_in_a_style(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from matplotlib.image import imread
-
-    from asperity.cli import article_command
-    from asperity.plot.style import grey, palette
-
-    seen: list[tuple[str, str]] = []
-
-    def remake() -> tuple[dict[str, bytes], list[object]]:
-        seen.append((palette()[0], grey(0)))
-        return {}, []
-
-    monkeypatch.setattr(article_command, "remake", remake)
-    monkeypatch.setattr(article_command, "counted", lambda _: "")
-    assert main(["article", "--output", "remade", "--style", "dark"]) == 0
-    assert main(["article", "--output", "remade"]) == 0
-    assert seen == [("#56B4E9", "1"), ("#0072B2", "0")]
-    assert main(["demo", "--output", "dark", "--style", "dark"]) == 0
-    assert imread("dark/friction.png")[:3, :3, :3].max() <= 0.15
-
-
-def test_validate_is_drawn_in_a_style(folder: Path) -> None:
-    from importlib.resources import files
-
-    from matplotlib.image import imread
-
-    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
-    (folder / "few.csv").write_text("\n".join(rows[:12]))
-    assert main(["validate", "--rows", "few.csv", "--output", "dark", "--style", "dark"]) == 0
-    for name in ("area_error.png", "shift.png"):
-        assert imread(f"dark/{name}")[:3, :3, :3].max() <= 0.15
+def test_levels_of_a_map_are_labelled(folder: Path, figures: list[Any]) -> None:
+    assert main(["map", "scene.toml", "--plot", "a.png", "--checked", "100"]) == 0
+    labels = [float(text.get_text()) for text in figures[0].axes[0].texts]
+    assert len(labels) >= 2
+    ticks = bars(figures[0])[0].get_yticks()
+    assert all(np.isclose(ticks, label, rtol=1e-2).any() for label in labels)
 
 
 def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: list[Any]) -> None:
@@ -249,20 +161,6 @@ def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: li
         for box in boxes:
             assert -1 <= box.x0 <= box.x1 <= width + 1
             assert -1 <= box.y0 <= box.y1 <= height + 1
-
-
-def test_a_legend_of_several_panels_stands_above_the_first(
-    folder: Path, figures: list[Any]
-) -> None:
-    assert main(["demo", "--output", "demo"]) == 0
-    (figure,) = figures
-    figure.draw_without_rendering()
-    first, *others = figure.axes
-    (legend,) = figure.legends
-    box, panel = legend.get_window_extent(), first.get_window_extent()
-    assert box.x0 < panel.x1
-    assert box.y0 > panel.y1
-    assert all(box.y0 > one.get_window_extent().y1 for one in others)
 
 
 @pytest.mark.parametrize("count", range(1, 13))
@@ -307,36 +205,22 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
         assert new_figure(2)[0].get_supxlabel() == ""
 
 
-def test_a_fatal_note_of_a_result_stands_on_its_picture(folder: Path, figures: list[Any]) -> None:
-    scan = 'file = "scan.npy"\npixel_size_m = [2e-5, 1e-5]\nunit = "m"\nslope_cutoff = 99'
-    before, after = SCENE.split("[rubber]")
-    scene = before[: before.index("rms_height_m")] + scan + "\n[rubber]" + after
-    (folder / "scene.toml").write_text(scene)
-    assert main(["area", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    assert figures[0].get_supxlabel().startswith("fatal: ")
+DMA = ["--columns", "frequency=Freq,temperature=Temperature,storage=G',loss=G\""]
+DMA += ["--units", "frequency=Hz,temperature=C,modulus=MPa"]
 
 
-DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
-
-
-@pytest.mark.parametrize("style", ["print", "single"])
-@pytest.mark.parametrize("verb", ["area", "spectrum", "rubber"])
+@pytest.mark.parametrize(
+    ("verb", "style"), [("area", "print"), ("spectrum", "single"), ("rubber", "single")]
+)
 def test_legends_cover_no_curve(folder: Path, figures: list[Any], verb: str, style: str) -> None:
     (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 20"))
-    arguments = ["scene.toml", "--points", "40"]
-    if verb == "spectrum":
-        arguments = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    if verb == "rubber":
-        rows = ["f,T,E1,E2"]
-        for celsius in range(-20, 41, 5):
-            for hertz in np.geomspace(0.1, 30, 12):
-                w = hertz * 10 ** (-8 * (celsius - 20) / (110 + celsius - 20))
-                modulus = 3 + sum(30j * w * t / (1 + 1j * w * t) for t in 10.0 ** np.arange(-7, 3))
-                rows.append(f"{hertz},{celsius},{modulus.real},{modulus.imag}")
-        (folder / "dma.csv").write_text("\n".join(rows))
-        arguments = ["dma.csv", "--columns", DMA[0], "--units", DMA[1], "--modulus", "E"]
-    output = ["--plot", "a.png", "--output", "a.csv", "--style", style]
-    assert main([verb, *arguments, *output]) == 0
+    (folder / "dma.csv").write_bytes(dma_bytes())
+    arguments = {
+        "area": ["area", "scene.toml", "--points", "40", "--output", "a.csv"],
+        "spectrum": SCAN,
+        "rubber": ["rubber", "dma.csv", *DMA, "--modulus", "G", "--output", "a.csv"],
+    }
+    assert main([*arguments[verb], "--plot", "a.png", "--style", style]) == 0
     (figure,) = figures
     figure.draw_without_rendering()
     seen = 0
@@ -394,17 +278,3 @@ def test_a_legend_covers_neither_steps_nor_lines_across() -> None:
     (x0, y0), (_, y1) = box
     assert not y0 <= 7 <= y1
     assert x0 > 4 or y0 > 9
-
-
-def test_greys_on_a_dark_screen_go_from_its_paper_to_white() -> None:
-    from matplotlib.colors import to_rgb
-
-    from asperity.plot import style
-
-    with style.drawn_in("dark"):
-        assert to_rgb(style.grey(0)) == (1, 1, 1)
-        paper = np.mean(to_rgb(style.paper()))
-        assert np.mean(to_rgb(style.grey(1))) == pytest.approx(paper, abs=0.01)
-        for level in (0.2, 0.5, 0.9):
-            away = (np.mean(to_rgb(style.grey(level))) - paper) / (1 - paper)
-            assert away == pytest.approx(1 - level, abs=0.01)

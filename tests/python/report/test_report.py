@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
-import numpy as np
 import pytest
 
 import asperity
@@ -18,6 +17,7 @@ from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.report.drawings import Drawings, Figure
 from helpers.accessible import violations
+from helpers.dropped import dma_bytes
 from helpers.scenes import ADHESION, RUBBER, SURFACE
 
 pytest.importorskip("matplotlib", reason="reports need asperity[plot]")
@@ -103,19 +103,14 @@ def test_who_does_not_see_it_can_read_it(tree: Element) -> None:
     assert tree.get("lang") == "en"
     assert said(next(every(tree, "title"))) == "Friction of a & <b>.toml, sticky.toml"
     levels = [int(one.tag[1]) for one in tree.iter() if re.fullmatch("h[1-6]", str(one.tag))]
-    assert levels[0] == 1
-    assert levels.count(1) == 1
+    assert (levels[0], levels.count(1)) == (1, 1)
     assert all(b - a <= 1 for a, b in itertools.pairwise(levels))
-    pictures = [one for one in every(tree, "svg")]
-    assert len(pictures) == 2 * (1 + 2 + 2)
-    for one in pictures:
+    for one in every(tree, "svg"):
         assert one.get("role") == "img"
         assert len(one.get("aria-label", "")) > 40
     for table in every(tree, "table"):
         assert said(table.find("caption"))
         assert all(head.get("scope") == "col" for head in every(table, "th"))
-    headings = [said(one) for one in tree.iter() if re.fullmatch("h[1-6]", str(one.tag))]
-    assert len(headings) > 10
 
 
 def test_its_digits_are_those_of_the_shell(
@@ -161,11 +156,7 @@ def test_all_three_errors_are_told(page: str, tree: Element) -> None:
 def test_the_comparison_tells_inputs_and_differences(tree: Element) -> None:
     (table,) = (one for one in every(tree, "table") if "not the same" in said(one.find("caption")))
     rows = [[said(cell) for cell in every(row, "td")] for row in every(table, "tr")][1:]
-    assert ["[adhesion] shear_stress_pa", '"not given"', "8300000.0"] in rows or [
-        "[adhesion] shear_stress_pa",
-        "not given",
-        "8300000.0",
-    ] in rows
+    assert ["[adhesion] shear_stress_pa", "not given", "8300000.0"] in rows
     assert all(row[0].startswith("[adhesion]") for row in rows)
     lines = [said(one) for one in every(tree, "li")]
     assert any(re.match(r"\d of 4 points differ by more than all errors", one) for one in lines)
@@ -194,24 +185,14 @@ def test_temperatures_isotherms_and_long_tables(
 ) -> None:
     """A list of temperatures, a master curve built on the way, and more rows than a page shows."""
     monkeypatch.chdir(tmp_path)
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=10 ** np.linspace(6, 9, 16),
-        relaxation_times=10 ** np.linspace(2, -8, 16),
-    )
-    lines = ["f,T,E1,E2"]
-    for celsius in range(0, 61, 10):
-        for hertz in np.geomspace(0.1, 30, 12):
-            e = rubber.modulus(2 * np.pi * hertz * 10 ** (-0.1 * (celsius - 20)))
-            lines.append(f"{hertz},{celsius},{e.real},{e.imag}")
-    Path("dma.csv").write_text("\n".join(lines))
+    Path("dma.csv").write_bytes(dma_bytes())
     Path("warm.toml").write_text(
         f"""{SURFACE}
 [rubber]
 isotherms = ["dma.csv"]
-columns = {{frequency = "f", temperature = "T", storage = "E1", loss = "E2"}}
-units = {{frequency = "Hz", temperature = "C", modulus = "Pa"}}
-modulus = "E"
+columns = {{frequency = "Freq", temperature = "Temperature", storage = "G'", loss = 'G"'}}
+units = {{frequency = "Hz", temperature = "C", modulus = "MPa"}}
+modulus = "G"
 reference_temperature_c = 20
 extrapolation = "power-law"
 [conditions]
