@@ -1,27 +1,18 @@
 """Files as laboratories have them: what is guessed, left out, converted, and said of them."""
 
 import re
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import asperity
 from asperity.app.state import State
-from asperity.app.words import allowed_velocities, in_words
-from asperity.base.diagnostics import Advice, Argument, Value
+from asperity.app.words import allowed_velocities
+from asperity.base.diagnostics import Advice
 from helpers.dropped import dma_bytes, scan_bytes
 from helpers.measured import present
 
 STRAIN = b"T;f;G';G\"\nC;Hz;MPa;MPa\n20;10;1;0.1\n20;10;0.9;0.2\n"
-
-
-@pytest.fixture
-def state() -> Iterator[State]:
-    made = State()
-    yield made
-    made.close()
 
 
 def take(state: State, *names: str, **changes: object) -> str:
@@ -80,12 +71,6 @@ def test_a_master_curve_in_any_units_is_that_curve(modulus: str, state: State) -
     assert "temperature_c" in state.text
 
 
-def test_two_files_without_temperatures_are_no_master_curve(state: State) -> None:
-    names = [state.keep_dma(f"{i}.csv", b"f,E1,E2\n1,2,3\n2,3,4\n") for i in range(2)]
-    with pytest.raises(asperity.InvalidInput, match="2 files without temperatures: must be one"):
-        take(state, *names)
-
-
 def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> None:
     state.keep_scan("scan.npy", scan_bytes())
     state.use_scan({"pixel_size_m": 5e-6, "unit": "um"})()
@@ -97,24 +82,6 @@ def test_the_shipped_shear_stress_does_not_go_with_other_files(state: State) -> 
     take(state, state.keep_dma("dma.csv", dma_bytes()))
     assert state.tables["adhesion"]["shear_stress_pa"] == 1e6
     assert not state.adhesion_left
-
-
-def test_wrong_units_are_asked_about(state: State) -> None:
-    state.keep_scan("scan.npy", scan_bytes())
-    with pytest.raises(asperity.InvalidInput, match=r"heights in um\? 17.01 um would do"):
-        state.use_scan({"pixel_size_m": 5e-6, "unit": "mm"})()
-    state.use_scan({"pixel_size_m": 5e-6, "unit": "nm"})()
-    assert any("rms slope" in one for one in state.load().notes)
-
-
-def test_words_have_few_digits_and_no_names_of_python() -> None:
-    error = asperity.OutOfRange(
-        *(Argument("slope_cutoff"), " = ", Value("58219.6243971", (58219.6243971,)), ": ends at "),
-        *(Value("1.234", (1.234,)), " and ", Value("1.59688112632e+07", (15968811.2632,))),
-    )
-    assert str(error.said(in_words)) == (
-        "the wanted rms slope = 5.822e+04: ends at 1.234 and 1.597e+07"
-    )
 
 
 def test_a_message_on_velocities_offers_those_that_are_known(state: State) -> None:
@@ -153,13 +120,3 @@ def test_measured_scans_and_sweeps_give_a_curve(state: State) -> None:
         state.keep_velocities(*allowed)
         assert state.load().friction().mu.max() > 0
         state.set_velocities(1e-6, 10)
-
-
-def test_a_profile_becomes_a_surface(state: State, tmp_path: Path) -> None:
-    x = np.arange(4096) * 1e-6
-    z = np.random.default_rng(1).standard_normal(x.size).cumsum() * 1e-8
-    np.savetxt(tmp_path / "line.csv", np.column_stack([x, z]), delimiter=",", header="x_m,z_m")
-    state.keep_scan("line.csv", (tmp_path / "line.csv").read_bytes())
-    with pytest.raises(asperity.Error) as caught:
-        state.use_scan({})()
-    assert str(state.said(caught.value)).startswith("line.csv: ")

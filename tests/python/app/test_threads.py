@@ -23,13 +23,6 @@ from helpers.dropped import dma_bytes, scan_bytes
 OURS, THEIRS, EDITED = 81e3, 2e5, 9e4  # Pa
 
 
-@pytest.fixture
-def state() -> Iterator[State]:
-    made = State()
-    yield made
-    made.close()
-
-
 class Held:
     """A function that waits, once it was called, until it is let go."""
 

@@ -3,7 +3,6 @@
 import asyncio
 import re
 import threading
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -33,13 +32,6 @@ class Page:
 
     def fail(self, problem: str) -> None:
         self.problems.append(problem)
-
-
-@pytest.fixture
-def state() -> Iterator[State]:
-    made = State()
-    yield made
-    made.close()
 
 
 async def until(holds: Any) -> None:

@@ -175,4 +175,4 @@ def test_a_scene_may_have_a_name_that_is_no_text(
     name = os.fsdecode(b"\xff.toml")
     Path(name).write_bytes(Path("scene.toml").read_bytes())
     asperity.report([name], "r.html")
-    assert r"\udcff.toml: mu from" in Path("r.html").read_text()
+    assert r"\udcff.toml" in Path("r.html").read_text()
