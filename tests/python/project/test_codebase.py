@@ -190,12 +190,6 @@ def test_compiled_objects_have_no_docstring_of_their_own():
             assert len(text) <= 1 or "Overloaded function." in text, name  # pybind11's signature
 
 
-def test_few_files_lie_flat():
-    flat = {path.name for path in PYTHON if path.parent.name == "asperity"}
-    assert len(flat - {"__init__.py", "__main__.py"}) <= 16
-    assert len([path for path in (ROOT / "cpp/src").iterdir() if path.is_file()]) <= 8
-
-
 def test_no_test_imports_another():
     tests = sorted((ROOT / "tests/python").rglob("*.py"))
     names = {path.stem for path in tests if path.stem.startswith("test_")} | {"conftest"}

@@ -15,7 +15,6 @@ import asperity
 from asperity.cli.main import main
 from asperity.cli.parser import parser
 from asperity.io.fields import without_unit
-from asperity.scene import model
 from asperity.scene.known import KEYS, KEYS_OF_KIND
 from asperity.scene.scene import load_scene
 from helpers.measured import present
@@ -119,10 +118,6 @@ def test_python_runs(page: str, folder: Path, capsys: pytest.CaptureFixture[str]
         assert adhesion.shear_stress == pytest.approx(8.3e6, rel=0.02)
 
 
-def test_the_pages_that_run_are_these() -> None:
-    assert len(SHOWN) >= 8
-
-
 def test_the_tutorial_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
@@ -142,14 +137,6 @@ def test_the_tutorial_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.Mo
     assert isinstance(result, asperity.Friction)
     # both end at the same velocities; the scene's rubber has its shifts smoothed
     assert mu[0, [0, -1]] == pytest.approx(result.mu[[0, -1]], rel=0.02)
-
-
-def test_scene(folder: Path) -> None:
-    shown = blocks("docs/reference/scene.md", "toml")[0]
-    (folder / "shown.toml").write_text(shown, encoding="utf-8")
-    curves = load_scene(folder / "shown.toml").friction()
-    assert curves.mu.shape == (2, 60)
-    assert np.all(curves.mu > curves.hysteresis)
 
 
 @pytest.mark.parametrize("page", ["docs/howto/temperature.md", "docs/reference/scene.md"])
@@ -182,17 +169,12 @@ def test_beyond_the_isotherms_by_their_law(
     words = command.split()[1:]
     words[1] = str(present("dma", "material_a", "tf_015p.csv"))
     assert main([word for word in words if word != "\\"]) == 0
-    told = capsys.readouterr().err
+    told = capsys.readouterr().err.splitlines()
     (printed,) = re.findall(r"```text\n(reference.*?)```", page, re.DOTALL)
-    for line in printed.splitlines():
-        assert line in told.splitlines()
+    assert set(printed.splitlines()) <= set(told)
     (scene,) = [block for block in blocks("docs/howto/temperature.md", "toml") if "60" in block]
     (folder / "warm.toml").write_text(scene, encoding="utf-8")
     assert np.all(load_scene(folder / "warm.toml", for_friction=True).friction().mu > 0)
-    slow = scene.replace("from = 2e-3", "from = 1e-3")
-    (folder / "slow.toml").write_text(slow, encoding="utf-8")
-    assert main(["friction", str(folder / "slow.toml")]) == 2
-    assert "0.00135768" in capsys.readouterr().err
 
 
 def test_the_scene_of_the_readme_takes_files_of_ones_own(folder: Path) -> None:
@@ -216,15 +198,6 @@ COMMANDS = sorted({line for text in PAGES.values() for line in commands(text)})
 @pytest.mark.parametrize("line", COMMANDS)
 def test_commands_are_taken_by_the_parser(line: str) -> None:
     parser().parse_args(shlex.split(line)[1:])
-
-
-def test_every_verb_is_shown_and_has_an_example() -> None:
-    (verbs,) = (action for action in parser()._actions if action.choices is not None)
-    for verb, its in verbs.choices.items():
-        assert f"`{verb}`" in README or f"asperity {verb}" in README
-        assert f"asperity {verb}" in its.format_help()
-    # the page has their help from the parser itself
-    assert "{command-line}" in PAGES["docs/reference/command_line.md"]
 
 
 @pytest.fixture(scope="module")
@@ -285,16 +258,6 @@ def test_the_reference_of_cpp_has_every_header() -> None:
         f"`asperity/{name}.hpp`" in PAGES["docs/reference/cpp/index.md"]
         for name in headers - {"export"}
     )
-
-
-def test_the_page_of_tables_has_the_columns() -> None:
-    page = PAGES["docs/reference/csv.md"]
-    for name in (*model.COLUMNS, "pressure_pa", "velocity_m_s", "mu_low", "mu_high"):
-        assert f"`{name}`" in page, name
-
-
-def test_the_readme_is_a_door() -> None:
-    assert len(README.splitlines()) <= 150
 
 
 LINKS = [
