@@ -45,4 +45,4 @@ def host(request, files, tmp_path):
 
 @pytest.fixture(scope="session")
 def hot_road() -> FrictionMap:
-    return hot_map((283.15, 303.15))
+    return hot_map((289.15, 291.15))

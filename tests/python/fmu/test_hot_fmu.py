@@ -38,7 +38,7 @@ def test_heat_remembers_the_distance(hot_road, tmp_path, fmi):
     assert host.get([8]) == same([hot_road.mu(**at)])
     host.set([3], [350.0])  # beyond the map
     assert host.inside() == 0
-    assert host.get([8]) == same([hot_road.mu(2e5, 1.0, temperature=303.15)])
+    assert host.get([8]) == same([hot_road.mu(2e5, 1.0, temperature=291.15)])
     with pytest.raises(Exception, match=r"(?i)status 3|error"):
         host.set([A_T], [2.0])  # leads from no temperature to another here
     host.end()

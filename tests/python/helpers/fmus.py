@@ -106,8 +106,6 @@ def points(count, seed=1):
 
 
 TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
-
-
 LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 
 
@@ -118,5 +116,5 @@ def hot_map(temperature: float | tuple[float, float]) -> FrictionMap:
         moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
         relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
     )
-    box = {"pressure": (8e4, 4e5), "velocity": (1e-2, 20.0), "temperature": temperature}
-    return friction_map(surface, rubber, **box, shift=LAW, heating=TREAD, checked=0, rtol=1e-3)
+    box = {"pressure": (8e4, 4e5), "velocity": (0.5, 2.0), "temperature": temperature}
+    return friction_map(surface, rubber, **box, shift=LAW, heating=TREAD, checked=0, rtol=3e-2)
