@@ -1,7 +1,5 @@
 """Friction maps with heat: the certified error, the way from cold to hot, what is refused."""
 
-import inspect
-
 import numpy as np
 import pytest
 
@@ -136,14 +134,6 @@ def test_hysteresis_is_as_good_where_adhesion_is_25_000_times_as_much():
     assert (np.abs(found.contact_area(p, v) / truth.contact_area - 1) <= found.max_error).all()
 
 
-def test_progress_is_told_and_rises():
-    told = []
-    made((293.15, 293.65), adhesion=None, rtol=1e-2, checked=100, progress=told.append)
-    assert told == sorted(told)
-    assert len(told) > 12
-    assert told[-1] == 1
-
-
 def test_the_table_of_sliding_lengths_tells_its_progress_and_ends_where_that_raises():
     """It is the second half of the work of a map without a check."""
     told = []
@@ -240,8 +230,8 @@ def test_arrays_and_numbers_give_the_same(several):
 
 
 def test_a_map_is_the_same_for_any_number_of_threads():
-    options = {"rtol": 1e-2, "checked": 7000, "box": BOX | {"velocity": (0.1, 2.0)}}
-    single, pair = (made((290.0, 296.0), threads=n, **options) for n in (1, 2))
+    options = {"rtol": 1e-2, "checked": 7000, "box": BOX | {"velocity": (0.5, 2.0)}}
+    single, pair = (made((292.0, 294.0), threads=n, **options) for n in (1, 2))
     assert single.to_bytes() == pair.to_bytes()
 
 
@@ -257,31 +247,26 @@ def test_a_map_is_saved_and_comes_back(several, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "given",
+    ("argument", "value", "error"),
     [
-        ({"a_T": 2.0}, InvalidInput, "a_T = 2.0: must be 1 on a map with heat"),
-        ({"shift_adhesion": True}, InvalidInput, "shift_adhesion = True: must be False on a map"),
-        (
-            {"temperature": 310.0},
-            OutOfRange,
-            "temperature = 310: the map covers [283.15, 303.15] K",
-        ),
-        ({"temperature": float("nan")}, InvalidInput, "temperature = nan: must be a number"),
-        ({"temperature": None}, InvalidInput, "temperature: must be given, the map covers [283.15"),
-        ({"distance": -1e-3}, InvalidInput, "distance = -0.001: must be 0 or more"),
-        ({"distance": float("nan")}, InvalidInput, "distance = nan: must be a number"),
+        ("a_T", 2.0, InvalidInput),
+        ("shift_adhesion", True, InvalidInput),
+        ("temperature", 310.0, OutOfRange),
+        ("temperature", float("nan"), InvalidInput),
+        ("temperature", None, InvalidInput),
+        ("distance", -1e-3, InvalidInput),
+        ("distance", float("nan"), InvalidInput),
     ],
 )
-def test_look_ups_refuse_what_would_lie(several, given):
-    arguments, error, message = given
+def test_look_ups_refuse_what_would_lie(several, argument, value, error):
     for name in (*PARTS, "derivatives"):
         with pytest.raises(error) as caught:
-            getattr(several, name)(2e5, 0.3, **({"temperature": 293.0} | arguments))
-        assert str(caught.value).startswith(message)
-    if error is InvalidInput and "a_T" in arguments:
+            getattr(several, name)(2e5, 0.3, **({"temperature": 293.0} | {argument: value}))
+        assert caught.value.argument == argument
+    if argument == "a_T":
         for outside in ("nan", "clamp"):  # it is no place
             with pytest.raises(InvalidInput):
-                several.mu(2e5, 0.3, temperature=293.0, outside=outside, **arguments)
+                several.mu(2e5, 0.3, temperature=293.0, outside=outside, a_T=value)
 
 
 def test_outside_is_what_the_caller_chooses(several):
@@ -326,31 +311,24 @@ def test_a_fold_is_refused_with_its_temperature_and_velocity():
 
 
 @pytest.mark.parametrize(
-    "given",
+    ("argument", "given"),
     [
-        (
-            {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)},
-            "correction: must be none of",
-        ),
-        ({"temperature": None}, "heating: needs temperature= and shift="),
-        ({"shift": None}, "heating: needs temperature= and shift="),
-        ({"heating": None, "temperature": None}, "shift = WLF(c1=8.86, c2=101.6"),
-        ({"heating": None, "shift": None}, "temperature = 293.15: needs shift="),
-        (
-            {"heating": None, "temperature": (280, 290)},
-            "temperature = (280, 290): must be a number",
-        ),
-        ({"temperature": (290.0, 280.0)}, "temperature = (290, 280): must be one, or (lo, hi)"),
-        ({"temperature": (280, 290, 300)}, "temperature = (280, 290, 300): must be a number or"),
-        ({"temperature": 20.0}, "temperature = 20: must be finite and at least 150"),
-        ({"heating": 3}, "heating = 3: must be a Heating"),
+        ("correction", {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)}),
+        ("heating", {"temperature": None}),
+        ("heating", {"shift": None}),
+        ("heating", {"heating": 3}),
+        ("shift", {"heating": None, "temperature": None}),
+        ("temperature", {"heating": None, "shift": None}),
+        ("temperature", {"heating": None, "temperature": (280, 290)}),
+        ("temperature", {"temperature": (290.0, 280.0)}),
+        ("temperature", {"temperature": (280, 290, 300)}),
+        ("temperature", {"temperature": 20.0}),
     ],
 )
-def test_what_no_map_is_made_of_is_refused(given):
-    arguments, message = given
+def test_what_no_map_is_made_of_is_refused(argument, given):
     with pytest.raises(InvalidInput) as caught:
-        made(**arguments)
-    assert str(caught.value).startswith(message)
+        made(**given)
+    assert caught.value.argument == argument
 
 
 def test_a_table_of_shift_factors_will_do_too():
@@ -358,8 +336,9 @@ def test_a_table_of_shift_factors_will_do_too():
     table = asperity.ShiftFactors(
         reference_temperature=293.15, temperature=t, log10_a_T=LAW.log10_a_T(t)
     )
-    found = made(RANGE, shift=table, rtol=1e-2)
-    p, v, at = random_points(100)
+    box = BOX | {"velocity": (0.5, 5.0)}
+    found = made(RANGE, shift=table, rtol=1e-2, box=box)
+    p, v, at = random_points(100, box)
     truth = friction(
         ROAD,
         RUBBER,
@@ -379,10 +358,3 @@ def test_a_table_of_shift_factors_will_do_too():
 def test_a_tolerance_out_of_reach_says_what_was_reached():
     with pytest.raises(NotConverged, match=r"rtol = 1e-08: .* between \d+ temperatures"):
         made((263.15, 323.15), rtol=1e-8, box={"pressure": (1e5, 1.1e5), "velocity": (0.1, 0.12)})
-
-
-def test_signatures_are_shown():
-    names = ["temperature", "distance", "shift_adhesion", "outside"]
-    for name in (*PARTS, "traction", "derivatives"):
-        assert list(inspect.signature(getattr(FrictionMap, name)).parameters)[-4:] == names
-        assert getattr(FrictionMap, name).__doc__
