@@ -122,15 +122,10 @@ class Counted(ThreadPoolExecutor):
 def test_one_tile_is_computed_where_many_would_be():
     z = surface(LAWS["road"], (300, 260), PIXEL, 1)
     whole = power_spectrum(z, pixel_size=PIXEL)
-    holed = with_holes(z, 0.3, 1)
     with Counted(1) as executor:
         assert power_spectrum(z, pixel_size=PIXEL, executor=executor) == whole
         assert executor.works == 1
-        with pytest.raises(InvalidInput, match=r"heights has 29\.99 % drop-outs"):
-            power_spectrum(holed, pixel_size=PIXEL, executor=executor)
     assert power_spectrum(z, pixel_size=PIXEL, threads=2) == whole
-    with pytest.raises(InvalidInput, match=r"must have the submit of concurrent\.futures"):
-        power_spectrum(z, pixel_size=PIXEL, executor=map)
 
 
 def test_rows_of_which_the_folded_roughness_leaves_little_are_flagged():
@@ -293,44 +288,47 @@ HOLED = np.where(np.random.default_rng(2).random(MAP.shape) < 0.2, np.nan, MAP)
 ENDLESS = np.where(np.arange(MAP.size).reshape(MAP.shape) == 300 * 700 + 650, np.inf, MAP)
 CHECKED = with_holes(MAP, 0.09, 3)
 BAD = [
-    ({"tiles": 800}, r"tiles = \(800, 800\): must be at most \(600, 700\), the map"),
-    ({"tiles": 256}, r"tiles = \(256, 256\): must be 512 points or more a side"),
-    ({"tiles": (512, 512, 1)}, r"tiles = \(512, 512, 1\): must be a number or \(ny, nx\)"),
-    ({"tiles": 512.5}, r"tiles = 512\.5: must be a whole number"),
-    ({"tiles": -512}, r"tiles = -512: must be a whole number"),
-    ({"tiles": "512"}, "tiles = "),
-    ({"tiles": 512, "pixel_size": (1, 9)}, "must be as long as 256 of the coarser pixels"),
-    ({"tiles": 512, "overlap": 0.8}, r"overlap = 0\.8: must be from 0 to 0\.75"),
-    ({"tiles": 512, "overlap": np.nan}, "overlap = nan"),
-    ({"tiles": 512, "window": "none"}, 'window = "none": must be one that ends at 0'),
-    ({"tiles": 512, "part": "top"}, 'part = "top": must be "all" by tiles'),
-    ({"tiles": 512, "max_dropouts": 1}, r"max_dropouts = 1: must be in \[0, 1\)"),
-    ({"tiles": 512, "threads": 2, "executor": ThreadPoolExecutor(1)}, "brings its own workers"),
-    ({"tiles": 512, "executor": map}, "must have the submit of concurrent.futures"),
-    ({"tiles": 512, "surface": HOLED}, r"heights has 19\.99 % drop-outs: must be at most 10 %"),
-    ({"tiles": 512, "surface": ENDLESS}, r"heights\[300, 650\] = inf: must be finite"),
-    ({"tiles": 512, "surface": np.full((600, 700), np.nan)}, "every point is a drop-out"),
-    ({"tiles": 512, "surface": HeightMap(MAP, pixel_size=1)}, "a HeightMap has its own"),
-    ({"surface": MAP[0]}, r"surface has shape \(700,\): must have two axes"),
+    ("tiles", {"tiles": 800}),
+    ("tiles", {"tiles": 256}),
+    ("tiles", {"tiles": (512, 512, 1)}),
+    ("tiles", {"tiles": 512.5}),
+    ("tiles", {"tiles": -512}),
+    ("tiles", {"tiles": "512"}),
+    ("tiles", {"pixel_size": (1, 9)}),
+    ("overlap", {"overlap": 0.8}),
+    ("overlap", {"overlap": np.nan}),
+    ("window", {"window": "none"}),
+    ("part", {"part": "top"}),
+    ("max_dropouts", {"max_dropouts": 1}),
+    ("threads", {"threads": 2, "executor": ThreadPoolExecutor(1)}),
+    ("executor", {"executor": map}),
+    ("heights", {"surface": HOLED}),
+    ("heights[300, 650]", {"surface": ENDLESS}),
+    ("heights", {"surface": np.full((600, 700), np.nan)}),
+    ("pixel_size", {"surface": HeightMap(MAP, pixel_size=1)}),
+    ("surface", {"surface": MAP[0], "tiles": None}),
+    ("pixel_size", {"surface": HeightMap(MAP, pixel_size=1), "tiles": None}),
+    *(
+        (name, {"surface": HeightMap(MAP, pixel_size=1), "pixel_size": None, "tiles": None} | given)
+        for name, given in (
+            ("overlap", {"overlap": 0.5}),
+            ("max_dropouts", {"max_dropouts": 0.5}),
+            ("executor", {"executor": ThreadPoolExecutor(1)}),
+        )
+    ),
 ]
 
 
-@pytest.mark.parametrize(("given", "message"), BAD)
-def test_bad_input_is_one_line(given, message):
-    with pytest.raises(InvalidInput, match=message) as caught:
-        power_spectrum(**({"surface": MAP, "pixel_size": 1.0} | given))
+@pytest.mark.parametrize(("argument", "given"), BAD)
+def test_bad_input_is_one_line(argument, given):
+    with pytest.raises(InvalidInput) as caught:
+        power_spectrum(**({"surface": MAP, "pixel_size": 1.0, "tiles": 512} | given))
+    assert caught.value.argument == argument
     assert "\n" not in str(caught.value)
 
 
 def test_all_tiles_may_have_too_many_holes():
     corners = MAP.copy()
     corners[90:510, 190:290] = np.nan  # 10 % of the map: all four tiles have 15 % or more
-    with pytest.raises(InvalidInput, match=r"all 4 tiles have more than 10 % drop-outs each"):
+    with pytest.raises(InvalidInput, match="all 4 tiles"):
         power_spectrum(corners, pixel_size=1, tiles=512, overlap=0, max_dropouts=0.1)
-
-
-@pytest.mark.parametrize("name", ["pixel_size", "overlap", "max_dropouts", "executor"])
-def test_options_of_tiles_are_not_ignored_without(name):
-    value = ThreadPoolExecutor(1) if name == "executor" else 0.5
-    with pytest.raises(InvalidInput, match=f"^{name}: goes with tiles"):
-        power_spectrum(HeightMap(MAP, pixel_size=1), **{name: value})
