@@ -7,8 +7,9 @@ import pkgutil
 import re
 from functools import cached_property
 
+import pytest
+
 import asperity
-from helpers.cases import case
 from helpers.examples import CLASSES, FUNCTIONS
 
 # "Arguments are those of `contact_area`": where a short docstring leaves them to another.
@@ -31,42 +32,35 @@ def arguments(function):
     return set(inspect.signature(function).parameters) - {"self"}
 
 
-def test_functions_name_every_argument_in_their_parameters():
-    for name, function in FUNCTIONS.items():
-        text = inspect.getdoc(function)
-        with case(name=name):
-            assert text.splitlines()[0].endswith((".", "]", ")"))
-            assert re.match(r"[A-Z]", text)
-            given = named(text, "Parameters")
-            if elsewhere := ELSEWHERE.search(text):
-                given |= named(inspect.getdoc(FUNCTIONS[elsewhere[1]]), "Parameters")
-                given |= set(re.findall(r"`(\w+)`", text))
-            assert arguments(function) <= given
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_functions_name_every_argument_in_their_parameters(name):
+    text = inspect.getdoc(FUNCTIONS[name])
+    assert text.splitlines()[0].endswith((".", "]", ")"))
+    assert re.match(r"[A-Z]", text)
+    given = named(text, "Parameters")
+    if elsewhere := ELSEWHERE.search(text):
+        given |= named(inspect.getdoc(FUNCTIONS[elsewhere[1]]), "Parameters")
+        given |= set(re.findall(r"`(\w+)`", text))
+    assert arguments(FUNCTIONS[name]) <= given
 
 
-def test_classes_name_every_argument_in_their_parameters_or_attributes():
-    for name, cls in CLASSES.items():
-        text = cls.__doc__
-        with case(name=name):
-            assert text.count("Parameters\n") <= 1
-            assert arguments(cls) <= named(inspect.cleandoc(text), "Parameters", "Attributes")
-
-
-def test_methods_and_properties_say_what_they_return_and_take():
-    for kind, cls in CLASSES.items():
-        fields = named(inspect.cleandoc(cls.__doc__), "Parameters", "Attributes")
-        for name in (name for name in dir(cls) if not name.startswith("_")):
-            member = inspect.getattr_static(cls, name)
-            with case(cls=kind, name=name):
-                if isinstance(member, property | cached_property):
-                    assert name in fields or inspect.getdoc(member)
-                elif callable(member) or isinstance(member, classmethod):
-                    text = inspect.getdoc(getattr(cls, name))
-                    assert text
-                    for argument in arguments(getattr(cls, name)):
-                        assert re.search(rf"\b{argument}\b", text + cls.__doc__), argument
-                else:
-                    assert name in fields
+@pytest.mark.parametrize("kind", CLASSES)
+def test_classes_name_every_argument_and_say_what_methods_return_and_take(kind):
+    cls = CLASSES[kind]
+    assert cls.__doc__.count("Parameters\n") <= 1
+    fields = named(inspect.cleandoc(cls.__doc__), "Parameters", "Attributes")
+    assert arguments(cls) <= fields
+    for name in (name for name in dir(cls) if not name.startswith("_")):
+        member = inspect.getattr_static(cls, name)
+        if isinstance(member, property | cached_property):
+            assert name in fields or inspect.getdoc(member), name
+        elif callable(member) or isinstance(member, classmethod):
+            text = inspect.getdoc(getattr(cls, name))
+            assert text, name
+            for argument in arguments(getattr(cls, name)):
+                assert re.search(rf"\b{argument}\b", text + cls.__doc__), (name, argument)
+        else:
+            assert name in fields, name
 
 
 UNITLESS = {
@@ -82,10 +76,9 @@ UNITLESS = {
 }
 
 
-def test_docstrings_have_units():
-    for name, thing in (FUNCTIONS | CLASSES).items():
-        with case(name=name):
-            assert name in UNITLESS or UNIT.search(inspect.getdoc(thing))
+@pytest.mark.parametrize("name", sorted((FUNCTIONS | CLASSES).keys() - UNITLESS))
+def test_docstrings_have_units(name):
+    assert UNIT.search(inspect.getdoc((FUNCTIONS | CLASSES)[name]))
 
 
 def test_examples_run():
@@ -97,8 +90,7 @@ def test_examples_run():
             imported = importlib.import_module(module.name)
         except ImportError:
             continue  # what draws or solves with a library that is not installed
-        with case(module=module.name):
-            failed, run = doctest.testmod(imported)
-            assert failed == 0
-            tried += run
+        failed, run = doctest.testmod(imported)
+        assert failed == 0, module.name
+        tried += run
     assert tried >= 25

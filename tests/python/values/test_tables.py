@@ -8,7 +8,6 @@ import pytest
 
 import asperity
 from asperity.base.table import Table
-from helpers.cases import case
 from helpers.examples import ALL, CLASSES, RUBBER
 
 TABLES = {name: value for name, value in ALL.items() if isinstance(value, Table)}
@@ -22,19 +21,19 @@ def test_every_class_is_a_table_but_the_plain_values():
     assert plain == PLAIN
 
 
-def test_datasets_have_units_and_the_numbers_of_the_attributes():
+@pytest.mark.parametrize("name", TABLES)
+def test_datasets_have_units_and_the_numbers_of_the_attributes(name):
     pytest.importorskip("xarray")
-    for name, value in TABLES.items():
-        with case(name=name):
-            dataset = value.to_xarray()
-            assert dataset.data_vars
-            for column in (*dataset.data_vars, *dataset.coords):
-                assert dataset[column].attrs["units"] in UNITS
-                own = getattr(value, column, None)
-                known = own is not None and not callable(own)
-                if known and np.shape(own) == dataset[column].shape:
-                    np.testing.assert_array_equal(dataset[column], own)
-            dataset[next(iter(dataset.data_vars))].values[...] = 0  # is the reader's own
+    value = TABLES[name]
+    dataset = value.to_xarray()
+    assert dataset.data_vars
+    for column in (*dataset.data_vars, *dataset.coords):
+        assert dataset[column].attrs["units"] in UNITS
+        own = getattr(value, column, None)
+        known = own is not None and not callable(own)
+        if known and np.shape(own) == dataset[column].shape:
+            np.testing.assert_array_equal(dataset[column], own)
+    dataset[next(iter(dataset.data_vars))].values[...] = 0  # is the reader's own
 
 
 def test_a_sweep_has_its_pressures_and_velocities_as_coordinates():
@@ -48,50 +47,42 @@ def test_a_sweep_has_its_pressures_and_velocities_as_coordinates():
     assert ALL["a measured spectrum"].to_xarray().density.attrs["units"] == "m^4"
 
 
-def test_frames_have_a_row_an_entry():
+@pytest.mark.parametrize("name", TABLES)
+def test_frames_have_a_row_an_entry(name):
     pytest.importorskip("pandas")
-    for name, value in TABLES.items():
-        with case(name=name):
-            frame = value.to_dataframe()
-            columns = value._columns()
-            named = {**columns.coordinates, **columns.variables}
-            assert [*frame.columns] == [*named]
-            sizes = {}
-            for column in named.values():
-                sizes.update(zip(column.dimensions, np.shape(column.values), strict=True))
-            assert len(frame) == np.prod([*sizes.values()])
-    value = ALL["friction of many points"]
+    value = TABLES[name]
     frame = value.to_dataframe()
-    row = frame.iloc[47]
-    assert (row.pressure, row.velocity, row.mu) == (
-        2e5,
-        value.velocity[1, 7],
-        value.mu[1, 7],
-    )
-    spectrum = asperity.TabulatedSpectrum(wavenumber=[1, 2], density=[4, 3]).to_dataframe()
-    assert spectrum.values.tolist() == [[1, 4], [2, 3]]
+    columns = value._columns()
+    named = {**columns.coordinates, **columns.variables}
+    assert [*frame.columns] == [*named]
+    sizes = {}
+    for column in named.values():
+        sizes.update(zip(column.dimensions, np.shape(column.values), strict=True))
+    assert len(frame) == np.prod([*sizes.values()])
 
 
-def test_plots_draw_into_the_axes_given_or_new_ones():
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("agg")
+def test_rows_of_a_frame_are_those_of_the_arrays():
+    pytest.importorskip("pandas")
+    value = ALL["friction of many points"]
+    row = value.to_dataframe().iloc[47]
+    assert (row.pressure, row.velocity, row.mu) == (2e5, value.velocity[1, 7], value.mu[1, 7])
+
+
+@pytest.mark.parametrize("name", {type(value): name for name, value in TABLES.items()}.values())
+def test_plots_draw_into_the_axes_given_or_new_ones(name):
+    pytest.importorskip("matplotlib").use("agg")
     from matplotlib import pyplot
 
-    drawn = set()  # one of each class is drawn to the end
-    for name, value in TABLES.items():
-        with case(name=name):
-            axes = pyplot.figure(figsize=(3, 2)).add_subplot()
-            assert value.plot(axes) is axes
-            assert axes.has_data()
-            assert axes.get_xlabel()
-            assert axes.get_ylabel()
-            if type(value) not in drawn:
-                axes.figure.canvas.draw()
-                drawn.add(type(value))
-            pyplot.close(axes.figure)
-    made = ALL["a measured spectrum"].plot()
+    value = TABLES[name]
+    axes = pyplot.figure(figsize=(3, 2)).add_subplot()
+    assert value.plot(axes) is axes
+    assert axes.has_data()
+    assert axes.get_xlabel()
+    assert axes.get_ylabel()
+    axes.figure.canvas.draw()
+    made = value.plot()
     assert made.has_data()
-    assert made is not ALL["a measured spectrum"].plot()
+    assert made is not axes
     pyplot.close("all")
 
 
