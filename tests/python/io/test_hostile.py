@@ -5,7 +5,6 @@ import os
 import struct
 import subprocess
 import sys
-import time
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -37,7 +36,7 @@ opened([(path, open(path, "rb").read())], Folder())
 """
 
 
-def zipped(method: int, *names: str, size: int = 2**31) -> bytes:
+def zipped(method: int, *names: str, size: int = 2**29) -> bytes:
     """Members of zeros, in pieces."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", method, compresslevel=9) as archive:
@@ -69,8 +68,8 @@ def array_of_zeros() -> bytes:
     out = io.BytesIO()
     archive = zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED)
     with archive, archive.open("h.npy", "w", force_zip64=True) as member:
-        member.write(header((2**14, 2**14)))
-        for _ in range(2**7):
+        member.write(header((2**13, 2**13)))
+        for _ in range(2**5):
             member.write(bytes(2**24))
     return out.getvalue()
 
@@ -81,7 +80,7 @@ def many_parts(form: str) -> Callable[[], bytes]:
 
 HOSTILE: dict[str, tuple[str, Callable[[], bytes], str]] = {
     "bzip2": ("a.zip", lambda: zipped(zipfile.ZIP_BZIP2, "a.toml"), DROPPED),
-    "lzma": ("a.zip", lambda: zipped(zipfile.ZIP_LZMA, "a.toml", size=2**28), DROPPED),
+    "lzma": ("a.zip", lambda: zipped(zipfile.ZIP_LZMA, "a.toml"), DROPPED),
     "deflate": ("a.zip", lambda: zipped(zipfile.ZIP_DEFLATED, "a.toml"), DROPPED),
     "sizes": ("a.zip", lambda: understated(zipped(zipfile.ZIP_DEFLATED, "a.toml")), DROPPED),
     "npz": ("a.npz", array_of_zeros, READ),
@@ -90,9 +89,7 @@ HOSTILE: dict[str, tuple[str, Callable[[], bytes], str]] = {
     "key": ("a.toml", many_parts("{} = 1\n"), SHOWN),
     "table": ("a.toml", many_parts("[{}]\n"), SHOWN),
     "key within": ("a.toml", many_parts('[x]\ny = {{ z = """a"""", {} = 1 }}\n'), SHOWN),
-    "key that is dropped": ("a.toml", many_parts("{} = 1\n"), DROPPED),
     "name of a table": ("a.toml", lambda: (SCENE + f"[{'a' * 3_000_000}]\n").encode(), SHOWN),
-    "name of a key": ("a.toml", lambda: (SCENE + f"{'a' * 3_000_000} = 1\n").encode(), SHOWN),
     "word": ("a.toml", lambda: (SCENE + f'method = "{"a" * 3_000_000}"\n').encode(), SHOWN),
     "number": ("a.toml", lambda: SCENE.replace("1e5", "1" * 4_000).encode(), SHOWN),
     "name of a file": (
@@ -110,26 +107,25 @@ def test_a_small_file_cannot_take_much(tmp_path: Path, name: str) -> None:
     path = tmp_path / file
     path.write_bytes(content())
     assert path.stat().st_size < 2**22
-    begin = time.monotonic()
-    said = refused(path, code)
-    assert time.monotonic() - begin < 10  # Python's start and a busy machine included
-    assert len(said) < 1000
+    assert len(refused(path, code)) < 1000
 
 
 def refused(path: Path, code: str) -> str:
-    """The line that an interpreter of its own says, in 300 MB beyond what the imports take."""
+    """The line that an interpreter of its own says, in 300 MB and 10 s of processor time beyond
+    what the imports take."""
     lines = [
-        "import resource, sys",
+        "import resource, sys, time",
         "import asperity, asperity.app.opened, asperity.cli",
         "path = sys.argv[1]",
         "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss",
+        "begun = time.process_time()",
         "try:",
         *(f"    {line}" for line in code.strip().splitlines()),
         "except asperity.InvalidInput as error:",
         "    print(error, file=sys.stderr)",
         "finally:",
         "    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss",
-        "    print((peak - before) // 1024)",
+        "    print((peak - before) // 1024, time.process_time() - begun)",
     ]
     found = subprocess.run(
         [sys.executable, "-c", "\n".join(lines), str(path)],
@@ -140,7 +136,9 @@ def refused(path: Path, code: str) -> str:
     )
     assert found.stderr.count("\n") == 1, found.stderr[:2000]
     assert "Traceback" not in found.stderr
-    assert int(found.stdout.splitlines()[-1]) < 300
+    megabytes, seconds = map(float, found.stdout.splitlines()[-1].split())
+    assert megabytes < 300
+    assert seconds < 10
     return found.stderr
 
 
