@@ -8,6 +8,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from helpers.known_surfaces import law, surface
+from helpers.shell import status_of
 
 PIXEL = 1e-6
 READ = ["--pixel-size", str(PIXEL), "--unit", "um"]
@@ -89,11 +90,7 @@ def test_bad_input_is_one_line(
     named: str,
 ) -> None:
     monkeypatch.chdir(files)
-    try:
-        code = main(["spectrum", *arguments, *READ])
-    except SystemExit as error:  # of the parser
-        code = error.code
+    assert status_of(["spectrum", *arguments, *READ]) == 2
     said = capsys.readouterr().err
-    assert code == 2
     assert named in said
     assert said.count("\n") == 1

@@ -9,6 +9,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.io.read_friction import read_friction
+from helpers.shell import status_of
 
 SCENE = """
 [surface]
@@ -249,11 +250,7 @@ def test_bad_files_and_holds_are_refused_in_one_line(scene, tmp_path, capsys, te
     measured, out = tmp_path / "measured.csv", tmp_path / "fit.csv"
     measured.write_text(text)
     arguments = ["fit", str(scene()), str(measured), "--output", str(out)]
-    try:
-        status = main([*arguments, "--hold", hold] if hold else arguments)
-    except SystemExit as stop:
-        status = stop.code
-    assert status == 2
+    assert status_of([*arguments, "--hold", hold] if hold else arguments) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert named in line
     assert not out.exists()

@@ -12,6 +12,7 @@ from asperity.scene.scene import load_scene
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present
 from helpers.rubbers import SWEEP, TEMPERATURES, sweeps, true_modulus, true_shift
 from helpers.scenes import CONDITIONS, SURFACE
+from helpers.shell import status_of
 
 
 def flags(columns, units):
@@ -180,11 +181,7 @@ def replaced(old, new):
 def test_refusals_are_one_line_and_status_2(folder, capsys, arguments, named):
     head = (folder / "dma.csv").read_text().splitlines()[: 1 + SWEEP.size]
     (folder / "one.csv").write_text("\n".join(head))  # one isotherm
-    try:
-        status = main(["rubber", *arguments])
-    except SystemExit as stop:
-        status = stop.code
-    assert status == 2
+    assert status_of(["rubber", *arguments]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     (line,) = err.splitlines()

@@ -12,6 +12,7 @@ from fmpy.validation import validate_fmu
 from asperity import InvalidInput, export_fmu
 from asperity.cli import main
 from asperity.fmu import export
+from helpers.shell import status_of
 
 ROOT = Path(__file__).parents[3]
 
@@ -106,10 +107,6 @@ def test_what_the_command_refuses(road, tmp_path, monkeypatch, capsys, arguments
     other[12] = 3  # its version
     Path("other.fmap").write_bytes(other)
     Path("no.fmap").write_bytes(b"no map")
-    try:
-        status = main(["fmu", *arguments])
-    except SystemExit as ended:
-        status = ended.code
-    assert status == 2
+    assert status_of(["fmu", *arguments]) == 2
     assert message in capsys.readouterr().err
     assert not Path("no.fmu").exists()

@@ -2,8 +2,6 @@
 
 import json
 import re
-import subprocess
-import sys
 from contextlib import nullcontext
 
 import numpy as np
@@ -12,18 +10,10 @@ import scipy.interpolate
 import scipy.io
 
 import asperity
-from asperity.cli.main import main
 from asperity.scene.scene import load_scene
-from helpers.scenes import ADHESION, CONDITIONS, RUBBER, SCENE, SURFACE
+from helpers.scenes import ADHESION, CONDITIONS, HEATING, LAW, RUBBER, SCENE, SURFACE
+from helpers.shell import status_of
 
-HEAT = """
-[heating]
-density_kg_m3 = 1200
-heat_capacity_j_kg_k = 1650
-conductivity_w_m_k = 0.23
-contact_diameter_m = 1e-3
-"""
-LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
 QUICK = ["--checked", "2000"]
 
 
@@ -35,16 +25,8 @@ def scene(tmp_path, monkeypatch):
     return path
 
 
-def run(*arguments):
-    """Exit code of the command."""
-    try:
-        return main([str(argument) for argument in arguments])
-    except SystemExit as stop:
-        return stop.code
-
-
 def test_a_map_of_a_scene(scene, capsys):
-    assert run("map", scene, "--output", "road.fmap", "--plot", "map.png", *QUICK) in (0, None)
+    assert status_of(["map", scene, "--output", "road.fmap", "--plot", "map.png", *QUICK]) == 0
     told = capsys.readouterr()
     assert "max_error = " in told.out
     found = asperity.FrictionMap.load("road.fmap")
@@ -57,11 +39,11 @@ def test_a_map_of_a_scene(scene, capsys):
     )
     assert found.mu(1e5, 0.03) == pytest.approx(exact.mu, rel=found.max_error)
     assert (scene.parent / "map.png").read_bytes()[:4] == b"\x89PNG"
-    assert run("map", "--info", "road.fmap") in (0, None)
+    assert status_of(["map", "--info", "road.fmap"]) == 0
     info = capsys.readouterr().out
     assert told.out in info
     assert "surface.hurst = 0.7" in info
-    assert run("map", "--info", "road.fmap", "--json") in (0, None)
+    assert status_of(["map", "--info", "road.fmap", "--json"]) == 0
     as_json = json.loads(capsys.readouterr().out)
     assert as_json["max_error"] == found.max_error
     assert as_json["pressure_pa"] == [81e3, 2e5]
@@ -69,19 +51,19 @@ def test_a_map_of_a_scene(scene, capsys):
 
 def test_sides_and_tolerance_may_be_given(scene):
     sides = ["--pressure", "1e4,1e6", "--velocity", "1e-3,0.1"]
-    assert run("map", scene, "--output", "a.fmap", *sides, "--rtol", "1e-3", *QUICK) in (0, None)
+    assert status_of(["map", scene, "--output", "a.fmap", *sides, "--rtol", "1e-3", *QUICK]) == 0
     found = asperity.FrictionMap.load("a.fmap")
     assert (found.pressure, found.velocity, found.rtol) == ((1e4, 1e6), (1e-3, 0.1), 1e-3)
     stated = SCENE + "\n[solver]\nrtol = 1e-5\n"
     scene.write_text(stated, encoding="utf-8")
-    assert run("map", scene, "--output", "b.fmap", *QUICK) in (0, None)
+    assert status_of(["map", scene, "--output", "b.fmap", *QUICK]) == 0
     assert asperity.FrictionMap.load("b.fmap").rtol == 1e-5
 
 
 def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
     conditions = CONDITIONS.replace("[81e3, 2e5]", "81e3")
     scene.write_text(SURFACE + RUBBER + conditions + ADHESION, encoding="utf-8")
-    assert run("map", scene, "--output", "a.fmap", *QUICK) in (0, None)
+    assert status_of(["map", scene, "--output", "a.fmap", *QUICK]) == 0
     found = asperity.FrictionMap.load("a.fmap")
     np.testing.assert_allclose(found.pressure, (8.1e3, 8.1e5))
     assert any(note.startswith("pressure: the scene has one") for note in found.notes)
@@ -113,7 +95,7 @@ def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
 )
 def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message):
     (scene.parent / "cold.toml").write_text(with_heat("[298, 302]", heat=""), encoding="utf-8")
-    assert run(*arguments) == 2
+    assert status_of(arguments) == 2
     told = capsys.readouterr()
     assert message in told.err
     assert len(told.err.splitlines()) == 1
@@ -129,52 +111,15 @@ def test_a_bar_only_on_a_terminal(scene, monkeypatch):
         return nullcontext(seen.append(step.start) or step for step in steps)
 
     monkeypatch.setattr(tqdm, "tqdm", bar)
-    assert run("map", scene, *QUICK) in (0, None)
+    assert status_of(["map", scene, *QUICK]) == 0
     assert bars == []
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    assert run("map", scene, *QUICK) in (0, None)
+    assert status_of(["map", scene, *QUICK]) == 0
     assert bars == [(2, 100)]  # after two seconds
     assert seen == list(range(100))
 
 
-INTERRUPTED = """
-import os, signal, sys, threading
-from asperity.cli.main import main
-from asperity.cli import map_command
-
-signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-running, compute = threading.Event(), map_command.friction_map
-
-def interrupted(surface, rubber, *, progress, **asked):
-    def tell(share):
-        progress(share)
-        if share > 0.2:  # in the check
-            running.set()
-    return compute(surface, rubber, progress=tell, **asked)
-
-def interrupt():
-    running.wait()
-    os.kill(os.getpid(), signal.SIGINT)
-
-map_command.friction_map = interrupted
-threading.Thread(target=interrupt, daemon=True).start()
-sys.exit(main(["map", "scene.toml", "--output", "a.fmap", "--checked", "2000000000"]))  # an hour
-"""
-
-
-def test_interrupt_leaves_no_half_of_a_map(scene):
-    done = subprocess.run(
-        ["sh", "-c", 'trap "" INT; exec "$0" -c "$1"', sys.executable, INTERRUPTED],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=100,
-    )
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
-    assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]
-
-
-def with_heat(temperature, heat=HEAT):
+def with_heat(temperature, heat=HEATING):
     conditions = f"{CONDITIONS}\ntemperature_k = {temperature}\n"
     return SURFACE + RUBBER + LAW + conditions + ADHESION + heat
 
@@ -185,7 +130,7 @@ def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
     box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2"]
     given = ["--output", "road.fmap", "--checked", "400", *box]
     given += ["--plot", "map.png"] if "[" in temperature else []
-    assert run("map", scene, *given) in (0, None)
+    assert status_of(["map", scene, *given]) == 0
     told = capsys.readouterr().out
     found = asperity.FrictionMap.load("road.fmap")
     assert found.temperature == ((298, 302) if "[" in temperature else (300, 300))
@@ -210,7 +155,7 @@ def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
 
 @pytest.mark.parametrize("name", ["grid.mat", "grid.csv"])
 def test_a_grid_for_simulators_that_interpolate(scene, capsys, name):
-    assert run("map", scene, "--output", "road.fmap", "--export", name, *QUICK) in (0, None)
+    assert status_of(["map", scene, "--output", "road.fmap", "--export", name, *QUICK]) == 0
     told = re.search(r"mu is off by up to ([0-9.e-]+)", capsys.readouterr().err)
     found = asperity.FrictionMap.load("road.fmap")
     if name == "grid.mat":
@@ -237,7 +182,7 @@ def test_a_grid_for_simulators_that_interpolate(scene, capsys, name):
     off = np.abs(look_up((np.log(p), np.log(v))) / found.mu(p, v) - 1)
     assert off.max() < 1.5 * stated
     (scene.parent / name).unlink()
-    assert run("map", "--info", "road.fmap", "--export", name) in (0, None)
+    assert status_of(["map", "--info", "road.fmap", "--export", name]) == 0
     assert (scene.parent / name).exists()
 
 
@@ -245,7 +190,7 @@ def test_a_grid_of_several_temperatures(scene, capsys):
     scene.write_text(with_heat("[298, 302]"), encoding="utf-8")
     box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2", "--checked", "100"]
     given = ["--output", "road.fmap", "--export", "grid.mat", *box]
-    assert run("map", scene, *given) in (0, None)
+    assert status_of(["map", scene, *given]) == 0
     found = asperity.FrictionMap.load("road.fmap")
     grid = scipy.io.loadmat("grid.mat", squeeze_me=True, simplify_cells=True)["friction"]
     assert (grid["temperature_k"][0], grid["temperature_k"][-1]) == (298, 302)
@@ -253,6 +198,6 @@ def test_a_grid_of_several_temperatures(scene, capsys):
     at = [grid["pressure_pa"][3], grid["velocity_m_s"][5]]
     there = found.mu(*at, temperature=grid["temperature_k"][7])
     assert grid["mu"][3, 5, 7] == pytest.approx(there, rel=1e-14)
-    assert run("map", "--info", "road.fmap", "--export", "grid.csv") == 2
+    assert status_of(["map", "--info", "road.fmap", "--export", "grid.csv"]) == 2
     assert "the map covers 298 to 302 K, a table has one; choose .mat" in capsys.readouterr().err
     assert not (scene.parent / "grid.csv").exists()

@@ -32,4 +32,12 @@ ADHESION = """
 [adhesion]
 shear_stress_pa = 8.3e6
 """
+LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
+HEATING = """
+[heating]
+density_kg_m3 = 1200
+heat_capacity_j_kg_k = 1650
+conductivity_w_m_k = 0.23
+contact_diameter_m = 1e-3
+"""
 SCENE = SURFACE + RUBBER + CONDITIONS + ADHESION

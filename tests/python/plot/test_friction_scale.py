@@ -4,7 +4,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from asperity.scene.model import Scene, SceneFriction
@@ -38,18 +37,6 @@ def drawn(
     return figures[0].axes[0]
 
 
-def told(axes: Any) -> dict[str, bool]:
-    """What the legend says, and whether with a swatch; its title is what it says without."""
-    legends = [one for one in (axes.get_legend(), *axes.get_figure().legends) if one]
-    entries = {
-        text.get_text(): hasattr(handle, "get_facecolor")
-        for legend in legends
-        for text, handle in zip(legend.texts, legend.legend_handles, strict=True)
-    }
-    titles = [legend.get_title().get_text() for legend in legends]
-    return entries | dict.fromkeys(" ".join(titles).split("\n"), False)
-
-
 @pytest.mark.parametrize(("factor", "scale"), [(29, "linear"), (31, "log"), (1 / 31, "log")])
 def test_curves_that_are_far_apart_are_drawn_over_decades(
     found: tuple[Scene, SceneFriction], monkeypatch: pytest.MonkeyPatch, factor: float, scale: str
@@ -63,21 +50,3 @@ def test_curves_that_are_far_apart_are_drawn_over_decades(
     assert (low == 0) == (scale == "linear")
     assert low < min(1, factor) * curves.mu.min()
     assert high > max(1, factor) * curves.mu.max()
-
-
-def test_a_band_thinner_than_its_line_has_no_swatch(
-    found: tuple[Scene, SceneFriction], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    alone = [found[0]], [found[1]]
-    mu = found[1].mu
-    off = np.full_like(mu, np.nan)
-    for width, seen in ((0.2, True), (1e-4, False)):
-        band = mu * (1 - width), mu * (1 + width)
-        entries = told(drawn(alone, monkeypatch, band=band, model_error=off))
-        words = [entry for entry in entries if "95 %" in entry]
-        assert [entries[entry] for entry in words] == [seen]
-        assert ("too narrow to see" in " ".join(entries)) != seen
-    for error, seen in ((0.3, True), (1e-4, False)):
-        entries = told(drawn(alone, monkeypatch, model_error=np.full_like(mu, error)))
-        assert any("model error" in entry and entries[entry] for entry in entries) == seen
-        assert any("model error" in entry for entry in entries)

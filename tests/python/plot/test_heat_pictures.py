@@ -9,15 +9,7 @@ import pytest
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
-
-LAW = "\nwlf_c1 = 8.86\nwlf_c2_k = 101.6\nreference_temperature_k = 293.15\n"
-HEATING = """
-[heating]
-density_kg_m3 = 1200
-heat_capacity_j_kg_k = 1650
-conductivity_w_m_k = 0.23
-contact_diameter_m = 1e-3
-"""
+from helpers.scenes import HEATING, LAW
 
 
 @pytest.fixture

@@ -19,11 +19,6 @@ OVER_ITS_NUMBER = """[...document.querySelectorAll("div.math:has(.eqno)")].filte
     const drawn = one.querySelector("mjx-math, mjx-container svg").getBoundingClientRect();
     return drawn.right > one.querySelector(".eqno").getBoundingClientRect().left;
 }).map(one => one.id)"""
-FOUND = {
-    "master curve": ("Isotherms become a master curve", "asperity.build_master_curve"),
-    "tau_f0": ("Set the adhesion", "Glossary"),
-    "slope_cutoff": ("Choose where the spectrum ends", "Scenes"),
-}
 
 
 @pytest.fixture(scope="module")
@@ -56,22 +51,6 @@ def page(browser: Any, request: pytest.FixtureRequest) -> Iterator[Any]:
     context.close()
     assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
     assert said == []
-
-
-@pytest.mark.parametrize("words", FOUND)
-def test_search(page: Any, words: str) -> None:
-    page.goto((SITE / "index.html").as_uri())
-    box = page.get_by_role("textbox", name="Search")
-    box.fill(words)
-    box.press("Enter")
-    found = page.locator("#search-results")
-    found.get_by_text("Search finished, found").wait_for(timeout=60_000)
-    titles = found.locator("ul.search > li").all_inner_texts()
-    for title in FOUND[words]:
-        assert any(one.startswith(title) for one in titles), titles
-    link = found.get_by_role("link", name=FOUND[words][0]).first
-    link.click()
-    assert page.locator("h1").first.inner_text()
 
 
 @pytest.mark.parametrize(

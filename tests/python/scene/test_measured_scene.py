@@ -11,6 +11,7 @@ from asperity import InvalidInput, OutOfRange
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
+from helpers.scenes import HEATING
 
 RUBBER = asperity.PronySeries(
     equilibrium_modulus=3e6,
@@ -29,13 +30,6 @@ temperature_c = 20
 [conditions]
 pressure_pa = 2e5
 velocity_m_s = { from = 1e-4, to = 1e-3, points = 9 }
-"""
-HEATING = """
-[heating]
-density_kg_m3 = 1200
-heat_capacity_j_kg_k = 1650
-conductivity_w_m_k = 0.23
-contact_diameter_m = 1e-3
 """
 
 
