@@ -53,6 +53,8 @@ def prony_input(
     TB,PRONY,1,1,1,BULK
     TBDATA,1,0.75,0.001
     """
+    if not isinstance(series, PronySeries):
+        raise refusal("series", series, "a PronySeries")
     ansys = choice(program, "program", PROGRAMS) == 1
     ratio = real(poisson_ratio, "poisson_ratio")
     if not 0 <= ratio <= 0.5 or (ansys and ratio == 0.5):

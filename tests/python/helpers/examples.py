@@ -330,6 +330,7 @@ CALLS = {
     "merge_spectra": {"spectra": [SCANNED, SCANNED]},
     "height_statistics": {"surface": ROUGH},
     "power_spectrum": {"surface": ROUGH},
+    "prony_input": {"series": RUBBER, "program": "abaqus"},
     "pressure_distribution": {**SLIDES, "stress": 1e5},
     "separation": {**SEPARATION, "z_max": 1e-3, "z_min": -1e-3},
     "spectral_density": {"surface": ROUGH},

@@ -166,6 +166,11 @@ def test_other_tables(folder: Path, more: str, argument: str) -> None:
     ("text", "words"),
     [
         ("[surface", "not a TOML file"),
+        ('[surface]\nfile = "C:\\scans\\road.csv"', 'line 2: in "..." a \\ begins a code'),
+        ('[surface]\nfile = "road.csv', "line 2: the quotation mark at the end"),
+        ("[surface]\nfile = 'road.csv", "line 2: the quotation mark at the end"),
+        ("[surface]\nfile = road.csv", "line 2: texts stand in quotation marks"),
+        (SCANNED.replace("scan.npy", r"C:\temp\road.npy"), "a name with / or"),
         ("a = " + "[" * 5000 + BASE, "not a TOML file"),
         (BASE.replace("0.7", "9" * 5000), "not a TOML file"),
         ("\n", "[surface]: missing"),

@@ -71,6 +71,7 @@ UNITLESS = {
     "fit_self_affine",
     "FrictionMap",
     "contact_notes",
+    "read_master_curve",
     "report",
     "sweep",
 }

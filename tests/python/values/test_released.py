@@ -111,6 +111,7 @@ METHODS = {
 # Done in less than a microsecond, or files that Python reads.
 QUICK = {"hertz_penetration", "read_isotherms", "read_shift_factors", "read_strain_sweep"}
 QUICK |= {"read_surface", "friction_band", "export_fmu", "sweep", "report"}
+QUICK |= {"read_master_curve", "prony_input"}
 QUICK |= {"height_statistics"}  # computed by NumPy
 
 

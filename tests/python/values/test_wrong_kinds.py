@@ -33,6 +33,7 @@ ROWS = {
     "modulus": "E",
 }
 LINES = "f,s,l,T,e\n" + "".join(f"{10**k},2e6,1e6,293,{10**k}\n" for k in range(4))
+CURVE = ["angular_frequency_rad_s", "storage_modulus_pa", "loss_modulus_pa"]
 FACTORS = "temperature_k,log10_a_t\n283,1\n293,0\n303,-1\n"
 
 
@@ -47,6 +48,8 @@ def readers(tmp_path_factory):
     FMAP.save(fmap)
     solved = tmp_path / "solved.npz"
     asperity.ScanContact(ROUGH).save(solved)
+    curve = tmp_path / "curve.csv"
+    curve.write_text(f"{', '.join(CURVE)}\n1,1e6,1e5\n1e3,2e6,2e5\n")
     scene = tmp_path / "scene.toml"
     scene.write_text(TOML)
     without = {name: column for name, column in ROWS["columns"].items() if name != "temperature"}
@@ -54,6 +57,7 @@ def readers(tmp_path_factory):
     strains["units"]["strain"] = "%"
     return {
         "read_isotherms": {"paths": table, **ROWS, "columns": without, "temperatures": [293.0]},
+        "read_master_curve": {"path": curve},
         "read_strain_sweep": {"path": table, **ROWS, **strains},
         "read_shift_factors": {"path": factors, "reference_temperature": 293.0},
         "read_surface": {"path": scan, "pixel_size": 1e-4, "unit": "m"},
