@@ -17,6 +17,7 @@ from asperity.base.diagnostics import Note
 from asperity.io import plausible
 from asperity.io.column_names import cells_of, unit_in
 from asperity.io.columns import read_columns
+from asperity.io.files import check_file
 from asperity.io.source import read_source, text_lines
 from asperity.shift_factors import ShiftFactors
 
@@ -91,6 +92,7 @@ def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
     marks = [f"# isotherms.{key} = " for key in ("temperature_k", "log10_a_t")]
     found: dict[str, list[float]] = {}
     with suppress(OSError, InvalidInput, ValueError, KeyError, TypeError, IndexError):
+        check_file(file)  # one might wait for a pipe
         for number, line in enumerate(text_lines(file)):
             if number == 0 and line.startswith("{"):
                 isotherms = json.loads(file.read_bytes())["inputs"][0]["isotherms"]
