@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import asperity
 from asperity.cli.main import main
 from helpers.accessible import violations
 from helpers.dropped import dma_bytes, scan_bytes
@@ -158,61 +157,6 @@ def test_from_two_files_to_a_report(
     monkeypatch.chdir(tmp_path)
     assert main(["friction", "scene.toml", "--output", "mu.csv"]) == 0
     assert (tmp_path / "mu.csv").read_bytes() == table.read_bytes()
-
-
-def test_map_and_fmu_are_those_of_the_scene(tab: Tab, tmp_path: Path) -> None:
-    largest = re.search(r"largest mu ([\d.]+) at (\S+) m/s", tab.chart)
-    assert largest is not None
-    mu, velocity = (float(one) for one in largest.groups())
-    made = asperity.FrictionMap.load(tab.download("Map", tmp_path))
-    assert made.mu(81e3, velocity) == pytest.approx(mu, rel=2e-3)
-    with zipfile.ZipFile(tab.download("FMU", tmp_path)) as unit:
-        inside = unit.namelist()
-        assert "modelDescription.xml" in inside
-        held = [unit.read(one) for one in inside if one.endswith(".fmap")]
-    assert held == [(tmp_path / "friction.fmap").read_bytes()]
-
-
-def test_a_scene_that_was_given_away_is_opened_again(tab: Tab, tmp_path: Path) -> None:
-    opened = tab.chart
-    archive = tab.download("Scene", tmp_path)
-    tab.page.get_by_label("Pressure [MPa]", exact=True).fill("0.5")
-    playwright.expect(tab.page.get_by_role("img", name=opened)).to_have_count(0)
-    tab.page.get_by_role("button", name="Open a scene").click()
-    tab.page.get_by_label("Drop a scene file").set_input_files(str(archive))
-    tab.page.get_by_role("img", name=opened).wait_for()
-    field = tab.page.get_by_label("Pressure [MPa]", exact=True)
-    playwright.expect(field).to_have_value("0.081")
-    surface = tab.page.get_by_role("combobox", name="Surface")
-    playwright.expect(surface).to_have_value("surface of scene.toml")
-    tab.settled()
-
-
-def test_velocities_that_are_not_known_have_a_remedy(tab: Tab) -> None:
-    page = tab.page
-    tab.drop("Rubber", file_of("dma.csv", dma_bytes()))
-    page.get_by_role("checkbox", name="Fit a Prony series to sweeps").click()
-    page.get_by_role("button", name="Make the master curve").click()
-    playwright.expect(tab.problem("Result")).to_contain_text("are allowed")
-    playwright.expect(page.get_by_role("switch", name="Adhesion")).not_to_be_checked()
-    page.get_by_role("button", name="which are known").click()
-    playwright.expect(tab.problem("Result")).to_have_text("")
-    tab.settled()
-    fastest = page.get_by_label("Fastest velocity [m/s]", exact=True).input_value()
-    assert 1e-6 < float(fastest) < 10
-    playwright.expect(page.get_by_text("Adhesion was switched off")).to_be_visible()
-
-
-def test_wrong_and_large_files_say_so_and_change_nothing(tab: Tab) -> None:
-    before = tab.chart
-    tab.drop("Surface", file_of("paper.pdf", b"%PDF-1.7 no scan"))
-    playwright.expect(tab.problem("Surface")).to_contain_text("paper.pdf")
-    tab.drop("Rubber", file_of("picture.png", b"\x89PNG\r\n\x1a\n" + bytes(1000)))
-    playwright.expect(tab.problem("Rubber")).to_contain_text("picture.png: no line names columns")
-    assert tab.chart == before
-    tab.page.get_by_label("Pressure [MPa]", exact=True).fill("0.5")
-    playwright.expect(tab.page.get_by_role("img", name=before)).to_have_count(0)
-    tab.settled()
 
 
 def test_a_scan_of_100_mb_becomes_the_surface(tab: Tab, tmp_path: Path) -> None:

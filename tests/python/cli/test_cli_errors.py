@@ -1,7 +1,6 @@
 """The shell command in trouble: one line, the right exit status, and no file left behind."""
 
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -296,37 +295,3 @@ def test_without_matplotlib_says_what_to_install(
     err = capsys.readouterr().err
     line = f"pictures are drawn by matplotlib: {to_install('plot')}"
     assert err == f"asperity: mu.png: {line}\n"
-
-
-WHILE_IMPORTING = """
-import os, signal, sys
-
-signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-
-
-class Interrupt:
-    def find_spec(self, name, *_):
-        if name == "asperity.correction":
-            os.kill(os.getpid(), signal.SIGINT)
-
-
-sys.meta_path.insert(0, Interrupt())
-"""
-
-
-def test_an_interrupt_of_the_imports_is_one_line(tmp_path: Path) -> None:
-    (tmp_path / "sitecustomize.py").write_text(WHILE_IMPORTING)
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
-    for begun, status, lines in (
-        (["-m", "asperity", "--version"], 130, 1),
-        (["-c", "import asperity"], -signal.SIGINT, None),  # a program of somebody else's
-    ):
-        ended = subprocess.run(
-            [sys.executable, *begun], env=environment, capture_output=True, text=True, check=False
-        )
-        assert ended.returncode == status
-        assert ended.stdout == ""
-        if lines is not None:
-            assert ended.stderr == "asperity: interrupted\n"
-        else:
-            assert "KeyboardInterrupt" in ended.stderr

@@ -1,7 +1,6 @@
 """`export_fmu` and the command `fmu`: what they refuse, and what they tell."""
 
 import shutil
-import subprocess
 import zipfile
 from pathlib import Path
 
@@ -68,18 +67,6 @@ def test_an_fmu_says_what_is_inside(road, tmp_path, monkeypatch, capsys):
         words = f"binaries for {' and '.join(inside)}, " if inside else ""
         assert described.endswith(f"certified map; {words}source for any platform")
     assert len(inside) == 0
-
-
-@pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake")
-@pytest.mark.parametrize("mingw", [True, False])
-def test_a_build_without_mingw_tells_how_to_add_it(tmp_path, mingw):
-    command = ["cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path / f"{mingw}"]
-    command += ["-DASPERITY_LIBRARY=OFF"]
-    found = "/usr/bin/true" if mingw else "OFF"
-    command += ["-DASPERITY_FMU=ON", f"-DASPERITY_MINGW={found}"]
-    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    line = "FMUs are without win64; for it install g++-mingw-w64-x86-64-posix (Debian)"
-    assert (line in told) == (not mingw)
 
 
 def test_command(road, tmp_path, monkeypatch, capsys):

@@ -171,15 +171,19 @@ def test_every_altered_byte_is_refused(found):
             FrictionMap.from_bytes(bytes(altered))
 
 
-def test_other_versions_and_byte_orders_are_named(found):
-    content = found.to_bytes()
-    for version, more in ((1, ", so the map has to be made again"), (5, "$")):
-        other = content[:12] + struct.pack("<I", version) + content[16:]
-        with pytest.raises(InvalidInput, match=f"has layout version {version}: must be 4{more}"):
-            FrictionMap.from_bytes(other)
-    other = content[:8] + struct.pack(">I", 0x01020304) + content[12:]
-    with pytest.raises(InvalidInput, match="was written in the other byte order"):
-        FrictionMap.from_bytes(other)
+@pytest.mark.parametrize(
+    ("at", "written", "words"),
+    [
+        (12, struct.pack("<I", 1), "layout version 1: must be 4, so the map has to be made again"),
+        (12, struct.pack("<I", 5), "layout version 5: must be 4$"),
+        (8, struct.pack(">I", 0x01020304), "the other byte order"),
+    ],
+)
+def test_other_versions_and_byte_orders_are_named(found, at, written, words):
+    content = bytearray(found.to_bytes())
+    content[at : at + 4] = written
+    with pytest.raises(InvalidInput, match=words):
+        FrictionMap.from_bytes(bytes(content))
 
 
 def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
@@ -188,9 +192,7 @@ def test_files_that_cannot_be_read_or_written_are_named(found, tmp_path):
     (tmp_path / "other.fmap").write_bytes(b"no map")
     with pytest.raises(InvalidInput, match=r"other\.fmap: is no friction map"):
         FrictionMap.load(tmp_path / "other.fmap")
-    with pytest.raises(InvalidInput, match="cannot be written: embedded null byte"):
-        found.save("a\0b")
-    for path in (tmp_path / "none" / "road.fmap", tmp_path):
+    for path in (tmp_path / "none" / "road.fmap", tmp_path, "a\0b"):
         with pytest.raises(InvalidInput, match=r"cannot be written: \w"):
             found.save(path)
-    assert sorted(os.listdir(tmp_path)) == ["other.fmap"]
+    assert os.listdir(tmp_path) == ["other.fmap"]

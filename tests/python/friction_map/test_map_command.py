@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from contextlib import nullcontext
 
 import numpy as np
@@ -117,6 +119,43 @@ def test_a_bar_only_on_a_terminal(scene, monkeypatch):
     assert status_of(["map", scene, *QUICK]) == 0
     assert bars == [(2, 100)]  # after two seconds
     assert seen == list(range(100))
+
+
+INTERRUPTED = """
+import os, signal, sys, threading
+from asperity.cli.main import main
+from asperity.cli import map_command
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
+running, compute = threading.Event(), map_command.friction_map
+
+def interrupted(surface, rubber, *, progress, **asked):
+    def tell(share):
+        progress(share)
+        if share > 0.2:  # in the check
+            running.set()
+    return compute(surface, rubber, progress=tell, **asked)
+
+def interrupt():
+    running.wait()
+    os.kill(os.getpid(), signal.SIGINT)
+
+map_command.friction_map = interrupted
+threading.Thread(target=interrupt, daemon=True).start()
+sys.exit(main(["map", "scene.toml", "--output", "a.fmap", "--checked", "2000000000"]))  # an hour
+"""
+
+
+def test_interrupt_leaves_no_half_of_a_map(scene):
+    done = subprocess.run(
+        ["sh", "-c", 'trap "" INT; exec "$0" -c "$1"', sys.executable, INTERRUPTED],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
+    assert [path.name for path in scene.parent.iterdir()] == ["scene.toml"]
 
 
 def with_heat(temperature, heat=HEATING):

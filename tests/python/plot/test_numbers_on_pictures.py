@@ -11,6 +11,11 @@ import asperity
 from asperity import fit_prony
 from helpers.rubbers import built, sweeps
 
+ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
+RUBBER = asperity.PronySeries(
+    equilibrium_modulus=1e6, moduli=[1e7, 1e8], relaxation_times=[1e-3, 1e-5]
+)
+
 
 def test_residuals_are_those_of_the_points_drawn() -> None:
     """A fit through the smoothed curve can be ten times nearer to it than the points are."""
@@ -91,15 +96,11 @@ def test_the_error_that_a_map_is_certified_for_holds_for_the_colours_drawn(
 
     from asperity.plot import friction_map as module
 
-    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=1e6, moduli=[1e7, 1e8], relaxation_times=[1e-3, 1e-5]
-    )
     box = {"pressure": (5e4, 5e5), "velocity": (1e-3, 1)}
-    made = asperity.friction_map(road, rubber, **box, rtol=1e-3, checked=2000)
+    made = asperity.friction_map(ROAD, RUBBER, **box, rtol=1e-3, checked=2000)
 
     def errors(pressure: Any, velocity: Any) -> Any:
-        exact = asperity.friction(road, rubber, pressure=pressure, velocity=velocity).mu
+        exact = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=velocity).mu
         return np.abs(made.mu(pressure, velocity) / exact - 1)
 
     figures: list[Any] = []
@@ -121,17 +122,13 @@ def test_parameters_of_the_adhesion_are_those_of_the_curve_drawn() -> None:
     pytest.importorskip("matplotlib")
     from asperity.plot.fit import _parameters
 
-    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5)
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=1e6, moduli=[1e7, 1e8], relaxation_times=[1e-3, 1e-5]
-    )
     scene = {"pressure": 1e5, "velocity": np.geomspace(1e-5, 1, 25)}
     truth = asperity.Adhesion(shear_stress=5e6, reference_velocity=2e-3, width=0.12)
-    mu = asperity.friction(road, rubber, adhesion=truth, **scene).mu
+    mu = asperity.friction(ROAD, RUBBER, adhesion=truth, **scene).mu
     noise = 1 + 0.02 * np.random.default_rng(1).standard_normal(25)
-    fit = asperity.fit_adhesion(road, rubber, mu=mu * noise, **scene)
+    fit = asperity.fit_adhesion(ROAD, RUBBER, mu=mu * noise, **scene)
     stress, velocity, width = numbers(_parameters(fit))
-    curve = asperity.friction(road, rubber, adhesion=fit, **scene)
+    curve = asperity.friction(ROAD, RUBBER, adhesion=fit, **scene)
     strength = np.log(curve.adhesion * 1e5 / curve.contact_area)  # ln tau_f, a parabola in log10 v
     c, b, a = np.polyfit(np.log10(scene["velocity"]), strength, 2)
     assert width == pytest.approx(-c, rel=0.05)

@@ -2,7 +2,6 @@
 
 import ast
 import graphlib
-import inspect
 import re
 import shutil
 import subprocess
@@ -11,8 +10,6 @@ from pathlib import Path
 
 import pytest
 
-import asperity
-from asperity import _core
 from helpers.cases import case
 
 ROOT = Path(__file__).parents[3]
@@ -158,15 +155,6 @@ def test_numpy_is_all_that_the_package_imports_at_once():
     assert not (others | {"xarray"}) & set(loaded)
 
 
-def test_public_names_can_be_imported():
-    assert sorted(set(asperity.__all__)) == sorted(asperity.__all__)
-    for name in asperity.__all__:
-        assert getattr(asperity, name) is not None
-    namespace: dict[str, object] = {}
-    exec("from asperity import *", namespace)
-    assert set(asperity.__all__) <= set(namespace)
-
-
 def lines(paths):
     return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
 
@@ -181,13 +169,6 @@ def test_bindings_are_thin():
         docstrings = re.findall(r'\.def\w*\(\s*"\w+",[^;]*?,\s*"[^"]*"\s*\)', text)
         assert not docstrings, f"{path.name}: {docstrings}"
     assert lines(BINDINGS) <= 0.2 * lines([*HEADERS, *SOURCES])
-
-
-def test_compiled_objects_have_no_docstring_of_their_own():
-    for name, member in vars(_core).items():
-        if inspect.isroutine(member):
-            text = (inspect.getdoc(member) or "").splitlines()
-            assert len(text) <= 1 or "Overloaded function." in text, name  # pybind11's signature
 
 
 def test_no_test_imports_another():

@@ -77,23 +77,26 @@ def test_autocorrelation_of_self_affine_spectra(row):
     close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
 
 
+def area_at(g, spectrum, correction, rtol):
+    """Of an elastic contact: G = h'^2 / 8 (E* / p)^2."""
+    return asperity.contact_area(
+        spectrum,
+        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
+        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * g),
+        velocity=1.0,
+        poisson_ratio=0,
+        correction=correction,
+        rtol=rtol,
+    )
+
+
 @pytest.mark.parametrize("rtol", [1e-4, 1e-10])
 @pytest.mark.reference("nayak_s_factor")
 def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
-    spectrum = SelfAffineSpectrum(
-        rms_height=1e-4, hurst=row["hurst"], q0=1e3, q1=1e3 * row["q1_over_q0"]
-    )
+    q1 = 1e3 * row["q1_over_q0"]
+    spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=row["hurst"], q0=1e3, q1=q1)
     close(row, ["nayak_parameter"], [spectrum.nayak_parameter])
-    found = asperity.contact_area(
-        spectrum,
-        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
-        # elastic: G = h'^2 / 8 (E* / p)^2
-        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * row["g_uncorrected"]),
-        velocity=1.0,
-        poisson_ratio=0,
-        correction=asperity.NayakSFactor(),
-        rtol=rtol,
-    )
+    found = area_at(row["g_uncorrected"], spectrum, asperity.NayakSFactor(), rtol)
     close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
 
 
@@ -101,15 +104,8 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
 @pytest.mark.reference("implicit_s_factor")
 def test_area_with_s_of_the_area_that_results(row, rtol):
     spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.7, q0=1e3, q1=1e5)
-    found = asperity.contact_area(
-        spectrum,
-        PronySeries(equilibrium_modulus=1e6, moduli=[], relaxation_times=[]),
-        pressure=1e6 * spectrum.rms_slope / np.sqrt(8 * row["g_uncorrected"]),
-        velocity=1.0,
-        poisson_ratio=0,
-        correction=asperity.ImplicitSFactor(gamma=row["gamma"]),
-        rtol=rtol,
-    )
+    correction = asperity.ImplicitSFactor(gamma=row["gamma"])
+    found = area_at(row["g_uncorrected"], spectrum, correction, rtol)
     close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
 
 
