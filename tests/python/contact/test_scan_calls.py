@@ -1,6 +1,7 @@
 """Calls that solve contacts of a scan: how far they are, ended on the way, refused, or noted."""
 
 import signal
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -67,6 +68,14 @@ class Enough(Exception):
     pass
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup starts without one
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("how", ["Ctrl-C", "an exception"])
 def test_what_was_solved_is_kept_where_a_call_ends(how: str) -> None:
     exact = scan()
