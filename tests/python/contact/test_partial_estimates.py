@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import MasterCurve, PartialContact, PronySeries, SelfAffineSpectrum
+from asperity import MasterCurve, PartialContact, PronySeries
 from helpers import table_rows
 from helpers.cases import case, long
 
@@ -83,7 +83,7 @@ def test_estimates_hold_where_they_were_exceeded():
             assert max(results.values()) <= 1
 
 
-@pytest.mark.parametrize("count", [10, long(300)])
+@pytest.mark.parametrize("count", [20, long(300)])
 def test_estimates_of_random_scenes_hold_against_brute_force(count):
     for scene in range(count):
         with case(scene=scene):
@@ -103,7 +103,7 @@ def test_brute_force_meets_the_reference(reference_table):
             assert found == pytest.approx([row["hysteresis"], row["contact_area"]], rel=1e-11)
 
 
-@pytest.mark.parametrize("count", [40, long(1500)])
+@pytest.mark.parametrize("count", [60, long(1500)])
 def test_estimates_hold_against_brute_force(count):
     for scene in range(count):
         with case(scene=scene):
@@ -141,93 +141,3 @@ def test_levels_of_rings_do_not_agree_by_chance_on_knots():
     for rtol in (1e-4, 1e-5, 1e-6, 1e-7):
         found = asperity.friction(rings, curve, **conditions, rtol=rtol)
         assert np.all(np.abs(found.mu - best.mu) <= found.error_estimate + best.error_estimate)
-
-
-def random_scene(rng):
-    """A scene of the random ones: surfaces of all kinds, rubbers from elastic to steep."""
-    q0, octaves, hurst = 10 ** rng.uniform(1, 5), rng.uniform(0.05, 9), rng.uniform(0.05, 1)
-    q1 = q0 * 2**octaves
-    rms = 10 ** rng.uniform(-2, 0.5) / q0
-    kind = rng.integers(4)
-    if kind == 0:
-        spectrum = SelfAffineSpectrum(rms_height=rms, hurst=hurst, q0=q0, q1=q1)
-    elif kind == 1:
-        knee = q0 * (q1 / q0) ** rng.uniform(0.1, 0.9)
-        spectrum = SelfAffineSpectrum(rms_height=rms, hurst=hurst, q0=q0, q1=q1, rolloff=knee)
-    else:
-        n = rng.integers(2, 60)
-        q = np.sort(q0 * (q1 / q0) ** rng.random(n)) if kind == 2 else np.geomspace(q0, q1, n)
-        q = np.unique(q)
-        n = len(q)
-        c = (q / q0) ** (-2 * hurst - 2) * 10 ** (
-            rng.choice([0.1, 1.0, 2.0]) * rng.standard_normal(n)
-        )
-        if rng.random() < 0.3 and n > 4:
-            c[rng.integers(n)] = 0
-        spectrum = asperity.TabulatedSpectrum(wavenumber=q, density=c * rms**2 / q0**2)
-    terms = rng.integers(0, 8)
-    moduli = 10 ** rng.uniform(5, 9.5, terms)
-    times = 10 ** rng.uniform(-9, 1, terms)
-    rubber = PronySeries(
-        equilibrium_modulus=10 ** rng.uniform(5.5, 7), moduli=moduli, relaxation_times=times
-    )
-    velocity = 10 ** rng.uniform(-6, 2)
-    softest = abs(rubber.modulus(velocity * q0))
-    load = softest * spectrum.rms_slope * 10 ** rng.uniform(-5, 1.5)
-    return spectrum, rubber, {"pressure": load, "velocity": velocity}
-
-
-@pytest.mark.parametrize("count", [60, long(3000)])
-def test_random_scenes_keep_their_estimates(count):
-    rng = np.random.default_rng(20)
-    for i in range(count):
-        spectrum, rubber, conditions = random_scene(rng)
-        with case(number=i):
-            best = asperity.friction(spectrum, rubber, **conditions, correction=RULE, rtol=1e-10)
-            for rtol in (1e-3, 1e-6):
-                found = asperity.friction(
-                    spectrum, rubber, **conditions, correction=RULE, rtol=rtol
-                )
-                off = abs(found.mu - best.mu)
-                assert off <= found.error_estimate + best.error_estimate
-                assert found.contact_area == pytest.approx(best.contact_area, rel=rtol)
-                assert 0 < found.contact_area <= 1
-
-
-def rough_table(rng, kind):
-    """Rings of a scan: scattered, with jumps of their level, with single lines, at random."""
-    first, n = int(rng.choice([1, 4, 8])), int(10 ** rng.uniform(1.2, 2.5))
-    k = np.arange(first, first + n)
-    factor = {
-        "scatter": 1 + 0.7 * rng.standard_normal(n) / np.sqrt(np.pi * k),
-        "levels": np.where(np.arange(n) // 10 % 2, 1000.0, 1.0),
-        "lines": np.where(rng.random(n) < 0.1, 1000.0, 1.0),
-        "random": 1000 ** rng.random(n),
-    }[kind]
-    density = 1.4e-16 * (k / first) ** -3.7 * np.abs(factor)
-    return asperity.TabulatedSpectrum(wavenumber=500.0 * k, density=density)
-
-
-@pytest.mark.parametrize("kind", ["scatter", "levels", "lines", "random"])
-@pytest.mark.parametrize("count", [3, long(60)])
-def test_rings_keep_their_estimates(kind, count):
-    rng = np.random.default_rng(7)
-    w = np.geomspace(1e-4, 1e8, 60)
-    e = RUBBER.modulus(w) * np.exp(0.02 * rng.standard_normal(60))
-    curve = MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
-    steep = PronySeries(equilibrium_modulus=1e6, moduli=[1e9], relaxation_times=[1e-4])
-    for i in range(count):
-        spectrum = rough_table(rng, kind)
-        conditions = {
-            "pressure": 10 ** rng.uniform(2, 8, 8),
-            "velocity": 10 ** rng.uniform(-6, 1, 8).clip(None, np.log10(9e7 / spectrum.q1)),
-        }
-        for rubber in (RUBBER, steep, curve):
-            scene = {**conditions, "correction": RULE}
-            with case(number=i, rows=len(spectrum.wavenumber), rubber=type(rubber)):
-                best = asperity.friction(spectrum, rubber, **scene, rtol=5e-9)  # by panels
-                for rtol in (1e-3, 1e-6):
-                    found = asperity.friction(spectrum, rubber, **scene, rtol=rtol)
-                    off = np.abs(found.mu - best.mu)
-                    assert np.all(off <= found.error_estimate + best.error_estimate)
-                    np.testing.assert_allclose(found.contact_area, best.contact_area, rtol=rtol)
