@@ -124,6 +124,8 @@ def _check_declared(
             if key not in known:
                 allowed = f"of {', '.join(sorted(known))}"
                 unknown = f": {brief(key)} is unknown"
+                if key == "temperature" and not given:
+                    unknown += " without shift"
                 raise InvalidInput(Argument(name), unknown, Must(", must be "), allowed)
         for key in sorted(known):
             if key not in declared:

@@ -55,7 +55,8 @@ def isotherms_of_ramp(table: Columns) -> list[Isotherm]:
         named = ", ".join(f"{one:.3g}" for one in hertz)
         problem = (
             f"is a temperature ramp at {named} Hz, which do not tell how it shifts: must have "
-            f"{_FEWEST} frequencies or more, or be sweeps of frequency at several temperatures"
+            f"{_FEWEST} frequencies or more, or be sweeps of frequency at several temperatures; "
+            "where a_T is known, read_master_curve and a scene's master_curve take it with shift"
         )
         raise InvalidInput(problem, code="temperature-ramp", where=table.path)
     low = max(curve["temperature"][0] for curve in curves)

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import Argument, Note
@@ -13,6 +14,7 @@ from asperity.io.columns import Columns, Names
 from asperity.io.declared import file_of, read_declared, young
 from asperity.io.source import Frame
 from asperity.rubber import Extrapolation, MasterCurve
+from asperity.shift_factors import HasShiftFactors, TemperatureShift, temperature_shift_core
 
 _OWN = {
     "frequency": "angular_frequency_rad_s",
@@ -25,6 +27,7 @@ _OF_FRAME = {  # as `MasterCurve.to_dataframe` has them
     "loss": "loss_modulus",
 }
 _TOGETHER = 1.01  # of two frequencies that are one, as in an isotherm
+_OF_RAMP = 10**0.05  # the same of rows that are reduced by a_T
 
 
 def read_master_curve(
@@ -35,6 +38,7 @@ def read_master_curve(
     modulus: Literal["E", "G"] | None = None,
     poisson_ratio: float = 0.5,
     extrapolation: Extrapolation | None = None,
+    shift: TemperatureShift | None = None,
 ) -> MasterCurve:
     """Return the master curve in a table of text or of a workbook (.xlsx, .xls).
 
@@ -50,6 +54,10 @@ def read_master_curve(
         loss_modulus_pa, and for what `MasterCurve.to_dataframe` and `to_xarray` gave.
     extrapolation : {None, "power-law", "clamp"}
         As in `MasterCurve`.
+    shift : WLF, WlfFit, ArrheniusFit, ShiftFactors or MasterCurveBuild, optional
+        For rows measured at temperatures of their own, as a temperature ramp at one frequency or a
+        few has them: `columns` and `units` then have "temperature" too, frequencies are reduced by
+        a_T, and rows are averaged twenty a decade.
 
     Returns
     -------
@@ -76,25 +84,36 @@ def read_master_curve(
     factor = young(modulus or "E", poisson_ratio)
     known = units or {"frequency": "rad/s", "modulus": "Pa"}
     try:
-        (table,) = read_declared([file], columns or own, known, (*_OWN,), factor, reduced=True)
+        wanted = (*_OWN,) if shift is None else (*_OWN, "temperature")
+        reduced = shift is None
+        (table,) = read_declared([file], columns or own, known, wanted, factor, reduced=reduced)
     except InvalidInput as error:
         if columns is not None or error.code != "unknown-columns":
             raise
         raise error.followed_by(
             "; columns, units and modulus say what other tables have"
         ) from error
+    if columns is not None and shift is not None:
+        table.values["frequency"] *= 10 ** _log10_a_t(shift, table.values["temperature"])
     try:
-        return _curve(table, extrapolation)
+        return _curve(table, _TOGETHER if shift is None else _OF_RAMP, extrapolation)
     except InvalidInput as error:
         raise error.within(file) from error
 
 
-def _curve(table: Columns, extrapolation: Extrapolation | None) -> MasterCurve:
+def _log10_a_t(shift: TemperatureShift, temperature: NDArray[np.float64]) -> Any:
+    if isinstance(shift, HasShiftFactors):
+        return np.log10(shift.shift_factor(temperature))
+    temperature_shift_core(shift)  # refuses what is none
+    return shift.log10_a_T(temperature)
+
+
+def _curve(table: Columns, together: float, extrapolation: Extrapolation | None) -> MasterCurve:
     rows = np.array([table.values[name] for name in _OWN])
     rows = rows[:, np.argsort(rows[0], kind="stable")]
     starts, last = [], 0.0
     for at, frequency in enumerate(rows[0]):
-        if frequency > last * _TOGETHER:
+        if frequency > last * together:
             starts.append(at)
             last = frequency
     sizes = np.diff([*starts, rows.shape[1]])
@@ -102,7 +121,8 @@ def _curve(table: Columns, extrapolation: Extrapolation | None) -> MasterCurve:
     frequency, storage, loss = np.where(sizes > 1, means, rows[:, starts])
     if np.any(sizes > 1):
         merged = int(np.sum(sizes[sizes > 1]))
-        text = f"{merged} rows within 1 % of the frequency of others were averaged"
+        near = f"{100 * (together - 1):.2g} %"
+        text = f"{merged} rows within {near} of the frequency of others were averaged"
         plausible.tell_again([Note(text, code="rows-averaged", where=table.path)])
     return MasterCurve(
         angular_frequency=frequency,

@@ -137,11 +137,14 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
     if source == "isotherms":
         return _from_isotherms(path, values, measure)
     rubber: Rubber
+    shifts = shift_of(path, values)
     if source == "master_curve":
         keys = {**_TABLE, "extrapolation": RUBBER["extrapolation"]}
         with rename_in_errors(path, names_of("rubber", keys)):
             file = path.parent / values["master_curve"]
-            rubber = read_master_curve(file, **arguments(values, keys))
+            ramp = "temperature" in values.get("columns", {})
+            given = arguments(values, keys)
+            rubber = read_master_curve(file, shift=shifts if ramp else None, **given)
     else:
         alternatives = (
             "give isotherms, master_curve, or equilibrium_modulus_pa, moduli_pa and "
@@ -152,7 +155,6 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
             rubber = PronySeries(**arguments(values, _PRONY))
         where = "[rubber] equilibrium_modulus_pa and moduli_pa together"
         plausible.check(where, stiffest(rubber), quantities.MODULUS, path=path)
-    shifts = shift_of(path, values)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:

@@ -9,6 +9,8 @@ import pytest
 import asperity
 from asperity import InvalidInput, read_isotherms
 from asperity.io import plausible
+from asperity.scene.scene import load_scene
+from helpers.scenes import CONDITIONS, SURFACE
 
 RUBBER = asperity.PronySeries(
     equilibrium_modulus=3e6,
@@ -160,3 +162,34 @@ def test_a_ramp_at_few_frequencies_is_named_as_one(
     with pytest.raises(InvalidInput, match=r"is a temperature ramp at .*10.* Hz") as caught:
         read(ramp(tmp_path / "a.csv", hertz, 0.01), columns=COLUMNS)
     assert caught.value.code == "temperature-ramp"
+
+
+SCENE = """
+[rubber]
+master_curve = "a.csv"
+columns = {frequency = "f", temperature = "T", storage = "E1", loss = "E2"}
+units = {frequency = "Hz", temperature = "C", modulus = "MPa"}
+modulus = "E"
+wlf_c1 = 10
+wlf_c2_k = 80
+reference_temperature_c = 20
+temperature_c = 30
+"""
+
+
+@pytest.mark.parametrize("hertz", [(10.0,), (1, 10, 100)])
+def test_a_ramp_whose_shift_is_known_is_a_master_curve(
+    tmp_path: Path, hertz: tuple[float, ...]
+) -> None:
+    ramp(tmp_path / "a.csv", hertz, 0.01)
+    units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa"}
+    how: dict[str, Any] = {"columns": COLUMNS, "units": units, "modulus": "E"}
+    curve = asperity.read_master_curve(tmp_path / "a.csv", shift=LAW, **how)
+    w = np.geomspace(1, 1e8, 40)
+    np.testing.assert_allclose(curve.modulus(w), RUBBER.modulus(w), rtol=0.06)
+    (tmp_path / "scene.toml").write_text(SURFACE + SCENE + CONDITIONS)
+    shifted = load_scene(tmp_path / "scene.toml").rubber
+    a_t = 10 ** LAW.log10_a_T(303.15)
+    np.testing.assert_allclose(shifted.modulus(1e2), RUBBER.modulus(1e2 * a_t), rtol=0.06)
+    with pytest.raises(InvalidInput, match="'temperature' is unknown without shift"):
+        asperity.read_master_curve(tmp_path / "a.csv", **how)
