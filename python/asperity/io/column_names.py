@@ -67,7 +67,7 @@ def find_header(lines: Lines) -> Header | None:
     number, mark, names = words[-1]
     if len(words) > 1:
         above, its_mark, its_names = words[-2]
-        if (above, its_mark, len(its_names)) == (number - 1, mark, len(names)):
+        if number - above <= 2 and (its_mark, len(its_names)) == (mark, len(names)):
             return Header(above, its_names, names)
     return Header(number, names, [])
 
