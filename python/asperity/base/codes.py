@@ -43,6 +43,7 @@ NOTES = {
     "isotherms-merged": (NOTE, "isotherms of one temperature were taken as one"),
     "rows-averaged": (NOTE, "rows of one frequency were averaged"),
     "shifts-relative": (NOTE, "shift factors of a file are 1 at another temperature"),
+    "ramp-cut": (NOTE, "the ends of a temperature ramp tell no shift"),
     "rows-left-out": (NOTE, "rows of a file belong to another test"),
     "strain-ratios-held": (NOTE, "strain sweeps do not reach as far as the master curve"),
     "wlf-fit": (NOTE, "how well the shift factors follow WLF"),

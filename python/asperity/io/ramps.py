@@ -12,7 +12,7 @@ from asperity.sweeps import Isotherm
 STEP = 1.0  # K: sweeps nearer to each other in temperature are one isotherm
 _DRIFT = 4.0  # K: what moves farther without a step is a ramp
 _SAME = 0.01  # relative: frequencies no farther apart are one
-_FEWEST = 4  # frequencies of an isotherm
+_FEWEST = 4  # frequencies of an isotherm; between fewer ln E is interpolated over ln w
 _APART = 1.0  # K: isotherms of a ramp are not nearer
 
 
@@ -43,43 +43,64 @@ def is_ramp(table: Columns) -> bool:
 
 
 def isotherms_of_ramp(table: Columns) -> list[Isotherm]:
-    """Isotherms where all frequencies were measured; InvalidInput where these are too few."""
+    """Isotherms where all frequencies were measured, as far as neighbours have moduli in common."""
     values, place = table.values, _places(table)
     curves = []
     for one in np.unique(place):
         rows = np.flatnonzero(place == one)
         rows = rows[np.argsort(values["temperature"][rows], kind="stable")]
         curves.append(table.taken(rows).values)
-    hertz = [float(np.median(curve["frequency"])) / (2 * np.pi) for curve in curves]
-    if len(curves) < _FEWEST:
-        named = ", ".join(f"{one:.3g}" for one in hertz)
+    ln_w = np.array([np.median(np.log(curve["frequency"])) for curve in curves])
+    if len(curves) < 2:
+        hertz = np.exp(ln_w[0]) / (2 * np.pi)
         problem = (
-            f"is a temperature ramp at {named} Hz, which do not tell how it shifts: must have "
-            f"{_FEWEST} frequencies or more, or be sweeps of frequency at several temperatures; "
-            "where a_T is known, read_master_curve and a scene's master_curve take it with shift"
+            f"is a temperature ramp at {hertz:.3g} Hz alone, which does not tell how it shifts: "
+            "must have two frequencies or more; where a_T is known, "
+            "read_master_curve and a scene's master_curve take it with shift"
         )
         raise InvalidInput(problem, code="temperature-ramp", where=table.path)
     low = max(curve["temperature"][0] for curve in curves)
     high = min(curve["temperature"][-1] for curve in curves)
-    fewest = min(curve["temperature"].size for curve in curves)
-    count = int(max(2, min((high - low) / _APART + 1, fewest)))
     if not high > low:
         raise InvalidInput("has no temperature with all its frequencies", where=table.path)
-    result = []
-    for t in np.linspace(low, high, count):
-        storage, loss = (
-            [np.exp(np.interp(t, c["temperature"], np.log(c[name]))) for c in curves]
-            for name in ("storage", "loss")
+    fewest = min(curve["temperature"].size for curve in curves)
+    count = int(max(2, min((high - low) / _APART + 1, fewest)))
+    parts = 1 if len(curves) >= _FEWEST else -(-_FEWEST // (len(curves) - 1))
+    at = np.arange(len(curves)) * parts
+    every = np.interp(np.arange(at[-1] + 1), at, ln_w)
+
+    def moduli(name: str, temperature: float) -> NDArray[np.float64]:
+        ln = [np.interp(temperature, one["temperature"], np.log(one[name])) for one in curves]
+        return np.asarray(np.exp(np.interp(every, ln_w, ln)))
+
+    isotherms = [
+        Isotherm(
+            temperature=float(t),
+            angular_frequency=np.exp(every),
+            storage_modulus=moduli("storage", t),
+            loss_modulus=moduli("loss", t),
         )
-        result.append(
-            Isotherm(
-                temperature=float(t),
-                angular_frequency=2 * np.pi * np.array(hertz),
-                storage_modulus=storage,
-                loss_modulus=loss,
-            )
+        for t in np.linspace(low, high, count)
+    ]
+    return _tied(table, isotherms)
+
+
+def _tied(table: Columns, isotherms: list[Isotherm]) -> list[Isotherm]:
+    """The longest row of isotherms whose neighbours share moduli, as a glass's do not."""
+    low, high = (
+        np.array([of(one.storage_modulus) for one in isotherms]) for of in (np.min, np.max)
+    )
+    apart = np.flatnonzero((low[1:] > high[:-1]) | (high[1:] < low[:-1])) + 1
+    runs = np.split(np.arange(len(isotherms)), apart)
+    kept = max(runs, key=len)
+    if len(runs) > 1:
+        ends = isotherms[kept[0]].temperature, isotherms[kept[-1]].temperature
+        text = (
+            f"of a temperature ramp {ends[0]:.5g} to {ends[1]:.5g} K were taken: beyond them "
+            "neighbours have no modulus in common"
         )
-    return result
+        plausible.tell_again([Note(text, code="ramp-cut", where=table.path)])
+    return [isotherms[one] for one in kept]
 
 
 def _places(table: Columns) -> NDArray[np.int64]:

@@ -51,8 +51,9 @@ def read_isotherms(
     -------
     list of Isotherm
         In rising temperature [K]; rows within 1 K are one isotherm at their mean. Of a temperature
-        ramp at four frequencies or more they are at temperatures 1 K apart, or as far as measured,
-        ln E' and ln E'' interpolated over T at each frequency.
+        ramp at two frequencies or more they are at temperatures 1 K apart, or as far as measured:
+        ln E' and ln E'' are interpolated over T at each frequency, and between fewer than four
+        frequencies over ln w.
 
     Raises
     ------
