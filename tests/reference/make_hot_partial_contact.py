@@ -120,7 +120,7 @@ def by_time(scene, felt, heated):
     return g
 
 
-def brief_definition(w):
+def brief_definition(w, _wavenumber):
     """Return I1 and I2 by trapezoids in z, cos(phi) = sech(z)."""
     z, step = np.linspace(0, 42, 421, retstep=True)
     cosine = 1 / np.cosh(z)
@@ -129,13 +129,16 @@ def brief_definition(w):
     return (cosine * loss) @ weights, (storage**2 + loss**2) @ weights
 
 
-def closed(w):
+def closed(w, _wavenumber):
     """Return I1 and I2 in closed form."""
     return tables.prony_integrals(w, *SBR.values(), sqrt=np.sqrt)
 
 
 def solve(scene, between, last, integrals, kernel, root, count, growth, longest, in_power):
-    """Return hysteresis, area, P_m and the rise at q_e and q1."""
+    """Return hysteresis, area, P_m and the rise at q_e and q1.
+
+    Panels end at the scene's `stops` too [1/m], in rising order.
+    """
     q, c = rows_of(scene["surface"])
     at, _, _ = roughness(q, c)
     places = np.log(q)
@@ -144,7 +147,8 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     start, end = places[0], places[-1]
     macro = np.clip(np.log(2 * np.pi / DIAMETER), start, end)
     grown = start + (end - start) * 1e-9 * growth ** np.arange(np.ceil(9 / np.log10(growth)))
-    edges = [places, places - 1, places + 1, grown, [macro], np.arange(start, end, longest)]
+    stops = np.log(scene.get("stops", [1.0]))
+    edges = [places, places - 1, places + 1, grown, [macro], stops, np.arange(start, end, longest)]
     edges = np.unique(np.concatenate(edges))
     edges = edges[(edges >= start) & (edges <= end)]
     rule = gauss(count)
@@ -154,11 +158,14 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     window = stiff**2 / 8 * between(y - 1, y + 1) / 2
     here = np.array([last])
     window_at_end, whole = end_window(between, places, here), between(places[:1], places[-1:])[0]
+    beyond = stops[(stops > last) & (stops < last + np.log(TAIL_END))] - last
     if in_power:
-        u, tail_weights, _ = nodes_on(np.geomspace(TAIL_END**-3, 1, 16), rule)
+        cuts = np.sort([*np.geomspace(TAIL_END**-3, 1, 16), *np.exp(-3 * beyond)])
+        u, tail_weights, _ = nodes_on(cuts, rule)
         x, tail_weights = u.ravel() ** (-1 / 3), tail_weights.ravel() / 3
     else:
-        z, tail_weights, _ = nodes_on(np.linspace(0, np.log(TAIL_END), 12), rule)
+        cuts = np.sort([*np.linspace(0, np.log(TAIL_END), 12), *beyond])
+        z, tail_weights, _ = nodes_on(cuts, rule)
         x, tail_weights = np.exp(z.ravel()), (tail_weights * np.exp(-3 * z)).ravel()
     of_band, of_tail = y.size, x.size
     wavenumber = np.concatenate([np.exp(y.ravel()), np.exp(last) * x, [np.exp(last), q[-1]]])
@@ -167,7 +174,7 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
 
     def integrals_at(theta):
         warm = scene["temperature"] + theta - REFERENCE
-        return integrals(velocity * wavenumber * 10 ** (-C1 * warm / (C2 + warm)))
+        return integrals(velocity * wavenumber * 10 ** (-C1 * warm / (C2 + warm)), wavenumber)
 
     def below_one(i2):  # 1 - 1 / rho
         whole_g = (rough * i2[:of_band].reshape(y.shape) * weights).sum()

@@ -35,8 +35,6 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
     throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
                        "exact with PartialContact and ScanContact, whose rule has the exact A / A0 in it");
   if (by_rule) check_gauss(model.method, "with PartialContact and ScanContact, whose rule GSL's methods do not know");
-  if (model.strain_factors && std::holds_alternative<ScanContact>(model.correction))
-    throw InvalidInput(argument("strain_factors") + must_be() + "None with ScanContact");
   require_same_size("velocity", velocity.size(), "pressure", pressure.size());
   if (velocity.empty())
     throw InvalidInput(argument("pressure") + ", " + argument("velocity") + ": have 0 entries" + must(", must have ") +

@@ -140,7 +140,7 @@ std::vector<double> scan_area(const ScanContact& scan, const Spectrum& spectrum,
     if (wavenumber[j] <= q0) continue;
     const Spectrum cut = truncated(spectrum, std::nullopt, wavenumber[j]);
     std::optional<ScanRatios> ratios;
-    if (wavenumber[j] > longest) ratios.emplace(scan, cut, rubber, model.poisson_ratio);
+    if (wavenumber[j] > longest) ratios.emplace(scan, cut, rubber, model.poisson_ratio, model.strain_factors);
     const std::vector<double> area =
         contact_area(ratios ? ratios->spectrum() : cut, rubber, model, pressure, velocity, {});
     const std::vector<ScanRatio> ratio =

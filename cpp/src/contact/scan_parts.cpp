@@ -15,11 +15,37 @@
 
 namespace asperity {
 
-MissingContacts::MissingContacts(Scan& scan, const Rubber& rubber, double poisson_ratio)
+WaveModulus softened(WaveModulus modulus, const std::optional<StrainFactors>& strain,
+                     std::shared_ptr<const ScanMap> map) {
+  if (!strain) return modulus;
+  struct OfMap {
+    std::shared_ptr<const ScanMap> map;
+    SurfaceSegments surface;
+    Softening softening;
+    OfMap(const StrainFactors& factors, std::shared_ptr<const ScanMap> of)
+        : map(std::move(of)), surface(map->rings), softening(factors, surface.get()) {}
+  };
+  const auto of = std::make_shared<const OfMap>(*strain, std::move(map));
+  if (of->softening.idle()) return modulus;
+  const auto at = [of, small = std::move(modulus.at)](double q, double w) {
+    const std::complex<double> e = small(q, w);
+    const auto [f, g] = q > 0 ? of->softening(q) : ModulusFactors{};
+    return std::complex(f * e.real(), g * e.imag());
+  };
+  return {at, true};
+}
+
+MissingContacts::MissingContacts(Scan& scan, const Rubber& rubber, double poisson_ratio,
+                                 const std::optional<StrainFactors>& strain)
     : scan_(scan),
       rubber_(rubber),
-      rule_{.poisson_ratio = poisson_ratio, .correction = PartialContact{}, .rtol = 1e-6},
+      rule_{.poisson_ratio = poisson_ratio, .correction = PartialContact{}, .rtol = 1e-6, .strain_factors = strain},
       modulus_(continued_modulus(rubber)) {}
+
+WaveModulus MissingContacts::modulus_of(const ContactKey& key) const {
+  if (!rule_.strain_factors) return modulus_;
+  return softened(modulus_, rule_.strain_factors, scan_.part(key.band, key.part, key.coarse));
+}
 
 std::optional<SolvedContact> MissingContacts::find(const ContactKey& key) {
   auto found = scan_.contact(key);
@@ -36,7 +62,7 @@ void MissingContacts::solve(unsigned threads) {
   const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(keys.size(), 1, threads));
   in_blocks(parts, keys.size(), 1, [&](unsigned part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      SolvedContact solved = scan_.solve(keys[i], modulus_);
+      SolvedContact solved = scan_.solve(keys[i], modulus_of(keys[i]));
       add_rule(solved);
       scan_.add(solved);
       ++untold;

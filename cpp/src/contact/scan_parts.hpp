@@ -15,7 +15,7 @@ namespace asperity {
 /// Contacts that were asked for and are not there.
 class MissingContacts {
  public:
-  MissingContacts(Scan& scan, const Rubber& rubber, double poisson_ratio);
+  MissingContacts(Scan& scan, const Rubber& rubber, double poisson_ratio, const std::optional<StrainFactors>& strain);
 
   std::optional<SolvedContact> find(const ContactKey& key);
   [[nodiscard]] bool empty() const { return keys_.empty(); }
@@ -24,6 +24,7 @@ class MissingContacts {
 
  private:
   void add_rule(SolvedContact& contact) const;
+  [[nodiscard]] WaveModulus modulus_of(const ContactKey& key) const;
 
   Scan& scan_;
   const Rubber& rubber_;
@@ -31,6 +32,10 @@ class MissingContacts {
   WaveModulus modulus_;
   std::set<ContactKey> keys_;
 };
+
+/// The modulus at the strain that the rings of a map bring at each wavenumber; that of small strain without factors.
+WaveModulus softened(WaveModulus modulus, const std::optional<StrainFactors>& strain,
+                     std::shared_ptr<const ScanMap> map);
 
 /// ln of a contact over its rule; 0 for the hysteresis of a rubber without loss.
 LogRatios log_ratios(const SolvedContact& contact);

@@ -81,6 +81,16 @@ Band common_band(const HeightMap& map, const Spectrum& spectrum) {
   return common;
 }
 
+/// A rubber with other factors of strain is another one.
+std::uint64_t fingerprint_of(const Rubber& rubber, const std::optional<StrainFactors>& strain) {
+  const std::uint64_t result = fingerprint(rubber);
+  if (!strain) return result;
+  std::vector<double> numbers{static_cast<double>(result), strain->strain_per_slope()};
+  for (const std::vector<double>* row : {&strain->strain(), &strain->storage(), &strain->loss()})
+    numbers.insert(numbers.end(), row->begin(), row->end());
+  return fingerprint(numbers);
+}
+
 constexpr int scan_steps = 3;  // of the lattice from one contact for the errors of the scan to the next
 
 }  // namespace
@@ -89,13 +99,15 @@ double ScanRatio::model_error() const {
   return std::hypot(std::hypot(interpolation, pixels, scan), convergence, joining);
 }
 
-ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio)
+ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio,
+                       const std::optional<StrainFactors>& strain)
     : contact_(scan),
       rubber_(rubber),
       poisson_ratio_(poisson_ratio),
+      strain_(strain),
       band_(common_band(scan.map(), spectrum)),
       spectrum_(*scan.scan().rings(band_)),
-      fingerprint_(asperity::fingerprint(rubber)) {
+      fingerprint_(fingerprint_of(rubber, strain)) {
   const Spectrum& rings = *scan.scan().rings(band_);
   const auto [q0, q1] = band(rings);
   const double mine = slope_variance(rings, {q0, q1}), theirs = slope_variance(spectrum, {q0, q1});
@@ -112,7 +124,7 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   const double tolerance = scan.tolerance();
   const VelocityLattice lattice = lattice_of(rubber_, band_);
   const ScanParts parts(scan, band_);
-  MissingContacts missing(scan, rubber_, poisson_ratio_);
+  MissingContacts missing(scan, rubber_, poisson_ratio_, strain_);
   constexpr std::size_t many = 8;
   const bool on_lattice = contact_.pressure_lattice() || std::set(pressure.begin(), pressure.end()).size() > many;
 
@@ -179,13 +191,14 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
   const WaveModulus cold = continued_modulus(rubber_);
   const WaveModulus modulus{
       [&](double q, double w) { return q > 0 ? cold.at(q, w * std::exp(log_a_T(q))) : cold.at(0, w); }, true};
+  const auto map = strain_ ? scan.part(band_, Scan::whole, false) : nullptr;
   const ContactKey key{fingerprint_, fingerprint(rule.a_T), poisson_ratio_, band_, Scan::whole, false, pressure,
                        velocity};
   auto found = scan.contact(key);
   if (!found) {
     ContactProgress* const progress = ContactProgress::of(scan);
     if (progress != nullptr) progress->need(1);
-    found = scan.solve(key, modulus);
+    found = scan.solve(key, softened(modulus, strain_, map));
     found->rule_area = rule.area;
     found->rule_hysteresis = rule.hysteresis;
     scan.add(*found);

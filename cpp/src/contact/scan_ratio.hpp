@@ -39,7 +39,8 @@ struct HotRule {
 class ScanRatios {
  public:
   /// InvalidInput where the map is no sample of the spectrum.
-  ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio);
+  ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio,
+             const std::optional<StrainFactors>& strain);
 
   /// What the ratios are factors of: the rings of the map, and the spectrum where it goes on beyond the map.
   [[nodiscard]] const Spectrum& spectrum() const { return spectrum_; }
@@ -56,6 +57,7 @@ class ScanRatios {
   ScanContact contact_;
   const Rubber& rubber_;
   double poisson_ratio_;
+  std::optional<StrainFactors> strain_;
   Band band_;
   Spectrum spectrum_;
   std::uint64_t fingerprint_;

@@ -105,6 +105,7 @@ void Notes::add(const Shift& shift, double velocity, const ValidityFlags& flags)
   beyond_fit_ |=
       fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
   worse_ |= flags.worse;
+  strained_ = std::fmax(strained_, flags.strained);
   light_ |= corrected_ && !by_sliding_ && flags.light;
   if (!by_sliding_) return;
   slow_ |= flags.regime == SpeedRegime::slow;
@@ -118,6 +119,7 @@ void Notes::add(const Notes& others) {
        {&Notes::beyond_fit_, &Notes::lowest_bin_, &Notes::fast_, &Notes::full_, &Notes::no_contact_, &Notes::far_,
         &Notes::worse_, &Notes::light_, &Notes::slow_, &Notes::constant_, &Notes::fast_regime_, &Notes::unmeasured_})
     this->*flag |= others.*flag;
+  strained_ = std::fmax(strained_, others.strained_);
 }
 
 // One sentence a kind of trouble, the same for any number of points: notes on parts of a sweep join as a set.
@@ -220,6 +222,16 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                            {"leave these pressures out, or take the heights of a larger scan"}));
   std::ranges::stable_partition(result, [](const Diagnostic& d) { return d.severity == Severity::fatal; });
   return result;
+}
+
+std::optional<Diagnostic> note_on_strain(const StrainFactors& factors, double rms_slope, double share) {
+  const double strain = factors.strain_per_slope() * rms_slope, last = factors.strain().back();
+  if (!(strain > last)) return std::nullopt;
+  return note("strain-beyond-sweeps",
+              argument("strain_factors") + ": up to " + value(show(std::round(100 * share)), share) +
+                  " % of mu_H rests on strains beyond the last row, " + show(last, 3) +
+                  ", where the factors are held: the roughness brings up to " + show(strain, 3),
+              {"measure strain sweeps up to that strain"});
 }
 
 }  // namespace asperity

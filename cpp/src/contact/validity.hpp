@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/correction.hpp"
+#include "asperity/strain_factors.hpp"
 #include "contact/model_error.hpp"
 #include "contact/theory/s_factor.hpp"
 
@@ -23,6 +24,7 @@ struct ValidityFlags {
   // an affine shift takes the area further from the truth, as NayakSFactor knows it, than none would
   bool worse = false;
   std::optional<SpeedRegime> regime;  // of PartialContact, where exact contacts are known
+  double strained = 0;                // share of mu_H from strains beyond the last row of factors
 };
 
 /// The flags at one wavenumber.
@@ -45,6 +47,8 @@ class Notes {
   void add(const Shift& shift, double velocity, const ValidityFlags& flags);
   /// What others found on other points of the same scene.
   void add(const Notes& others);
+  /// The largest share of mu_H from strains beyond the last row of factors.
+  [[nodiscard]] double strained() const { return strained_; }
   /// `heated`: the heat of sliding is taken into account.
   [[nodiscard]] std::vector<Diagnostic> texts(bool heated = false) const;
 
@@ -59,8 +63,12 @@ class Notes {
   bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
+  double strained_ = 0;
   bool lowest_bin_ = false, fast_ = false, full_ = false, no_contact_ = false, far_ = false, worse_ = false,
        light_ = false;
 };
+
+/// Where the roughness strains the rubber by more than the factors go; `share` of mu_H rests on that.
+std::optional<Diagnostic> note_on_strain(const StrainFactors& factors, double rms_slope, double share);
 
 }  // namespace asperity

@@ -26,11 +26,9 @@ namespace asperity {
 
 namespace {
 
-void check_heating(const Heating& heating, const TemperatureShift& shift, const ContactModel& model,
-                   const std::optional<Adhesion>& adhesion) {
+void check_heating(const Heating& heating, const TemperatureShift& shift, const std::optional<Adhesion>& adhesion) {
   validate(heating);
   if (const auto* const law = std::get_if<WLF>(&shift)) validate(*law);
-  if (model.strain_factors) throw InvalidInput(argument("strain_factors") + must_be() + "None where heating is given");
   if (heating.interface_share != 1 && !adhesion)
     refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
 }
@@ -160,7 +158,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                        const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,
                        std::span<const double> pressure, std::span<const double> velocity,
                        std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
-  check_heating(heating, shift, model, adhesion);
+  check_heating(heating, shift, adhesion);
   check_gauss(model.method, "where heating is given, as GSL's methods have one temperature for all waves");
   const double q_m = macro_wavenumber(heating, spectrum);
   const std::size_t n = velocity.size();
@@ -226,7 +224,7 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   check_contact(model, pressure, velocity);
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   if (adhesion) validate(*adhesion);
-  check_heating(heating, shift, model, adhesion);
+  check_heating(heating, shift, adhesion);
   check_gauss(model.method, "for sliding_length, as GSL's methods know nothing of the history of the heat");
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};

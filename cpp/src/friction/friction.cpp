@@ -116,6 +116,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   if (velocity != velocity_) model_error_.start(velocity_ = velocity);
   at.model_error = model_error_(g);
   if (partial_ && !std::isnan(at.model_error)) at.validity.regime = model_error_.regime();
+  at.validity.strained = solver_.share_of_held_strains();
   if (scene_.adhesion) {
     at.adhesion = at.contact_area * adhesion_per_share(*scene_.adhesion, pressure, velocity);
     if (!std::isfinite(at.adhesion))
@@ -263,6 +264,9 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   }
   for (const Notes& others : std::span(notes).subspan(1)) notes.front().add(others);
   f.notes = notes.front().texts(heated);
+  if (model.strain_factors)
+    if (auto held = note_on_strain(*model.strain_factors, rms_slope(spectrum), notes.front().strained()))
+      f.notes.push_back(*std::move(held));
   if (heated) return f;  // notes on what is computed then are not of this
   note_extrapolated_modulus(f);
   note_large_friction(f);

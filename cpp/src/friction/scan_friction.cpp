@@ -15,7 +15,7 @@ ScanFriction::ScanFriction(const Spectrum& spectrum, const Rubber& rubber, const
   if (!scan) return;
   check_gauss(model.method, "with ScanContact, whose ratios are of its results");
   rule_.correction = PartialContact{};
-  ratios_.emplace(*scan, spectrum, rubber, model.poisson_ratio);
+  ratios_.emplace(*scan, spectrum, rubber, model.poisson_ratio, model.strain_factors);
 }
 
 void ScanFriction::apply(Friction& f, std::span<const double> a_T, unsigned threads) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "numerics/kernels.hpp"
+#include "rubber/loss_part.hpp"
 
 namespace asperity {
 
@@ -14,7 +15,8 @@ void AngularColumns::resize(std::size_t n) {
   for (auto* column : {&i1, &i2, &slope1, &slope2}) column->resize(n);
 }
 
-AngularSlopes::AngularSlopes(const Rubber& rubber) : rubber_(rubber) {
+AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors)
+    : rubber_(rubber), factors_(std::move(factors)) {
   const auto* series = std::get_if<PronySeries>(&rubber);
   if (!series) return;
   const std::vector<double>&e = series->moduli(), &tau = series->relaxation_times();
@@ -39,6 +41,10 @@ void AngularSlopes::values(std::span<const double> w, AngularColumns& result) {
   held_.assign(w.begin(), w.end());
   for (double& one : held_) one = std::clamp(one, curve->lowest_frequency(), curve->highest_frequency());
   (void)curve->angular_integrals(held_, result.i1, result.i2);
+  if (factors_.empty()) return;
+  of_loss_.resize(w.size());
+  curve->loss_part(held_, of_loss_);
+  soften(factors_, of_loss_, result.i1, result.i2, {});
 }
 
 /// The loops take a multiple of `lanes`.
@@ -56,6 +62,11 @@ void AngularSlopes::of_series(std::span<const double> w, bool sloped, AngularCol
   else
     kernels().prony(terms, held_.data(), padded, i1, i2);
   result.resize(n);
+  if (factors_.empty()) return;
+  for (auto* const row : {&of_loss_, &loss_slope_}) row->resize(n);
+  loss_part(series, w, of_loss_, sloped ? std::span<double>(loss_slope_) : std::span<double>());
+  if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2, {});
+  soften(factors_, of_loss_, result.i1, result.i2, {});
 }
 
 void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, AngularColumns& result) {
@@ -79,6 +90,17 @@ void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w
     result.slope1[i] = known ? (i1_[1][i] - i1_[0][i]) / apart : 0;
     result.slope2[i] = known ? (i2_[1][i] - i2_[0][i]) / apart : 0;
   }
+  if (factors_.empty()) return;
+  for (const std::size_t side : {0, 1}) curve.loss_part(around_[side], i2_[side]);
+  loss_slope_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool known = w[i] >= lowest && w[i] <= highest;
+    loss_slope_[i] = known ? (i2_[1][i] - i2_[0][i]) / std::log(around_[1][i] / around_[0][i]) : 0;
+  }
+  of_loss_.resize(n);
+  curve.loss_part(held, of_loss_);
+  soften(factors_, loss_slope_, result.slope1, result.slope2, {});
+  soften(factors_, of_loss_, result.i1, result.i2, {});
 }
 
 }  // namespace asperity

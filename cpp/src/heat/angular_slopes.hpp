@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "asperity/rubber.hpp"
+#include "contact/grid/excitation.hpp"
 
 namespace asperity {
 
@@ -18,7 +18,8 @@ struct AngularColumns {
 /// a master curve is held at its end. Whether the result stays inside is for the caller to check.
 class AngularSlopes {
  public:
-  explicit AngularSlopes(const Rubber& rubber);
+  /// `factors` of the waves that it is asked for, or none.
+  explicit AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors = {});
   /// I1 and I2 alone.
   void values(std::span<const double> w, AngularColumns& result);
   void operator()(std::span<const double> w, AngularColumns& result);
@@ -28,8 +29,9 @@ class AngularSlopes {
   void of_curve(const MasterCurve& curve, std::span<const double> w, AngularColumns& result);
 
   const Rubber& rubber_;
+  std::vector<ModulusFactors> factors_;
   std::vector<double> weight_;  // w_k of a series
-  std::vector<double> around_[2], i1_[2], i2_[2], held_;
+  std::vector<double> around_[2], i1_[2], i2_[2], held_, of_loss_, loss_slope_;
 };
 
 }  // namespace asperity

@@ -19,7 +19,8 @@ using Eigen::VectorXd;
 FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
     : scene_(scene),
       grid_(grid),
-      angular_(scene.rubber),
+      waves_(scene.rubber, scene.model, scene.surface),
+      angular_(scene.rubber, waves_.factors(grid)),
       contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid)),
       known_(known_range(scene.rubber)),
       table_(grid.temperature_points(), grid.wavenumber()),
@@ -244,7 +245,7 @@ double FlashMap::hysteresis_density(double wavenumber, double temperature) const
   if (!touches()) return 0;
   double w = reduced_frequency(wavenumber, temperature);
   if (known_) w = std::clamp(w, known_->lowest, known_->highest);
-  const AngularIntegrals at = angular_integrals(scene_.rubber, w);
+  const AngularIntegrals at = waves_(w, wavenumber);
   const double edges = mu_factor_ * contact_->density_of_edges(wavenumber, at.i1, at.i2);
   if (wavenumber > scene_.surface.back().b) return edges;
   const std::vector<HeatGrid::Cell>& cells = grid_.cells();

@@ -114,6 +114,7 @@ class FlashMap {
 
   const HeatScene& scene_;
   const HeatGrid& grid_;
+  Excitation waves_;
   AngularSlopes angular_;
   std::unique_ptr<Theory> contact_;
   std::optional<FrequencyRange> known_;

@@ -29,6 +29,8 @@ constexpr std::size_t most_nodes = 30'000;
 /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
 constexpr std::size_t pieces_rows = 16;
 constexpr double pieces_rtol = 1e-7;
+/// With factors of strain G at q_m is known to some 1e-7 alone, where rings scatter.
+constexpr double pieces_rtol_with_strain = 1e-6;
 
 int digits_of(std::size_t level) { return first_digits + digits_a_level * static_cast<int>(level); }
 
@@ -109,6 +111,7 @@ double macro_wavenumber(const Heating& heating, const Spectrum& spectrum) {
 FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
     : scene_(scene),
       branch_(branch),
+      kinks_(Excitation(scene.rubber, scene.model, scene.surface).stops()),
       known_(known_range(scene.rubber)),
       levels_(has_rows() ? levels_with_rows : levels),
       uniform_(scene) {
@@ -138,16 +141,20 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                                .level = level,
                                .tabulated = has_rows(),
                                .macro_wavenumber = scene_.macro_wavenumber,
-                               .stops = stops_,
+                               .stops = kinks_,
                                .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
                                .held_from = held_from_};
+    options.stops.insert(options.stops.end(), stops_.begin(), stops_.end());
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
-    const bool by_pieces =
-        table && stops_.empty() && scene_.model.rtol >= pieces_rtol && table->wavenumber().size() >= pieces_rows;
-    if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels))
-      options.pieces = &roughness_pieces(*table, level - 1);
-    else if (has_rows())
+    const bool by_pieces = table && stops_.empty() &&
+                           scene_.model.rtol >= (kinks_.empty() ? pieces_rtol : pieces_rtol_with_strain) &&
+                           table->wavenumber().size() >= pieces_rows;
+    if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels)) {
+      if (!kinks_.empty()) made.cut = std::make_unique<RoughnessPieces>(scene_.surface, level - 1, kinks_);
+      options.pieces = made.cut ? made.cut.get() : &roughness_pieces(*table, level - 1);
+    } else if (has_rows()) {
       options.halvings = level - (by_pieces ? 3 : 1);  // of some twice as many nodes as the last pieces
+    }
     made.grid = std::make_unique<HeatGrid>(scene_.surface, options,
                                            asperity_wavenumber(scene_.model.correction, scene_.spectrum));
     made.map = std::make_unique<FlashMap>(scene_, *made.grid);

@@ -50,6 +50,7 @@ class FlashSolver {
 
  private:
   struct Level {
+    std::unique_ptr<const RoughnessPieces> cut;  // where the waves' factors have kinks
     std::unique_ptr<HeatGrid> grid;
     std::unique_ptr<FlashMap> map;
     Eigen::MatrixXd up, down;  // between the level below and this one
@@ -64,7 +65,7 @@ class FlashSolver {
 
   const HeatScene& scene_;
   Branch branch_;
-  std::vector<double> stops_;
+  std::vector<double> kinks_, stops_;  // wavenumbers [1/m]
   std::optional<FrequencyRange> known_;
   std::optional<double> held_from_;  // [1/m]
   std::vector<Level> levels_;

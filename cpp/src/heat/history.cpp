@@ -110,6 +110,7 @@ double sliding_length(const HeatScene& scene, const HeatPoint& point) {
                                    .level = level,
                                    .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
                                    .macro_wavenumber = scene.macro_wavenumber,
+                                   .stops = Excitation(scene.rubber, scene.model, scene.surface).stops(),
                                    .beyond_end = std::holds_alternative<PartialContact>(scene.model.correction)};
   const HeatGrid grid(scene.surface, options, asperity_wavenumber(scene.model.correction, scene.spectrum));
   FlashMap map(scene, grid);

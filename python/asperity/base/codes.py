@@ -45,6 +45,8 @@ NOTES = {
     "shifts-relative": (NOTE, "shift factors of a file are 1 at another temperature"),
     "ramp-cut": (NOTE, "the ends of a temperature ramp tell no shift"),
     "rows-left-out": (NOTE, "rows of a file belong to another test"),
+    "strain-sweeps-differ": (NOTE, "how far strain sweeps of one rubber differ"),
+    "strain-beyond-sweeps": (NOTE, "a part of the hysteresis is of strains never measured"),
     "strain-ratios-held": (NOTE, "strain sweeps do not reach as far as the master curve"),
     "wlf-fit": (NOTE, "how well the shift factors follow WLF"),
     "no-wlf-fit": (NOTE, "why there is no WLF fit"),

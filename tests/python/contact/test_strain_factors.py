@@ -124,3 +124,29 @@ def test_bad_input(argument, values):
     with pytest.raises(asperity.InvalidInput) as error:
         StrainFactors(**{**good, **values})
     assert argument in str(error.value)
+
+
+def test_exact_contacts_of_a_scan_soften_too():
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2.5e3, q1=1.5e4)
+    scan = asperity.synthesize(road, shape=(96, 96), pixel_size=1e-4, seed=3)
+    rows = asperity.power_spectrum(scan, window="none", detrend=None).truncated(q0=2.5e3, q1=1.5e4)
+
+    def solved(rubber, factors=None, kind=None):
+        exact = kind or asperity.ScanContact(scan, periodic=True, tolerance=0.1)
+        point = {"pressure": 2e5, "velocity": 1e-2, "correction": exact}
+        return asperity.friction(rows, rubber, **point, strain_factors=factors)
+
+    half = asperity.PronySeries(
+        equilibrium_modulus=1.5e6,
+        moduli=0.5 * SERIES.moduli,
+        relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
+    )
+    found, expected, plain = solved(SERIES, constant(0.5, 0.5)), solved(half), solved(SERIES)
+    assert found.mu == pytest.approx(expected.mu, rel=1e-6)
+    assert found.contact_area == pytest.approx(expected.contact_area, rel=1e-6)
+    assert solved(SERIES, constant(1, 1)).mu == plain.mu
+    # exact contact and the rule soften alike
+    soft = solved(SERIES, PAYNE)
+    by_rule = solved(SERIES, PAYNE, PartialContact()).contact_area / plain.contact_area
+    assert 1.5 < soft.contact_area / plain.contact_area < 4
+    assert soft.contact_area / plain.contact_area == pytest.approx(by_rule, rel=0.15)

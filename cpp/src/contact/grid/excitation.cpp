@@ -58,6 +58,13 @@ bool Softening::idle() const {
          });
 }
 
+std::optional<double> Softening::held_from() const {
+  const double last = factors_.strain().back();
+  if (last == 0) return surface_.front().a;
+  if (!(last < strain_at_end_)) return std::nullopt;
+  return kinks_.back();
+}
+
 std::vector<ModulusFactors> Softening::at_nodes(const ContactGrid& grid) const {
   std::vector<ModulusFactors> result;
   result.reserve(grid.size());
@@ -76,6 +83,13 @@ Excitation::Excitation(const Rubber& rubber, const ContactModel& model, std::spa
     : rubber_(rubber) {
   if (model.strain_factors) softening_.emplace(*model.strain_factors, surface);
   if (softening_ && softening_->idle()) softening_.reset();
+}
+
+std::vector<double> Excitation::stops() const {
+  if (!softening_) return {};
+  std::vector<double> result = softening_->kinks();
+  result.push_back(softening_->end());
+  return result;
 }
 
 std::vector<ModulusFactors> Excitation::factors(const ContactGrid& grid) const {

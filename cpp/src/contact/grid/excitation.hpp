@@ -25,6 +25,8 @@ class Softening {
   [[nodiscard]] std::vector<ModulusFactors> at_nodes(const ContactGrid& grid) const;
   /// Whether all factors are 1 as far as the strain goes.
   [[nodiscard]] bool idle() const;
+  /// The wavenumber beyond which the strain is above the last row, none where it never is [1/m].
+  [[nodiscard]] std::optional<double> held_from() const;
   /// Where eps passes a row: the wavenumbers at which f and g have kinks [1/m].
   [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
 
@@ -52,6 +54,8 @@ class Excitation {
   [[nodiscard]] std::span<const double> kinks() const {
     return softening_ ? std::span<const double>(softening_->kinks()) : std::span<const double>();
   }
+  /// The same, and the end of the band, beyond which factors stay: where panels are to end.
+  [[nodiscard]] std::vector<double> stops() const;
   /// Of waves; none where they are all 1.
   [[nodiscard]] std::vector<ModulusFactors> factors(const ContactGrid& grid) const;
 

@@ -269,14 +269,24 @@ void ContactGrid::add_beyond(const ContactGridOptions& options) {
 void ContactGrid::add_macro_nodes(std::span<const Segment> surface, const ContactGridOptions& options) {
   const double longest = options.tabulated ? std::exp2(-static_cast<double>(options.level)) : 1;
   constexpr std::size_t most_nodes = 10;
-  const double length = std::log(options.macro_wavenumber) - start_;
-  if (!(length > 0)) return;
-  const double stretches = std::ceil(length / longest);
+  const double end = std::log(options.macro_wavenumber);
+  if (!(end > start_)) return;
+  std::vector<double> stops{start_, end}, ends;
+  for (const double q : options.stops)
+    if (const double at = std::log(q); at > start_ + same && at < end - same) stops.push_back(at);
+  if (!options.stops.empty())  // of strain, whose factors begin as the root of ln q
+    for (double part = (end - start_) / 16; part > 1e-5 * (end - start_); part /= 16) stops.push_back(start_ + part);
+  std::ranges::sort(stops);
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double length = stops[i + 1] - stops[i], parts = std::ceil(length / longest);
+    for (double k = 0; k < parts; ++k) ends.push_back(stops[i] + length * (k / parts));
+  }
+  ends.push_back(end);
   macro_weights_.resize(wavenumber_.size());
   const LegendreRule& rule = legendre_rule(8);
   std::size_t index = 0;
-  for (double k = 0; k < stretches; ++k) {
-    const double lower = start_ + length * (k / stretches), upper = start_ + length * ((k + 1) / stretches);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const double lower = ends[k], upper = ends[k + 1];
     std::vector<double> x, weight;
     while (index + 1 < surface.size() && std::log(surface[index].b) <= lower) ++index;
     for (std::size_t i = index; i < surface.size(); ++i) {

@@ -204,6 +204,19 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
   return sums.friction > 0 ? sum / sums.friction : 0;
 }
 
+double LevelSolver::share_beyond(double wavenumber) const {
+  if (!(sums_.friction > 0)) return 0;
+  const ContactGrid& grid = *solved_->grid;
+  const VectorXd& stress = solved_->theory->stress();
+  double sum = 0;
+  if (with_edges_ && grid.beyond().end->wavenumber > wavenumber)
+    sum = sums_.edges * grid.beyond().end->window * edges_.i1;
+  for (Index i = 0; i < stress.size(); ++i)
+    if (const auto at = static_cast<std::size_t>(i); grid.wavenumber()[at] > wavenumber)
+      sum += grid.weight()[i] * stress[i] * solved_->i1[at];
+  return std::fmin(1, sum / sums_.friction);
+}
+
 bool LevelSolver::solve(double pressure, double velocity, double shift) {
   const double root = 1 / (pressure * shift), scale = root * root, mu_factor = 4 * pressure / stiffening_ * scale;
   if (with_edges_ && velocity != velocity_) {
@@ -236,6 +249,7 @@ bool LevelSolver::solve(double pressure, double velocity, double shift) {
     coarse = &level;
     if (!(error <= 0.85 * model_.rtol)) continue;
     sums_ = now;
+    solved_ = &level;
     g_ = level.theory->unit_g() * scale;
     error_ = std::fmax(error, least_error * model_.rtol);
     const double share = analytic_ ? outside : outside_share(level, now);

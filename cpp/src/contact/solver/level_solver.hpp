@@ -36,6 +36,8 @@ class LevelSolver {
   /// G at the end of the spectrum, before kappa; the relative error of it and of the area, which PartialContact has
   /// among its sums.
   [[nodiscard]] double g() const { return g_; }
+  /// The share of friction from beyond a wavenumber [1/m], all of the edges' or nothing.
+  [[nodiscard]] double share_beyond(double wavenumber) const;
   [[nodiscard]] double relative_error() const { return error_; }
 
  private:
@@ -75,6 +77,7 @@ class LevelSolver {
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;
   PanelSolver::Hysteresis hysteresis_;
+  const Level* solved_ = nullptr;  // the finer of the last two
   double g_ = 0, error_ = 0;
 };
 

@@ -123,6 +123,17 @@ std::vector<PanelSolver::PanelShare> Solver::shares() const {
   return result;
 }
 
+double Solver::share_of_held_strains() const {
+  const std::optional<double> from = waves_.softening() ? waves_.softening()->held_from() : std::nullopt;
+  const double whole = hysteresis().value;
+  if (!from || !(whole > 0)) return 0;
+  if (by_levels_) return levels_->share_beyond(*from);
+  double sum = 0;
+  for (const auto& [lower, upper, part] : shares())
+    if (std::sqrt(lower * upper) > *from) sum += part;
+  return std::fmin(1, sum / whole);
+}
+
 std::vector<std::size_t> by_velocity(std::span<const double> velocity) {
   std::vector<std::size_t> order(velocity.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

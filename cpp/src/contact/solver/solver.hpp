@@ -48,6 +48,8 @@ class Solver {
   }
   [[nodiscard]] double stress(double wavenumber) const { return partial_->stress(wavenumber); }
   [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
+  /// Share of the hysteresis from strains beyond the last row of factors, to a hundredth.
+  [[nodiscard]] double share_of_held_strains() const;
 
  private:
   void start(double velocity);
