@@ -41,7 +41,7 @@ from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
 from asperity.sweep.run import sweep
-from asperity.sweeps import Isotherm, StrainFactors, StrainSweep
+from asperity.sweeps import Isotherm, StrainFactors, StrainSweep, strain_factors
 from asperity.tiles.statistics import HeightStatistics, height_statistics
 from asperity.uncertainty.band import FrictionBand, friction_band
 
@@ -111,6 +111,7 @@ __all__ = [
     "report",
     "separation",
     "spectral_density",
+    "strain_factors",
     "sweep",
     "synthesize",
     "validation",

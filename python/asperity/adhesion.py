@@ -28,6 +28,7 @@ from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
 from asperity.rubber import Rubber
 from asperity.spectrum import Spectrum
+from asperity.sweeps import StrainFactors
 
 __all__ = ["Adhesion", "AdhesionFit", "fit_adhesion"]
 
@@ -162,6 +163,7 @@ def fit_adhesion(
     form: Form = "exact",
     rtol: float = 1e-6,
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
 ) -> AdhesionFit:
     """Fit tau_f0, v0 and c of Eq. 23 to measured friction.
 
@@ -185,7 +187,7 @@ def fit_adhesion(
     fixed : dict, optional
         Parameters to hold, up to two of shear_stress [Pa], reference_velocity [m/s], width [-]:
         {"width": 0.1}.
-    poisson_ratio, correction, form, rtol, method
+    poisson_ratio, correction, form, rtol, method, strain_factors
         As of `friction`.
 
     Returns
@@ -230,7 +232,7 @@ def fit_adhesion(
     held = _held(fixed)
     parameters, covariance, residual, outliers, notes = _core.fit_adhesion(
         *surface_and_rubber(spectrum, rubber),
-        contact_model(poisson_ratio, correction, form, rtol, method),
+        contact_model(poisson_ratio, correction, form, rtol, method, strain_factors),
         p,
         v,
         measured.ravel(),

@@ -2,11 +2,24 @@
 softens a rubber."""
 
 from collections.abc import Iterable
+from dataclasses import field
 from typing import Any
 
 from asperity import _core
-from asperity.base.arguments import ABSENT, Array, Given, Vector, frozen, notes_of, of_kind
-from asperity.base.diagnostics import Note
+from asperity.base.arguments import (
+    ABSENT,
+    Array,
+    Given,
+    OptionalVector,
+    Vector,
+    frozen,
+    many,
+    notes_of,
+    number,
+    number_or_none,
+    of_kind,
+)
+from asperity.base.diagnostics import Note, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
 
@@ -154,7 +167,7 @@ class StrainSweep(Table, CoreValue):
 
 
 @value
-class StrainFactors(Table, CoreValue):
+class StrainFactors(Table):
     """Factors of E' and E'' over strain, for the strain that each magnification brings.
 
     E'(w, q) = f(eps(q)) E'(w) and E''(w, q) = g(eps(q)) E''(w), eps(q) = strain_per_slope h'(q),
@@ -164,7 +177,8 @@ class StrainFactors(Table, CoreValue):
 
     It is the field's practice for filled rubber, whose modulus falls with strain (Payne), and no
     derivation: what `strain_per_slope` is, and which kind of strain the sweeps have (the amplitude
-    in shear or in tension, or peak to peak), is for the caller to state.
+    in shear or in tension, or peak to peak), is for the caller to state. Greenwood-Williamson's
+    separation keeps the modulus of small strain, since its asperities begin the roughness.
 
     Parameters
     ----------
@@ -174,6 +188,13 @@ class StrainFactors(Table, CoreValue):
         f, g [-], positive: E' and E'' over those of the master curve's strain. g may rise first.
     strain_per_slope : float
         Strain per rms slope [-], of order 0.5.
+    storage_error, loss_error : array_like, shape (n,), optional
+        Standard deviations of ln f and ln g, which `friction_band` draws from.
+
+    Attributes
+    ----------
+    notes : tuple of Note
+        What `strain_factors` found.
 
     Raises
     ------
@@ -199,6 +220,18 @@ class StrainFactors(Table, CoreValue):
     storage: Vector
     loss: Vector
     strain_per_slope: float = 0.5
+    storage_error: OptionalVector = ABSENT
+    loss_error: OptionalVector = ABSENT
+    notes: tuple[Note, ...] = field(default=(), init=False)
+
+    def __post_init__(self) -> None:
+        taken = self._take()
+        rows = [taken[name] for name in ("strain", "storage", "loss", "strain_per_slope")]
+        self._set(_core=_core.StrainFactors(*rows))
+        for name in ("storage_error", "loss_error"):
+            error = getattr(self, name)
+            if error is not None and (error.shape != self.strain.shape or not (error >= 0).all()):
+                raise refusal(name, error, f"{self.strain.size} numbers of 0 or more")
 
     def _columns(self) -> Columns:
         over = ("strain",)
@@ -224,3 +257,52 @@ def strain_core(strain_factors: StrainFactors | None) -> Any:
     if strain_factors is None:
         return None
     return of_kind(strain_factors, "strain_factors", StrainFactors)._core
+
+
+def strain_factors(
+    sweeps: Iterable[StrainSweep],
+    *,
+    reference_strain: float | None = None,
+    strain_per_slope: float = 0.5,
+) -> StrainFactors:
+    """Return the factors of E' and E'' over strain that sweeps of strain have.
+
+    Each sweep is divided by its own E' and E'' at the reference, by ln E linear in ln strain. Of
+    several, whatever their temperatures and frequencies, ln f and ln g are means, which beyond the
+    end of one go on by what the others change; a note tells how far they differ, and so do
+    `storage_error` and `loss_error`.
+
+    Parameters
+    ----------
+    sweeps : iterable of StrainSweep
+        With the kind of strain that `strain_per_slope` is meant for.
+    reference_strain : float, optional
+        That of the master curve [-], at and below which the factors are 1; by default the lowest
+        that all sweeps have.
+    strain_per_slope : float
+        As for `StrainFactors`.
+
+    Returns
+    -------
+    StrainFactors
+
+    Raises
+    ------
+    InvalidInput
+    OutOfRange
+        The sweeps do not hold the reference.
+    """
+    cores = [sweep._core for sweep in many(sweeps, "sweeps", StrainSweep)]
+    reference = number_or_none(reference_strain, "reference_strain")
+    per_slope = number(strain_per_slope, "strain_per_slope")
+    strain, storage, loss, *errors, notes = _core.strain_factors(cores, reference, per_slope)
+    made = StrainFactors(
+        strain=strain,
+        storage=storage,
+        loss=loss,
+        strain_per_slope=per_slope,
+        storage_error=errors[0] if len(cores) > 1 else None,
+        loss_error=errors[1] if len(cores) > 1 else None,
+    )
+    made._set(notes=notes)
+    return made

@@ -142,6 +142,15 @@ py::tuple large_strain(const MasterCurve& curve, const ShiftTable& shift_factors
   return py::make_tuple(std::move(large.master_curve), tuple_of(large.notes));
 }
 
+/// (strain, f, g, their errors, notes)
+py::tuple ratios_of(const std::vector<StrainSweep>& sweeps, std::optional<double> reference, double strain_per_slope) {
+  StrainRatios ratios = released([&] { return strain_factors(sweeps, reference, strain_per_slope); });
+  const StrainFactors& f = ratios.factors;
+  return py::make_tuple(array_of(f.strain()), array_of(f.storage()), array_of(f.loss()),
+                        array_of(std::move(ratios.storage_error)), array_of(std::move(ratios.loss_error)),
+                        tuple_of(ratios.notes));
+}
+
 }  // namespace
 
 void bind_dma(py::module_& m) {
@@ -152,6 +161,7 @@ void bind_dma(py::module_& m) {
   m.def("draw_master_curve", &drawn);
   m.def("fit_prony", &fitted);
   m.def("at_strain", &large_strain);
+  m.def("strain_factors", &ratios_of);
 }
 
 }  // namespace asperity::python

@@ -11,6 +11,7 @@
 
 #include "asperity/export.hpp"
 #include "asperity/rubber.hpp"
+#include "asperity/strain_factors.hpp"
 
 namespace asperity {
 
@@ -191,5 +192,18 @@ struct LargeStrain {
 /// a_T(T) w, interpolated in ln w, held beyond the first and the last sweep.
 ASPERITY_EXPORT LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts, double strain,
                                       std::span<const StrainSweep> sweeps);
+
+/// Factors over strain by sweeps, with the standard deviations of ln f and ln g among sweeps at each row, 0 of one.
+struct StrainRatios {
+  StrainFactors factors;
+  std::vector<double> storage_error, loss_error;
+  std::vector<Diagnostic> notes;
+};
+/// E' and E'' over those at `reference_strain` [-], the strain of the master curve: by default the lowest that all
+/// sweeps have, and at and below it 1. Of several sweeps, whatever their temperatures and frequencies, ln f and ln g
+/// rise by the mean of those that reach so far; between rows ln E is linear in ln strain.
+ASPERITY_EXPORT StrainRatios strain_factors(std::span<const StrainSweep> sweeps,
+                                            std::optional<double> reference_strain = std::nullopt,
+                                            double strain_per_slope = 0.5);
 
 }  // namespace asperity

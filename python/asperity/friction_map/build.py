@@ -17,6 +17,7 @@ from asperity.heating import Heating
 from asperity.rubber import Rubber
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.spectrum import Spectrum
+from asperity.sweeps import StrainFactors
 
 __all__ = ["friction_map"]
 
@@ -33,6 +34,7 @@ def friction_map(
     adhesion: Adhesion | None = None,
     form: Form = "exact",
     method: Method = "gauss",
+    strain_factors: StrainFactors | None = None,
     checked: int = 1_000_000,
     text: str = "",
     threads: int | None = None,
@@ -57,7 +59,7 @@ def friction_map(
 
     Parameters
     ----------
-    spectrum, rubber, poisson_ratio, correction, adhesion, form, method
+    spectrum, rubber, poisson_ratio, correction, adhesion, form, method, strain_factors
         As for `friction`.
     pressure, velocity : (lo, hi)
         The map's box [Pa], [m/s].
@@ -116,7 +118,7 @@ def friction_map(
     if progress is not None and not callable(progress):
         raise refusal("progress", progress, "a function, or None")
     parts = surface_and_rubber(spectrum, rubber)
-    model = contact_model(poisson_ratio, correction, form, 1e-6, method)
+    model = contact_model(poisson_ratio, correction, form, 1e-6, method, strain_factors)
     added = adhesion_core(adhesion)
     made_of: dict[str, Any] = {
         "spectrum": spectrum,
@@ -124,6 +126,8 @@ def friction_map(
         "correction": correction,
         "adhesion": adhesion,
     }
+    if strain_factors is not None:
+        made_of["strain_factors"] = strain_factors
     heat = None
     if heating is not None or temperature is not None or shift is not None:
         law, sides = _law(rubber, temperature, shift, heating)

@@ -14,4 +14,4 @@ CONDITIONS = {**POINTS, **TEMPERATURE, **fields_of(friction, "poisson_ratio")}
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
 UNCERTAINTY = fields_of(friction_band, "samples", "seed", "level")
-NOTED = {"heating": "[heating]"}  # arguments that notes name
+NOTED = {"heating": "[heating]", "strain_factors": "[rubber] strain"}  # arguments that notes name

@@ -17,4 +17,10 @@ KEYS: dict[str, dict[str, Field]] = {
     "uncertainty": UNCERTAINTY,
 }
 KEYS_OF_KIND = CORRECTIONS  # the keys of [correction] that go with each kind
-FILES = ("surface.file", "rubber.master_curve", "rubber.shift", "rubber.isotherms")
+FILES = (
+    "surface.file",
+    "rubber.master_curve",
+    "rubber.shift",
+    "rubber.isotherms",
+    "rubber.strain_sweeps",
+)

@@ -47,6 +47,7 @@ _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 _OF_MODULUS = {"modulus-extrapolated", "modulus-unmeasured"}  # notes on all points together
+_OF_STRAIN = "strain-beyond-sweeps"
 
 
 @value
@@ -123,6 +124,7 @@ class Scene:
         scans = self.inputs["surface"].get("file")
         names = [*(scans if isinstance(scans, list) else [scans]), rubber.get("master_curve")]
         names += [rubber.get("shift"), *rubber.get("isotherms", [])]
+        names += rubber.get("strain_sweeps", [])
         return [self.path, *(self.path.parent / name for name in names if name is not None)]
 
     @property
@@ -138,6 +140,9 @@ class Scene:
         share = np.concatenate([part.extrapolated_share for part in parts])
         found = [note for part in parts for note in part.notes if note.code not in _OF_MODULUS]
         found = [*self._with_size_of_heat(found), *extrapolation_notes(self.points[1], share)]
+        held = [note for note in found if note.code == _OF_STRAIN]
+        most = max(held, key=_share, default=None)  # of all points
+        found = [note for note in found if note.code != _OF_STRAIN or note is most]
         named = partial(in_keys, names=NOTED)
         notes = fatal_first([*self.notes, *(note.said(named) for note in found)])
         return SceneFriction._made(vars(joined(parts, shape)), notes=tuple(notes))
@@ -224,7 +229,8 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        options = {name: self.options[name] for name in ("poisson_ratio", "form")}
+        held = ("poisson_ratio", "form", "strain_factors")
+        options = {name: self.options[name] for name in held if name in self.options}
         options["correction"] = self.correction
         rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
         if self.heating is not None:
@@ -332,3 +338,8 @@ class Scene:
 def _known(one: Any) -> Any:
     assert one is not None
     return one
+
+
+def _share(note: Note) -> float:
+    assert isinstance(note.value, float)
+    return note.value

@@ -48,8 +48,9 @@ from asperity.scene.shift import (
     shift_of,
     shift_table,
 )
+from asperity.scene.strain import STRAIN, build_strain
 from asperity.shift_factors import TemperatureShift
-from asperity.sweeps import Isotherm
+from asperity.sweeps import Isotherm, StrainFactors
 from asperity.uncertainty.draws import (
     Drawn,
     Generator,
@@ -82,6 +83,7 @@ RUBBER = {
     **WLF_KEYS,
     **_PRONY_FIT,
     "extrapolation": Field(text, "extrapolation"),
+    **STRAIN,
 }
 # which keys go with which source of the modulus
 _WITH = {
@@ -105,6 +107,7 @@ class BuiltRubber:
     drawn_at_reference: Drawn[ShiftedRubber] | None = None  # with its shift
     isotherms: Sequence[Isotherm] = ()  # as they were read, and what was made of them
     build: MasterCurveBuild | None = None
+    strain_factors: StrainFactors | None = None  # of the strain of each magnification
 
 
 def build_rubber(
@@ -116,9 +119,20 @@ def build_rubber(
     values = read_table(path, "rubber", table, RUBBER)
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
-        if key != source and key not in _WITH[source]:
+        if key != source and key not in _WITH[source] and key not in STRAIN:
             given = f"{source} is given" if source else "neither isotherms nor master_curve is"
             refuse(path, f"[rubber] {key}", f"must be left out where {given}")
+    factors = build_strain(path, values)
+    built = _at(path, values, source, temperature, measure)
+    if factors is None:
+        return built
+    return replace(built, strain_factors=factors, notes=[*built.notes, *factors.notes])
+
+
+def _at(
+    path: Path, values: Values, source: str, temperature: float | None, measure: Measured
+) -> BuiltRubber:
+    """The rubber at a temperature [K] of the conditions, or that of its own table."""
     if temperature is None:
         kelvin = _in_kelvin(path, values)
         built = _build(path, source, kelvin, measure)

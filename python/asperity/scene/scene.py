@@ -157,7 +157,11 @@ def build_scene(
         velocity=points["velocity_m_s"],
         correction=correction,
         adhesion=adhesion,
-        options={**arguments(conditions, CONDITIONS), **arguments(solver, SOLVER)},
+        options={
+            **arguments(conditions, CONDITIONS),
+            **arguments(solver, SOLVER),
+            **({"strain_factors": softer} if (softer := rubber.strain_factors) else {}),
+        },
         inputs=inputs,
         sampling=sampling,
         stated_rtol=stated_rtol,

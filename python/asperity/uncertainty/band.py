@@ -24,11 +24,13 @@ from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.sweeps import StrainFactors, strain_core
 from asperity.uncertainty.draws import (
     Drawn,
     Generator,
     ShiftedRubber,
     draw_adhesion,
+    draw_strain,
     drawn_rubber,
     drawn_shifted,
     drawn_spectrum,
@@ -110,6 +112,7 @@ def friction_band(
     correction: Correction | None = None,
     adhesion: Adhesion | None = None,
     form: Literal["exact", "interpolated"] = "exact",
+    strain_factors: StrainFactors | None = None,
     samples: int = 100,
     seed: int = 0,
     level: float = 0.95,
@@ -142,6 +145,8 @@ def friction_band(
         scan's quarters, by Student's t of three degrees of freedom. A spectrum is then drawn beyond
         the scan's waves alone, and a rubber changes mu as with PartialContact: no contact is solved
         for a draw.
+    strain_factors : StrainFactors, optional
+        As for `friction`. Where they have errors, f is drawn as a whole, and so is g.
     samples : int
         Draws, 20 or more.
     seed : int
@@ -166,6 +171,7 @@ def friction_band(
     of_kind(spectrum, "spectrum", SelfAffineFit, SelfAffineSpectrum, TabulatedSpectrum)
     of_kind(rubber, "rubber", MasterCurveBuild, MasterCurve, PronySeries)
     adhesion_core(adhesion)
+    strain_core(strain_factors)
     if isinstance(rubber, PronyFit):
         raise InvalidInput(
             Argument("rubber"),
@@ -173,17 +179,19 @@ def friction_band(
         )
     surface, solid = drawn_spectrum(spectrum), drawn_rubber(rubber)
     with_errors = isinstance(adhesion, AdhesionFit) or isinstance(correction, ScanContact)
+    with_errors |= strain_factors is not None and strain_factors.storage_error is not None
     if surface.draw is None and solid.draw is None and not with_errors:
         raise InvalidInput(
             "spectrum, rubber, adhesion, correction: none has errors: one must be a SelfAffineFit, "
-            "a TabulatedSpectrum with standard_error, a MasterCurveBuild, an AdhesionFit or a "
-            "ScanContact"
+            "a TabulatedSpectrum with standard_error, a MasterCurveBuild, an AdhesionFit, a "
+            "ScanContact or StrainFactors of several sweeps"
         )
     plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {
         "poisson_ratio": poisson_ratio,
         "correction": correction,
         "form": form,
+        "strain_factors": strain_factors,
         "heating": heating,
         "branch": branch,
     }
@@ -242,9 +250,18 @@ def relative_band(
     rng = np.random.default_rng(seed)
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
 
-    def at_points(surface: Spectrum, solid: Solid, added: Adhesion | None) -> Friction:
+    softening = options.pop("strain_factors", None)
+
+    def at_points(
+        surface: Spectrum,
+        solid: Solid,
+        added: Adhesion | None,
+        softer: StrainFactors | None = softening,
+    ) -> Friction:
         plain, shift = solid if isinstance(solid, ShiftedRubber) else (solid, None)
-        return friction(surface, plain, shift=shift, adhesion=added, **options)
+        return friction(
+            surface, plain, shift=shift, adhesion=added, strain_factors=softer, **options
+        )
 
     scan, held, fitted_on = options.get("correction"), None, spectrum.plain
     if isinstance(scan, ScanContact):
@@ -256,7 +273,7 @@ def relative_band(
     else:
         centre = at_points(spectrum.plain, rubber.plain, adhesion).mu
 
-    def draw() -> tuple[Spectrum, Solid, Adhesion | None, float]:
+    def draw() -> tuple[Spectrum, Solid, Adhesion | None, StrainFactors | None, float]:
         surface, solid = spectrum(rng), rubber(rng)
         if refit is None:
             added = draw_adhesion(adhesion, rng)
@@ -264,10 +281,17 @@ def relative_band(
             of_fit = rubber.plain if held else solid
             plain = of_fit.rubber if isinstance(of_fit, ShiftedRubber) else of_fit
             added = refit(fitted_on if held else surface, plain, rng)
-        return surface, solid, added, held.draw() if held else 0.0
+        softer = draw_strain(softening, rng)
+        return surface, solid, added, softer, held.draw() if held else 0.0
 
-    def curve(surface: Spectrum, solid: Solid, added: Adhesion | None, scatter: float) -> Any:
-        found = at_points(surface, solid, added)
+    def curve(
+        surface: Spectrum,
+        solid: Solid,
+        added: Adhesion | None,
+        softer: StrainFactors | None,
+        scatter: float,
+    ) -> Any:
+        found = at_points(surface, solid, added, softer)
         return held.mu(found, scatter) if held else found.mu
 
     found: list[Any] = []

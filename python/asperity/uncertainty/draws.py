@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.dma import MasterCurveBuild, draw_master_curve
@@ -13,6 +14,7 @@ from asperity.rubber import MasterCurve, Rubber
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.sweeps import StrainFactors
 
 if TYPE_CHECKING:
     Generator = np.random.Generator  # which NumPy loads when it is asked for
@@ -138,3 +140,20 @@ def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:
                 reference_velocity=source.reference_velocity * float(np.exp(drawn[1])),
                 width=source.width + drawn[2],
             )
+
+
+def draw_strain(factors: StrainFactors | None, rng: Generator) -> StrainFactors | None:
+    """Factors as their errors would have them: sweeps differ as a whole, not from row to row."""
+    if factors is None or (factors.storage_error is None and factors.loss_error is None):
+        return factors
+    of_storage, of_loss = rng.standard_normal(2)
+    return StrainFactors(
+        strain=factors.strain,
+        storage=factors.storage * np.exp(of_storage * _errors(factors.storage_error)),
+        loss=factors.loss * np.exp(of_loss * _errors(factors.loss_error)),
+        strain_per_slope=factors.strain_per_slope,
+    )
+
+
+def _errors(error: NDArray[np.float64] | None) -> Any:
+    return 0.0 if error is None else error

@@ -318,6 +318,7 @@ CALLS = {
     "friction": SLIDES,
     "friction_band": {**SLIDES, "spectrum": FITTED_ROAD, "samples": 20},
     "friction_map": {**SLIDES, "pressure": (1e5, 2e5), "velocity": (0.01, 1.0), "checked": 1},
+    "strain_factors": {"sweeps": SWEEPS},
     "heat_kernel": {
         "q": 2e3,
         "q_prime": [2e3, 1e4],

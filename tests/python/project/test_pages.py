@@ -17,6 +17,7 @@ from asperity.cli.parser import parser
 from asperity.io.fields import without_unit
 from asperity.scene.known import KEYS, KEYS_OF_KIND
 from asperity.scene.scene import load_scene
+from helpers.examples import SWEEPS
 from helpers.measured import present
 
 ROOT = Path(__file__).parents[3]
@@ -87,6 +88,7 @@ def names_before() -> dict[str, object]:
         "rubber": asperity.fit_prony(build),
         "build": build,
         "adhesion": asperity.Adhesion(shear_stress=8.3e6),
+        "sweeps": SWEEPS,
     }
 
 

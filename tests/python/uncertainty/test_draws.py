@@ -1,6 +1,7 @@
 """Draws of fitted inputs: spread and correlation are those of the fit's covariance."""
 
 import numpy as np
+import pytest
 
 import asperity
 from asperity.uncertainty.draws import draw_adhesion, draw_fit
@@ -48,3 +49,32 @@ def test_drawn_adhesions_have_the_fits_covariance():
     draws = [draw_adhesion(fit, rng) for _ in range(4000)]
     drawn = [[np.log(d.shear_stress), np.log(d.reference_velocity), d.width] for d in draws]
     check(np.array(drawn), covariance)
+
+
+def test_factors_of_strain_are_drawn_as_a_whole():
+    rows = {"strain": [0.01, 0.1, 0.5], "storage": [0.8, 0.5, 0.3], "loss": [1.2, 0.8, 0.4]}
+    errors = {"storage_error": [0.1, 0.1, 0.1], "loss_error": [0.1, 0.1, 0.1]}
+    road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
+    rubber = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e9], relaxation_times=[1e-6])
+    scene = {"pressure": 1e7, "velocity": 1e-2, "samples": 400}
+    band = asperity.friction_band(
+        road, rubber, **scene, strain_factors=asperity.StrainFactors(**rows, **errors)
+    )
+    mu = [
+        asperity.friction(
+            road,
+            rubber,
+            pressure=1e7,
+            velocity=1e-2,
+            strain_factors=asperity.StrainFactors(
+                **rows | {"loss": np.multiply(rows["loss"], np.exp(0.1 * z))}
+            ),
+        ).mu
+        for z in (-1.96, 1.96)
+    ]
+    # hardly more than that of g alone, in proportion to which mu is at a high load
+    assert band.lower < mu[0] * 1.02
+    assert band.upper > mu[1] * 0.98
+    assert band.upper / band.lower < 1.3 * mu[1] / mu[0]
+    with pytest.raises(asperity.InvalidInput, match="none has errors"):
+        asperity.friction_band(road, rubber, **scene, strain_factors=asperity.StrainFactors(**rows))

@@ -112,6 +112,7 @@ METHODS = {
 QUICK = {"hertz_penetration", "read_isotherms", "read_shift_factors", "read_strain_sweep"}
 QUICK |= {"read_surface", "friction_band", "export_fmu", "sweep", "report"}
 QUICK |= {"read_master_curve", "prony_input"}
+QUICK |= {"strain_factors"}
 QUICK |= {"height_statistics"}  # computed by NumPy
 
 
