@@ -52,6 +52,12 @@ void bind_rubber(py::classh<R>& rubber) {
                (void)r.angular_integrals(part, {i1, part.size()}, {i2, part.size()});
              });
            })
+      .def("angular_harmonics",
+           [](const R& r, const Array& w, std::size_t count) {
+             const std::span<const double> at = span_of(w);
+             const AngularHarmonics all = released([&] { return angular_harmonics(Rubber(r), at, count); });
+             return py::make_tuple(array_of(all.loss), array_of(all.square));
+           })
       .def("shifted", &R::shifted, py::call_guard<Released>());
 }
 

@@ -23,6 +23,15 @@ struct AngularIntegrals {
   double i2_outside = 0;  // [Pa^2]
 };
 
+/// Harmonics of the rubber on a circle of wavevectors, L_k = int_0^2pi cos((2 k + 1) phi) Im E(w cos phi) dphi and
+/// K_k = int_0^2pi cos(2 k phi) |E(w cos phi)|^2 dphi. Rows of k, an entry a frequency in each; L_0 = I1, K_0 = I2.
+/// With them int cos(phi) cos(2 m phi) Im E dphi = (L_m-1 + L_m) / 2 and int sin(phi) sin(2 m phi) Im E dphi =
+/// (L_m-1 - L_m) / 2.
+struct AngularHarmonics {
+  std::vector<double> loss;    // L_k [Pa]
+  std::vector<double> square;  // K_k [Pa^2]
+};
+
 /// Angular frequencies from the lowest to the highest [rad/s].
 struct FrequencyRange {
   double lowest, highest;
@@ -46,6 +55,9 @@ class ASPERITY_EXPORT PronySeries {
   /// have been written otherwise.
   [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
                                        std::span<double> i1_outside = {}) const;
+  /// L_1 to L_count and K_1 to K_count into rows of w.size().
+  void angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+                         std::span<double> square) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w), known where a_T w is.
   [[nodiscard]] PronySeries shifted(double a_T) const;
   /// The same series as one that was fitted on these frequencies; `extrapolated`: it may be asked beyond them.
@@ -97,6 +109,9 @@ class ASPERITY_EXPORT MasterCurve {
                                        std::span<double> i1_outside = {}) const;
   /// int (Im E(w cos phi))^2 dphi at each of `w`, the part of I2 that E'' has [Pa^2].
   void loss_part(std::span<const double> w, std::span<double> part) const;
+  /// L_1 to L_count and K_1 to K_count into rows of w.size(), to 1e-9 of L_0 and K_0.
+  void angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+                         std::span<double> square) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;
@@ -125,6 +140,10 @@ ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double 
 /// outside of the measured range; `i1_outside` may not have been written then.
 ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency,
                                        std::span<double> i1, std::span<double> i2, std::span<double> i1_outside);
+
+/// Rows of k from 0 to `count`.
+ASPERITY_EXPORT AngularHarmonics angular_harmonics(const Rubber& rubber, std::span<const double> angular_frequency,
+                                                   std::size_t count);
 
 /// 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2 (Eq. 15) [Pa].
 ASPERITY_EXPORT double effective_modulus(double modulus, double poisson_ratio,

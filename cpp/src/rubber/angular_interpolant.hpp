@@ -28,6 +28,7 @@ class AngularTable {
   /// At each of `w`; true if more than 1e-7 of an I1 comes from outside of the measured range. `i1_outside` may be
   /// null.
   bool operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const;
+  [[nodiscard]] const AngularSums& sums() const { return sums_; }
 
  private:
   struct Part;

@@ -8,6 +8,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
 #include "numerics/shown_range.hpp"
+#include "rubber/angular_harmonics.hpp"
 #include "rubber/angular_interpolant.hpp"
 
 namespace asperity {
@@ -74,6 +75,7 @@ struct MasterCurve::Table {
   };
   mutable std::once_flag loss_made;
   mutable std::unique_ptr<const LossAlone> loss_alone;
+  HarmonicTables harmonics;
 
   Table(std::vector<double> w, std::vector<double> e1, std::vector<double> e2, std::optional<Extrapolation> beyond)
       : frequency(std::move(w)),
@@ -167,6 +169,13 @@ void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) c
   for (const double one : w) table_->check(one);
   std::vector<double> i1(w.size());
   (void)table_->of_loss()(w, i1.data(), part.data(), nullptr);
+}
+
+void MasterCurve::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+                                    std::span<double> square) const {
+  require_harmonics(w, count, loss, square);
+  for (const double one : w) table_->check(one);
+  table_->harmonics.of(table_->angular, table_->pieces.front(), count)(w, count, loss.data(), square.data());
 }
 
 MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {

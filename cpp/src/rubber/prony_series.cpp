@@ -2,6 +2,7 @@
 // closed form. A series that was fitted tells which parts of them come from beyond the frequencies it was fitted on.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -9,6 +10,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/kernels.hpp"
 #include "numerics/shown_range.hpp"
+#include "rubber/angular_harmonics.hpp"
 
 namespace asperity {
 
@@ -166,6 +168,34 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   return any;
 }
 
+void PronySeries::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+                                    std::span<double> square) const {
+  require_harmonics(w, count, loss, square);
+  for (const double one : w) {
+    require_not_negative("angular_frequency", one);
+    check_fitted(one);
+  }
+  constexpr double most = 1e150;  // of w tau, beyond which nothing changes
+  const double fastest = longest_ > 0 ? most / longest_ : std::numeric_limits<double>::max();
+  const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
+  const std::size_t n = w.size(), whole = n % lanes == 0 && (n == 0 || std::ranges::max(w) < fastest) ? n : 0;
+  if (whole == n) {
+    kernels().prony_harmonics(terms, w.data(), n, count, loss.data(), square.data());
+    return;
+  }
+  std::vector<double> first(count * lanes), second(count * lanes);
+  for (std::size_t i = 0; i < n; i += lanes) {
+    double at[lanes];
+    for (std::size_t k = 0; k < lanes; ++k) at[k] = std::fmin(w[std::min(i + k, n - 1)], fastest);
+    kernels().prony_harmonics(terms, at, lanes, count, first.data(), second.data());
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t k = 0; k < std::min(lanes, n - i); ++k) {
+        loss[j * n + i + k] = first[j * lanes + k];
+        square[j * n + i + k] = second[j * lanes + k];
+      }
+  }
+}
+
 PronySeries PronySeries::shifted(double a_T) const {
   require_positive("a_T", a_T);
   std::vector<double> times = times_;
@@ -207,6 +237,19 @@ std::complex<double> modulus(const Rubber& rubber, double angular_frequency) {
 
 AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency) {
   return std::visit([&](const auto& r) { return r.angular_integrals(angular_frequency); }, rubber);
+}
+
+AngularHarmonics angular_harmonics(const Rubber& rubber, std::span<const double> angular_frequency, std::size_t count) {
+  const std::size_t n = angular_frequency.size();
+  AngularHarmonics result{std::vector<double>((count + 1) * n), std::vector<double>((count + 1) * n)};
+  const std::span<double> loss(result.loss), square(result.square);
+  std::visit(
+      [&](const auto& r) {
+        (void)r.angular_integrals(angular_frequency, loss.first(n), square.first(n));
+        r.angular_harmonics(angular_frequency, count, loss.subspan(n), square.subspan(n));
+      },
+      rubber);
+  return result;
 }
 
 bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, std::span<double> i1,

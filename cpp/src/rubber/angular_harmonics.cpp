@@ -1,0 +1,162 @@
+// The harmonics of a measured modulus on a circle of wavevectors, by a recurrence in their number: with
+// D_n = int cos(n phi) f'(w cos phi) dphi, F_n' = (D_n-1 + D_n+1) / 2 and n F_n / w = (D_n-1 - D_n+1) / 2 by parts.
+#include "rubber/angular_harmonics.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/arguments.hpp"
+#include "numerics/chebyshev.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t order = AngularSums::together;
+using Values = Eigen::Matrix<double, order, 1>;
+using Matrix = Eigen::Matrix<double, order, order>;
+
+/// Integrals of the polynomial through values at Chebyshev's zeros, from -1 to each zero and to 1.
+struct Integrals {
+  ChebyshevZeros<order> zeros;
+  Matrix to_node;
+  Values to_end;
+  Integrals() {
+    for (std::size_t j = 0; j < order; ++j) {
+      std::array<double, order> unit{};
+      unit[j] = 1;
+      const std::array<double, order + 1> integral = integral_of(zeros.series(unit));
+      const auto at = [&](double u) {
+        const std::array<double, order + 1> value = chebyshev<order + 1>(u);
+        double sum = 0;
+        for (std::size_t m = 0; m <= order; ++m) sum += integral[m] * value[m];
+        return sum;
+      };
+      const auto column = static_cast<Eigen::Index>(j);
+      for (std::size_t i = 0; i < order; ++i) to_node(static_cast<Eigen::Index>(i), column) = at(zeros.point[i]);
+      to_end[column] = at(1);
+    }
+  }
+};
+
+const Integrals& integrals() {
+  static const Integrals made;
+  return made;
+}
+
+/// Of which parity F_n are: those of I1 are odd, those of I2 even.
+struct Chain {
+  std::vector<double> before;  // A of each n at the lower end of the cell
+  double first;                // n of the first step
+
+  /// F_n+1 and so on at the nodes of a cell, from F_n-1 there and dln w/du.
+  template <class Store>
+  void step(Values f, const Values& rise, Store store) {
+    const auto& [zeros, to_node, to_end] = integrals();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double n = first + 2 * static_cast<double>(k);
+      const Matrix system = Matrix::Identity() + (n + 1) * to_node * rise.asDiagonal();
+      const Values a = system.partialPivLu().solve(Values::Constant(before[k]) + to_node * rise.cwiseProduct(f));
+      before[k] += to_end.dot(rise.cwiseProduct(f - (n + 1) * a));
+      f -= 2 * n * a;
+      store(k, f);
+    }
+  }
+};
+
+}  // namespace
+
+void require_harmonics(std::span<const double> w, std::size_t count, std::span<const double> loss,
+                       std::span<const double> square) {
+  require_same_size("loss", loss.size(), "angular_frequency times count", w.size() * count);
+  require_same_size("square", square.size(), "angular_frequency times count", w.size() * count);
+}
+
+HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count) : count_(count) {
+  const AngularSums& sums = table.sums();
+  const std::span<const double> edges = sums.edges();
+  const ChebyshevZeros<order>& zeros = integrals().zeros;
+  const double lowest = tail.high;
+  const std::complex<double> e = tail(lowest);
+  Chain odd{std::vector<double>(count), 2}, even{std::vector<double>(count), 1};
+  if (count > 0) {  // of E' constant and E'' proportional to w
+    odd.before[0] = std::numbers::pi * e.imag() / 4;
+    even.before[0] = std::numbers::pi * (e.real() * e.real() + e.imag() * e.imag() / 4);
+  }
+  if (count > 1) even.before[1] = std::numbers::pi * e.imag() * e.imag() / 12;
+  const auto start = std::ranges::lower_bound(edges, lowest * (1 - 1e-15)) - edges.begin();
+  for (auto p = static_cast<std::size_t>(start); p + 1 < edges.size(); ++p) {
+    const double length = edges[p + 1] - edges[p];
+    const bool root = sums.at_branch(p);
+    const std::size_t cuts = root ? 6 : 2;  // higher harmonics turn faster behind a knot
+    for (std::size_t c = 0; c < cuts; ++c) {
+      const double half = 0.5 / static_cast<double>(cuts), from = 2 * half * static_cast<double>(c);
+      const auto w_at = [&](double t) { return edges[p] + length * (root ? t * t : t); };
+      double w[order], i1[order], i2[order];
+      Values rise, first, second;
+      for (std::size_t i = 0; i < order; ++i) {
+        const double t = from + half * (1 + zeros.point[i]);
+        w[i] = w_at(t);
+        rise[static_cast<Eigen::Index>(i)] = half * length * (root ? 2 * t : 1) / w[i];
+      }
+      table(w, i1, i2, nullptr);
+      for (std::size_t i = 0; i < order; ++i) {
+        first[static_cast<Eigen::Index>(i)] = i1[i];
+        second[static_cast<Eigen::Index>(i)] = i2[i];
+      }
+      cells_.push_back(
+          {w_at(from), c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half), from, half, edges[p], length, root});
+      const std::size_t place = of_.size();
+      of_.resize(place + count);
+      const auto keep = [&](std::size_t which) {
+        return [&, which](std::size_t k, const Values& f) {
+          std::array<double, order> value;
+          std::ranges::copy(f, value.begin());
+          const std::array<double, order> power = powers_of(zeros.series(value));
+          for (std::size_t i = 0; i < order; ++i) of_[place + k].coefficient[i][which] = power[i];
+        };
+      };
+      odd.step(first, rise, keep(0));
+      even.step(second, rise, keep(1));
+    }
+  }
+}
+
+void HarmonicTable::operator()(std::span<const double> w, std::size_t count, double* loss, double* square) const {
+  const std::size_t n = w.size();
+  std::size_t c = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = std::clamp(w[i], cells_.front().low, cells_.back().high);
+    if (at < cells_[c].low || at > cells_[c].high) {
+      const auto above = std::ranges::upper_bound(cells_, at, {}, &Cell::low) - cells_.begin();
+      c = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
+    }
+    const Cell& cell = cells_[c];
+    const double share = std::fmax(0, (at - cell.panel_low) / cell.panel_length);
+    const double u = ((cell.root ? std::sqrt(share) : share) - cell.from) / cell.step - 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Pair(&coefficient)[order] = of_[c * count_ + k].coefficient;
+      Pair sum = coefficient[order - 1];
+      for (std::size_t j = order - 1; j-- > 0;) sum = sum * u + coefficient[j];
+      loss[k * n + i] = sum[0];
+      square[k * n + i] = sum[1];
+    }
+  }
+}
+
+const HarmonicTable& HarmonicTables::of(const AngularTable& table, const ModulusPiece& tail, std::size_t count) const {
+  const HarmonicTable* largest = largest_.load(std::memory_order_acquire);
+  if (largest && largest->count() >= count) return *largest;
+  const std::scoped_lock lock(making_);
+  largest = largest_.load(std::memory_order_acquire);
+  if (largest && largest->count() >= count) return *largest;
+  made_.push_back(std::make_unique<const HarmonicTable>(table, tail, std::bit_ceil(count)));
+  largest_.store(made_.back().get(), std::memory_order_release);
+  return *made_.back();
+}
+
+}  // namespace asperity
