@@ -45,6 +45,7 @@ def contact_model(
     rtol: float,
     method: str,
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> Any:
     """Return how the contact is computed, as the core takes it."""
     if correction is not None and not isinstance(correction, CORRECTIONS):
@@ -57,6 +58,7 @@ def contact_model(
         number(rtol, "rtol"),
         choice(method, "method", METHODS),
         strain_core(strain_factors),
+        number(direction, "direction"),
     )
 
 
@@ -81,6 +83,7 @@ def contact_area(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> Any:
     """Return the real over the nominal contact area, A/A0 [-].
 
@@ -110,6 +113,9 @@ def contact_area(
         by hundreds of times; not with PartialContact or ScanContact.
     strain_factors : StrainFactors, optional
         The modulus at the strain of each magnification; by default that of small strain.
+    direction : float
+        Of sliding [rad], as in `friction`; of a spectrum that knows directions the area is known at
+        q1 alone.
 
     Returns
     -------
@@ -123,7 +129,7 @@ def contact_area(
         v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
     NotConverged
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     return _over_wavenumber(
         _core.contact_area, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -192,6 +198,7 @@ def contact_notes(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> tuple[Note, ...]:
     """Return notes that say where the theory or its input leaves its range.
 
@@ -199,7 +206,7 @@ def contact_notes(
     Arguments are those of `contact_area`.
     """
     _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     notes: tuple[Note, ...] = _core.contact_notes(
         *surface_and_rubber(spectrum, rubber), model, p, v
     )

@@ -59,6 +59,7 @@ def friction(
     heating: Heating | None = None,
     branch: Branch = "cold",
     gradients: bool = False,
+    direction: float = 0.0,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -110,6 +111,12 @@ def friction(
     gradients : bool
         Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
         curves. Not with GSL's methods or heating.
+    direction : float
+        Of sliding [rad], from x (a map's second axis) towards y (its first). It matters to spectra
+        that know directions alone (`SelfAffineSpectrum(axis_ratio=, lay=)`,
+        `power_spectrum(map, directional=True)`): sums over the plane of wavevectors then stand for
+        I1 and I2, by as many harmonics as rtol asks for, and `lateral` is the force across. Not
+        with heating, contributions, GSL's methods and ScanContact.
 
     Returns
     -------
@@ -141,7 +148,7 @@ def friction(
         given_at["temperature"] = temperature
     _check_temperature(temperature, shift, law)
     shape, (p, v, *at) = broadcast(**given_at)
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     parts = surface_and_rubber(spectrum, rubber)
     added = adhesion_core(adhesion)
     told = flag(contributions, "contributions")

@@ -12,6 +12,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Vector,
     choice,
+    flag,
     frozen,
     number,
     number_or_none,
@@ -35,6 +36,9 @@ Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
 Part = Literal["all", "top", "bottom"]
 # each in the order of the core's enumeration
 WINDOWS, PARTS = map(get_args, (Window, Part))
+
+
+NO_DIRECTIONS = " = True: a line scan knows no directions"
 
 
 def _prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
@@ -61,6 +65,7 @@ def power_spectrum(
     detrend: Detrend | None = "plane",
     threads: int = 1,
     part: Part = "all",
+    directional: bool = False,
     pixel_size: PixelSize | None = None,
     tiles: TileSides | None = None,
     overlap: float | None = None,
@@ -98,6 +103,11 @@ def power_spectrum(
         the share of points above it (B. N. J. Persson et al., J. Phys.: Condens. Matter 17, R1
         (2005)); "bottom" that of min(h, 0) likewise. They agree with the whole at large q where
         heights are Gaussian; on worn tracks the rubber meets the top. Not by tiles.
+    directional : bool
+        Keep the harmonics of each ring over the direction of q, `cosine` and `sine`, with their
+        standard errors: as many as the scan supports, up to the last that differs from 0 by more
+        than four standard errors in the mean over reliable rings, from 1 to 16. Not by tiles, and
+        not with a `part`.
     pixel_size : float or (float, float), optional
         Spacing of the points of an array [m], or (dy, dx).
     tiles : int or (int, int), optional
@@ -140,6 +150,14 @@ def power_spectrum(
     side = choice(part, "part", PARTS)
     if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
         surface = surface_from(surface) or surface
+    if flag(directional, "directional"):
+        if isinstance(surface, LineScan):
+            raise InvalidInput(Argument("directional"), NO_DIRECTIONS, MUST_BE, "False")
+        if tiles is not None or part != "all" or not isinstance(surface, HeightMap):
+            raise InvalidInput(
+                Argument("directional"), " = True", MUST_BE, "False by tiles and with a part"
+            )
+        return around(TabulatedSpectrum, _core.directional_spectrum(_map(surface), *how, several))
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
             raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')

@@ -15,11 +15,13 @@ from asperity.base.arguments import (
     Given,
     OptionalVector,
     Vector,
+    broadcast,
     frozen,
     number,
     number_or_none,
     over,
     real_array,
+    shaped,
     vector,
     vector_or_none,
 )
@@ -61,6 +63,20 @@ class _Spectrum(Table):
             A wavenumber lies beyond the rows of a table.
         """
         return over(wavenumber, "wavenumber", lambda q: _core.density(self._core, q))
+
+    @property
+    def is_directional(self) -> bool:
+        """Whether it knows directions: `harmonics`, or an axis ratio other than 1."""
+        return bool(_core.is_directional(self._core))
+
+    def toward(self, wavenumber: ArrayLike, direction: ArrayLike) -> Any:
+        """Return C [m^4] of vectors q: at |q| [1/m] and the direction of q from x towards y [rad].
+
+        Both broadcast. An isotropic spectrum is the same in all directions. Harmonics of a scan are
+        few, and their sum may be below 0.
+        """
+        shape, (q, phi) = broadcast(wavenumber=wavenumber, direction=direction)
+        return shaped(_core.plane_density(self._core, q, phi), shape)
 
     def line_density(self, wavenumber: ArrayLike) -> Any:
         """Return the spectrum of the surface's profiles, C1D(q) = int C(sqrt(q^2 + k^2)) dk [m^3].
@@ -122,6 +138,13 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
         Lower and upper cut-off, as angular wavenumbers 2 pi / wavelength [1/m].
     rolloff : float, optional
         Roll-off q_r [1/m], q0 < q_r < q1; without it the power law starts at q0.
+    axis_ratio : float
+        r of a surface with a lay [-], 1 to 10: C(q, phi) is the same law of
+        k = q sqrt(r cos^2(phi - lay) + sin^2(phi - lay) / r), flat for k below the roll-off. The
+        band is in q, the rms height exact, and `at` the mean over directions.
+    lay : float
+        Direction of the ridges, from x (the second axis of a map) towards y (the first), in
+        radians; scenes have degrees.
 
     Raises
     ------
@@ -143,6 +166,8 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
     q0: float = parameter(FIRST_WAVENUMBER, usual=(10, 1e6))
     q1: float = parameter(LAST_WAVENUMBER)
     rolloff: float | None = parameter(FIRST_WAVENUMBER, default=None)
+    axis_ratio: float = 1.0
+    lay: float = parameter(unit="deg", default=0.0)  # of the key in scenes
 
     @staticmethod
     def from_article(*, h0: float, hurst: float, q0: float, q1: float) -> SelfAffineSpectrum:
@@ -196,7 +221,9 @@ class _Rows(Table):
             self._set(**{name: vector(getattr(self, name), name)})
         for name in ("count", "standard_error"):
             self._set(**{name: vector_or_none(getattr(self, name), name)})
-        self._set(flag=_flags(self.flag), correlation=_correlation(self.correlation))
+        self._set(flag=_flags(self.flag))
+        self._set(correlation=_two_axes(self.correlation, "correlation", "lags"))
+        self._take_harmonics()
         for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
@@ -213,6 +240,9 @@ class _Rows(Table):
             allowed = Must(": must be "), "given with the other"
             raise InvalidInput(Argument(missing), " = None", *allowed)
         self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
+
+    def _take_harmonics(self) -> None:
+        """Check and keep harmonics, where the class has them."""
 
     @property
     def reliable(self) -> NDArray[np.bool_]:
@@ -286,19 +316,14 @@ def _flags(found: Any) -> NDArray[np.uint8] | None:
     return frozen(given.astype(np.uint8))
 
 
-def _correlation(found: Any) -> Array | None:
-    """Return correlations of rows with those after them, an array of two axes."""
+def _two_axes(found: Any, name: str, columns: str) -> Array | None:
+    """Return an array of two axes, rows of the spectrum and columns."""
     if found is None:
         return None
-    given = np.array(real_array(found, "correlation"), order="C")
+    given = np.array(real_array(found, name), order="C")
     if given.ndim != 2:
-        raise InvalidInput(
-            Argument("correlation"),
-            " = ",
-            valued(given),
-            Must(": must have "),
-            "two axes, rows and lags",
-        )
+        allowed = Must(": must have "), f"two axes, rows and {columns}"
+        raise InvalidInput(Argument(name), " = ", valued(given), *allowed)
     return frozen(given)
 
 
@@ -330,6 +355,13 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     skewness, kurtosis : float, optional
         Of the heights that the spectrum was measured on [-], both or none. Far from 0 and 3 a
         spectrum is too little to know mu by, which a result notes.
+    cosine, sine : array_like, shape (n, m), optional
+        Harmonics a_m, b_m of each row [-], both or none, m up to 64:
+        C(q, phi) = C(q) (1 + 2 sum_m [a_m cos 2 m phi + b_m sin 2 m phi]), phi the direction of q
+        from x (the second axis of a map) towards y. Between rows they are linear in ln q. Fits,
+        bins and merged spectra take the mean over directions.
+    harmonic_error : array_like, shape (n, m), optional
+        Standard error of each of them.
 
     Raises
     ------
@@ -347,6 +379,18 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     correlation: OptionalVector = ABSENT
     skewness: float | None = None
     kurtosis: float | None = None
+    cosine: OptionalVector = ABSENT
+    sine: OptionalVector = ABSENT
+    harmonic_error: OptionalVector = ABSENT
+
+    def _take_harmonics(self) -> None:
+        for name in ("cosine", "sine", "harmonic_error"):
+            self._set(**{name: _two_axes(getattr(self, name), name, "harmonics")})
+        if (self.cosine is None) != (self.sine is None):
+            missing = "sine" if self.sine is None else "cosine"
+            raise InvalidInput(
+                Argument(missing), " = None", Must(": must be "), "given with the other"
+            )
 
     @property
     def rms_height(self) -> float:

@@ -23,24 +23,39 @@ py::object object_of(Spectrum spectrum) {
   return std::visit([](auto& one) { return py::cast(std::move(one)); }, spectrum);
 }
 
+using Column = std::optional<Array>;
+using Flags = std::optional<std::vector<std::uint8_t>>;
+
+RowQuality quality_of(const Column& count, const Column& error, const Flags& flag, const Column& correlation,
+                      Optional skewness, Optional kurtosis) {
+  RowQuality quality;
+  if (count) quality.count = vector_of(*count);
+  if (error) quality.standard_error = vector_of(*error);
+  if (flag) quality.flag = *flag;
+  if (correlation) quality.correlation = vector_of(*correlation);
+  if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis};
+  return quality;
+}
+
+RingHarmonics harmonics_of(std::size_t rows, const Column& cosine, const Column& sine, const Column& error) {
+  RingHarmonics harmonics;
+  if (cosine) harmonics.cosine = vector_of(*cosine);
+  if (sine) harmonics.sine = vector_of(*sine);
+  if (error) harmonics.standard_error = vector_of(*error);
+  if (rows > 0) harmonics.count = harmonics.cosine.size() / rows;
+  return harmonics;
+}
+
 /// A spectrum given row by row; columns that it does not have are None.
 template <class S>
 py::classh<S> bind_rows(py::module_& m, const char* name) {
   const auto column = [](const auto& values) -> py::object {
     return values.empty() ? py::object(py::none()) : py::object(array_of(std::vector(values)));
   };
-  using Column = std::optional<Array>;
   return py::classh<S>(m, name)
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
-                       const std::optional<std::vector<std::uint8_t>>& flag, const Column& correlation,
-                       Optional skewness, Optional kurtosis) {
-        RowQuality quality;
-        if (count) quality.count = vector_of(*count);
-        if (error) quality.standard_error = vector_of(*error);
-        if (flag) quality.flag = *flag;
-        if (correlation) quality.correlation = vector_of(*correlation);
-        if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis};
-        return S(vector_of(q), vector_of(density), std::move(quality));
+                       const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis) {
+        return S(vector_of(q), vector_of(density), quality_of(count, error, flag, correlation, skewness, kurtosis));
       }))
       .def_property_readonly("wavenumber", [](const S& s) { return array_of(std::vector(s.wavenumber())); })
       .def_property_readonly("density", [](const S& s) { return array_of(std::vector(s.density())); })
@@ -64,6 +79,14 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
           "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
 }
 
+/// Harmonics of rows, (n, m), or None.
+py::object harmonic_rows(const TabulatedSpectrum& s, std::vector<double> RingHarmonics::*column) {
+  const std::vector<double>& values = s.harmonics().*column;
+  if (values.empty()) return py::none();
+  return array_of(std::vector(values),
+                  {static_cast<py::ssize_t>(s.wavenumber().size()), static_cast<py::ssize_t>(s.harmonics().count)});
+}
+
 /// What every spectrum of a surface can do.
 void bind_moments(py::module_& m) {
   m.def("rms_height", &rms_height, Guarded());
@@ -76,6 +99,11 @@ void bind_moments(py::module_& m) {
   });
   m.def("scaled",
         [](const Spectrum& s, double factor) { return object_of(released([&] { return scaled(s, factor); })); });
+  m.def("plane_density", [](const Spectrum& s, const Array& q, const Array& direction) {
+    return computed([&] { return density(s, span_of(q), span_of(direction)); });
+  });
+  m.def("is_directional", &is_directional);
+  m.def("directional_table", &directional_table, Guarded());
   m.def("density", [](const Spectrum& s, const Array& q) { return computed([&] { return density(s, span_of(q)); }); });
   m.def("line_density",
         [](const Spectrum& s, const Array& q) { return computed([&] { return line_density(s, span_of(q)); }); });
@@ -88,6 +116,12 @@ void bind_measured(py::module_& m) {
       "power_spectrum",
       [](const HeightMap& map, int window, int detrend, unsigned threads, int part) {
         return power_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads, static_cast<Part>(part));
+      },
+      Guarded());
+  m.def(
+      "directional_spectrum",
+      [](const HeightMap& map, int window, int detrend, unsigned threads) {
+        return directional_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads);
       },
       Guarded());
   m.def("tile_covariances", [](int window, HeightMap::Shape tile, HeightMap::PixelSize pixel_size,
@@ -128,15 +162,31 @@ void bind_measured(py::module_& m) {
 
 void bind_spectrum(py::module_& m) {
   using Law = SelfAffineSpectrum;
-  bind_value(m, "SelfAffineSpectrum", &Law::rms_height, &Law::hurst, &Law::q0, &Law::q1, &Law::rolloff)
+  bind_value(m, "SelfAffineSpectrum", &Law::rms_height, &Law::hurst, &Law::q0, &Law::q1, &Law::rolloff,
+             &Law::axis_ratio, &Law::lay)
       .def_static("from_article", &SelfAffineSpectrum::from_article)
       .def_readonly("rms_height", &SelfAffineSpectrum::rms_height)
       .def_readonly("hurst", &SelfAffineSpectrum::hurst)
       .def_readonly("q0", &SelfAffineSpectrum::q0)
       .def_readonly("q1", &SelfAffineSpectrum::q1)
       .def_readonly("rolloff", &SelfAffineSpectrum::rolloff)
+      .def_readonly("axis_ratio", &SelfAffineSpectrum::axis_ratio)
+      .def_readonly("lay", &SelfAffineSpectrum::lay)
       .def("extended", &extended);
-  bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum");
+  bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum")
+      .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
+                       const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis,
+                       const Column& cosine, const Column& sine, const Column& harmonic_error) {
+        return TabulatedSpectrum(vector_of(q), vector_of(density),
+                                 quality_of(count, error, flag, correlation, skewness, kurtosis),
+                                 harmonics_of(span_of(q).size(), cosine, sine, harmonic_error));
+      }))
+      .def_property_readonly("cosine",
+                             [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::cosine); })
+      .def_property_readonly("sine", [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::sine); })
+      .def_property_readonly("harmonic_error", [](const TabulatedSpectrum& s) {
+        return harmonic_rows(s, &RingHarmonics::standard_error);
+      });
   bind_rows<LineSpectrum>(m, "LineSpectrum").def("isotropic", &isotropic, Guarded());
   bind_moments(m);
   bind_measured(m);

@@ -39,21 +39,22 @@ struct OneOf<std::variant<Classes...>> {
 };
 
 /// How the contact is computed: from the tuple (poisson_ratio, correction or None, form, rtol, method, strain factors
-/// or None), which is made faster than an object of a class.
+/// or None, direction), which is made faster than an object of a class.
 struct ModelOfTuple {
   static constexpr auto name = pybind11::detail::const_name("tuple");
   template <class>
   using cast_op_type = const ContactModel&;
 
   bool load(pybind11::handle from, bool) {
-    auto [poisson_ratio, correction, form, rtol, method, strain_factors] =
-        from.cast<std::tuple<double, std::optional<Correction>, int, double, int, std::optional<StrainFactors>>>();
+    auto [poisson_ratio, correction, form, rtol, method, strain_factors, direction] = from.cast<
+        std::tuple<double, std::optional<Correction>, int, double, int, std::optional<StrainFactors>, double>>();
     model_ = {poisson_ratio,
               correction ? *std::move(correction) : NoCorrection{},
               static_cast<Form>(form),
               rtol,
               static_cast<Method>(method),
-              std::move(strain_factors)};
+              std::move(strain_factors),
+              direction};
     return true;
   }
   operator const ContactModel&() const { return model_; }  // NOLINT: pybind11 asks for a conversion

@@ -31,6 +31,8 @@ struct ContactModel {
   Method method = Method::gauss;
   /// The modulus at the strain of each magnification; none: that of small strain.
   std::optional<StrainFactors> strain_factors = std::nullopt;
+  /// Of sliding, from x towards y [rad]; only directional spectra differ by it.
+  double direction = 0;
 };
 
 /// A/A0 for pairs of pressure [Pa] and velocity [m/s], at each of `wavenumber` [1/m] (the last index), or at

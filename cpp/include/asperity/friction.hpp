@@ -41,9 +41,10 @@ struct Friction {
   std::vector<double> shift_factor;          // p_T, 1 where nothing is shifted, infinite without contact
   std::vector<double> error_estimate;        // absolute, of mu
   std::vector<double> extrapolated_share;    // of mu_H, from frequencies outside of the measured range
-  std::vector<double> model_error;           // relative, of mu_H on exact sliding contacts; NaN where nothing is known
-  std::vector<double> temperature;           // as given [K]; empty without
-  std::vector<Diagnostic> notes;             // where the theory or its input leaves its range
+  std::vector<double> lateral;      // force across over the load: -sigma0 (mu s + lateral n) on the moving body
+  std::vector<double> model_error;  // relative, of mu_H on exact sliding contacts; NaN where nothing is known
+  std::vector<double> temperature;  // as given [K]; empty without
+  std::vector<Diagnostic> notes;    // where the theory or its input leaves its range
   std::optional<Contributions> contributions;
 };
 
@@ -59,7 +60,7 @@ inline constexpr std::vector<double> Friction::*friction_columns[] = {
     &Friction::mu,           &Friction::hysteresis,     &Friction::adhesion,
     &Friction::contact_area, &Friction::shift_factor,   &Friction::pressure,
     &Friction::velocity,     &Friction::error_estimate, &Friction::extrapolated_share,
-    &Friction::model_error};
+    &Friction::model_error,  &Friction::lateral};
 
 /// Everything a friction curve needs beside the surface, the rubber and the velocities.
 struct Conditions {
@@ -72,6 +73,7 @@ struct Conditions {
   bool contributions = false;
   Method method = Method::gauss;
   std::optional<StrainFactors> strain_factors = std::nullopt;
+  double direction = 0;  // of sliding, from x towards y [rad]
 };
 
 /// The friction curve at one pressure.

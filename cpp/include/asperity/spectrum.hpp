@@ -17,11 +17,16 @@ namespace asperity {
 
 /// C(q) = C_r (q / q_r)^(-2 (H + 1)) on [q_r, q1], flat C_r on [q0, q_r], zero elsewhere; q_r is the roll-off,
 /// or q0 where there is none. C_r follows from rms_height^2 = 2 pi int_q0^q1 q C dq.
+/// With an axis ratio r other than 1 the same law is one of k = |q| sqrt(r cos^2(phi - lay) + sin^2(phi - lay) / r),
+/// phi the direction of q from x towards y, flat for k below q_r; the band is in |q|, and C(q) the mean over
+/// directions.
 struct ASPERITY_EXPORT SelfAffineSpectrum {
   double rms_height;                             // h_rms on the band [m]
   double hurst;                                  // H [-], 0 < H <= 1
   double q0, q1;                                 // lower and upper cut-off [1/m]
   std::optional<double> rolloff = std::nullopt;  // q_r [1/m]
+  double axis_ratio = 1;                         // r [-], 1 to 10
+  double lay = 0;                                // direction of the ridges [rad]
   bool operator==(const SelfAffineSpectrum&) const = default;
 
   /// The article's Eq. 12 as printed, C = (h0 / q0)^2 (H / 2 pi) (q / q0)^(-2 (H + 1)), cut at q1: its rms
@@ -58,15 +63,27 @@ struct RowQuality {
   bool operator==(const RowQuality&) const = default;
 };
 
+/// C(q, phi) = C(q) (1 + 2 sum_m [a_m cos 2 m phi + b_m sin 2 m phi]), m = 1 to `count`, phi the direction of q from x
+/// towards y; between rows a_m and b_m are linear in ln q.
+struct RingHarmonics {
+  std::size_t count = 0;
+  std::vector<double> cosine, sine;         // a_m and b_m, `count` a row
+  std::vector<double> standard_error = {};  // of each of them; empty where unknown
+  bool operator==(const RingHarmonics&) const = default;
+};
+
 class TableSurface;  // internal
 
 /// Densities at given wavenumbers, log-log linear between rows (linear in q beside a zero).
 class ASPERITY_EXPORT TabulatedSpectrum {
  public:
-  TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality = {});
+  TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality = {},
+                    RingHarmonics harmonics = {});
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
   [[nodiscard]] const std::vector<double>& density() const { return density_; }
   [[nodiscard]] const RowQuality& quality() const { return quality_; }
+  /// None, of count 0, where the spectrum is a mean over directions.
+  [[nodiscard]] const RingHarmonics& harmonics() const { return harmonics_; }
   /// Results that depend on the rows alone, computed once: copies and threads share them.
   [[nodiscard]] TableSurface& surface() const { return *surface_; }
   bool operator==(const TabulatedSpectrum& other) const;
@@ -74,6 +91,7 @@ class ASPERITY_EXPORT TabulatedSpectrum {
  private:
   std::vector<double> wavenumber_, density_;
   RowQuality quality_;
+  RingHarmonics harmonics_;
   std::shared_ptr<TableSurface> surface_;
 };
 
@@ -85,6 +103,14 @@ ASPERITY_EXPORT void validate(const Spectrum& spectrum);
 /// C(q) [m^4]. A self-affine spectrum is zero outside its band, a table throws OutOfRange.
 ASPERITY_EXPORT double density(const Spectrum& spectrum, double wavenumber);
 ASPERITY_EXPORT std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber);
+
+/// Whether it knows directions: harmonics, or an axis ratio other than 1.
+ASPERITY_EXPORT bool is_directional(const Spectrum& spectrum);
+/// C of vectors q [m^4]: at |q| [1/m] and the direction of q from x towards y [rad], as many of both.
+ASPERITY_EXPORT std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber,
+                                            std::span<const double> direction);
+/// A self-affine spectrum as rows with harmonics, to 1e-7 of C, or the table itself. Those left out have at most 1e-9.
+ASPERITY_EXPORT TabulatedSpectrum directional_table(const Spectrum& spectrum);
 
 /// Lower and upper end [1/m].
 ASPERITY_EXPORT std::array<double, 2> band(const Spectrum& spectrum);
@@ -121,6 +147,11 @@ enum class Part { all, top, bottom };
 ASPERITY_EXPORT TabulatedSpectrum power_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
                                                  std::optional<Detrend> detrend = Detrend::plane, unsigned threads = 1,
                                                  Part part = Part::all);
+/// The same with the harmonics of each ring, as many as the scan supports: up to the last that differs from 0 by more
+/// than four standard errors in the mean over reliable rings, 16 at most.
+ASPERITY_EXPORT TabulatedSpectrum directional_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
+                                                       std::optional<Detrend> detrend = Detrend::plane,
+                                                       unsigned threads = 1);
 
 /// C over the whole plane of wavevectors, both rising: wavenumber_y (ny), wavenumber_x (nx) [1/m], density
 /// row by row [m^4].

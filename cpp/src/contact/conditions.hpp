@@ -29,6 +29,7 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   require_rtol(model.rtol);
   if (!has_gsl_and_fftw) check_gauss(model.method, "in a build without GSL, as ASPERITY_PERMISSIVE makes it");
   validate(model.correction);
+  require_finite("direction", model.direction);
   const bool by_rule =
       std::holds_alternative<PartialContact>(model.correction) || std::holds_alternative<ScanContact>(model.correction);
   if (model.form != Form::exact && by_rule)
@@ -41,6 +42,33 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
                        "1 or more");
   for (const double p : pressure) require_positive("pressure", p);
   for (const double v : velocity) require_positive("velocity", v);
+}
+
+/// What is known of directional spectra, beside the checks of all.
+inline void check_directional(const ContactModel& model) {
+  constexpr double least_rtol = 1e-7;
+  check_gauss(model.method, "with a directional spectrum, whose sums GSL's methods do not know");
+  if (model.rtol < least_rtol) refuse("rtol", model.rtol, "1e-7 or more with a directional spectrum");
+  if (model.strain_factors)
+    throw InvalidInput(argument("strain_factors") + ": are not known with a directional spectrum" + must_be() + "none");
+  if (std::holds_alternative<ScanContact>(model.correction))
+    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + ": takes the mean over directions" +
+                       must(", must have ") + "a spectrum without harmonics");
+}
+
+/// Of an angle in radians.
+inline std::optional<Diagnostic> note_on_angle(double direction) {
+  constexpr double turn = 6.283185307179586477;
+  if (!(std::fabs(direction) > turn)) return std::nullopt;
+  return warning("large-angle",
+                 argument("direction") + " = " + value(direction, 6) + " is more than a turn: it is in radians",
+                 {"give the angle in radians"});
+}
+
+inline void refuse_directions(const Spectrum& spectrum, const char* what) {
+  if (is_directional(spectrum))
+    throw InvalidInput(argument("spectrum") + ": knows directions, of which there is no " + what + must(", must be ") +
+                       "a mean over them");
 }
 
 /// Whether products of a number keep all their digits.

@@ -160,6 +160,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
                        std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
   check_heating(heating, shift, adhesion);
   check_gauss(model.method, "where heating is given, as GSL's methods have one temperature for all waves");
+  refuse_directions(spectrum, "heat");
   const double q_m = macro_wavenumber(heating, spectrum);
   const std::size_t n = velocity.size();
   FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
@@ -225,6 +226,7 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   if (adhesion) validate(*adhesion);
   check_heating(heating, shift, adhesion);
+  refuse_directions(spectrum, "heat");
   check_gauss(model.method, "for sliding_length, as GSL's methods know nothing of the history of the heat");
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};

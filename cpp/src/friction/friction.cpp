@@ -55,7 +55,7 @@ std::vector<double> contribution_wavenumbers(double q0, double q1, double front)
 
 /// The results at one pressure and velocity; zeros where there is no contact.
 struct Point {
-  double hysteresis = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
+  double hysteresis = 0, lateral = 0, adhesion = 0, contact_area = 0, error_estimate = 0, extrapolated_share = 0;
   double model_error = std::numeric_limits<double>::quiet_NaN();
   ValidityFlags validity;
 };
@@ -99,6 +99,7 @@ class PointSolver {
   ModelError model_error_;
   double velocity_ = 0;  // of the point before
   Solver solver_;
+  bool directional_ = is_directional(scene_.spectrum);
   bool partial_ = std::holds_alternative<PartialContact>(scene_.model.correction);
 };
 
@@ -107,6 +108,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   solver_.solve(pressure, velocity, shift.p);
   const Solver::Hysteresis& hysteresis = solver_.hysteresis();
   at.hysteresis = hysteresis.value;
+  at.lateral = hysteresis.lateral;
   // both are integrals with errors of their own, which may carry a share of all above one
   if (hysteresis.value > 0) at.extrapolated_share = std::min(1.0, hysteresis.outside / hysteresis.value);
 
@@ -114,7 +116,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   at.contact_area = partial_ ? solver_.partial_area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
   if (velocity != velocity_) model_error_.start(velocity_ = velocity);
-  at.model_error = model_error_(g);
+  if (!directional_) at.model_error = model_error_(g);  // the exact contacts were isotropic
   if (partial_ && !std::isnan(at.model_error)) at.validity.regime = model_error_.regime();
   at.validity.strained = solver_.share_of_held_strains();
   if (scene_.adhesion) {
@@ -223,6 +225,7 @@ void solve_points(const Scene& scene, PointSolver& solve, std::span<const std::s
     f.error_estimate[i] = at.error_estimate;
     f.extrapolated_share[i] = at.extrapolated_share;
     f.model_error[i] = at.model_error;
+    f.lateral[i] = at.lateral;
   }
 }
 
@@ -232,7 +235,7 @@ Friction columns_for(std::span<const double> pressure, std::span<const double> v
   f.pressure.assign(pressure.begin(), pressure.end());
   f.velocity.assign(velocity.begin(), velocity.end());
   for (auto* column : {&f.mu, &f.hysteresis, &f.adhesion, &f.contact_area, &f.shift_factor, &f.error_estimate,
-                       &f.extrapolated_share, &f.model_error}) {
+                       &f.extrapolated_share, &f.model_error, &f.lateral}) {
     heed();  // a gigabyte each where there are many points
     column->assign(velocity.size(), 0.0);
   }
@@ -267,11 +270,30 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   if (model.strain_factors)
     if (auto held = note_on_strain(*model.strain_factors, rms_slope(spectrum), notes.front().strained()))
       f.notes.push_back(*std::move(held));
+  if (auto angle = note_on_angle(model.direction)) f.notes.push_back(std::move(*angle));
   if (heated) return f;  // notes on what is computed then are not of this
   note_extrapolated_modulus(f);
   note_large_friction(f);
   return f;
 }
+
+/// The spectrum as it is solved: rows with harmonics where it knows directions.
+class AsSolved {
+ public:
+  AsSolved(const Spectrum& spectrum, const ContactModel& model, bool contributions) : spectrum_(spectrum) {
+    if (!is_directional(spectrum)) return;
+    check_directional(model);
+    if (contributions)
+      throw InvalidInput(argument("contributions") + " = " + word("true") + must_be() +
+                         "false with a directional spectrum");
+    table_.emplace(directional_table(spectrum));
+  }
+  [[nodiscard]] const Spectrum& get() const { return table_ ? *table_ : spectrum_; }
+
+ private:
+  const Spectrum& spectrum_;
+  std::optional<Spectrum> table_;
+};
 
 void check_points(const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                   std::span<const double> velocity, unsigned threads) {
@@ -296,8 +318,8 @@ void validate(const Adhesion& adhesion) {
 Friction friction(const Spectrum& spectrum, const Rubber& rubber, const Conditions& conditions,
                   std::span<const double> velocity) {
   const std::vector<double> pressure(velocity.size(), conditions.pressure);
-  const ContactModel model{conditions.poisson_ratio, conditions.correction, conditions.form,
-                           conditions.rtol,          conditions.method,     conditions.strain_factors};
+  const ContactModel model{conditions.poisson_ratio, conditions.correction,     conditions.form,     conditions.rtol,
+                           conditions.method,        conditions.strain_factors, conditions.direction};
   return friction(spectrum, rubber, model, conditions.adhesion, pressure, velocity, conditions.contributions);
 }
 
@@ -307,7 +329,8 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   check_points(model, adhesion, pressure, velocity, threads);
   check_frequencies(spectrum, rubber, velocity);
   const RubberPoints all{rubber, by_velocity(velocity)};
-  ScanFriction scan(spectrum, rubber, model);
+  const AsSolved as_solved(spectrum, model, contributions);
+  ScanFriction scan(as_solved.get(), rubber, model);
   Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, {&all, 1}, pressure, velocity,
                             contributions, threads);
   scan.apply(f, {}, threads);
@@ -340,7 +363,8 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
     at_temperature(at, [&] { check_frequencies(spectrum, rubbers.back(), ends); });
     groups.push_back({rubbers.back(), std::move(order)});
   }
-  ScanFriction scan(spectrum, rubber, model);
+  const AsSolved as_solved(spectrum, model, contributions);
+  ScanFriction scan(as_solved.get(), rubber, model);
   Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, groups, pressure, velocity,
                             contributions, threads, heated);
   std::vector<double> a_T;

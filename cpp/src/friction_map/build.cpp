@@ -164,6 +164,7 @@ std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vec
 std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& given,
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   check_request(request, adhesion);
+  refuse_directions(spectrum, "map");
   ContactModel model = given;
   if (const auto* const scan = std::get_if<ScanContact>(&given.correction))
     model.correction = scan->with_pressure_lattice();  // a map asks at many pressures, a few at a time

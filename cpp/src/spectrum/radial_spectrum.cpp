@@ -96,6 +96,32 @@ class Rings {
           ring(power.size()) {}
   };
 
+  /// Of each ring and m = 1 to `most`: sums of |h|^2 cos 2 m phi, |h|^2 sin 2 m phi and cos 2 m phi.
+  struct Directions {
+    double cosine = 0, sine = 0, modes = 0;
+  };
+  template <class T>
+  void add_directions(std::size_t kx, const std::complex<T>* column, std::size_t most,
+                      std::vector<Directions>& sums) const {
+    const std::size_t ny = shape_[0];
+    const double x = radius(kx, side_x_), mirrored = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
+    for (std::size_t ky = 0; ky <= ny / 2; ++ky) {
+      if (kx == 0 && ky == 0) continue;
+      const bool single = ky == 0 || 2 * ky == ny;
+      const double y2 = squared_radius_[ky], q2 = x * x + y2;
+      const std::complex<double> turn((x * x - y2) / q2, 2 * x * std::sqrt(y2) / q2);
+      const double above = mirrored * norm(column[ky]), below = single ? 0 : mirrored * norm(column[ny - ky]);
+      const double modes = mirrored * (single ? 1 : 2);
+      Directions* const ring = &sums[static_cast<std::size_t>(std::sqrt(q2) + 0.5) * most];
+      std::complex<double> at = turn;
+      for (std::size_t m = 0; m < most; ++m, at *= turn) {
+        ring[m].cosine += (above + below) * at.real();
+        if (!single) ring[m].sine += (above - below) * at.imag();
+        ring[m].modes += modes * at.real();
+      }
+    }
+  }
+
   /// Adds the modes of column k_x, all ny of them, k_y and -k_y together: they lie in one ring.
   template <class T>
   void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
@@ -146,11 +172,22 @@ class Rings {
   std::vector<double> squared_radius_;  // of k_y = 0 .. ny / 2
 };
 
-std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads) {
+/// With room for `most` harmonics of each ring, or none, in `directions`.
+std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads,
+                            std::size_t most, std::vector<Rings::Directions>& directions) {
   std::vector<Rings::Sums> sums(threads, Rings::Sums(rings));
+  std::vector<std::vector<Rings::Directions>> of_parts(threads, std::vector<Rings::Directions>(rings.size() * most));
   for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
     rings.add_column(kx, column, sums[part]);
+    if (most > 0) rings.add_directions(kx, column, most, of_parts[part]);
   });
+  directions.assign(rings.size() * most, {});
+  for (const auto& part : of_parts)
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      directions[i].cosine += part[i].cosine;
+      directions[i].sine += part[i].sine;
+      directions[i].modes += part[i].modes;
+    }
   std::vector<Ring> total(rings.size());
   for (const Rings::Sums& part : sums)
     for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -158,6 +195,32 @@ std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Prep
       total[r].modes += part.own[r].modes + 2 * part.mirrored[r].modes;
     }
   return total;
+}
+
+/// The harmonics up to the last that a scan supports.
+RingHarmonics supported(const RingHarmonics& all, const RowQuality& quality, std::size_t rows) {
+  constexpr double sure = 4;  // standard errors of a mean over rings
+  std::size_t count = 1;
+  for (std::size_t m = 1; m < all.count; ++m) {
+    double cosine = 0, sine = 0, weights = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double error = all.standard_error[i * all.count + m];
+      if (quality.flag[i] != 0 || !(error > 0)) continue;
+      const double weight = 1 / (error * error);
+      cosine += weight * all.cosine[i * all.count + m];
+      sine += weight * all.sine[i * all.count + m];
+      weights += weight;
+    }
+    if (weights > 0 && std::hypot(cosine, sine) > sure * std::sqrt(weights)) count = m + 1;
+  }
+  RingHarmonics result{count, {}, {}, {}};
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t m = 0; m < count; ++m) {
+      result.cosine.push_back(all.cosine[i * all.count + m]);
+      result.sine.push_back(all.sine[i * all.count + m]);
+      result.standard_error.push_back(all.standard_error[i * all.count + m]);
+    }
+  return result;
 }
 
 /// Of about 512 rows: their waves are the map's.
@@ -193,6 +256,19 @@ std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detren
 
 }  // namespace
 
+namespace {
+
+TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
+                                std::size_t most);
+
+}  // namespace
+
+TabulatedSpectrum directional_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
+                                       unsigned threads) {
+  constexpr std::size_t most = 16;
+  return ring_spectrum(map, window, detrend, threads, most);
+}
+
 // |h|^2 of a mode is spread like its own mean (exponentially, for a Gaussian surface), so that its square, whose mean
 // is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike. Rings are as
 // many rows apart as rings, but for empty ones near the corner.
@@ -208,11 +284,21 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality));
     return share > 0 ? scaled_table(table, 1 / share) : table;  // a constant map has no side
   }
+  return ring_spectrum(map, window, detrend, threads, 0);
+}
+
+namespace {
+
+TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
+                                std::size_t most) {
+  if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
   const Preparation prepared = prepare(map, window, detrend, threads);
   const auto [ny, nx] = map.shape();
   const auto [dy, dx] = map.pixel_size();
   const Rings rings(map.shape(), map.pixel_size());
-  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads);
+  std::vector<Rings::Directions> directions;
+  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads, most, directions);
+  RingHarmonics harmonics{most, {}, {}, {}};
   const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
   const std::vector<double>& covariances = prepared.ring_covariances;
   const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
@@ -227,13 +313,27 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     density.push_back(prepared.scale * sum.power[0] / modes);
     quality.count.push_back(modes);
     quality.standard_error.push_back(prepared.scale * std::sqrt(covariances[0] * sum.power[1] / 2) / modes);
+    for (std::size_t m = 0; m < most; ++m) {
+      // less what modes that lie unevenly in the ring would have of a flat spectrum
+      const Rings::Directions& of = directions[ring * most + m];
+      std::complex<double> mean(0);
+      if (sum.power[0] > 0) mean = {of.cosine / sum.power[0] - of.modes / modes, of.sine / sum.power[0]};
+      mean /= std::fmax(1, std::abs(mean));
+      harmonics.cosine.push_back(mean.real());
+      harmonics.sine.push_back(mean.imag());
+      harmonics.standard_error.push_back(sum.power[0] > 0 ? std::sqrt(covariances[0] * sum.power[1]) / 2 / sum.power[0]
+                                                          : 1);
+    }
     quality.flag.push_back(reliable.flag(wavenumber.back(), modes));
     for (std::size_t m = 1; m < covariances.size(); ++m) quality.correlation.push_back(covariances[m] / covariances[0]);
   }
   if (wavenumber.size() < 2)
     throw InvalidInput(argument("surface") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
                        must(": must have ") + "more points; these make only one ring of wavenumbers");
-  return {std::move(wavenumber), std::move(density), std::move(quality)};
+  if (most > 0) harmonics = supported(harmonics, quality, wavenumber.size());
+  return {std::move(wavenumber), std::move(density), std::move(quality), std::move(harmonics)};
 }
+
+}  // namespace
 
 }  // namespace asperity

@@ -9,6 +9,7 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/shown_range.hpp"
+#include "spectrum/harmonics.hpp"
 #include "spectrum/tabulated.hpp"
 
 namespace asperity {
@@ -22,6 +23,7 @@ double log_ratio(double from, double to) { return std::log1p((to - from) / from)
 
 /// h_rms^2 / (2 pi C_r), C_r the density at the roll-off.
 double height_per_density(const SelfAffineSpectrum& s) {
+  if (bends_by_direction(s)) return plane_height(s);
   const double q_r = s.rolloff.value_or(s.q0);
   const double flat = s.q0 * s.q0 * exponential_integral(2, log_ratio(s.q0, q_r));
   return flat + q_r * q_r * exponential_integral(-2 * s.hurst, log_ratio(q_r, s.q1));
@@ -57,6 +59,8 @@ void validate(const SelfAffineSpectrum& s) {
   require_finite("q1", s.q1);
   if (!(s.q1 > s.q0)) refuse("q1", s.q1, "above " + argument("q0") + " = " + value(s.q0));
   require_band("q1", s.q0, s.q1);
+  if (!(s.axis_ratio >= 1 && s.axis_ratio <= 10)) refuse("axis_ratio", s.axis_ratio, "in [1, 10]");
+  require_finite("lay", s.lay);
   if (s.rolloff && !(*s.rolloff > s.q0 && *s.rolloff < s.q1))
     refuse("rolloff", *s.rolloff,
            "between " + argument("q0") + " = " + value(s.q0) + " and " + argument("q1") + " = " + value(s.q1));
@@ -93,11 +97,19 @@ SelfAffineSpectrum extended(const SelfAffineSpectrum& spectrum, std::optional<do
   SelfAffineSpectrum result = spectrum;
   result.q0 = q0.value_or(spectrum.q0);
   result.q1 = q1.value_or(spectrum.q1);
-  if (spectrum.rolloff && *spectrum.rolloff <= result.q0) result.rolloff.reset();
+  if (spectrum.rolloff && *spectrum.rolloff <= result.q0) {
+    if (const double end = *spectrum.rolloff * std::sqrt(spectrum.axis_ratio); result.q0 < end)
+      refuse("q0", result.q0,
+             "below the roll-off, " + show(*spectrum.rolloff) + ", or " + show(end) +
+                 " and more, where no direction is flat any more");
+    result.rolloff.reset();
+  }
   validate(result);
   // the density at the new roll-off (or q0) is that of the old law there
   const double from = spectrum.rolloff.value_or(spectrum.q0), to = result.rolloff.value_or(result.q0);
-  const double top = density_at_rolloff(spectrum) * std::pow(to / from, fall(spectrum));
+  double top = density_at_rolloff(spectrum) * std::pow(to / from, fall(spectrum));
+  // with a roll-off C_r is that of the flat part, without one the mean at q0
+  if (spectrum.rolloff && !result.rolloff) top *= mean_of_shape(spectrum);
   result.rms_height = std::sqrt(2 * pi * top * height_per_density(result));
   return result;
 }

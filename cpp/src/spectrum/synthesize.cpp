@@ -9,7 +9,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
 #include "numerics/random.hpp"
-#include "spectrum/segments.hpp"
+#include "spectrum/harmonics.hpp"
 
 namespace asperity {
 
@@ -48,21 +48,24 @@ struct Modes {
 /// sqrt(C (2 pi)^2 / A) of each mode.
 std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap::PixelSize pixel_size) {
   const auto [ny, nx] = shape;
-  const std::vector<Segment> pieces = segments(spectrum);
+  const PlaneDensity density(spectrum);
   const auto [q0, q1] = band(spectrum);
   const double ly = static_cast<double>(ny) * pixel_size[0], lx = static_cast<double>(nx) * pixel_size[1];
   constexpr double rounding = 1e-9;  // a band that starts at 2 pi / side holds the mode 2 pi / side
   const std::size_t half = nx / 2 + 1;
   std::vector<double> result(ny * half);
+  const bool directional = is_directional(spectrum);
   bool any = false;
   for (std::size_t ky = 0; ky < ny; ++ky) {
     heed();
-    const double qy = 2 * pi / ly * static_cast<double>(std::min(ky, ny - ky));
+    const bool upper = 2 * ky > ny;  // negative wavenumbers
+    const double qy = 2 * pi / ly * static_cast<double>(upper ? ny - ky : ky);
     for (std::size_t kx = 0; kx < half; ++kx) {
       const double q = std::hypot(qy, 2 * pi / lx * static_cast<double>(kx));
       if (q < q0 * (1 - rounding) || q > q1 * (1 + rounding)) continue;
       const double inside = std::clamp(q, q0, q1);
-      const double c = std::ranges::lower_bound(pieces, inside, {}, &Segment::b)->density(inside);
+      const double direction = directional ? std::atan2(upper ? -qy : qy, 2 * pi / lx * static_cast<double>(kx)) : 0;
+      const double c = std::fmax(0, density(inside, direction));  // harmonics of a scan leave ripples
       result[ky * half + kx] = std::sqrt(c * 4 * pi * pi / (lx * ly));
       any = true;
     }

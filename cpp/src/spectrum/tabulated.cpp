@@ -7,6 +7,7 @@
 #include <string>
 
 #include "numerics/arguments.hpp"
+#include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -57,6 +58,22 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
   }
 }
 
+/// No mean over a direction may be above the whole: |a_m + i b_m| is 1 at most.
+void validate_harmonics(const RingHarmonics& harmonics, std::size_t rows) {
+  if (harmonics.count > most_harmonics) refuse("cosine: its columns", harmonics.count, "64 or fewer");
+  const std::size_t size = rows * harmonics.count;
+  require_same_size("cosine", harmonics.cosine.size(), "wavenumber times harmonics", size);
+  require_same_size("sine", harmonics.sine.size(), "wavenumber times harmonics", size);
+  if (!harmonics.standard_error.empty())
+    require_same_size("harmonic_error", harmonics.standard_error.size(), "wavenumber times harmonics", size);
+  constexpr double most = 1 + 1e-9;
+  for (std::size_t i = 0; i < size; ++i)
+    if (!(std::hypot(harmonics.cosine[i], harmonics.sine[i]) <= most))
+      refuse(argument("cosine") + ", " + argument("sine") + ": entry " + std::to_string(i),
+             std::hypot(harmonics.cosine[i], harmonics.sine[i]), "of size 1 or less");
+  require_each_not_negative("harmonic_error", harmonics.standard_error);
+}
+
 }  // namespace
 
 std::size_t RowQuality::lags() const { return correlation.empty() ? 0 : correlation.size() / standard_error.size(); }
@@ -67,16 +84,20 @@ double RowQuality::correlation_of(std::size_t i, std::size_t j) const {
   return j - i <= reach ? correlation[i * reach + j - i - 1] : 0;
 }
 
-TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
+TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality,
+                                     RingHarmonics harmonics)
     : wavenumber_(std::move(wavenumber)),
       density_(std::move(density)),
       quality_(std::move(quality)),
+      harmonics_(std::move(harmonics)),
       surface_(std::make_shared<TableSurface>()) {
   validate_rows(wavenumber_, density_, quality_);
+  validate_harmonics(harmonics_, wavenumber_.size());
 }
 
 bool TabulatedSpectrum::operator==(const TabulatedSpectrum& other) const {
-  return wavenumber_ == other.wavenumber_ && density_ == other.density_ && quality_ == other.quality_;
+  return wavenumber_ == other.wavenumber_ && density_ == other.density_ && quality_ == other.quality_ &&
+         harmonics_ == other.harmonics_;
 }
 
 LineSpectrum::LineSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
@@ -93,6 +114,8 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
         refuse(name, cut, "at a row where the density beside it is 0, " + show(s.a) + " or " + show(s.b));
 
   std::vector<double> q, c;
+  const RingHarmonics& all = table.harmonics();
+  RingHarmonics harmonics{all.count, {}, {}, {}};
   RowQuality quality;
   quality.heights = table.quality().heights;
   const auto add_row = [&](std::size_t i) {
@@ -102,6 +125,10 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
     if (!old.count.empty()) quality.count.push_back(old.count[i]);
     if (!old.standard_error.empty()) quality.standard_error.push_back(old.standard_error[i]);
     if (!old.flag.empty()) quality.flag.push_back(old.flag[i]);
+    const auto from = static_cast<std::ptrdiff_t>(i * all.count), to = from + static_cast<std::ptrdiff_t>(all.count);
+    for (const auto column : {&RingHarmonics::cosine, &RingHarmonics::sine, &RingHarmonics::standard_error})
+      if (!(all.*column).empty())
+        (harmonics.*column).insert((harmonics.*column).end(), (all.*column).begin() + from, (all.*column).begin() + to);
     const auto lags = static_cast<std::ptrdiff_t>(old.lags());
     const auto at = old.correlation.begin() + lags * static_cast<std::ptrdiff_t>(i);
     quality.correlation.insert(quality.correlation.end(), at, at + lags);  // a cut stands where the row outside did
@@ -110,6 +137,11 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
   const auto add_cut = [&](double cut, std::size_t outside) {
     add_row(outside);
     q.back() = cut;
+    const HarmonicsAt at(table, cut);
+    for (std::size_t m = 0; m < all.count; ++m) {
+      harmonics.cosine[harmonics.cosine.size() - all.count + m] = at.cosine(m);
+      harmonics.sine[harmonics.sine.size() - all.count + m] = at.sine(m);
+    }
     const double density_at_cut = density(table, cut), density_outside = c.back();
     c.back() = density_at_cut;
     if (!quality.count.empty()) quality.count.back() = 0;
@@ -122,7 +154,7 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
   std::size_t i = first;
   for (; i < rows.size() && rows[i] <= q1; ++i) add_row(i);
   if (q.empty() || q.back() != q1) add_cut(q1, i);
-  return {std::move(q), std::move(c), std::move(quality)};
+  return {std::move(q), std::move(c), std::move(quality), std::move(harmonics)};
 }
 
 TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor) {
@@ -130,7 +162,7 @@ TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor) {
   RowQuality quality = table.quality();
   for (double& value : values) value *= factor;
   for (double& error : quality.standard_error) error *= factor;
-  return {table.wavenumber(), std::move(values), std::move(quality)};
+  return {table.wavenumber(), std::move(values), std::move(quality), table.harmonics()};
 }
 
 }  // namespace asperity

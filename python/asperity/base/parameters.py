@@ -29,6 +29,7 @@ KEY_UNITS = {  # by how keys of scenes end, the longest first
     "j_kg_k": "J/(kg K)",
     "w_m_k": "W/(m K)",
     "per_m": "1/m",
+    "deg": "deg",
     "m_s": "m/s",
     "pa": "Pa",
     "k": "K",

@@ -1,6 +1,7 @@
 """Fields of a scene file: their types, and messages that name file, table and key."""
 
 import datetime
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass
@@ -287,8 +288,13 @@ def _shown(value: object) -> str:
 
 
 def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[str, Any]:
-    """Keyword arguments of the core from those of `values` that are in `fields`."""
-    return {f.argument: values[key] for key, f in fields.items() if f.argument and key in values}
+    """Keyword arguments of the core from those of `values` that are in `fields`; angles that keys
+    have in degrees are in radians there."""
+    return {
+        f.argument: math.radians(values[key]) if key.endswith("_deg") else values[key]
+        for key, f in fields.items()
+        if f.argument and key in values
+    }
 
 
 _ADVICE = {

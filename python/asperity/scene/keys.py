@@ -2,7 +2,7 @@
 
 from asperity.base import quantities
 from asperity.friction import friction
-from asperity.io.fields import Field, fields_of, names_of, sweep
+from asperity.io.fields import Field, fields_of, names_of, number, sweep
 from asperity.scene.heat import TEMPERATURE
 from asperity.uncertainty.band import friction_band
 
@@ -10,7 +10,12 @@ POINTS = {
     "pressure_pa": Field(sweep, "pressure", quantities.PRESSURE),
     "velocity_m_s": Field(sweep, "velocity", quantities.VELOCITY),
 }
-CONDITIONS = {**POINTS, **TEMPERATURE, **fields_of(friction, "poisson_ratio")}
+CONDITIONS = {
+    **POINTS,
+    **TEMPERATURE,
+    **fields_of(friction, "poisson_ratio"),
+    "direction_deg": Field(number, "direction"),
+}
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
 UNCERTAINTY = fields_of(friction_band, "samples", "seed", "level")

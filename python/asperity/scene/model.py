@@ -106,6 +106,11 @@ class Scene:
         return self.surface.derived
 
     @property
+    def knows_directions(self) -> bool:
+        """Whether a force across the sliding is asked for."""
+        return self.spectrum.is_directional or "direction" in self.options
+
+    @property
     def in_celsius(self) -> bool:
         """Whether the temperature was given so."""
         return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
@@ -320,7 +325,9 @@ class Scene:
         self, stress: NDArray[np.float64], wavenumber: float
     ) -> NDArray[np.float64]:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
-        options = {key: value for key, value in self.options.items() if key != "form"}
+        options = {
+            key: value for key, value in self.options.items() if key not in ("form", "direction")
+        }
         with rename_in_errors(self.path, NAMES, self.typed):
             density: NDArray[np.float64] = pressure_distribution(
                 stress,

@@ -36,6 +36,7 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
     columns: dict[str, list[Any]] = {}
     asked = all(scene.asks_for_band for scene in scenes)
     at_temperatures = all(scene.temperature is not None for scene in scenes)
+    directed = all(scene.knows_directions for scene in scenes)
     heated = all(scene.heating is not None for scene in scenes)
     files = {scene.path: scene for scene in reversed(scenes)}
     for scene, result in zip(scenes, curves, strict=True):
@@ -50,6 +51,8 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
         if heated and result.cold is not None:
             values["hot_temperature_k"] = result.temperature.ravel()
             values["mu_cold"] = result.cold.mu.ravel()
+        if directed:
+            values["lateral"] = result.lateral.ravel()
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
     inputs = [scene_inputs(scene) for scene in reversed(files.values())]

@@ -11,9 +11,15 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.io.read_surface import read_surface
-from asperity.measured_spectrum import Window, anisotropy, line_spectrum, power_spectrum
+from asperity.measured_spectrum import (
+    NO_DIRECTIONS,
+    Window,
+    anisotropy,
+    line_spectrum,
+    power_spectrum,
+)
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import Detrend, HeightMap, LineScan
 
@@ -44,11 +50,15 @@ def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Sc
         raise error.within(path) from error
 
 
-def surface_spectrum(scan: Scan, *, window: Window, detrend: Detrend | None) -> TabulatedSpectrum:
+def surface_spectrum(
+    scan: Scan, *, window: Window, detrend: Detrend | None, directional: bool = False
+) -> TabulatedSpectrum:
     """C(q) of the scanned surface; of a line scan that of the isotropic one with such profiles, in
     the finest of a few logarithmic bins that scatter little enough for it."""
     if isinstance(scan, HeightMap):
-        return power_spectrum(scan, window=window, detrend=detrend)
+        return power_spectrum(scan, window=window, detrend=detrend, directional=directional)
+    if directional:
+        raise InvalidInput(Argument("directional"), NO_DIRECTIONS, MUST_BE, "False")
     profile = line_spectrum(scan, window=window, detrend=detrend)
     *finer, coarsest = _BINS
     for per_decade in finer:
@@ -78,18 +88,18 @@ def lay(scan: Scan, *, window: Window, detrend: Detrend | None) -> float | None:
     return found.ratio if found.along > 0 else None
 
 
-def scan_notes(scan: Scan, ratio: float | None) -> list[Note]:
+def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) -> list[Note]:
     """What a reader of the spectrum must know of the scan."""
     notes = []
     if isinstance(scan, LineScan):
         text = "of a line scan: C(q) is that of the isotropic surface with such profiles"
         notes.append(Note(text, code="line-scan"))
-    if ratio is not None and ratio > _LAY:
+    if ratio is not None and ratio > _LAY and not directional:
         text = (
             f"the slope across the lay is {ratio:.3g} times that along it: the spectrum is an "
             "average over directions, and stands for none"
         )
-        step = "measure friction along and across the lay"
+        step = "directional = true in [surface] keeps them, and direction_deg says which is slid"
         notes.append(Note(text, code="lay", next_step=step))
     return notes
 

@@ -126,6 +126,9 @@ def build_scene(
             **conditions,
         },
     }
+    options = {**arguments(conditions, CONDITIONS), **arguments(solver, SOLVER)}
+    if rubber.strain_factors:
+        options["strain_factors"] = rubber.strain_factors
     correction = adhesion = None
     if "correction" in tables:
         correction, inputs["correction"] = builders.correction(
@@ -157,11 +160,7 @@ def build_scene(
         velocity=points["velocity_m_s"],
         correction=correction,
         adhesion=adhesion,
-        options={
-            **arguments(conditions, CONDITIONS),
-            **arguments(solver, SOLVER),
-            **({"strain_factors": softer} if (softer := rubber.strain_factors) else {}),
-        },
+        options=options,
         inputs=inputs,
         sampling=sampling,
         stated_rtol=stated_rtol,

@@ -25,6 +25,7 @@ from asperity.io.fields import (
     rename_in_errors,
     require,
     text,
+    truth,
 )
 from asperity.io.instrument import scans_of_container
 from asperity.io.read_surface import read_surface
@@ -46,7 +47,7 @@ from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectru
 
 Values = dict[str, Any]
 
-_SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff")
+_SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff", "axis_ratio", "lay")
 _BAND = fields_of(SelfAffineSpectrum, "q0", "q1")
 _CUTOFFS = {
     "contamination_size_m": Field(number, "size", quantities.PARTICLE),
@@ -62,11 +63,13 @@ _TRANSFORM = fields_of(power_spectrum, "window", "detrend")
 _MERGED = 10.0  # bins a decade of the spectrum of several scans
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
+_DIRECTIONAL = {"directional": Field(truth, "directional")}
 SURFACE = {
     "file": Field(file_or_files),
     **_READ,
     **_TRANSFORM,
     **_FIT,
+    **_DIRECTIONAL,
     **_SELF_AFFINE,
     **_BAND,
     **_CUTOFFS,
@@ -104,7 +107,7 @@ def build_surface(path: Path, table: object) -> Surface:
         scan = scans[0] if len(scans) == 1 else None
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
     else:
-        for key in (*_READ, *_TRANSFORM, *_FIT):
+        for key in (*_READ, *_TRANSFORM, *_FIT, *_DIRECTIONAL):
             if key in values:
                 refuse(path, f"[surface] {key}", "must be left out where no file is given")
         needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
@@ -122,7 +125,8 @@ def build_surface(path: Path, table: object) -> Surface:
     }
     notes = _slope_notes(spectrum, values, table)
     if scan is not None:
-        notes += scan_notes(scan, lay(scan, **_transform(values)))
+        directional = spectrum.is_directional
+        notes += scan_notes(scan, lay(scan, **_transform(values)), directional=directional)
         notes += line_notes(measured) if isinstance(scan, HeightMap) else []
         notes += _noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
@@ -181,8 +185,12 @@ def _measure(
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
         refuse(path, "[surface] fit", 'must be "self-affine", or left out', valued(wanted))
-    with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND})):
-        spectra = [surface_spectrum(scan, **settings) for scan in scans]
+    directional = values.get("directional", False)
+    if directional and (wanted is not None or len(scans) > 1):
+        problem = "must be left out where fit or several scans are given: they are means"
+        refuse(path, "[surface] directional", problem)
+    with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND, **_DIRECTIONAL})):
+        spectra = [surface_spectrum(scan, **settings, directional=directional) for scan in scans]
         ends = [min(nyquist(scan), one.q1) for scan, one in zip(scans, spectra, strict=True)]
         spectrum, end = spectra[0], ends[0]  # beyond an end rings are incomplete
         if len(scans) > 1:

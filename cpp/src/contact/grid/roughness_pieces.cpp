@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "asperity/watch.hpp"
+#include "spectrum/harmonics.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -46,8 +47,9 @@ constexpr double steepest = 1.5;    // |d ln c / dy| times the length of an atom
 
 }  // namespace
 
-RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops)
-    : surface_(surface), window_(surface), level_(level) {
+RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops,
+                                 const TabulatedSpectrum* directions)
+    : surface_(surface), directions_(directions), window_(surface), level_(level) {
   const auto first = std::ranges::find_if(surface, [](const Segment& s) { return s.at_a > 0 || s.at_b > 0; });
   if (first == surface.end()) return;
   foot_ = first->a;
@@ -91,6 +93,9 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   do {
     nodes_.wavenumber.push_back(surface.back().b);
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
+    if (directions_)
+      for (auto* const row : {&nodes_.cosine, &nodes_.sine})
+        row->resize(nodes_.wavenumber.size() * directions_->harmonics().count);
   } while (nodes_.wavenumber.size() % 4 != 0);
   take_differences();
   cells_ = RoughnessCells(12, 1, foot_, surface.back().b, nodes_.wavenumber);
@@ -303,7 +308,24 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
   };
   nodes_.end.push_back(std::fmin(surface_.back().b, foot_ * std::exp(upper)));
   const Line one = project(of_one), first = project(of_z), window = project(p.window);
+  // what the sum over the two nodes has of rings is that of a straight line through their harmonics
+  const std::size_t count = directions_ ? directions_->harmonics().count : 0;
+  std::vector<Line> cosine(count), sine(count);
+  for (std::size_t k = 0; k < n && count > 0; ++k) {
+    const HarmonicsAt at(*directions_, foot_ * std::exp(p.y[k]));
+    const double w = p.weight[k] / of.all, by_z = w * (p.y[k] - of.mean) / of.deviation;
+    for (std::size_t m = 0; m < count; ++m) {
+      cosine[m].at_mean += w * at.cosine(m);
+      cosine[m].slope += by_z * at.cosine(m);
+      sine[m].at_mean += w * at.sine(m);
+      sine[m].slope += by_z * at.sine(m);
+    }
+  }
   for (const double at : z) {
+    for (std::size_t m = 0; m < count; ++m) {
+      nodes_.cosine.push_back(cosine[m].at_mean + cosine[m].slope * at);
+      nodes_.sine.push_back(sine[m].at_mean + sine[m].slope * at);
+    }
     const double of_c = one.at_mean + one.slope * at, of_c_z = first.at_mean + first.slope * at;
     nodes_.wavenumber.push_back(std::fmin(surface_.back().b, foot_ * std::exp(of.mean + at * of.deviation)));
     nodes_.weight.push_back(of.all / (1 + at * at));
@@ -325,7 +347,9 @@ struct PiecesOfTable : TableSurface::Derived {
 const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::size_t level) {
   auto& all = table.surface().derived<PiecesOfTable>();
   std::call_once(all.made[level], [&] {
-    all.pieces[level] = std::make_unique<RoughnessPieces>(table.surface().segments(table), level);
+    all.pieces[level] =
+        std::make_unique<RoughnessPieces>(table.surface().segments(table), level, std::span<const double>(),
+                                          table.harmonics().count > 0 ? &table : nullptr);
   });
   return *all.pieces[level];
 }

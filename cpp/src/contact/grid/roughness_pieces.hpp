@@ -26,14 +26,16 @@ class RoughnessPieces {
   }
   /// `level` from 0 on; each piece of a level is cut on the next one. Pieces end at `stops` [1/m] too. The surface must
   /// outlive it.
-  RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops = {});
+  RoughnessPieces(std::span<const Segment> surface, std::size_t level, std::span<const double> stops = {},
+                  const TabulatedSpectrum* directions = nullptr);
 
   struct Nodes {
     /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.
     std::vector<double> wavenumber;
     std::vector<double> end;     // of the pieces, their upper ends [1/m]
-    std::vector<double> weight;  // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
-    std::vector<double> window;  // of RoughnessWindow
+    std::vector<double> weight;        // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
+    std::vector<double> window;        // of RoughnessWindow
+    std::vector<double> cosine, sine;  // with directions: harmonics of the table, a row a node
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
     /// Fourth differences of a function in ln q, by its values at the node and at two to each side of it, times the
     /// weight of the nodes that they stand for.
@@ -68,6 +70,7 @@ class RoughnessPieces {
   void take_differences();
 
   std::span<const Segment> surface_;
+  const TabulatedSpectrum* directions_;
   RoughnessWindow window_;
   std::size_t level_;
   std::vector<double> start_, before_;  // of each segment: where it starts in y, and m there

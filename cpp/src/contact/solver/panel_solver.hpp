@@ -26,6 +26,7 @@ class PanelSolver {
   struct Hysteresis {
     double value = 0, error = 0;
     double outside = 0;  // part of value from frequencies outside of the measured range
+    double lateral = 0;  // the force across the sliding, over the load
   };
   [[nodiscard]] const Hysteresis& hysteresis() const { return hysteresis_; }
   /// G at a wavenumber, q0 to q1, and the relative error of every such G.

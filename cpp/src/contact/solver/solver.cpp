@@ -56,7 +56,10 @@ Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const Con
 }
 
 void Solver::use_levels_of(const Spectrum& spectrum) {
-  if (LevelSolver::serves(spectrum, model_)) levels_.emplace(spectrum, waves_.rubber(), model_);
+  if (is_directional(spectrum))
+    directional_.emplace(spectrum, waves_.rubber(), model_);
+  else if (LevelSolver::serves(spectrum, model_))
+    levels_.emplace(spectrum, waves_.rubber(), model_);
 }
 
 void Solver::start(double velocity) {
@@ -68,6 +71,10 @@ void Solver::start(double velocity) {
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
+  if (directional_) {
+    directional_->solve(pressure, velocity, shift);
+    return;
+  }
   by_levels_ = levels_ && levels_->solve(pressure, velocity, shift);
   if (by_levels_) return;
   if (partial_) {
@@ -91,14 +98,16 @@ void Solver::solve(double pressure, double velocity, double shift) {
 }
 
 double Solver::g(double wavenumber) const {
-  return by_levels_    ? levels_->g()
+  return directional_  ? directional_->g()
+         : by_levels_  ? levels_->g()
          : partial_    ? partial_->g()
          : gsl_solver_ ? gsl_solver_->g(wavenumber)
                        : panel_solver_.g(wavenumber);
 }
 
 double Solver::relative_error() const {
-  return by_levels_    ? levels_->relative_error()
+  return directional_  ? directional_->relative_error()
+         : by_levels_  ? levels_->relative_error()
          : partial_    ? partial_->area_error()
          : gsl_solver_ ? gsl_solver_->relative_error()
                        : panel_solver_.relative_error();

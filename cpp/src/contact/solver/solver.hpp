@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/solver/directional_solver.hpp"
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/level_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
@@ -30,7 +31,8 @@ class Solver {
   void solve(double pressure, double velocity, double shift);
 
   [[nodiscard]] const Hysteresis& hysteresis() const {
-    return by_levels_    ? levels_->hysteresis()
+    return directional_  ? directional_->hysteresis()
+           : by_levels_  ? levels_->hysteresis()
            : partial_    ? partial_->hysteresis()
            : gsl_solver_ ? hysteresis_
                          : panel_solver_.hysteresis();
@@ -39,12 +41,18 @@ class Solver {
   [[nodiscard]] double g(double wavenumber) const;
   /// Of every G; `hysteresis` has what that makes of it where the second holds.
   [[nodiscard]] double relative_error() const;
-  [[nodiscard]] bool g_error_is_in_hysteresis() const { return by_levels_ || partial_; }
+  [[nodiscard]] bool g_error_is_in_hysteresis() const { return directional_ || by_levels_ || partial_; }
   /// Of PartialContact: kappa, A / A0 at the upper end of the spectrum with its relative error, and R at a wavenumber.
-  [[nodiscard]] double kappa() const { return by_levels_ ? levels_->sums().kappa : partial_->kappa(); }
-  [[nodiscard]] double partial_area() const { return by_levels_ ? levels_->sums().share : partial_->area(); }
+  [[nodiscard]] double kappa() const {
+    return directional_ ? directional_->sums().kappa : by_levels_ ? levels_->sums().kappa : partial_->kappa();
+  }
+  [[nodiscard]] double partial_area() const {
+    return directional_ ? directional_->sums().share : by_levels_ ? levels_->sums().share : partial_->area();
+  }
   [[nodiscard]] double partial_area_error() const {
-    return by_levels_ ? levels_->relative_error() : partial_->area_error();
+    return directional_ ? directional_->relative_error()
+           : by_levels_ ? levels_->relative_error()
+                        : partial_->area_error();
   }
   [[nodiscard]] double stress(double wavenumber) const { return partial_->stress(wavenumber); }
   [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
@@ -62,7 +70,8 @@ class Solver {
   bool with_hysteresis_;
   PanelSolver panel_solver_;
   std::span<const double> stops_;
-  double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
+  double velocity_ = 0, panel_velocity_ = 0;      // of the point before, and of the last that panels were made for
+  std::optional<DirectionalSolver> directional_;  // instead of all others
   std::optional<LevelSolver> levels_;
   bool by_levels_ = false;                     // the point
   std::optional<PartialPanelSolver> partial_;  // instead of panel_solver_

@@ -1,0 +1,190 @@
+// C(q, phi) of rings and of ellipses: harmonics, densities, and tables of self-affine spectra with a lay.
+#include "spectrum/harmonics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/arguments.hpp"
+#include "numerics/gauss_legendre.hpp"
+#include "spectrum/self_affine.hpp"
+
+namespace asperity {
+
+using std::numbers::pi;
+
+namespace {
+
+/// (k / |q|)^2 in the direction `angle` from the lay.
+double squared_stretch(double ratio, double angle) {
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  return ratio * cosine * cosine + sine * sine / ratio;
+}
+
+/// C / C_r at |q| / q_r and an angle from the lay.
+double shape(const SelfAffineSpectrum& s, double x, double angle) {
+  const double k = x * x * squared_stretch(s.axis_ratio, angle);
+  return s.rolloff && k < 1 ? 1 : std::pow(k, -1 - s.hurst);
+}
+
+/// Means over directions of the shape times cos 2 m (phi - lay), m = 0 to n - 1: by Gauss rules in a quarter of the
+/// circle, which is alike in all, that end where the flat part does.
+std::vector<double> means(const SelfAffineSpectrum& s, double x, std::size_t n) {
+  std::vector<double> result(n), edges{0};
+  const double r = s.axis_ratio, part = (1 / (x * x) - 1 / r) / (r - 1 / r);  // cos^2 of the angle where k is q_r
+  constexpr int pieces = 12;
+  for (int i = 1; i < pieces; ++i) edges.push_back(pi / 2 * i / pieces);
+  if (s.rolloff && r > 1 && part > 0 && part < 1) edges.push_back(std::acos(std::sqrt(part)));
+  edges.push_back(pi / 2);
+  std::ranges::sort(edges);
+  const LegendreRule& rule = legendre_rule(24);
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double half = (edges[i + 1] - edges[i]) / 2;
+    for (std::size_t j = 0; j < rule.n; ++j) {
+      const double angle = edges[i] + half * (1 + rule.node[j]);
+      const double value = 2 / pi * half * rule.weight[j] * shape(s, x, angle), twice = 2 * std::cos(2 * angle);
+      double before = twice / 2, now = 1;
+      for (std::size_t m = 0; m < n; ++m) {
+        result[m] += value * now;
+        const double next = m == 0 ? twice / 2 : twice * now - before;
+        before = now;
+        now = next;
+      }
+    }
+  }
+  return result;
+}
+
+/// Rows of a spectrum between its ends: where it bends so many that what lines miss does not matter.
+std::vector<double> rows_of(const SelfAffineSpectrum& s) {
+  std::vector<double> q;
+  const auto add = [&](double from, double to, double steps) {
+    for (double i = 0; i < steps; ++i) q.push_back(from * std::pow(to / from, i / steps));
+  };
+  const double root = std::sqrt(s.axis_ratio);
+  constexpr double few = 8;
+  if (!bends_by_direction(s)) {
+    if (s.rolloff) add(s.q0, *s.rolloff, few);
+    add(s.rolloff.value_or(s.q0), s.q1, few);
+  } else {
+    const double begin = std::clamp(*s.rolloff / root, s.q0, s.q1), end = std::clamp(*s.rolloff * root, s.q0, s.q1);
+    constexpr double spacing = 1.0 / 1024;  // a line misses its square times 0.45 at most
+    if (begin > s.q0) add(s.q0, begin, few);
+    if (end > begin) add(begin, end, std::ceil(std::log(end / begin) / spacing));
+    if (end < s.q1) add(end, s.q1, few);
+  }
+  q.push_back(s.q1);
+  return q;
+}
+
+}  // namespace
+
+HarmonicsAt::HarmonicsAt(const TabulatedSpectrum& table, double wavenumber) : all_(&table.harmonics()) {
+  const std::vector<double>& q = table.wavenumber();
+  const auto above = std::ranges::upper_bound(q, wavenumber) - q.begin();
+  row_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(q) - 1)) - 1;
+  share_ = std::clamp(std::log(wavenumber / q[row_]) / std::log(q[row_ + 1] / q[row_]), 0.0, 1.0);
+}
+
+bool bends_by_direction(const SelfAffineSpectrum& s) { return s.axis_ratio != 1 && s.rolloff.has_value(); }
+
+double mean_of_shape(const SelfAffineSpectrum& s) {
+  SelfAffineSpectrum law = s;
+  law.rolloff.reset();
+  return means(law, 1, 1)[0];
+}
+
+double plane_height(const SelfAffineSpectrum& s) {
+  const double q_r = *s.rolloff, root = std::sqrt(s.axis_ratio);
+  const double begin = std::clamp(q_r / root, s.q0, s.q1), end = std::clamp(q_r * root, s.q0, s.q1);
+  // flat before the bend, a power law after it
+  double sum = s.q0 * s.q0 * exponential_integral(2, std::log(begin / s.q0));
+  if (end < s.q1)
+    sum += end * end * std::pow(end / q_r, fall(s)) * mean_of_shape(s) *
+           exponential_integral(2 + fall(s), std::log(s.q1 / end));
+  constexpr int panels = 32;
+  const LegendreRule& rule = legendre_rule(8);
+  const double length = std::log(end / begin);
+  for (int i = 0; i < panels; ++i)
+    for (std::size_t j = 0; j < rule.n; ++j) {
+      const double t = (i + (1 + rule.node[j]) / 2) / panels, sine = std::sin(pi / 2 * t);
+      const double q = begin * std::exp(length * sine * sine);
+      sum += rule.weight[j] / 2 / panels * length * pi / 2 * std::sin(pi * t) * q * q * means(s, q / q_r, 1)[0];
+    }
+  return sum;
+}
+
+bool is_directional(const Spectrum& spectrum) {
+  if (const auto* const s = std::get_if<SelfAffineSpectrum>(&spectrum)) return s->axis_ratio != 1;
+  return std::get<TabulatedSpectrum>(spectrum).harmonics().count > 0;
+}
+
+PlaneDensity::PlaneDensity(const Spectrum& spectrum) : spectrum_(spectrum) {
+  const auto* const s = std::get_if<SelfAffineSpectrum>(&spectrum);
+  if (s && is_directional(spectrum))
+    top_ = density_at_rolloff(*s) / (s->rolloff ? 1 : mean_of_shape(*s));
+  else
+    pieces_ = segments(spectrum);
+}
+
+double PlaneDensity::operator()(double wavenumber, double direction) const {
+  if (pieces_.empty()) {
+    const auto& s = std::get<SelfAffineSpectrum>(spectrum_);
+    return top_ * shape(s, wavenumber / s.rolloff.value_or(s.q0), direction - s.lay);
+  }
+  const double mean = std::ranges::lower_bound(pieces_, wavenumber, {}, &Segment::b)->density(wavenumber);
+  if (!is_directional(spectrum_)) return mean;
+  const auto& table = std::get<TabulatedSpectrum>(spectrum_);
+  const HarmonicsAt at(table, wavenumber);
+  double sum = 1;
+  for (std::size_t m = 0; m < table.harmonics().count; ++m) {
+    const double angle = 2 * static_cast<double>(m + 1) * direction;
+    sum += 2 * (at.cosine(m) * std::cos(angle) + at.sine(m) * std::sin(angle));
+  }
+  return mean * sum;
+}
+
+std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber,
+                            std::span<const double> direction) {
+  require_same_size("direction", direction.size(), "wavenumber", wavenumber.size());
+  std::vector<double> result = density(spectrum, wavenumber);
+  const PlaneDensity at(spectrum);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    require_finite("direction", direction[i]);
+    if (result[i] != 0) result[i] = at(wavenumber[i], direction[i]);
+  }
+  return result;
+}
+
+TabulatedSpectrum directional_table(const Spectrum& spectrum) {
+  validate(spectrum);
+  if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return *table;
+  const auto& s = std::get<SelfAffineSpectrum>(spectrum);
+  std::vector<double> q = rows_of(s), c;
+  const double top = density_at_rolloff(s), from = s.rolloff.value_or(s.q0);
+  const double scale = s.rolloff ? 1 : means(s, 1, 1)[0];
+  std::vector<std::vector<double>> rows;
+  std::size_t count = 0;
+  constexpr double least = 1e-9;
+  for (const double at : q) {
+    const bool same = !s.rolloff && !rows.empty();
+    rows.push_back(same ? rows.front() : means(s, s.rolloff ? at / from : 1, most_harmonics + 1));
+    const double mean = rows.back()[0];
+    c.push_back(top * (s.rolloff ? mean : mean / scale * std::pow(at / from, fall(s))));
+    for (double& one : rows.back()) one /= same ? 1 : mean;
+    if (same) c.back() = top * std::pow(at / from, fall(s));
+    for (std::size_t m = count; m < most_harmonics; ++m)
+      if (std::fabs(rows.back()[m + 1]) > least) count = m + 1;
+  }
+  RingHarmonics harmonics{count, {}, {}, {}};
+  for (const std::vector<double>& row : rows)
+    for (std::size_t m = 1; m <= count; ++m) {
+      const double angle = 2 * static_cast<double>(m) * s.lay;
+      harmonics.cosine.push_back(row[m] * std::cos(angle));
+      harmonics.sine.push_back(row[m] * std::sin(angle));
+    }
+  return {std::move(q), std::move(c), {}, std::move(harmonics)};
+}
+
+}  // namespace asperity

@@ -1,0 +1,51 @@
+// The directions of a spectrum: harmonics of rings, and self-affine ones whose circles are ellipses.
+#pragma once
+
+#include <cstddef>
+
+#include "asperity/spectrum.hpp"
+#include "spectrum/segments.hpp"
+
+namespace asperity {
+
+inline constexpr std::size_t most_harmonics = 64;
+
+/// Harmonics of a table at a wavenumber in its band.
+class HarmonicsAt {
+ public:
+  HarmonicsAt(const TabulatedSpectrum& table, double wavenumber);
+  [[nodiscard]] double cosine(std::size_t m) const { return between(all_->cosine, m); }
+  [[nodiscard]] double sine(std::size_t m) const { return between(all_->sine, m); }
+
+ private:
+  [[nodiscard]] double between(const std::vector<double>& rows, std::size_t m) const {
+    const double *const lower = rows.data() + row_ * all_->count + m, *const upper = lower + all_->count;
+    return *lower + share_ * (*upper - *lower);
+  }
+  const RingHarmonics* all_;
+  std::size_t row_;
+  double share_;
+};
+
+/// Whether the mean over directions is no power law: beside the roll-off of an ellipse.
+bool bends_by_direction(const SelfAffineSpectrum& s);
+/// Mean over directions of (k / |q|)^(-2 - 2 H).
+double mean_of_shape(const SelfAffineSpectrum& s);
+/// h_rms^2 / (2 pi C_r) of one that bends.
+double plane_height(const SelfAffineSpectrum& s);
+
+/// C of vectors q in the band.
+class PlaneDensity {
+ public:
+  /// The spectrum must outlive it.
+  explicit PlaneDensity(const Spectrum& spectrum);
+  /// At |q| [1/m] and the direction of q [rad]; harmonics of a scan may leave it below 0.
+  [[nodiscard]] double operator()(double wavenumber, double direction) const;
+
+ private:
+  const Spectrum& spectrum_;
+  std::vector<Segment> pieces_;
+  double top_ = 0;  // C_r, or that of the law without roll-off at k = q0
+};
+
+}  // namespace asperity

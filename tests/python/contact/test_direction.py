@@ -1,0 +1,168 @@
+"""Friction by direction: plane sums of the definition, and the limits that are known."""
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import (
+    InvalidInput,
+    MasterCurve,
+    NayakSFactor,
+    PartialContact,
+    PronySeries,
+    SelfAffineSpectrum,
+    SFactor,
+    TabulatedSpectrum,
+)
+from helpers import table_rows
+from helpers.cases import case
+
+RUBBER = PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=[1e9, 3e8, 1e8, 1e7],
+    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
+)
+VISCOUS = PronySeries(equilibrium_modulus=1e6, moduli=[1e6], relaxation_times=[1e-13])
+Q = np.geomspace(2e3, 2e5, 60)
+C = 1e-16 * (Q / 2e3) ** -3.6
+
+
+def rows(a=0.0, b=0.0, *more):
+    """A table whose rows have these harmonics a_1, b_1, a_2, b_2 and so on."""
+    columns = np.array([a, b, *more])
+    return TabulatedSpectrum(
+        wavenumber=Q,
+        density=C,
+        cosine=np.tile(columns[::2], (Q.size, 1)),
+        sine=np.tile(columns[1::2], (Q.size, 1)),
+    )
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6])
+def test_reference(reference_table, rtol):
+    rubbers = {}  # harmonics of a curve are made once
+    for row in reference_table("direction"):
+        with case(case=row["case"], rtol=rtol):
+            spectrum = SelfAffineSpectrum(
+                **{name: row[name] for name in ("rms_height", "hurst", "q0", "q1", "axis_ratio")},
+                lay=np.radians(row["lay_deg"]),
+            )
+            series = row["table_frequency"].size == 0
+            rubber = rubbers.setdefault(
+                series, (table_rows.prony if series else table_rows.master_curve)(row)
+            )
+            for correction, names in (
+                (None, ("area", "mu", "lateral")),
+                (PartialContact(), ("partial_area", "partial_mu", "partial_lateral")),
+            ):
+                found = asperity.friction(
+                    spectrum,
+                    rubber,
+                    **{name: row[name] for name in ("pressure", "velocity", "poisson_ratio")},
+                    correction=correction,
+                    direction=np.radians(row["direction_deg"]),
+                    rtol=rtol,
+                )
+                area, mu, lateral = (row[name] for name in names)
+                least = row["rtol"] * mu
+                assert abs(found.mu - mu) <= found.error_estimate + least
+                assert abs(found.lateral - lateral) <= found.error_estimate + least
+                assert found.contact_area == pytest.approx(area, rel=rtol)
+                assert found.error_estimate <= rtol * found.mu
+
+
+@pytest.mark.parametrize("correction", [None, SFactor(), NayakSFactor(), PartialContact()])
+def test_no_harmonics_is_the_isotropic_result(correction):
+    kwargs = {"pressure": 2e5, "velocity": [1e-4, 1e-1], "correction": correction}
+    mean = TabulatedSpectrum(wavenumber=Q, density=C)
+    isotropic = asperity.friction(mean, RUBBER, **kwargs, direction=0.7)
+    np.testing.assert_array_equal(isotropic.mu, asperity.friction(mean, RUBBER, **kwargs).mu)
+    np.testing.assert_array_equal(isotropic.lateral, 0)
+    found = asperity.friction(rows(), RUBBER, **kwargs, direction=0.7)
+    np.testing.assert_allclose(found.mu, isotropic.mu, rtol=1e-6)
+    np.testing.assert_array_equal(found.lateral, 0)
+
+
+@pytest.mark.parametrize("theta", np.radians([0, 20, 45, 77]))
+def test_a_viscous_loss_has_one_harmonic(theta):
+    """Im E ~ w in complete contact: 1 + a cos 2 theta along, a sin 2 theta across."""
+    a, at = 0.6, {"pressure": 1e9, "velocity": 1e-6}
+    mean = asperity.friction(rows(), VISCOUS, **at).mu
+    found = asperity.friction(rows(a, 0, 0.2, 0.1), VISCOUS, **at, direction=theta)
+    # the angle of C's ellipse is that of its long axis, from which sliding is -theta away
+    assert found.mu / mean == pytest.approx(1 + a * np.cos(2 * theta), rel=1e-6)
+    assert found.lateral / mean == pytest.approx(-a * np.sin(2 * theta), abs=1e-6)
+
+
+@pytest.mark.parametrize("theta", np.radians([10, 50]))
+def test_a_constant_loss_modulus_has_two_thirds_along_and_four_across(theta):
+    w = np.geomspace(1e-8, 1e12, 30)
+    flat = MasterCurve(
+        angular_frequency=w, storage_modulus=np.full(30, 1e7), loss_modulus=np.full(30, 1e6)
+    )
+    a, at = 0.3, {"pressure": 1e11, "velocity": 1.0}
+    mean = asperity.friction(rows(), flat, **at).mu
+    found = asperity.friction(rows(a), flat, **at, direction=theta)
+    assert found.mu / mean == pytest.approx(1 + 2 * a / 3 * np.cos(2 * theta), rel=1e-6)
+    assert found.lateral / mean == pytest.approx(-4 * a / 3 * np.sin(2 * theta), abs=2e-6)
+
+
+@pytest.mark.parametrize("correction", [None, PartialContact()])
+def test_half_a_turn_changes_nothing_and_a_mirror_turns_the_lateral_force(correction):
+    at = {"pressure": 2e5, "velocity": 1e-2, "correction": correction}
+    spectrum = SelfAffineSpectrum(
+        rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5, rolloff=6e3, axis_ratio=2.5, lay=0.4
+    )
+
+    def found(direction, lay=0.4):
+        turned = SelfAffineSpectrum(
+            rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5, rolloff=6e3, axis_ratio=2.5, lay=lay
+        )
+        result = asperity.friction(turned, RUBBER, **at, direction=direction)
+        return np.array([result.mu, result.lateral, result.contact_area])
+
+    assert spectrum.is_directional
+    np.testing.assert_allclose(found(1.1 + np.pi), found(1.1), rtol=1e-9)
+    np.testing.assert_allclose(found(-1.1, lay=-0.4), [1, -1, 1] * found(1.1), rtol=1e-9)
+    np.testing.assert_allclose(found(1.6, lay=0.9), found(1.1), rtol=1e-9)
+    assert found(0.4)[0] < found(0.4 + np.pi / 2)[0]  # along the ridges, and across
+
+
+def test_grooves_along_the_sliding_have_no_friction():
+    """C on the line q_x = 0: cos 2 m phi = (-1)^m."""
+    m = 24
+    harmonics = [x for k in range(1, m + 1) for x in ((-1.0) ** k * (1 - k / (m + 1)), 0)]
+    grooves = rows(*harmonics)
+    at = {"pressure": 2e6, "velocity": 1e-5}
+    along = asperity.friction(grooves, RUBBER, **at, rtol=1e-4)
+    across = asperity.friction(grooves, RUBBER, **at, direction=np.pi / 2, rtol=1e-4)
+    assert along.mu < 0.1 * across.mu
+    assert abs(along.lateral) < 1e-10
+
+
+def test_what_directions_do_not_know_is_refused():
+    spectrum = rows(0.3)
+    at = {"pressure": 2e5, "velocity": 1e-2}
+    with pytest.raises(InvalidInput, match="contributions"):
+        asperity.friction(spectrum, RUBBER, **at, contributions=True)
+    with pytest.raises(InvalidInput, match="method"):
+        asperity.friction(spectrum, RUBBER, **at, method="qag")
+    with pytest.raises(InvalidInput, match="rtol"):
+        asperity.friction(spectrum, RUBBER, **at, rtol=1e-9)
+    with pytest.raises(InvalidInput, match="wavenumber"):
+        asperity.contact_area(spectrum, RUBBER, **at, wavenumber=1e4)
+    with pytest.raises(InvalidInput, match="direction"):
+        asperity.friction(spectrum, RUBBER, **at, direction=np.nan)
+
+
+def test_degrees_given_as_radians_are_noted():
+    mean = TabulatedSpectrum(wavenumber=Q, density=C)
+    notes = asperity.friction(mean, RUBBER, pressure=2e5, velocity=1e-2, direction=45.0).notes
+    assert [note.code for note in notes if note.argument == "direction"] == ["large-angle"]
+
+
+def test_the_area_is_that_of_the_friction():
+    at = {"pressure": 2e5, "velocity": 1e-2, "correction": PartialContact(), "direction": 0.6}
+    spectrum = rows(0.4, 0.1)
+    area = asperity.contact_area(spectrum, RUBBER, **at)
+    assert area == asperity.friction(spectrum, RUBBER, **at).contact_area

@@ -1,0 +1,95 @@
+"""Scenes that know directions: what they build, their column, and what they refuse."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from asperity import InvalidInput
+from asperity.cli.main import main
+from asperity.scene.scene import load_scene
+from helpers.scenes import CONDITIONS, RUBBER, SCAN, SURFACE
+
+RIDGES = SURFACE + "axis_ratio = 2.0\nlay_deg = 30\n"
+TURNED = CONDITIONS + "direction_deg = 75\n"
+
+
+@pytest.fixture
+def ridged(tmp_path: Path) -> Path:
+    """A folder with a scan of ridges."""
+    law = asperity.SelfAffineSpectrum(
+        rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e5, axis_ratio=3.0, lay=0.4
+    )
+    scan = asperity.synthesize(law, shape=(96, 128), pixel_size=(2e-5, 1e-5), seed=1)
+    np.save(tmp_path / "scan.npy", np.array(scan.heights) * 1e6)
+    return tmp_path
+
+
+def written(folder: Path, text: str) -> Path:
+    (folder / "scene.toml").write_text(text)
+    return folder / "scene.toml"
+
+
+def test_friction_is_that_of_the_core_in_radians(tmp_path: Path) -> None:
+    scene = load_scene(written(tmp_path, RIDGES + RUBBER + TURNED), for_friction=True)
+    assert isinstance(scene.spectrum, asperity.SelfAffineSpectrum)
+    assert (scene.spectrum.axis_ratio, scene.spectrum.lay) == (2.0, np.radians(30))
+    found = scene.friction()
+    expected = asperity.friction(
+        scene.spectrum,
+        scene.rubber,
+        pressure=scene.pressure[:, None],
+        velocity=scene.velocity,
+        direction=np.radians(75),
+    )
+    np.testing.assert_array_equal(found.mu, expected.mu)
+    np.testing.assert_array_equal(found.lateral, expected.lateral)
+    assert np.all(found.lateral != 0)
+
+
+def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
+    path = written(tmp_path, RIDGES + RUBBER + TURNED)
+    assert main(["friction", str(path), "--output", str(tmp_path / "out.csv")]) == 0
+    lines = (tmp_path / "out.csv").read_text().splitlines()
+    rows = [line.split(",") for line in lines if not line.startswith("#")]
+    assert rows[0][-1] == "lateral"
+    found = load_scene(path, for_friction=True).friction().lateral.ravel()
+    np.testing.assert_array_equal([float(row[-1]) for row in rows[1:]], found)
+    path = written(tmp_path, SURFACE + RUBBER + CONDITIONS)
+    assert main(["friction", str(path), "--output", str(tmp_path / "plain.csv")]) == 0
+    assert "lateral" not in (tmp_path / "plain.csv").read_text()
+
+
+def test_a_scan_keeps_its_directions_where_it_is_asked_to(ridged: Path) -> None:
+    scan = SCAN + "window = 'none'\ndetrend = 'none'\n"
+    plain = load_scene(written(ridged, scan + RUBBER + CONDITIONS))
+    kept = load_scene(written(ridged, scan + "directional = true\n" + RUBBER + TURNED))
+    assert [plain.spectrum.is_directional, kept.spectrum.is_directional] == [False, True]
+    np.testing.assert_array_equal(plain.spectrum.density, kept.spectrum.density)
+    assert [note.code for note in plain.notes if note.code == "lay"] == ["lay"]
+    assert not [note for note in kept.notes if note.code == "lay"]
+
+
+@pytest.mark.parametrize(
+    ("surface", "conditions", "argument"),
+    [
+        (SURFACE + "directional = true\n", CONDITIONS, "[surface] directional"),
+        (SCAN + "directional = true\nfit = 'self-affine'\n", CONDITIONS, "[surface] directional"),
+        (SURFACE + "axis_ratio = 0.5\n", CONDITIONS, "[surface] axis_ratio"),
+        (RIDGES, CONDITIONS + "direction_deg = 'x'\n", "[conditions] direction_deg"),
+    ],
+)
+def test_what_has_no_direction_is_refused(
+    ridged: Path, surface: str, conditions: str, argument: str
+) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        load_scene(written(ridged, surface + RUBBER + conditions))
+    assert argument in str(caught.value)
+
+
+def test_a_line_scan_has_no_directions(tmp_path: Path) -> None:
+    np.save(tmp_path / "scan.npy", np.sin(0.3 * np.arange(200.0)))
+    surface = SCAN.replace("[2e-5, 1e-5]", "1e-5") + "directional = true\n"
+    with pytest.raises(InvalidInput, match="line scan"):
+        load_scene(written(tmp_path, surface + RUBBER + CONDITIONS))
