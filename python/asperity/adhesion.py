@@ -19,15 +19,15 @@ from asperity.base.arguments import (
     number,
     real_array,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import SHEAR_STRESS, VELOCITY
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
 from asperity.contact import Form, Method, contact_model, surface_and_rubber
 from asperity.correction import Correction
-from asperity.rubber import Rubber
-from asperity.spectrum import Spectrum
+from asperity.dma import AnyRubber, rubber_of
+from asperity.self_affine_fit import AnySpectrum
 from asperity.sweeps import StrainFactors
 
 __all__ = ["Adhesion", "AdhesionFit", "fit_adhesion"]
@@ -151,8 +151,8 @@ class AdhesionFit(Adhesion, Table):
 
 
 def fit_adhesion(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     velocity: ArrayLike,
     mu: ArrayLike,
@@ -177,7 +177,7 @@ def fit_adhesion(
     Parameters
     ----------
     spectrum : SelfAffineSpectrum or TabulatedSpectrum
-    rubber : PronySeries or MasterCurve
+    rubber : PronySeries, MasterCurve or MasterCurveBuild
     velocity, pressure : array_like
         v [m/s] and sigma0 [Pa], positive; they broadcast. Several pressures at once are fitted
         together.
@@ -243,7 +243,7 @@ def fit_adhesion(
         covariance=covariance,
         residual=residual,
         outliers=np.array(outliers, dtype=bool).reshape(shape),
-        notes=notes,
+        notes=tuple(fatal_first((*rubber_of(rubber).notes, *notes))),
     )
 
 

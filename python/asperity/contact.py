@@ -13,14 +13,13 @@ from asperity.base.arguments import (
     choice,
     number,
     number_or_none,
-    of_kind,
     real_array,
     shaped,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, fatal_first, refusal
 from asperity.correction import CORRECTIONS, Correction
-from asperity.rubber import MasterCurve, PronySeries, Rubber
-from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.dma import AnyRubber, rubber_of
+from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.sweeps import StrainFactors, strain_core
 
 __all__ = [
@@ -62,17 +61,14 @@ def contact_model(
     )
 
 
-def surface_and_rubber(spectrum: Spectrum, rubber: Rubber) -> tuple[Any, Any]:
+def surface_and_rubber(spectrum: AnySpectrum, rubber: AnyRubber) -> tuple[Any, Any]:
     """Return the two as the core takes them."""
-    return (
-        of_kind(spectrum, "spectrum", SelfAffineSpectrum, TabulatedSpectrum)._core,
-        of_kind(rubber, "rubber", PronySeries, MasterCurve)._core,
-    )
+    return spectrum_of(spectrum)._core, rubber_of(rubber)._core
 
 
 def contact_area(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -92,8 +88,8 @@ def contact_area(
 
     Parameters
     ----------
-    spectrum : SelfAffineSpectrum or TabulatedSpectrum
-    rubber : PronySeries or MasterCurve
+    spectrum : SelfAffineSpectrum, TabulatedSpectrum or SelfAffineFit
+    rubber : PronySeries, MasterCurve or MasterCurveBuild
     pressure, velocity : array_like
         sigma0 [Pa] and v [m/s], positive; they broadcast.
     poisson_ratio : float
@@ -136,8 +132,8 @@ def contact_area(
 
 
 def mean_pressure(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -161,8 +157,8 @@ def mean_pressure(
 
 
 def correction_factor(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -187,8 +183,8 @@ def correction_factor(
 
 
 def contact_notes(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -200,23 +196,21 @@ def contact_notes(
     strain_factors: StrainFactors | None = None,
     direction: float = 0.0,
 ) -> tuple[Note, ...]:
-    """Return notes that say where the theory or its input leaves its range.
+    """Return the notes of the rubber, and where the theory or its input leaves its range.
 
     They are those that `friction` returns as notes, for who asks for the contact area alone.
     Arguments are those of `contact_area`.
     """
     _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
-    notes: tuple[Note, ...] = _core.contact_notes(
-        *surface_and_rubber(spectrum, rubber), model, p, v
-    )
-    return notes
+    notes = _core.contact_notes(*surface_and_rubber(spectrum, rubber), model, p, v)
+    return tuple(fatal_first((*rubber_of(rubber).notes, *notes)))
 
 
 def pressure_distribution(
     stress: ArrayLike,
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -251,14 +245,14 @@ def pressure_distribution(
     model = contact_model(poisson_ratio, correction, "exact", rtol, method, strain_factors)
     parts = surface_and_rubber(spectrum, rubber)
     q = number_or_none(wavenumber, "wavenumber")
-    q = spectrum.q1 if q is None else q
+    q = spectrum_of(spectrum).q1 if q is None else q
     return shaped(_core.pressure_distribution(*parts, model, sigma, p, v, q), shape)
 
 
 def _over_wavenumber(
     function: Callable[..., Any],
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     pressure: ArrayLike,
     velocity: ArrayLike,
     model: Any,

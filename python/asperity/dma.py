@@ -27,7 +27,7 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import Argument, Note, refusal, valued
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.rubber import Extrapolation, MasterCurve, extrapolation_number
+from asperity.rubber import Extrapolation, MasterCurve, PronySeries, Rubber, extrapolation_number
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import Isotherm, draw_moduli, modulus_columns
 
@@ -186,6 +186,15 @@ class MasterCurveBuild(HasShiftFactors):
         axes.set_title(f"{self.reference_temperature:.4g} K")
 
 
+AnyRubber = Rubber | MasterCurveBuild
+
+
+def rubber_of(rubber: AnyRubber) -> Rubber:
+    """Return the master curve of a build, and any other rubber as it is."""
+    solid: Any = of_kind(rubber, "rubber", PronySeries, MasterCurve, MasterCurveBuild)
+    return solid.master_curve if isinstance(solid, MasterCurveBuild) else solid
+
+
 def build_master_curve(
     isotherms: Iterable[Isotherm],
     *,
@@ -263,7 +272,7 @@ def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> Maste
     curve, shifts, b_T, points, residual, covariance, notes = parts  # noqa: N806
     shift_factors = ShiftFactors._of(shifts)
     return MasterCurveBuild(
-        master_curve=MasterCurve._of(curve, extrapolation, shift_factors),
+        master_curve=MasterCurve._of(curve, extrapolation, shift_factors, notes),
         shift_factors=shift_factors,
         b_T=b_T,
         points=MasterPoints(**dict(zip(MasterPoints.__match_args__, points, strict=True))),

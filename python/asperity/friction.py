@@ -19,17 +19,17 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, valued
-from asperity.contact import Form, Method, contact_model, surface_and_rubber
+from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, valued
+from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
+from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
 from asperity.results.friction import COLUMNS, Friction
 from asperity.results.gradients import Gradients
 from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
-from asperity.rubber import Rubber
+from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
-from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors
 
 __all__ = ["Friction", "Gradients", "friction"]
@@ -40,8 +40,8 @@ ROUGHLY = 1e-3  # rtol of the heat of which a note says the size
 
 
 def friction(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -69,8 +69,10 @@ def friction(
 
     Parameters
     ----------
-    spectrum : SelfAffineSpectrum or TabulatedSpectrum
-    rubber : PronySeries or MasterCurve
+    spectrum : SelfAffineSpectrum, TabulatedSpectrum or SelfAffineFit
+        Of a fit its law.
+    rubber : PronySeries, MasterCurve or MasterCurveBuild
+        Of a build its master curve. The notes of the rubber are among those of the result.
     pressure, velocity : array_like
         sigma0 [Pa] and v [m/s], positive; they broadcast.
     poisson_ratio : float
@@ -142,14 +144,15 @@ def friction(
     >>> result.mu.round(4)
     array([0.002 , 0.0205])
     """
-    law = known_shift(rubber, shift)
+    surface, solid = spectrum_of(spectrum), rubber_of(rubber)
+    law = known_shift(solid, shift)
     given_at = {"pressure": pressure, "velocity": velocity}
     if temperature is not None:
         given_at["temperature"] = temperature
     _check_temperature(temperature, shift, law)
     shape, (p, v, *at) = broadcast(**given_at)
     model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
-    parts = surface_and_rubber(spectrum, rubber)
+    parts = surface._core, solid._core
     added = adhesion_core(adhesion)
     told = flag(contributions, "contributions")
     slopes = flag(gradients, "gradients")
@@ -166,7 +169,7 @@ def friction(
                 valued("hot", '"hot"'),
                 ": needs heating=, without which there is one",
             )
-        result = _made(_core.friction(*points), shape)
+        result = _made(_core.friction(*points), shape, solid.notes)
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
             result = _with(result, gradients=gradients_of_core(of, shape))
@@ -190,7 +193,7 @@ def friction(
             Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"
         )
     hot, cold, hottest, area, gain, branches, profile = _core.flash_friction(*points, core, which)
-    without = _made(cold, shape)
+    without = _made(cold, shape, solid.notes)
     given = {
         "cold": _with(
             without, temperature=_shaped(t, shape), notes=(*without.notes, *law_notes(law, t))
@@ -200,7 +203,7 @@ def friction(
         "gain": _shaped(gain, shape),
         "branches": _shaped(branches, shape),
     }
-    result = _made(hot, shape)
+    result = _made(hot, shape, solid.notes)
     if result.wavenumber is not None:
         given["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
@@ -219,9 +222,10 @@ def _shaped(flat: Any, shape: Shape) -> Any:
     return frozen(array.reshape(shape)) if shape else array.item()
 
 
-def _made(parts: tuple[Any, ...], shape: Shape) -> Friction:
-    """Return a result from the core's parts of it."""
-    rows, notes, shares = parts
+def _made(parts: tuple[Any, ...], shape: Shape, of_rubber: tuple[Note, ...]) -> Friction:
+    """Return a result from the core's parts of it, with the notes of the rubber."""
+    rows, of_contact, shares = parts
+    notes = tuple(fatal_first((*of_rubber, *of_contact)))
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
     given: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), notes=notes)
     if shares is not None:
@@ -231,7 +235,7 @@ def _made(parts: tuple[Any, ...], shape: Shape) -> Friction:
     return Friction._made(given)
 
 
-def known_shift(rubber: Rubber, shift: TemperatureShift | None) -> TemperatureShift | None:
+def known_shift(rubber: AnyRubber, shift: TemperatureShift | None) -> TemperatureShift | None:
     """Return the shift that is given, or else the one that the rubber carries, if it does."""
     return getattr(rubber, "shift_factors", None) if shift is None else shift
 

@@ -50,7 +50,8 @@ class PronyFit(PronySeries):
         "prony": the series may be asked beyond them. What comes from there is then counted by the
         `extrapolated_share` of a result, whose notes say so.
     notes : tuple of Note
-        What a reader must know.
+        What a reader must know, of the master curve too. Every result that is computed with it has
+        them.
     shift_factors : ShiftFactors, optional
         Those of the master curve that it was fitted to, which `friction` takes at a temperature.
     """
@@ -155,6 +156,7 @@ def fit_prony(
     )
     w = np.append(measured, curve.angular_frequency[[0, -1]])
     core = core.fitted_on(w.min(), w.max(), beyond)
+    own = {note.identity for note in notes}  # a build says of its curve what a fit to it does
     if not causal:
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
@@ -164,6 +166,6 @@ def fit_prony(
         loss_residual=loss_residual,
         causal=causal,
         extrapolation=extrapolation,
-        notes=notes,
+        notes=(*(one for one in curve.notes if one.identity not in own), *notes),
         shift_factors=curve.shift_factors,
     )

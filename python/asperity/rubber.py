@@ -18,13 +18,14 @@ from asperity.base.arguments import (
     choice,
     frozen,
     many,
+    notes_of,
     number,
     over,
     real_array,
     shaped,
     whole,
 )
-from asperity.base.diagnostics import Argument
+from asperity.base.diagnostics import Argument, Note
 from asperity.base.parameters import parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
@@ -55,7 +56,12 @@ def _two_over(
 
 
 class _HasModulus(Table):
-    """What every rubber can do."""
+    """What every rubber can do. Its `notes` go into every result that is computed with it."""
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What a reader must know of how it was made; a series given by hand has none."""
+        return ()
 
     def modulus(self, angular_frequency: ArrayLike) -> Any:
         """Return the modulus E' + i E'' [Pa] at an `angular_frequency` [rad/s] of any shape.
@@ -215,6 +221,9 @@ class MasterCurve(_HasModulus):
     shift_factors : ShiftFactors, optional
         Those of the isotherms behind the curve, or the build that has them. `at_strain` places
         strain sweeps by them, and `friction` takes them at a temperature.
+    notes : tuple of Note
+        What a reader must know of how it was made, those of a build for instance. Every result that
+        is computed with it has them too.
 
     Raises
     ------
@@ -228,9 +237,11 @@ class MasterCurve(_HasModulus):
     loss_modulus: Vector
     extrapolation: Extrapolation | None = None
     shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         self._take()
+        self._set(notes=notes_of(self.notes, "notes"))
         rows = self.angular_frequency, self.storage_modulus, self.loss_modulus
         self._set(_core=_core.MasterCurve(*rows, extrapolation_number(self.extrapolation)))
         if self.shift_factors is not None:
@@ -242,6 +253,7 @@ class MasterCurve(_HasModulus):
         core: Any,
         extrapolation: Extrapolation | None,
         shift_factors: ShiftFactors | None = None,
+        notes: tuple[Note, ...] = (),
     ) -> Self:
         """Make a curve from the core's."""
         return cls._made(
@@ -250,6 +262,7 @@ class MasterCurve(_HasModulus):
             loss_modulus=frozen(core.loss_modulus()),
             extrapolation=extrapolation,
             shift_factors=shift_factors,
+            notes=notes,
             _core=core,
         )
 
@@ -258,7 +271,8 @@ class MasterCurve(_HasModulus):
 
         The new curve has no `shift_factors`.
         """
-        return MasterCurve._of(self._core.shifted(number(a_T, "a_T")), self.extrapolation)
+        core = self._core.shifted(number(a_T, "a_T"))
+        return MasterCurve._of(core, self.extrapolation, notes=self.notes)
 
     def at_strain(
         self,
@@ -298,13 +312,13 @@ class MasterCurve(_HasModulus):
         core, notes = _core.at_strain(self._core, known._core, size, given)
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
-        return MasterCurve._of(core, self.extrapolation, known)
+        return MasterCurve._of(core, self.extrapolation, known, (*self.notes, *notes))
 
     def _summary(self) -> dict[str, Any]:
         shown = self._arguments()
-        shifts = shown.pop("shift_factors")
+        shifts, notes = shown.pop("shift_factors"), shown.pop("notes")
         known = {} if shifts is None else {"reference_temperature": shifts.reference_temperature}
-        return shown | known
+        return shown | known | ({"notes": notes} if notes else {})
 
     def _columns(self) -> Columns:
         return modulus_columns(self, "angular_frequency", "rad/s")

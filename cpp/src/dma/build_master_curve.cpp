@@ -151,6 +151,13 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
   const double residual = residual_of(spline);
   MasterCurve curve = options.smooth ? spline.sampled(log10_a_T[0] - shift[0], options.extrapolation)
                                      : merged_points(reduced, options.extrapolation);
+  try {  // nobody asks for the series, only whether E' and E'' can be of one material
+    const std::vector<Diagnostic> contradictions =
+        fit_prony(curve.angular_frequency(), curve.storage_modulus(), curve.loss_modulus(), {}).notes;
+    notes.insert(notes.end(), contradictions.begin(), contradictions.end());
+  } catch (const Error&) {
+    // rows without a series contradict nothing
+  }
   ShiftTable shifts(reference, temperature, log10_a_T, deviation);
   curve = curve.with_shifts(std::make_shared<const ShiftTable>(shifts));
   return {std::move(curve),      std::move(shifts), b_T, std::move(reduced), residual,

@@ -95,6 +95,8 @@ std::string text_of(const std::vector<Diagnostic>& notes, const MapRequest& requ
     text.append(": ");
     for (const Sentence* part : {&note.where, &note.sentence})
       for (const Phrase& phrase : *part) text += phrase.text;
+    if (!note.next_step.empty()) text += "\t";
+    for (const Phrase& phrase : note.next_step) text += phrase.text;
     text += "\n";
   }
   return text.append(request.text);

@@ -237,15 +237,17 @@ class Note(_Diagnostic, str):
 
     @property
     def line(self) -> str:
-        """The note in a line of a file, for `of_line`."""
-        return f"{self.label}: {''.join((*self.where, *self.sentence, *self.after))}"
+        """The note in a line of a file, for `of_line`; behind a tab what to do about it."""
+        text = "".join((*self.where, *self.sentence, *self.after)).replace("\t", " ")
+        return f"{self.label}: {text}" + (f"\t{self.next_step}" if self.next_step else "")
 
     @classmethod
     def of_line(cls, line: str) -> Self:
         """Return the note of such a line."""
-        label, _, text = line.partition(": ")
+        told, _, next_step = line.partition("\t")
+        label, _, text = told.partition(": ")
         severity, code, argument = (*label.split(" ", 2), "", "")[:3]
-        note = cls(text, code=code, severity=severity)
+        note = cls(text, code=code, severity=severity, next_step=next_step)
         note.argument = argument
         return note
 

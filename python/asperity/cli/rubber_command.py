@@ -12,7 +12,7 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Note, refusal
+from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
@@ -22,7 +22,7 @@ from asperity.io.files import check_output, write_files
 from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors
-from asperity.io.table import Table
+from asperity.io.table import Table, noted
 from asperity.plot import rubber as plot_rubber
 from asperity.prony_fit import PronyFit
 from asperity.scene.rubber import quiet_prony
@@ -71,7 +71,8 @@ def rubber(args: Namespace) -> None:
             shift_factors=shifts,
             smooth=True,
         )
-    wlf, prony, notes = _fits(build)
+    wlf, prony, of_fits = _fits(build)
+    notes = fatal_first([*unusual, *build.notes, *of_fits])
     found = _found(build, wlf, prony)
     inputs: dict[str, Any] = {
         "files": [str(file) for file in files],
@@ -97,7 +98,8 @@ def rubber(args: Namespace) -> None:
         "storage_modulus_pa": curve.storage_modulus.tolist(),
         "loss_modulus_pa": curve.loss_modulus.tolist(),
     }
-    table = Table("rubber", [inputs], [*unusual, *build.notes, *notes], columns)
+    inputs |= noted(notes)  # for a scene that reads the curve
+    table = Table("rubber", [inputs], notes, columns)
 
     celsius = (args.units or {}).get("temperature") == "C"
 

@@ -10,21 +10,23 @@ from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import MOST_THREADS, number, of_kind, real_array, whole
 from asperity.base.diagnostics import Argument, refusal, valued
-from asperity.contact import Form, Method, contact_model, surface_and_rubber
+from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
-from asperity.friction_map.look_up import FrictionMap
+from asperity.dma import AnyRubber, rubber_of
+from asperity.friction import known_shift
+from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 from asperity.heating import Heating
 from asperity.rubber import Rubber
+from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
-from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors
 
 __all__ = ["friction_map"]
 
 
 def friction_map(
-    spectrum: Spectrum,
-    rubber: Rubber,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: tuple[float, float],
     velocity: tuple[float, float],
@@ -117,7 +119,8 @@ def friction_map(
         raise refusal("text", text, "a str")
     if progress is not None and not callable(progress):
         raise refusal("progress", progress, "a function, or None")
-    parts = surface_and_rubber(spectrum, rubber)
+    surface, solid = spectrum_of(spectrum), rubber_of(rubber)
+    parts = surface._core, solid._core
     model = contact_model(poisson_ratio, correction, form, 1e-6, method, strain_factors)
     added = adhesion_core(adhesion)
     made_of: dict[str, Any] = {
@@ -130,14 +133,16 @@ def friction_map(
         made_of["strain_factors"] = strain_factors
     heat = None
     if heating is not None or temperature is not None or shift is not None:
-        law, sides = _law(rubber, temperature, shift, heating)
+        law, sides = _law(solid, temperature, shift, heating)
         made_of |= {"temperature": temperature, "shift": shift, "heating": heating}
         if heating is not None:
             heat = law, of_kind(heating, "heating", Heating)._core, sides
         else:
             [decades], _ = _core.shift_at(law, np.array(sides[:1]))
-            parts = surface_and_rubber(spectrum, rubber.shifted(10**decades))
+            parts = surface._core, solid.shifted(10**decades)._core
     lines = text or "".join(f"{name} = {part!r}\n" for name, part in made_of.items())
+    of_rubber = (f"{NOTE_LINE}{note.line}\n" for note in solid.notes)
+    lines = "".join(line for line in of_rubber if line not in text) + lines
     content = _core.build_friction_map(
         *parts,
         model,
@@ -158,7 +163,7 @@ def _law(
     rubber: Rubber, temperature: Any, shift: TemperatureShift | None, heating: Heating | None
 ) -> tuple[Any, list[float]]:
     """Return the shift as the core takes it, and the ends of the temperatures."""
-    law = getattr(rubber, "shift_factors", None) if shift is None else shift
+    law = known_shift(rubber, shift)
     if temperature is None or law is None:
         if heating is not None:
             needs = "needs temperature= and shift=, from which the rubber is heated"

@@ -13,6 +13,7 @@ from asperity.io import plausible
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import file_of, read_declared, young
 from asperity.io.source import Frame
+from asperity.io.table import notes_in
 from asperity.rubber import Extrapolation, MasterCurve
 from asperity.shift_factors import HasShiftFactors, TemperatureShift, temperature_shift_core
 
@@ -129,4 +130,5 @@ def _curve(table: Columns, together: float, extrapolation: Extrapolation | None)
         storage_modulus=storage,
         loss_modulus=loss,
         extrapolation=extrapolation,
+        notes=() if isinstance(table.path, Frame) else notes_in(table.path),
     )

@@ -5,14 +5,16 @@ import io
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from asperity._core import __version__
-from asperity.base.diagnostics import Note, fatal_first
+from asperity._core import InvalidInput, __version__
+from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first
 
 # Endings of columns that are no pure numbers; the first that fits holds.
 UNITS = {
@@ -69,6 +71,26 @@ class Table:
             },
         }
         return json_text(content, indent=1, allow_nan=False) + "\n"
+
+
+def noted(notes: Iterable[Note]) -> dict[str, list[str]]:
+    """Notes as an input of a table, for `notes_in` of its file."""
+    return {"note_lines": [note.line for note in notes]}
+
+
+def notes_in(path: Path) -> tuple[Note, ...]:
+    """The notes that a CSV file of ours has among its inputs; others have none."""
+    start = "# note_lines = "
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        head = takewhile(lambda line: line.startswith("#"), file)
+        line = next((line for line in head if line.startswith(start)), f"{start}[]")
+    try:
+        lines = json.loads(line.removeprefix(start))
+    except ValueError:
+        lines = None
+    if not isinstance(lines, list) or not all(isinstance(one, str) for one in lines):
+        raise InvalidInput(Argument(start.strip("# =")), MUST_BE, "a list of texts", where=path)
+    return tuple(map(Note.of_line, lines))
 
 
 def input_lines(inputs: Mapping[str, Any]) -> list[str]:

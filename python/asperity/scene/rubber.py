@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from asperity._core import Error, InvalidInput, OutOfRange
+from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
-from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Note, valued
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
@@ -99,7 +98,6 @@ class BuiltRubber:
 
     rubber: Rubber
     values: Values  # the table as it was used
-    notes: Sequence[Note]
     drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
     shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
     at_reference: Rubber | None = None
@@ -108,6 +106,10 @@ class BuiltRubber:
     isotherms: Sequence[Isotherm] = ()  # as they were read, and what was made of them
     build: MasterCurveBuild | None = None
     strain_factors: StrainFactors | None = None  # of the strain of each magnification
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        return self.rubber.notes
 
 
 def build_rubber(
@@ -234,7 +236,7 @@ def stiffest(rubber: Rubber) -> float:
 
 
 def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
-    return BuiltRubber(rubber, values, (), Drawn[Rubber](rubber))
+    return BuiltRubber(rubber, values, Drawn[Rubber](rubber))
 
 
 def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCurveBuild]:
@@ -272,17 +274,14 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
         refuse(path, "[rubber] extrapolation", allowed, valued(extrapolation, extrapolation))
     at_any = {key: one for key, one in values.items() if key != "temperature_k"}
     isotherms, build = measure(path, at_any)
-    rubber, notes = _at_temperature(path, values, build, extrapolation)
+    rubber = _at_temperature(path, values, build, extrapolation)
 
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
-        return _at_temperature(path, values, draw_build(build, rng), "prony")[0]
+        return _at_temperature(path, values, draw_build(build, rng), "prony")
 
-    if not fitted:
-        notes = _contradictions(build)
     made = BuiltRubber(
         rubber,
         values,
-        [*build.notes, *notes],
         Drawn[Rubber](rubber, draw),
         isotherms=isotherms,
         build=build,
@@ -291,19 +290,11 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
         return made
 
     def shifted(build: MasterCurveBuild, beyond: str | None) -> ShiftedRubber:
-        return ShiftedRubber(_at_temperature(path, _at_reference(values), build, beyond)[0], build)
+        return ShiftedRubber(_at_temperature(path, _at_reference(values), build, beyond), build)
 
     plain = shifted(build, extrapolation)
     drawn = Drawn(plain, lambda rng: shifted(draw_build(build, rng), "prony"))
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
-
-
-def _contradictions(build: MasterCurveBuild) -> list[Note]:
-    """What a Prony series would say of E' and E'' that are not of one material."""
-    try:
-        return [note for note in quiet_prony(build).notes if note.severity == FATAL]
-    except Error:  # nobody asked for the series
-        return []
 
 
 def _at_reference(values: Values) -> Values:
@@ -312,16 +303,15 @@ def _at_reference(values: Values) -> Values:
 
 def _at_temperature(
     path: Path, values: Values, build: MasterCurveBuild, beyond: str | None
-) -> tuple[Rubber, Sequence[Note]]:
+) -> Rubber:
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
     curve = build.master_curve.shifted(shift_factor(path, build, values))
     if values.get("vertical_shift") == "T/T_ref":
         curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
     if not values.get("prony", False):
-        return curve, ()
+        return curve
     with rename_in_errors(path, {"residual": "[rubber] prony"}):
-        series = quiet_prony(curve, "prony" if beyond == "prony" else None)
-    return series, series.notes
+        return quiet_prony(curve, "prony" if beyond == "prony" else None)
 
 
 def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
@@ -331,6 +321,7 @@ def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
         storage_modulus=b_t * curve.storage_modulus,
         loss_modulus=b_t * curve.loss_modulus,
         extrapolation=curve.extrapolation,
+        notes=curve.notes,
     )
 
 

@@ -9,21 +9,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
-from asperity.base.arguments import MOST_THREADS, broadcast, number, of_kind, shaped, whole
+from asperity.base.arguments import MOST_THREADS, broadcast, number, shaped, whole
 from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.in_order import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Correction, PartialContact
-from asperity.dma import MasterCurveBuild
+from asperity.dma import AnyRubber, MasterCurveBuild, rubber_of
 from asperity.friction import Branch, Friction, friction, known_shift
 from asperity.heating import Heating
 from asperity.prony_fit import PronyFit
-from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
-from asperity.self_affine_fit import SelfAffineFit
+from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift
-from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors, strain_core
 from asperity.uncertainty.draws import (
     Drawn,
@@ -103,8 +103,8 @@ class FrictionBand(Table):
 
 
 def friction_band(
-    spectrum: Spectrum | SelfAffineFit,
-    rubber: Rubber | MasterCurveBuild,
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
     *,
     pressure: ArrayLike,
     velocity: ArrayLike,
@@ -168,8 +168,7 @@ def friction_band(
     InvalidInput
         No input has errors; a PronyFit, which does not know its own (give the build).
     """
-    of_kind(spectrum, "spectrum", SelfAffineFit, SelfAffineSpectrum, TabulatedSpectrum)
-    of_kind(rubber, "rubber", MasterCurveBuild, MasterCurve, PronySeries)
+    plain, of_build = spectrum_of(spectrum), rubber_of(rubber)  # the rows, not in bins
     adhesion_core(adhesion)
     strain_core(strain_factors)
     if isinstance(rubber, PronyFit):
@@ -186,7 +185,6 @@ def friction_band(
             "a TabulatedSpectrum with standard_error, a MasterCurveBuild, an AdhesionFit, a "
             "ScanContact or StrainFactors of several sweeps"
         )
-    plain = spectrum.spectrum if isinstance(spectrum, SelfAffineFit) else spectrum  # not in bins
     options: dict[str, Any] = {
         "poisson_ratio": poisson_ratio,
         "correction": correction,
@@ -198,7 +196,7 @@ def friction_band(
     given_at: dict[str, Any] = {"pressure": pressure, "velocity": velocity}
     if temperature is not None:
         given_at["temperature"] = temperature
-    found = friction(plain, solid.plain, adhesion=adhesion, shift=shift, **given_at, **options)
+    found = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     drawn: Drawn[Rubber] | Drawn[ShiftedRubber] = solid
     if temperature is not None:

@@ -8,10 +8,10 @@ import numpy as np
 
 from asperity import _core
 from asperity.base.arguments import Array, frozen, number, of_kind
-from asperity.base.diagnostics import Note, refusal
+from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.dma import AnyRubber, rubber_of
 from asperity.surface import HeightMap, around, metric_unit
 
 __all__ = ["SlidingContact", "SlidingStep", "slide"]
@@ -122,7 +122,7 @@ class SlidingContact(Table):
 
 def slide(
     height_map: HeightMap,
-    rubber: Rubber,
+    rubber: AnyRubber,
     *,
     pressure: float,
     velocity: float,
@@ -145,7 +145,7 @@ def slide(
     ----------
     height_map : HeightMap
         Without drop-outs and trend, 16 x 16 points or more.
-    rubber : PronySeries or MasterCurve
+    rubber : PronySeries, MasterCurve or MasterCurveBuild
         A master curve must reach from 2 pi v / L to pi v / dx.
     pressure : float
         sigma0 [Pa].
@@ -217,7 +217,7 @@ def slide(
     load, speed = number(pressure, "pressure"), number(velocity, "velocity")
     pixel_size, *figures, p, gap, notes = _core.slide(
         of_kind(height_map, "height_map", HeightMap)._core,
-        of_kind(rubber, "rubber", PronySeries, MasterCurve)._core,
+        rubber_of(rubber)._core,
         load,
         speed,
         number(poisson_ratio, "poisson_ratio"),
@@ -235,7 +235,7 @@ def slide(
         pixel_size=pixel_size,
         nominal_pressure=load,
         velocity=speed,
-        notes=notes,
+        notes=tuple(fatal_first((*rubber_of(rubber).notes, *notes))),
     )
 
 
