@@ -135,8 +135,8 @@ def power_spectrum(
         for rows of the coarsened map of which roughness that is folded back leaves no more than 4
         times the error, down to a density of 0. `skewness` and `kurtosis` are of the heights about
         the trend, from some 512 rows of a larger map (by tiles of the coarsened map's, for a part
-        of the heights None). Rings beyond the Nyquist wavenumber pi / pixel are incomplete: cut
-        there with `truncated` before taking moments or contact from the spectrum.
+        of the heights None). Rings beyond the Nyquist wavenumber pi / pixel are incomplete: the
+        band ends there (`.q1`, of the coarser pixel), and `truncated(q1=...)` takes more of them.
 
     Raises
     ------

@@ -362,6 +362,9 @@ class TabulatedSpectrum(_Rows, _Spectrum):
         bins and merged spectra take the mean over directions.
     harmonic_error : array_like, shape (n, m), optional
         Standard error of each of them.
+    q1 : float, optional
+        Where the band ends [1/m], on which moments, contact and friction are taken; by default at
+        the last row. Rows beyond it are kept: `truncated(q1=...)` takes more of them.
 
     Raises
     ------
@@ -382,6 +385,7 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     cosine: OptionalVector = ABSENT
     sine: OptionalVector = ABSENT
     harmonic_error: OptionalVector = ABSENT
+    q1: Given[float | None, float] = ABSENT
 
     def _take_harmonics(self) -> None:
         for name in ("cosine", "sine", "harmonic_error"):
@@ -391,6 +395,11 @@ class TabulatedSpectrum(_Rows, _Spectrum):
             raise InvalidInput(
                 Argument(missing), " = None", Must(": must be "), "given with the other"
             )
+
+    def __post_init__(self) -> None:
+        self._set(q1=number_or_none(self.q1, "q1"))
+        super().__post_init__()
+        self._set(q1=self._core.q1)
 
     @property
     def rms_height(self) -> float:
@@ -402,13 +411,14 @@ class TabulatedSpectrum(_Rows, _Spectrum):
         """Wavenumber of the first row [1/m]."""
         return float(self.wavenumber[0])
 
-    @property
-    def q1(self) -> float:
-        """Wavenumber of the last row [1/m]."""
-        return float(self.wavenumber[-1])
+    def _columns(self) -> Columns:
+        columns = super()._columns()
+        return Columns(
+            columns.coordinates, columns.variables, {**columns.attributes, "q1": self.q1}
+        )
 
     def _summary(self) -> dict[str, Any]:
-        moments = {"rms_height": self.rms_height, "rms_slope": self.rms_slope}
+        moments = {"q1": self.q1, "rms_height": self.rms_height, "rms_slope": self.rms_slope}
         return super()._summary() | moments
 
 

@@ -176,11 +176,12 @@ void bind_spectrum(py::module_& m) {
   bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum")
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
                        const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis,
-                       const Column& cosine, const Column& sine, const Column& harmonic_error) {
+                       const Column& cosine, const Column& sine, const Column& harmonic_error, Optional q1) {
         return TabulatedSpectrum(vector_of(q), vector_of(density),
                                  quality_of(count, error, flag, correlation, skewness, kurtosis),
-                                 harmonics_of(span_of(q).size(), cosine, sine, harmonic_error));
+                                 harmonics_of(span_of(q).size(), cosine, sine, harmonic_error), q1);
       }))
+      .def_property_readonly("q1", &TabulatedSpectrum::q1)
       .def_property_readonly("cosine",
                              [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::cosine); })
       .def_property_readonly("sine", [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::sine); })

@@ -74,12 +74,14 @@ struct RingHarmonics {
 
 class TableSurface;  // internal
 
-/// Densities at given wavenumbers, log-log linear between rows (linear in q beside a zero).
+/// Densities at given wavenumbers, log-log linear between rows (linear in q beside a zero). The band, on which moments
+/// and contact are taken, ends at q1 [1/m], by default the last row; `truncated` up to the last row takes more.
 class ASPERITY_EXPORT TabulatedSpectrum {
  public:
   TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality = {},
-                    RingHarmonics harmonics = {});
+                    RingHarmonics harmonics = {}, std::optional<double> q1 = std::nullopt);
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
+  [[nodiscard]] double q1() const { return q1_; }
   [[nodiscard]] const std::vector<double>& density() const { return density_; }
   [[nodiscard]] const RowQuality& quality() const { return quality_; }
   /// None, of count 0, where the spectrum is a mean over directions.
@@ -92,6 +94,7 @@ class ASPERITY_EXPORT TabulatedSpectrum {
   std::vector<double> wavenumber_, density_;
   RowQuality quality_;
   RingHarmonics harmonics_;
+  double q1_;
   std::shared_ptr<TableSurface> surface_;
 };
 
@@ -143,7 +146,8 @@ enum class Window { split_cosine_bell, hann, none, blackman };
 enum class Part { all, top, bottom };
 
 /// The radial spectrum of a map (Eqs 25-27): detrended, windowed, transformed, averaged over rings of width
-/// dq = 2 pi / longest side. The window's mean square is divided out. Drop-outs must have been filled.
+/// dq = 2 pi / longest side, to the corner of the plane; the band ends at pi / coarser pixel, beyond which rings are
+/// incomplete. The window's mean square is divided out. Drop-outs must have been filled.
 ASPERITY_EXPORT TabulatedSpectrum power_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
                                                  std::optional<Detrend> detrend = Detrend::plane, unsigned threads = 1,
                                                  Part part = Part::all);

@@ -90,7 +90,7 @@ std::vector<double> mirrored(const std::vector<double>& heights, HeightMap::Shap
 }
 
 /// Where the roughness of a map ends [1/m].
-double roughness_end(const HeightMap& map) { return RoughnessWindow(segments(power_spectrum(map))).end(); }
+double roughness_end(const HeightMap& map) { return RoughnessWindow(segments_of_rows(power_spectrum(map))).end(); }
 
 /// Points of both axes over which the map is joined.
 HeightMap::Shape margins(const HeightMap& map, Continuation continuation, double shortest) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "asperity/spectrum.hpp"
@@ -150,6 +151,12 @@ std::vector<std::vector<std::size_t>> log_bins(const Rows& rows, double per_deca
   return bins;
 }
 
+/// Rows whose band ends where that of the spectra does, or at the last of them.
+TabulatedSpectrum banded(Rows rows, double q1) {
+  const double last = std::min(q1, rows.wavenumber.back());
+  return {std::move(rows.wavenumber), std::move(rows.density), std::move(rows.quality), {}, last};
+}
+
 template <class S>
 S binned(const S& spectrum, double per_decade) {
   const Rows rows = rows_of(spectrum);
@@ -159,7 +166,11 @@ S binned(const S& spectrum, double per_decade) {
     throw InvalidInput(argument("per_decade") + " = " + value(per_decade) + ": makes " +
                        std::to_string(result.wavenumber.size()) + " bin of this spectrum" + must(", must make ") +
                        "2 or more");
-  return S(std::move(result.wavenumber), std::move(result.density), std::move(result.quality));
+  if constexpr (std::is_same_v<S, TabulatedSpectrum>) {
+    return banded(std::move(result), spectrum.q1());
+  } else {
+    return S(std::move(result.wavenumber), std::move(result.density), std::move(result.quality));
+  }
 }
 
 bool same_wavenumbers(std::span<const TabulatedSpectrum> spectra) {
@@ -224,7 +235,9 @@ TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std:
   if (!flags) all.quality.flag.clear();
   Rows result = means(all, per_decade ? log_bins(all, *per_decade) : same);
   result.quality.heights = mean_heights(spectra);
-  return {std::move(result.wavenumber), std::move(result.density), std::move(result.quality)};
+  double q1 = 0;
+  for (const TabulatedSpectrum& s : spectra) q1 = std::max(q1, s.q1());
+  return banded(std::move(result), q1);
 }
 
 }  // namespace asperity

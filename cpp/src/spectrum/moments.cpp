@@ -134,16 +134,16 @@ double density(const Spectrum& spectrum, double wavenumber) {
 }
 
 std::vector<double> density(const Spectrum& spectrum, std::span<const double> wavenumber) {
-  const std::vector<Segment> pieces = checked_segments(spectrum);
-  const auto [q0, q1] = band(spectrum);
-  const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  const std::vector<Segment> pieces = table ? segments_of_rows(*table) : checked_segments(spectrum);
+  const double q0 = pieces.front().a, q1 = pieces.back().b;
   std::vector<double> result;
   result.reserve(wavenumber.size());
   for (const double q : wavenumber) {
     heed_at(result.size());
     require_positive("wavenumber", q);
     if (q < q0 || q > q1) {
-      if (measured) {
+      if (table) {
         const ShownRange known(q0, q1);
         throw OutOfRange(argument("wavenumber") + " = " + known.value(q) + ": the spectrum is known in " +
                          known.text() + " 1/m");
@@ -163,7 +163,7 @@ std::array<double, 2> band(const Spectrum& spectrum) {
                           return std::array{s.q0, s.q1};
                         },
                         [](const TabulatedSpectrum& s) {
-                          return std::array{s.wavenumber().front(), s.wavenumber().back()};
+                          return std::array{s.wavenumber().front(), s.q1()};
                         },
                     },
                     spectrum);

@@ -281,7 +281,7 @@ TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optio
     const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
     RowQuality quality = spectrum.quality();
     quality.heights.reset();  // they are those of the side, not of the map
-    const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality));
+    const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality), {}, spectrum.q1());
     return share > 0 ? scaled_table(table, 1 / share) : table;  // a constant map has no side
   }
   return ring_spectrum(map, window, detrend, threads, 0);
@@ -331,7 +331,8 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
     throw InvalidInput(argument("surface") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
                        must(": must have ") + "more points; these make only one ring of wavenumbers");
   if (most > 0) harmonics = supported(harmonics, quality, wavenumber.size());
-  return {std::move(wavenumber), std::move(density), std::move(quality), std::move(harmonics)};
+  const double nyquist = std::min(pi / std::max(dy, dx), wavenumber.back());  // beyond it rings are incomplete
+  return {std::move(wavenumber), std::move(density), std::move(quality), std::move(harmonics), nyquist};
 }
 
 }  // namespace

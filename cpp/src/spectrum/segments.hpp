@@ -24,7 +24,9 @@ struct Segment {
   [[nodiscard]] double moment(int n, double q) const;
 };
 
+/// Those of the band.
 std::vector<Segment> segments(const Spectrum& spectrum);
+/// Those of all rows, beyond the band too.
 std::vector<Segment> segments_of_rows(const TabulatedSpectrum& table);
 
 double rms_slope_of(std::span<const Segment> surface);

@@ -70,18 +70,19 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
   validate(spectrum);
   const auto [old_q0, old_q1] = band(spectrum);
   const double q0 = new_q0.value_or(old_q0), q1 = new_q1.value_or(old_q1);
-  const ShownRange known(old_q0, old_q1);
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  const double last = table ? table->wavenumber().back() : old_q1;  // rows may go beyond the band
+  const ShownRange known(old_q0, last);
   require_finite("q0", q0);
   require_finite("q1", q1);
-  const bool measured = std::holds_alternative<TabulatedSpectrum>(spectrum);
   const auto outside = [&](std::string_view name, double q) {
-    const Sentence problem =
-        argument(name) + " = " + known.value(q) + must_be() + "in " + known.text() + ", the spectrum's band [1/m]";
-    if (measured) throw OutOfRange(problem);
+    const Sentence problem = argument(name) + " = " + known.value(q) + must_be() + "in " + known.text() +
+                             ", the spectrum's " + (table ? "rows" : "band") + " [1/m]";
+    if (table) throw OutOfRange(problem);
     throw InvalidInput(problem, "invalid-value");
   };
-  if (!(q0 >= old_q0 && q0 < old_q1)) outside("q0", q0);
-  if (!(q1 > old_q0 && q1 <= old_q1)) outside("q1", q1);
+  if (!(q0 >= old_q0 && q0 < last)) outside("q0", q0);
+  if (!(q1 > old_q0 && q1 <= last)) outside("q1", q1);
   if (!(q1 > q0)) refuse("q1", q1, "above " + argument("q0") + " = " + value(q0));
   if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) {
     const double q_r = s->rolloff.value_or(s->q0);
@@ -89,7 +90,7 @@ Spectrum truncated(const Spectrum& spectrum, std::optional<double> new_q0, std::
       refuse("q1", q1, "above the roll-off, " + show(q_r) + ": what is left would be flat, not self-affine");
     return extended(*s, q0, q1);
   }
-  return truncated_table(std::get<TabulatedSpectrum>(spectrum), q0, q1);
+  return truncated_table(*table, q0, new_q1);
 }
 
 SelfAffineSpectrum extended(const SelfAffineSpectrum& spectrum, std::optional<double> q0, std::optional<double> q1) {

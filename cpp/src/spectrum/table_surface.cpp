@@ -4,7 +4,14 @@
 namespace asperity {
 
 std::span<const Segment> TableSurface::segments(const TabulatedSpectrum& table) {
-  std::call_once(segments_made_, [&] { segments_ = segments_of_rows(table); });
+  std::call_once(segments_made_, [&] {
+    segments_ = segments_of_rows(table);
+    while (segments_.back().a >= table.q1()) segments_.pop_back();
+    Segment& last = segments_.back();
+    if (last.b <= table.q1()) return;
+    last.at_b = last.density(table.q1());
+    last.b = table.q1();
+  });
   return segments_;
 }
 
@@ -14,8 +21,7 @@ double TableSurface::rms_slope(const TabulatedSpectrum& table) {
 }
 
 double TableSurface::nayak_parameter(const TabulatedSpectrum& table) {
-  std::call_once(nayak_made_,
-                 [&] { nayak_parameter_ = asperity::nayak_parameter(segments(table), table.wavenumber().back()); });
+  std::call_once(nayak_made_, [&] { nayak_parameter_ = asperity::nayak_parameter(segments(table), table.q1()); });
   return nayak_parameter_;
 }
 

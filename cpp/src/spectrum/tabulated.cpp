@@ -85,19 +85,24 @@ double RowQuality::correlation_of(std::size_t i, std::size_t j) const {
 }
 
 TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality,
-                                     RingHarmonics harmonics)
+                                     RingHarmonics harmonics, std::optional<double> q1)
     : wavenumber_(std::move(wavenumber)),
       density_(std::move(density)),
       quality_(std::move(quality)),
       harmonics_(std::move(harmonics)),
+      q1_(q1.value_or(wavenumber_.empty() ? 0 : wavenumber_.back())),
       surface_(std::make_shared<TableSurface>()) {
   validate_rows(wavenumber_, density_, quality_);
   validate_harmonics(harmonics_, wavenumber_.size());
+  if (!(q1_ > wavenumber_.front() && q1_ <= wavenumber_.back()))
+    refuse("q1", q1_,
+           "above the first wavenumber, " + show(wavenumber_.front()) + ", and at most the last, " +
+               show(wavenumber_.back()));
 }
 
 bool TabulatedSpectrum::operator==(const TabulatedSpectrum& other) const {
   return wavenumber_ == other.wavenumber_ && density_ == other.density_ && quality_ == other.quality_ &&
-         harmonics_ == other.harmonics_;
+         harmonics_ == other.harmonics_ && q1_ == other.q1_;
 }
 
 LineSpectrum::LineSpectrum(std::vector<double> wavenumber, std::vector<double> density, RowQuality quality)
@@ -105,8 +110,9 @@ LineSpectrum::LineSpectrum(std::vector<double> wavenumber, std::vector<double> d
   validate_rows(wavenumber_, density_, quality_);
 }
 
-TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, double q1) {
-  const std::vector<Segment> pieces = segments(table);
+TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, std::optional<double> new_q1) {
+  const std::vector<Segment> pieces = segments_of_rows(table);
+  const double q1 = new_q1.value_or(table.wavenumber().back());
   // Between a cut and a zero the straight line would turn into a power law: it cannot be cut there.
   for (const Segment& s : pieces)
     for (const auto& [name, cut] : {std::pair{"q0", q0}, std::pair{"q1", q1}})
@@ -154,7 +160,7 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, dou
   std::size_t i = first;
   for (; i < rows.size() && rows[i] <= q1; ++i) add_row(i);
   if (q.empty() || q.back() != q1) add_cut(q1, i);
-  return {std::move(q), std::move(c), std::move(quality), std::move(harmonics)};
+  return {std::move(q), std::move(c), std::move(quality), std::move(harmonics), new_q1.value_or(table.q1())};
 }
 
 TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor) {
@@ -162,7 +168,7 @@ TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor) {
   RowQuality quality = table.quality();
   for (double& value : values) value *= factor;
   for (double& error : quality.standard_error) error *= factor;
-  return {table.wavenumber(), std::move(values), std::move(quality), table.harmonics()};
+  return {table.wavenumber(), std::move(values), std::move(quality), table.harmonics(), table.q1()};
 }
 
 }  // namespace asperity

@@ -1,11 +1,14 @@
 // Changes of a spectrum row by row, its quality included.
 #pragma once
 
+#include <optional>
+
 #include "asperity/spectrum.hpp"
 
 namespace asperity {
 
-TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, double q1);
+/// Without q1 the rows beyond the band stay.
+TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, std::optional<double> q1);
 TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor);
 
 }  // namespace asperity

@@ -13,7 +13,7 @@ from asperity.plot.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.scan import nyquist, surface_spectrum
+from asperity.scene.scan import surface_spectrum
 from asperity.spectrum import TabulatedSpectrum
 
 Options = dict[str, Any]
@@ -59,7 +59,7 @@ def spectrum_chart(scene: Scene) -> Options:
         values = surface.values
         detrend = None if values["detrend"] == "none" else values["detrend"]
         measured = surface_spectrum(surface.scan, window=values["window"], detrend=detrend)
-        measured = measured.truncated(q1=min(nyquist(surface.scan), measured.q1))
+        measured = measured.truncated(q1=measured.q1)
         series += _scatter(measured)
     if surface.scan is None or surface.fit is not None:
         q = np.geomspace(spectrum.q0, spectrum.q1, 100)

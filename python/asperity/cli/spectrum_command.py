@@ -39,7 +39,6 @@ class Measured:
     """What a file gave: its spectrum, statistics of its heights without their trend, pictures."""
 
     spectrum: TabulatedSpectrum
-    nyquist: float
     statistics: Scan | HeightStatistics
     inputs: dict[str, Any]
     lay: float | None
@@ -59,16 +58,15 @@ def spectrum(args: Namespace) -> None:
         found = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
     measured = found.spectrum
     fit, fit_notes = _fit(measured, args)
-    whole = measured.truncated(q1=min(found.nyquist, measured.q1))
-    cutoff = whole.cutoff_for_slope(1.3)
-    reached = cutoff < whole.q1
+    cutoff = measured.cutoff_for_slope(1.3)
+    reached = cutoff < measured.q1
     inputs = {"file": str(path), "channel": args.channel, **found.inputs}
     for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
         if given is not None:
             inputs[key] = given
     numbers: dict[str, float | None] = {
-        "rms_height_m": whole.rms_height,
-        "rms_slope": whole.rms_slope,
+        "rms_height_m": measured.rms_height,
+        "rms_slope": measured.rms_slope,
         "rms_slope_by_differences": found.statistics.rms_slope,
         "skewness": found.statistics.skewness,
         "kurtosis": found.statistics.kurtosis,
@@ -85,14 +83,14 @@ def spectrum(args: Namespace) -> None:
     if fit is not None:
         numbers |= _fitted(fit)
     of_map = isinstance(found.flat, HeightMap)
-    floor = scan.noise_floor(measured, found.nyquist) if of_map else None
+    floor = scan.noise_floor(measured) if of_map else None
     if floor is not None:
         numbers["noise_from_per_m"] = floor
     notes = [*unusual, *fit_notes, *found.notes, *(scan.line_notes(whole) if of_map else ())]
     if not reached:
         text = (
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
-            f"{whole.q1:.4g} 1/m, is {whole.rms_slope:.3g}"
+            f"{measured.q1:.4g} 1/m, is {measured.rms_slope:.3g}"
         )
         notes.append(Note(text, code="no-cutoff"))
     if floor is not None:
@@ -100,13 +98,14 @@ def spectrum(args: Namespace) -> None:
         text = (
             f"C(q) ends flat, as no surface does: from {floor:.3g} 1/m on noise of the instrument, "
             "or roughness finer than the pixels, is half of it or more; without what lies there "
-            f"the rms slope is {slope:.3g} instead of {whole.rms_slope:.3g}"
+            f"the rms slope is {slope:.3g} instead of {measured.rms_slope:.3g}"
         )
         step = f"end the spectrum there: q1_per_m = {floor:.3g}"
         notes.append(Note(text, code="noise-in-spectrum", next_step=step))
     notes.append(Note(_serves(band, floor), code="reliable-band"))
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
+    whole = measured.truncated(q1=measured.q1)
     draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn, floor)
     write_outputs(args, table, draw, numbers)
 
@@ -163,7 +162,6 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
     flat = scan.flat(filled, how["detrend"])
     return Measured(
         spectrum=measured,
-        nyquist=scan.nyquist(filled),
         statistics=flat,
         inputs={
             "shape": list(raw.heights.shape),
@@ -203,7 +201,6 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
     notes = [] if tile is None else scan.scan_notes(tile, ratio)
     return Measured(
         spectrum=measured,
-        nyquist=scan.nyquist(HeightMap([[0.0]], pixel_size=source.pixel_size)),
         statistics=found,
         inputs={
             "shape": list(source.shape),

@@ -14,7 +14,7 @@ from asperity.plot.rubber import draw_isotherms, draw_shifts
 from asperity.plot.style import grey, palette
 from asperity.plot.surface import draw_line, draw_map, draw_spectrum, without_trend
 from asperity.scene.model import Scene
-from asperity.scene.scan import flat, nyquist, surface_spectrum
+from asperity.scene.scan import flat, surface_spectrum
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import WlfFit
 from asperity.spectrum import TabulatedSpectrum
@@ -39,7 +39,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
             draw_line(panels[0], shown)
         panels[0].set_title(without_trend(scan), fontsize="medium")
         measured = surface_spectrum(scan, window=values["window"], detrend=detrend)
-        measured = measured.truncated(q1=min(nyquist(scan), measured.q1))
+        measured = measured.truncated(q1=measured.q1)
     _draw_used(panels[-1], scene, measured, scene.surface.fit)
     return picture(figure, path)
 

@@ -135,10 +135,10 @@ def trusted(spectrum: TabulatedSpectrum) -> Sequence[float] | None:
     return (float(sound[0]), float(sound[-1])) if np.size(sound) else None
 
 
-def noise_floor(spectrum: TabulatedSpectrum, end: float) -> float | None:
+def noise_floor(spectrum: TabulatedSpectrum) -> float | None:
     """The wavenumber [1/m] from which C(q) of a map is less than twice the level at which it ends
-    flat below `end` = pi / pixel; None where it falls up to there."""
-    band = trusted(spectrum)
+    flat below pi / pixel; None where it falls up to there."""
+    band, end = trusted(spectrum), spectrum.q1
     whole = (spectrum.wavenumber <= end) & (spectrum.density > 0)
     q, density = spectrum.wavenumber[whole], spectrum.density[whole]
     if band is None or q.size < _SMOOTHED:

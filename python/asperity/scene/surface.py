@@ -35,7 +35,6 @@ from asperity.scene.scan import (
     lay,
     line_notes,
     noise_floor,
-    nyquist,
     read_filled,
     scan_notes,
     surface_spectrum,
@@ -191,18 +190,15 @@ def _measure(
         refuse(path, "[surface] directional", problem)
     with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND, **_DIRECTIONAL})):
         spectra = [surface_spectrum(scan, **settings, directional=directional) for scan in scans]
-        ends = [min(nyquist(scan), one.q1) for scan, one in zip(scans, spectra, strict=True)]
-        spectrum, end = spectra[0], ends[0]  # beyond an end rings are incomplete
+        spectrum = spectra[0]
         if len(scans) > 1:
-            whole = [one.truncated(q1=q1) for one, q1 in zip(spectra, ends, strict=True)]
+            whole = [one.truncated(q1=one.q1) for one in spectra]
             spectrum = merge_spectra(whole, per_decade=_MERGED)
-            end = spectrum.q1
         if wanted is not None:
             return spectrum, _fitted(spectrum), None
-        band.setdefault("q1", end)
         try:
             of_map = len(scans) == 1 and isinstance(scans[0], HeightMap)
-            floor = noise_floor(spectrum, end) if of_map else None
+            floor = noise_floor(spectrum) if of_map else None
             return spectrum.truncated(**band), None, floor
         except OutOfRange as error:
             raise error.followed_by('; fit = "self-affine" goes on beyond it') from error

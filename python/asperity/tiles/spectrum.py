@@ -5,11 +5,10 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, number
+from asperity.base.arguments import number
 from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
 from asperity.spectrum import TabulatedSpectrum
 from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
@@ -23,7 +22,7 @@ _PERIODS = (32.0, 20.0, 0.0, 24.0)  # of a wave on a tile where its rows take ov
 _NEAR_NYQUIST = 2
 _ANY_SHARE = 0.999  # the whole has been judged by its points
 
-Columns = tuple[Array, Array, Array, Array, NDArray[np.uint8], Array, float | None, float | None]
+Columns = tuple[Any, ...]  # in the order of TabulatedSpectrum's arguments
 
 
 def tiled_spectrum(
@@ -50,7 +49,8 @@ def tiled_spectrum(
     fine = _mean_rows(source, grid, how, workers)
     found = _of_coarse(coarse, how)
     low = _low_rows(found, coarse, source, grid, fine, window)
-    return _merged(low, fine, _edge(grid, source.pixel_size, window)[0], found)
+    skipped = _edge(grid, source.pixel_size, window)[0]
+    return _merged(low, fine, skipped, found, source.pixel_size)
 
 
 def tile_columns(
@@ -67,7 +67,7 @@ def tile_columns(
         tile = tile.fill_dropouts(most)
     found = _core.power_spectrum(tile, window, detrend, 1, 0)
     columns = found.wavenumber, found.density, found.count, found.standard_error, found.flag
-    return *columns, found.correlation, found.skewness, found.kurtosis
+    return *columns, found.correlation, found.skewness, found.kurtosis, found.q1
 
 
 def _single(
@@ -79,17 +79,8 @@ def _single(
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
-    wavenumber, density, count, error, flag, correlation, skewness, kurtosis = columns
-    return TabulatedSpectrum(
-        wavenumber=wavenumber,
-        density=density,
-        count=count,
-        standard_error=error,
-        flag=flag,
-        correlation=correlation,
-        skewness=skewness,
-        kurtosis=kurtosis,
-    )
+    given: dict[str, Any] = dict(zip(TabulatedSpectrum.__match_args__, columns, strict=True))
+    return TabulatedSpectrum(**given)
 
 
 def _check_dropouts(share: float, most: float) -> None:
@@ -165,7 +156,9 @@ def _edge(grid: Grid, pixel_size: tuple[float, float], window: int) -> tuple[int
     return first - 1, (first - 0.5) * 2 * math.pi / max(sides)
 
 
-def _merged(low: Rows, fine: Rows, skipped: int, coarse: Any) -> TabulatedSpectrum:
+def _merged(
+    low: Rows, fine: Rows, skipped: int, coarse: Any, pixel_size: tuple[float, float]
+) -> TabulatedSpectrum:
     """The rows of the coarse map, whose heights are the map's but for short waves, then those of
     the tiles."""
     lags = max(low.correlation.shape[1], fine.correlation.shape[1])
@@ -184,4 +177,5 @@ def _merged(low: Rows, fine: Rows, skipped: int, coarse: Any) -> TabulatedSpectr
         correlation=correlation,
         skewness=coarse.skewness,
         kurtosis=coarse.kurtosis,
+        q1=math.pi / max(pixel_size),
     )

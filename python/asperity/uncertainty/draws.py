@@ -70,7 +70,7 @@ def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
     logarithm = np.log1p(covariance)
     mean = -np.diag(logarithm) / 2
     factor = np.exp(rng.multivariate_normal(mean, logarithm, method="eigh"))
-    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density * factor)
+    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density * factor, q1=table.q1)
 
 
 def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> SelfAffineSpectrum:

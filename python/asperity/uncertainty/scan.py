@@ -29,7 +29,8 @@ def beyond_scan(spectrum: Drawn[Spectrum], scan: ScanContact) -> Drawn[Spectrum]
             rows = 2 + int(_ROWS_PER_DECADE * np.log10(plain.q1 / plain.q0))
             q = np.geomspace(plain.q0, plain.q1, rows)
         known = (q >= low) & (q <= high)
-        return TabulatedSpectrum(wavenumber=q, density=np.where(known, plain.at(q), one.at(q)))
+        density = np.where(known, plain.at(q), one.at(q))
+        return TabulatedSpectrum(wavenumber=q, density=density, q1=plain.q1)
 
     return Drawn[Spectrum](plain, drawn, spectrum.whole)
 

@@ -37,7 +37,7 @@ RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
   const auto above = std::upper_bound(rows_.begin() + 1, rows_.end() - 1, wavenumber);
   const auto row = static_cast<std::size_t>(above - rows_.begin()) - 1;
   const double a = rows_[row], b = rows_[row + 1];
-  if (of_table_ && surface_[row].straight) {
+  if (of_table_ && row < surface_.size() && surface_[row].straight) {
     const double x = std::clamp((wavenumber - a) / (b - a), 0.0, 1.0);
     const double lower = surface_[row].at_a * (1 - x), upper = surface_[row].at_b * x, whole = lower + upper;
     return whole > 0 ? Shares{row, lower / whole, upper / whole} : Shares{row, 0, 0};
