@@ -36,6 +36,7 @@ from asperity.measured_spectrum import (
 from asperity.prony_fit import PronyFit, fit_prony
 from asperity.report.report import report
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus
+from asperity.scene.scene import read_scene
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
 from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
@@ -105,6 +106,7 @@ __all__ = [
     "prony_input",
     "read_isotherms",
     "read_master_curve",
+    "read_scene",
     "read_shift_factors",
     "read_strain_sweep",
     "read_surface",

@@ -201,7 +201,7 @@ def build_master_curve(
     reference_temperature: float,
     vertical_shift: Literal["T/T_ref"] | ArrayLike | None = None,
     shift_factors: HasShiftFactors | None = None,
-    smooth: bool = False,
+    smooth: bool = True,
     extrapolation: Extrapolation | None = None,
 ) -> MasterCurveBuild:
     """Shift isotherms in frequency until neighbours overlap (the article's Section 5.1).

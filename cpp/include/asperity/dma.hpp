@@ -114,7 +114,7 @@ struct MasterCurveOptions {
   VerticalShift vertical_shift = VerticalShift::none;    // b_T = 1; T_ref / T; or as given
   std::vector<double> b_T = {};                          // an entry an isotherm in rising temperature, for `table`
   std::optional<ShiftTable> shift_table = std::nullopt;  // a_T from outside instead of a fit
-  bool smooth = false;                                   // the master spline instead of the merged points
+  bool smooth = true;                                    // the master spline instead of the merged points
   std::optional<Extrapolation> extrapolation = std::nullopt;
 };
 

@@ -36,7 +36,7 @@ std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
   const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
   if (!table) return ends;
   const auto& flag = table->quality().flag;
-  for (std::size_t i = 0; i < flag.size(); ++i) {
+  for (std::size_t i = 0; i < flag.size() && table->wavenumber()[i] <= table->q1(); ++i) {
     if ((flag[i] & few_periods) != 0) ends[0] = table->wavenumber()[i];
     if ((flag[i] & near_nyquist) != 0) ends[1] = std::min(ends[1], table->wavenumber()[i]);
   }
@@ -93,6 +93,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       fitted_(fitted_velocities(spectrum, rubber)),
       heights_(std::holds_alternative<ScanContact>(correction) ? std::nullopt : note_on_heights(spectrum)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
+      plain_(std::holds_alternative<NoCorrection>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
@@ -148,6 +149,11 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                              "the measured spectrum is too high from " + value(flagged_ends_[1], 4, "1/m") +
                                  " 1/m on, half of pi / pixel, if the surface is rough below the pixel too",
                              {"end the spectrum there, or measure with finer pixels"}));
+  if (plain_)
+    result.push_back(warning("no-correction",
+                             {"no correction is taken: without one mu was 39 % rms off exact sliding contacts, and the "
+                              "area 17 % off exact elastic ones"},
+                             {advice("take-partial-contact", "take PartialContact, which was 4 % rms off")}));
   if (fast_ && !heated)
     result.push_back(warning("heat-left-out",
                              "above " + value(flash_velocity, 12, "m/s") +

@@ -11,12 +11,15 @@ from asperity.io.read_dma import read_isotherms
 
 def rubber_of(
     folder: Folder, names: Sequence[str], settings: Mapping[str, Any]
-) -> tuple[dict[str, Any], str]:
-    """The table of a scene, and what there is to say of the files.
+) -> tuple[dict[str, Any], float | None, str]:
+    """The table of a scene, the temperature of the middle isotherm [K], and what there is to say of
+    the files.
 
-    Without a column of temperatures the one file is a master curve. Of sweeps the master curve is
-    that at the middle isotherm; files that hold one frequency are no such sweeps and are left out.
+    Without a column of temperatures the one file is a master curve. Files that hold one frequency
+    are no sweeps and are left out. The defaults are the shell's; `prony` is a Prony series instead
+    of the points, and with `beyond` the modulus goes on beyond them.
     """
+    prony, beyond = bool(settings.get("prony")), bool(settings.get("beyond"))
     read = {key: settings[key] for key in ("columns", "units", "modulus")}
     if settings["columns"].get("temperature") is None:
         if len(names) != 1:
@@ -24,7 +27,8 @@ def rubber_of(
             raise InvalidInput(problem)
         for key in ("columns", "units"):
             read[key] = {one: said for one, said in read[key].items() if one != "temperature"}
-        return {"master_curve": names[0], **read, "extrapolation": "power-law"}, ""
+        further = {"extrapolation": "power-law"} if beyond else {}
+        return {"master_curve": names[0], **read, **further}, None, ""
     column = settings["columns"]["frequency"]
     single = [name for name in names if len(set(numbers_of(folder.path / name, column))) == 1]
     swept = [name for name in names if name not in single]
@@ -32,14 +36,10 @@ def rubber_of(
         problem = "holds one frequency: must be sweeps of frequency at several temperatures"
         raise InvalidInput(problem, where=folder.path / single[0])
     isotherms = read_isotherms([folder.path / name for name in swept], **read)
-    prony = bool(settings.get("prony", False))
-    table = {
-        "isotherms": swept,
-        **read,
-        "reference_temperature_k": round(isotherms[len(isotherms) // 2].temperature, 2),
-        "prony": prony,
-        "extrapolation": "prony" if prony else "power-law",
-    }
+    table = {"isotherms": swept, **read} | ({"prony": True} if prony else {})
+    if beyond:
+        table["extrapolation"] = "prony" if prony else "power-law"
+    middle = isotherms[len(isotherms) // 2].temperature
     shown = ", ".join(folder.shown[name] for name in single)
     said = f"Left out, as they hold one frequency each: {shown}." if single else ""
-    return table, said
+    return table, middle, said

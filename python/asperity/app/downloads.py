@@ -15,10 +15,11 @@ from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
+from asperity.plot.style import drawn_in
 from asperity.report.make import report_page
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.results import scene_inputs, table_of
+from asperity.scene.results import notes_of_all, scene_inputs, table_of
 
 # What a download is made of is taken at once; making it may take its time in a thread.
 Make = Callable[[], bytes]
@@ -56,7 +57,7 @@ def table_csv(scene: Scene, curves: SceneFriction) -> bytes:
 def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[SceneFriction]) -> bytes:
     """The package's own picture of the curves, by the names that they have on the page."""
     scenes = [replace(scene, path=Path(name)) for name, scene in named]
-    with _drawing:
+    with _drawing, drawn_in(None, notes_of_all(scenes, curves)):
         return friction_figure(scenes, curves, Path("friction.svg"))
 
 

@@ -96,7 +96,8 @@ class RubberPart:
                 kinds = {"E": "E, Young's", "G": "G, shear"}
                 modulus = ui.select(kinds, value=guess.modulus, label="The moduli are")
                 modulus.props("dense outlined")
-            prony = ui.checkbox("Fit a Prony series to sweeps", value=True).classes("mr-3")
+            prony = ui.checkbox("Fit a Prony series to sweeps").classes("mr-3")
+            beyond = ui.checkbox("Go on beyond what was measured").classes("mr-3")
 
             async def take() -> None:
                 await self._use(
@@ -106,6 +107,7 @@ class RubberPart:
                         "units": {name: menu.value for name, menu in units.items()},
                         "modulus": modulus.value,
                         "prony": prony.value,
+                        "beyond": beyond.value,
                     },
                 )
 

@@ -185,7 +185,7 @@ class State:
         """Read the scan that was kept, to be the surface. What cannot be read is refused."""
         if self.scan is None:
             raise InvalidInput("no scan was dropped yet")
-        table = {"file": self.scan, "detrend": "quadratic", "slope_cutoff": 1.3, **settings}
+        table = {"file": self.scan, **settings}
         self._builders.surface(self._path, table)
 
         def take() -> str:
@@ -220,12 +220,12 @@ class State:
         """Read measured moduli, to be the rubber: `columns`, `units` and `modulus` as a scene has
         them. To take them returns what there is to say of the files."""
         with plausible.collected():  # notes are those of the scene
-            table, said = rubber_of(self.folder, names, settings)
-        middle = round(table.get("reference_temperature_k", 293.15) - ZERO_CELSIUS, 2)
+            table, middle, said = rubber_of(self.folder, names, settings)
+        celsius = round((middle or 293.15) - ZERO_CELSIUS, 2)
 
         def warmed(conditions: dict[str, Any]) -> dict[str, Any]:
             stated = {"temperature_k", "temperature_c"} & conditions.keys()
-            return conditions if stated else {**conditions, "temperature_c": middle}
+            return conditions if stated else {**conditions, "temperature_c": celsius}
 
         conditions = warmed(self.conditions)
         kelvin = conditions.get("temperature_k") or conditions["temperature_c"] + ZERO_CELSIUS

@@ -22,7 +22,7 @@ from asperity.scene.surface import SURFACE
 from asperity.surface import HeightMap
 
 _UNITS = {"": "as the file says", "m": "m", "mm": "mm", "um": "µm", "nm": "nm"}
-_DETREND = {"quadratic": "curved", "plane": "tilted", "offset": "neither"}
+_DETREND = {"plane": "tilted", "quadratic": "curved", "offset": "neither"}
 _MOST_PIXELS = 360  # of a side of the picture
 
 
@@ -56,7 +56,7 @@ class SurfacePart:
 
     def _scan_fields(self) -> None:
         self._upload = Upload("Drop a scan here, or choose a file", self._taken, self._say)
-        self._settings: dict[str, Any] = {"unit": "", "detrend": "quadratic"}
+        self._settings: dict[str, Any] = {}  # what is not in here is as in the shell
         with ui.expansion("How the scan is read").classes("w-full").props("dense"):
             field = "dense outlined debounce=500"
             ui.input("Pixel size [µm]: one number, or dy, dx", on_change=self._pixel).props(
@@ -65,12 +65,13 @@ class SurfacePart:
             ui.select(_UNITS, value="", label="Unit of the heights", on_change=self._unit).props(
                 "dense outlined"
             ).classes("w-full")
-            ui.select(
-                _DETREND, value="quadratic", label="The scan is", on_change=self._detrend
-            ).props("dense outlined").classes("w-full")
-            ui.input("q0 [1/m], where the spectrum begins", on_change=self._begin).props(
-                f'{field} hint="empty: as the scan is long"'
+            tilted = SURFACE["detrend"].default
+            ui.select(_DETREND, value=tilted, label="The scan is", on_change=self._detrend).props(
+                "dense outlined"
             ).classes("w-full")
+            self._end("q0_per_m", "q0 [1/m], where the spectrum begins", "as the scan is long")
+            self._end("q1_per_m", "q1 [1/m], where it ends", "at pi / pixel")
+            self._end("slope_cutoff", "rms slope at which it ends", "no such end")
             ui.input("Most drop-outs [%]", on_change=self._dropouts).props(
                 f'{field} hint="of the points: 10 where it is empty"'
             ).classes("w-full")
@@ -146,13 +147,19 @@ class SurfacePart:
         self._settings["detrend"] = event.value
         await self._use()
 
-    async def _begin(self, event: Any) -> None:
-        try:
-            self._settings["q0_per_m"] = float(event.value) if event.value else None
-        except ValueError:
-            self._say(f"q0 {brief(event.value)}: must be a number")
-            return
-        await self._use()
+    def _end(self, key: str, label: str, empty: str) -> None:
+        """A field for an end of the spectrum, which is as `empty` says where it is empty."""
+
+        async def changed(event: Any) -> None:
+            try:
+                self._settings[key] = float(event.value) if event.value else None
+            except ValueError:
+                self._say(f"{label} {brief(event.value)}: must be a number")
+                return
+            await self._use()
+
+        shown = ui.input(label, on_change=changed).classes("w-full")
+        shown.props(f'dense outlined debounce=500 hint="empty: {empty}"')
 
     async def _dropouts(self, event: Any) -> None:
         try:

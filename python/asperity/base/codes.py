@@ -56,6 +56,7 @@ NOTES = {
     "separation-too-large": (FATAL, "Greenwood-Williamson: the area does not fall with the load"),
     "no-contact": (FATAL, "Greenwood-Williamson: the separation is above the highest point"),
     "area-further-off": (FATAL, "the affine shift makes the area worse"),
+    "no-correction": (WARNING, "plain theory, which exact contacts show to be off"),
     "unmeasured-bandwidth": (NOTE, "the correction was not measured at such a bandwidth"),
     "unmeasured-load": (NOTE, "the correction was not measured at such a light load"),
     "unknown-model-error": (NOTE, "no exact contact was solved near these points"),

@@ -69,7 +69,6 @@ def rubber(args: Namespace) -> None:
             reference_temperature=reference,
             vertical_shift=args.vertical_shift,
             shift_factors=shifts,
-            smooth=True,
         )
     wlf, prony, of_fits = _fits(build)
     notes = fatal_first([*unusual, *build.notes, *of_fits])

@@ -27,7 +27,7 @@ from asperity.scene.scene import read_toml
 from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.existing import open_store
-from asperity.sweep.look import choose, ranks
+from asperity.sweep.look import choose, fatal_notes, ranks
 from asperity.sweep.plan import cut_of
 from asperity.sweep.timing import estimated, timed
 
@@ -167,12 +167,15 @@ def _look(args: Namespace, found: Any) -> None:
     if args.plot is not None:
         picture = FilePath(args.plot)
         name = (args.variables or "mu").split(",")[0]
-        with drawn_in(args.style):
+        with drawn_in(args.style, fatal_notes(found)):
             write_whole(picture, sweep_figure(part, picture, name))
     if args.rank is not None:
         columns = ranks(part, args.rank)
-        inputs = [{"axis": args.rank, **{f"at {name}": one for name, one in args.at.items()}}]
-        print_stdout(Table("sweep --rank", inputs, [*map(Note, _RANK_NOTES)], columns).csv())
+        fatal = fatal_notes(found)
+        at = {f"at {name}": one for name, one in args.at.items()}
+        inputs = [{"axis": args.rank, **at, "fatal_notes": len(fatal)}]
+        notes = [*fatal, *map(Note, _RANK_NOTES)]
+        print_stdout(Table("sweep --rank", inputs, notes, columns).csv())
 
 
 def _read(path: Path) -> tuple[Path, Any, Any]:

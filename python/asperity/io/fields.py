@@ -298,6 +298,7 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
 
 
 _ADVICE = {
+    "take-partial-contact": 'take [correction] kind = "partial-contact", which was 4 % rms off',
     "give-macro-wavenumber": "give macro_wavenumber_per_m or macro_area",
     "end-spectrum": "[surface] q1_per_m = {:.12g}",
     "extrapolate-curve": '[rubber] extrapolation = "power-law" or "clamp"',

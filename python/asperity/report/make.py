@@ -10,6 +10,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
+from asperity.base.codes import FATAL
 from asperity.base.diagnostics import MUST_BE, Argument, Must
 from asperity.base.table import imported
 from asperity.io.files import check_output, write_whole
@@ -91,6 +92,7 @@ def report_page(
         version=__version__,
         date=_now(),
         style=drawn.plain(_shipped("style.css")),
+        fatal=[note for note in table.notes if note.severity == FATAL],
         overview=drawn.friction(scenes, curves),
         table_link=_link(table.csv(), "text/csv"),
         points=len(table.columns["mu"]),

@@ -96,6 +96,13 @@ class Scene:
         return self.built_rubber.rubber
 
     @property
+    def conditions(self) -> dict[str, Any]:
+        """Where friction is wanted, as arguments of `friction`."""
+        points = {"pressure": self.pressure[:, None], "velocity": self.velocity}
+        heated = {} if self.heating is None else {"temperature": self.temperature}
+        return {**points, "poisson_ratio": self.options["poisson_ratio"], **heated}
+
+    @property
     def notes(self) -> list[Note]:
         """What the inputs give to note, before anything is computed."""
         of_heights = () if isinstance(self.correction, ScanContact) else self.surface.fitted_heights

@@ -90,6 +90,12 @@ _WITH = {
     "master_curve": {*_TABLE, *TEMPERATURE, *_REFERENCE, *WLF_KEYS, "extrapolation"},
     "": {*_PRONY, *TEMPERATURE, *_REFERENCE, *WLF_KEYS},
 }
+# what results state where these keys are left out
+_STATED: dict[str, Values] = {
+    "isotherms": {"prony": False, "extrapolation": "none"},
+    "master_curve": {"extrapolation": "none"},
+    "": {},
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +144,8 @@ def _at(
     if temperature is None:
         kelvin = _in_kelvin(path, values)
         built = _build(path, source, kelvin, measure)
-        return replace(built, temperature=kelvin.get("temperature_k"))
+        used = {**_STATED[source], **built.values}
+        return replace(built, values=used, temperature=kelvin.get("temperature_k"))
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
@@ -146,7 +153,7 @@ def _at(
         kelvin = {**_in_kelvin(path, values), "temperature_k": temperature}
         built = _build(path, source, kelvin, measure)
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
-    return replace(built, values=used, temperature=temperature)
+    return replace(built, values={**_STATED[source], **used}, temperature=temperature)
 
 
 def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltRubber:
@@ -252,7 +259,6 @@ def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCu
             isotherms,
             **arguments(values, BUILD),
             shift_factors=shift_table(path, values),
-            smooth=True,
             extrapolation=None if fitted else values.get("extrapolation"),
         )
     return isotherms, build

@@ -106,7 +106,8 @@ def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) ->
 
 def line_notes(spectrum: TabulatedSpectrum) -> list[Note]:
     """What there is to say of lines of a spectrum, as grooves at equal distances have them."""
-    q, density = spectrum.wavenumber, spectrum.density
+    whole = spectrum.wavenumber <= spectrum.q1
+    q, density = spectrum.wavenumber[whole], spectrum.density[whole]
     if density.size < 2 * _BESIDE + 1:
         return []
     medians = np.median(sliding_window_view(density, _BESIDE), axis=-1)

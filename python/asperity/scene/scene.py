@@ -1,5 +1,6 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from glob import glob
@@ -59,8 +60,43 @@ class Builders:
     correction: Callable[..., tuple[Correction, Values]] = build_correction
 
 
+def read_scene(path: str | os.PathLike[str]) -> Scene:
+    """Return the scene of a file as `asperity friction` computes it.
+
+    What a scene leaves out has the defaults of the functions that are called for it: the trend and
+    the window those of `power_spectrum`, the band that of the map, the master curve that of
+    `build_master_curve`, as it was measured: no Prony series, nothing beyond what was measured.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file.
+
+    Returns
+    -------
+    Scene
+        `.friction()` has the digits of the shell, of shape (pressures, velocities) [-]. Its parts
+        are `.spectrum` and `.rubber` as `friction` takes them, `.correction`, `.adhesion` and
+        `.heating`, or None, and `.conditions`, the arguments that say where: `pressure` [Pa],
+        `velocity` [m/s], `poisson_ratio` and, with heating, `temperature` [K]. `.surface` has the
+        scan and what was made of it, `.inputs` all that was used, `.notes` what the inputs give to
+        note. `.others` are the same at further temperatures of a list.
+
+    Raises
+    ------
+    InvalidInput, OutOfRange
+        In one line: file, table and key, the value found and what is allowed.
+
+    Examples
+    --------
+    >>> scene = read_scene("scene.toml")  # doctest: +SKIP
+    >>> scene.friction().mu  # doctest: +SKIP
+    """
+    return load_scene(path, for_friction=True)
+
+
 def load_scene(
-    path: str | Path, *, for_friction: bool = False, builders: Builders = Builders()
+    path: str | os.PathLike[str], *, for_friction: bool = False, builders: Builders = Builders()
 ) -> Scene:
     """Read a scene file and build the parts that it names.
 
@@ -73,7 +109,7 @@ def load_scene(
         In one line: file, table and key, the value found and what is allowed.
     """
     where = path_of(path, "path")
-    return scene_of(where, read_scene(where), for_friction=for_friction, builders=builders)
+    return scene_of(where, read_tables(where), for_friction=for_friction, builders=builders)
 
 
 def scene_of(
@@ -130,6 +166,7 @@ def build_scene(
     if rubber.strain_factors:
         options["strain_factors"] = rubber.strain_factors
     correction = adhesion = None
+    inputs["correction"] = {"kind": "none"}
     if "correction" in tables:
         correction, inputs["correction"] = builders.correction(
             path, tables["correction"], surface.spectrum, surface.scan, surface.values
@@ -174,7 +211,7 @@ def build_scene(
     return replace(first, others=others)
 
 
-def read_scene(path: Path) -> dict[str, Any]:
+def read_tables(path: Path) -> dict[str, Any]:
     """Tables of a scene file, of which the three that every scene needs are there."""
     tables = read_toml(path)
     check_tables(path, tables)

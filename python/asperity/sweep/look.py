@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, Must, refusal, valued
+from asperity.base.codes import FATAL
+from asperity.base.diagnostics import Argument, Must, Note, refusal, valued
 from asperity.io.fields import nearest
 
 _BLOCK = 1_000_000  # numbers of a variable that are looked at together
@@ -45,6 +46,17 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
     allowed = ", ".join(shown if len(shown) <= 12 else [*shown[:6], "...", *shown[-5:]])
     about = Argument(f"{option} {name}"), " = ", valued(text, text)
     raise InvalidInput(*about, f": is not on the axis, which has {allowed}")
+
+
+def fatal_notes(dataset: Any) -> list[Note]:
+    """The notes of a sweep that make some of its results wrong or empty."""
+    labels, texts = (str(dataset.attrs[name]).splitlines() for name in ("note_labels", "notes"))
+    kinds = (label.split(" ") for label in labels)
+    return [
+        Note(text.removeprefix(f"{FATAL}: "), code=code, severity=severity)
+        for (severity, code, *_), text in zip(kinds, texts, strict=True)
+        if severity == FATAL
+    ]
 
 
 def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:

@@ -15,7 +15,7 @@ from asperity.base.arguments import FilePath, flag, path_of
 from asperity.base.diagnostics import Argument, refusal, valued
 from asperity.base.table import imported
 from asperity.io import plausible
-from asperity.scene.scene import read_scene
+from asperity.scene.scene import read_tables
 from asperity.sweep.describe import Described, write_netcdf
 from asperity.sweep.executors import Executor, Lost, result_of
 from asperity.sweep.existing import (
@@ -172,7 +172,7 @@ def planned(scene: Any, over: Any, variables: Any = None, where: Path | None = N
             tables = scene
         else:
             path = path_of(scene, "scene")
-            tables = read_scene(path)
+            tables = read_tables(path)
         plan = plan_of(path, tables, over, variables, where or path)
     plan = replace(plan, notes=tuple(notes))
     try:

@@ -205,15 +205,15 @@ WIDE = SelfAffineSpectrum(rms_height=2e-5, hurst=0.87, q0=2e3, q1=1e6)  # rms sl
 NOTES = [
     (["unmeasured-bandwidth"], WIDE, 0.005, asperity.SFactor(), 2e5),
     (["area-further-off"], ROAD, 0.005, asperity.AffineShift(2), 2e5),
-    (["steep-spectrum"], STEEP, 0.005, None, 2e5),
-    (["heat-left-out"], ROAD, [0.005, 0.0101], None, 2e5),
+    (["no-correction", "steep-spectrum"], STEEP, 0.005, None, 2e5),
+    (["heat-left-out", "no-correction"], ROAD, [0.005, 0.0101], None, 2e5),
     (["full-conformity"], ROAD, 0.005, gw(9e-4, z_min=-1e-9), 2e6),
     (["separation-too-large", "unmeasured-load"], ROAD, 0.005, gw(2e-3, z_min=-2e-6), 1.0),
     (["unmeasured-load"], ROAD, 0.005, asperity.SFactor(), 1e3),
     (["no-contact"], ROAD, 0.005, gw(1e-4), 1.0),
     ([], ROAD, [1e-6, 0.01], gw(2e-3), 2e5),
-    ([], WIDE, 0.005, None, 2e5),
-    ([], STEEP.truncated(q1=STEEP.cutoff_for_slope()), 0.005, None, 2e5),
+    (["no-correction"], WIDE, 0.005, None, 2e5),
+    (["no-correction"], STEEP.truncated(q1=STEEP.cutoff_for_slope()), 0.005, None, 2e5),
 ]
 
 

@@ -90,8 +90,9 @@ def test_match_statements_take_values_apart():
         case _:
             pytest.fail("no match")
     match ALL["friction at a point"]:
-        case asperity.Friction(mu=mu, notes=()):
+        case asperity.Friction(mu=mu, notes=(note,)):
             assert 0 < mu < 3
+            assert note.code == "no-correction"
         case _:
             pytest.fail("no match")
 

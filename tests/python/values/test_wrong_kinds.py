@@ -68,6 +68,7 @@ def readers(tmp_path_factory):
         "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
         "sweep": {"scene": SCENE, "over": {"surface.hurst": [0.7, 0.8]}},
         "report": {"scenes": scene, "path": tmp_path / "report.html"},
+        "read_scene": {"path": scene},
     }
 
 
