@@ -3,7 +3,7 @@
 from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 
-from asperity.base.codes import ERRORS, NOTES
+from asperity.base.codes import ERRORS, KINDS
 
 
 class Codes(SphinxDirective):
@@ -13,8 +13,8 @@ class Codes(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         if self.arguments[0] == "notes":
-            lines = ["| code | severity | meaning |", "| --- | --- | --- |"]
-            lines += [f"| `{code}` | {how} | {what} |" for code, (how, what) in NOTES.items()]
+            lines = ["| code | severity | meaning | what to do |", "| --- | --- | --- | --- |"]
+            lines += [f"| `{code}` | {' | '.join(kind[:3])} |" for code, kind in KINDS.items()]
         else:
             lines = ["| code | meaning |", "| --- | --- |"]
             lines += [f"| `{code}` | {what} |" for code, what in ERRORS.items()]

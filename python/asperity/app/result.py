@@ -15,7 +15,7 @@ from asperity.app.parts import chart, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Worker, in_thread
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Note, html_items
 from asperity.report.errors import errors_of, solved_contacts
 from asperity.scene.model import Scene, SceneFriction
 
@@ -128,8 +128,8 @@ class ResultPart:
         solved = solved_contacts(found.scene)
         if solved is not None:
             errors.append(f"{solved[0]} contacts of the scan are solved, on up to {solved[1]}")
-        notes = [self._state.said(one) for one in dict.fromkeys(found.best.notes)]
-        self._notes.set_content(_items([*errors, *(notes or [Note(_NOTHING)])]))
+        notes = [self._state.said(one) for one in found.best.notes] or [Note(_NOTHING)]
+        self._notes.set_content(html_items(notes) + _items(errors))
         self._table.set_content(_table(found.scene, found.best))
 
     def _offer_velocities(self, found: Found) -> None:

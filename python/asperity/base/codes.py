@@ -1,6 +1,8 @@
 """The codes of notes and errors, which stay: severity and meaning, from which the page on them is
 made. A test holds them to what the core and the package say."""
 
+from typing import NamedTuple
+
 FATAL, WARNING, NOTE = "fatal", "warning", "note"
 
 NOTES = {
@@ -119,4 +121,85 @@ ERRORS = {
     "outside-map": "a point is outside of what the map covers",
     "unknown-shift": "a_T is not known at this temperature",
     "not-converged": "a tolerance was not reached",
+}
+
+
+class Kind(NamedTuple):
+    """What is declared of the notes of one code."""
+
+    severity: str
+    meaning: str
+    next_step: str  # where a note does not say it better
+    effect: float  # relative change of mu that it may stand for, where a note does not know it
+
+
+# Of every fatal one and every warning: without it there is no such code.
+_NEXT_STEPS = {
+    "slope-unmeasured": "measure a longer scan, or one with finer pixels",
+    "slope-not-reached": "measure with finer pixels, or go on beyond the scan by fit",
+    "scan-length-as-q0": "give q0",
+    "steep-spectrum": "compare mu at a few q1, and state q1 with it",
+    "near-nyquist": "end the spectrum at half of pi / pixel, or measure with finer pixels",
+    "noise-in-spectrum": "end the spectrum where the noise begins",
+    "heights-not-gaussian": "take ScanContact, the contact of the scan itself",
+    "lay": "measure friction along and across the lay",
+    "few-long-waves": "measure a longer scan, or begin the spectrum at a higher q0",
+    "few-periods": "measure a longer scan, or merge several",
+    "law-beyond-rows": "measure with finer pixels, or state it with mu",
+    "undetermined-shift": "measure at temperatures between, or give shift factors from outside",
+    "moduli-contradict": "check the columns and units of the moduli",
+    "modulus-extrapolated": "measure the modulus at other temperatures, or leave velocities out",
+    "modulus-unmeasured": "measure the modulus at other temperatures, or leave velocities out",
+    "beyond-prony-fit": "measure the modulus at more temperatures, or leave these velocities out",
+    "different-shifts": "give shift factors from another measurement, and compare",
+    "isotherms-off-curve": "try a vertical shift",
+    "points-off-curve": "try a vertical shift",
+    "small-overlap": "measure at a temperature between them",
+    "law-beyond-fit": "measure the modulus at these temperatures",
+    "no-vertical-shift": "compute with a vertical shift too: mu lies between the two, or beyond",
+    "lines-in-spectrum": "measure friction along and across the lines",
+    "full-conformity": "take PartialContact",
+    "separation-too-large": "take PartialContact",
+    "no-contact": "take PartialContact, or check z_max and the load",
+    "area-further-off": "take PartialContact",
+    "coarse-map": "take a finer map, or one without its shortest waves",
+    "large-angle": "give the angle in radians",
+    "large-friction": "check where the spectrum ends, and the units",
+    "heat-left-out": "give heating, with a temperature and the shift of the rubber",
+    "hot-rubber": "hold these points against a measurement",
+    "several-states": "look at branches, and at branch = hot",
+    "macro-wavenumber-held": "give macro_wavenumber or macro_area",
+    "maximum-extrapolated": "measure friction at velocities about the maximum",
+    "systematic-misfit": "check spectrum, modulus and correction against the points",
+    "few-points": "measure friction at more points",
+    "large-scatter": "check the unit of the velocities",
+    "failed-draws": "truncate the spectrum, or leave out velocities, at whose ends draws fail",
+    "map-error-exceeded": "make the map anew with a smaller rtol",
+    "absurd-value": "check the unit of the number",
+    "absurd-heights": "check the unit of the heights",
+    "absurd-pressure": "check the units of pressure and moduli",
+    "unusual-value": "check the unit of the number",
+    "unusual-heights": "check the unit of the heights",
+    "squashed-rubber": "check the units of pressure and moduli",
+}
+# mu of exact contacts of worn and peaked maps is 0.1 to 2.9 times that of their spectra
+# (docs/sliding.md); half a decade of a_T has halved mu at 1 m/s (docs/howto/fatal_notes.md); a
+# doubled q1 beyond a slope of 1.3 raises that of the README's road by 0.4 to 0.7.
+_EFFECTS = {
+    "heights-not-gaussian": 1.0,
+    "different-shifts": 0.5,
+    "no-vertical-shift": 0.5,
+    "steep-spectrum": 0.5,
+    "heat-left-out": 0.2,
+}
+_OF_SEVERITY = {FATAL: 1.0, WARNING: 0.05, NOTE: 0.0}
+
+KINDS = {
+    code: Kind(
+        severity,
+        meaning,
+        "" if severity == NOTE else _NEXT_STEPS[code],
+        _EFFECTS.get(code, _OF_SEVERITY[severity]),
+    )
+    for code, (severity, meaning) in NOTES.items()
 }

@@ -5,9 +5,10 @@ keys there, and temperatures as they were given; the app what a reader sees who 
 """
 
 from collections.abc import Callable, Iterable
+from html import escape
 from typing import Any, Self
 
-from asperity.base.codes import FATAL, NOTE, NOTES
+from asperity.base.codes import FATAL, KINDS, NOTE, WARNING, Kind
 
 
 class Phrase(str):
@@ -170,6 +171,9 @@ for _kind in (Error, InvalidInput, OutOfRange, NotConverged):
     _kind.__module__ = "asperity"
 
 
+_ANY = Kind(NOTE, "any other", "", 0.0)
+
+
 class Note(_Diagnostic, str):
     """A note on a result: a text, which knows what it is about.
 
@@ -178,7 +182,9 @@ class Note(_Diagnostic, str):
     severity : {"fatal", "warning", "note"}
         A fatal one makes the result wrong or empty, a warning may make it so.
     next_step : str
-        What to do about it.
+        What to do about it; every fatal one and every warning has it.
+    effect : float
+        Relative change of mu that it may stand for, as far as is known.
     code, argument, value, allowed, unit
         As those of an error.
     """
@@ -186,6 +192,7 @@ class Note(_Diagnostic, str):
     severity: str
     next_step: str
     next_step_phrases: Sentence
+    effect: float
 
     def __new__(
         cls,
@@ -193,23 +200,27 @@ class Note(_Diagnostic, str):
         code: str = "note",
         severity: str = "",
         next_step: Sentence | str = (),
+        effect: float | None = None,
         where: object = (),
         after: Sentence = (),
     ) -> Self:
         """Take the phrases of the sentence; a fatal one says so in its first word.
 
-        The severity is that of the code.
+        What is left out is that of the code.
         """
-        severity = severity or NOTES.get(code, (NOTE,))[0]
+        kind = KINDS.get(code, _ANY)
+        severity = severity or kind.severity
         about = where if isinstance(where, tuple) else (File(f"{where}"), ": ")
         text = "".join((*about, *sentence, *after))
         note = super().__new__(cls, f"{FATAL}: {text}" if severity == FATAL else text)
         note.code, note.severity = code, severity
+        note.effect = kind.effect if effect is None else effect
         note._tell(sentence, about, after)
         if isinstance(next_step, str):
             next_step = (next_step,) if next_step else ()
         advice = _first(sentence, Advice)
-        note.next_step_phrases = next_step or ((advice,) if advice else ())
+        of_code = (kind.next_step,) if kind.next_step else ()
+        note.next_step_phrases = next_step or ((advice,) if advice else of_code)
         note.next_step = "".join(note.next_step_phrases)
         return note
 
@@ -219,6 +230,7 @@ class Note(_Diagnostic, str):
             code=self.code,
             severity=self.severity,
             next_step=self.next_step_phrases,
+            effect=self.effect,
             where=where,
             after=after,
         )
@@ -229,6 +241,12 @@ class Note(_Diagnostic, str):
         made.next_step_phrases = words(self.next_step_phrases)
         made.next_step = "".join(made.next_step_phrases)
         return made
+
+    @property
+    def with_step(self) -> str:
+        """The text, and what to do about it unless the sentence says it."""
+        said = any(isinstance(phrase, Advice) for phrase in self.next_step_phrases)
+        return f"{self} -> {self.next_step}" if self.next_step and not said else str(self)
 
     @property
     def label(self) -> str:
@@ -246,15 +264,67 @@ class Note(_Diagnostic, str):
         """Return the note of such a line."""
         told, _, next_step = line.partition("\t")
         label, _, text = told.partition(": ")
+        return cls.of_label(label, text, next_step)
+
+    @classmethod
+    def of_label(cls, label: str, text: str, next_step: str = "") -> Self:
+        """Return the note of its label and text."""
         severity, code, argument = (*label.split(" ", 2), "", "")[:3]
-        note = cls(text, code=code, severity=severity, next_step=next_step)
+        begin = f"{FATAL}: " * (severity == FATAL)
+        note = cls(text.removeprefix(begin), code=code, severity=severity, next_step=next_step)
         note.argument = argument
         return note
+
+
+_ORDER = (FATAL, WARNING, NOTE)
+_INKS = {FATAL: ' style="color: #a30000; font-weight: 600"', WARNING: ' style="color: #704000"'}
 
 
 def fatal_first(notes: Iterable[Note]) -> list[Note]:
     """Each note once, those that make the result wrong or empty before the others."""
     return sorted(dict.fromkeys(notes), key=lambda note: note.severity != FATAL)
+
+
+def first_step(notes: Iterable[Note]) -> str:
+    """The one thing to do next, empty where there is none: that of the note that makes the result
+    wrong, or else of the one with the largest effect on mu."""
+    known = [note for note in notes if note.next_step and note.severity != NOTE]
+    if not known:
+        return ""
+    worst = min(known, key=lambda note: (_ORDER.index(note.severity), -note.effect))
+    return f"{worst.next_step} ({worst.code})"
+
+
+def html_items(notes: Iterable[Note]) -> str:
+    """The notes as items of an HTML list, fatal ones first and coloured; above them what to do
+    first."""
+    kept = fatal_first(notes)
+    step = first_step(kept)
+    items = [f"<li>Next: {escape(step)}</li>"] if step else []
+    items += [f"<li{_INKS.get(n.severity, '')}>{escape(n.with_step)}</li>" for n in kept]
+    return "".join(items)
+
+
+def few_lines(notes: Iterable[Note], most: int) -> list[str]:
+    """The notes in so many lines, the last of which is the first step: the gravest first, those of
+    a code joined, and how many are left out."""
+    kinds: dict[str, list[Note]] = {}
+    for note in dict.fromkeys(notes):
+        kinds.setdefault(note.code, []).append(note)
+    order = sorted(kinds.values(), key=lambda one: (_ORDER.index(one[0].severity), -one[0].effect))
+    step = first_step(note for one in order for note in one)
+    room = most - bool(step)
+    shown = order if len(order) <= room else order[: room - 1]
+    lines = [
+        f"note: {first.with_step}" + f" (and {len(rest)} alike)" * bool(rest)
+        for first, *rest in shown
+    ]
+    hidden = [note for one in order[len(shown) :] for note in one]
+    if hidden:
+        counts = [(how, sum(note.severity == how for note in hidden)) for how in _ORDER]
+        kinds_of = ", ".join(f"{n} {how}" for how, n in counts if n)
+        lines.append(f"note: {len(hidden)} more ({kinds_of}): --notes all shows them")
+    return [*lines, f"next: {step}"] if step else lines
 
 
 def brief(found: object) -> str:

@@ -8,6 +8,7 @@ from typing import Any, Self, dataclass_transform
 import numpy as np
 
 from asperity import _core
+from asperity.base.diagnostics import html_items
 from asperity.base.parameters import parameter, parameters
 
 
@@ -69,6 +70,8 @@ class Value:
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
         cells = {escape(name): escape(short(shown)) for name, shown in self._summary().items()}
+        if "notes" in cells:
+            cells["notes"] = f"<ul>{html_items(self._summary()['notes'])}</ul>"
         rows = "".join(f"<tr><th>{name}</th><td>{cell}</td></tr>" for name, cell in cells.items())
         return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
 

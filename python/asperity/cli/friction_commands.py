@@ -49,7 +49,7 @@ def demo(args: Namespace) -> None:
     write_files({directory / name: data for name, data in files.items()})
     shown = ("velocity_m_s", "mu", "mu_cold", "hysteresis", "adhesion", "hot_temperature_k")
     print_stdout(terminal_table({name: table.columns[name] for name in shown}) + "\n")
-    tell_notes(table.notes)
+    tell_notes(table.notes, args.notes)
     band = "{q0_per_m:.4g} to {q1_per_m:.4g} 1/m, rms slope {rms_slope:.3g}".format(**scene.derived)
     drawn = f"none, {to_install('plot')}" if missing else f"{picture}"
     print_stdout(
@@ -146,7 +146,7 @@ def write_outputs(
     write_files(files)
     for name, value in (found or {}).items():
         print_stderr(f"{name} = {'none' if value is None else f'{value:.6g}'}\n")
-    tell_notes(table.notes)
+    tell_notes(table.notes, args.notes)
     if args.output is None:
         print_stdout(text)
 

@@ -197,10 +197,11 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
         text = made.text.removesuffix("\n").split("\n") if made.text else []
         lines += [printable(line) for line in text if not line.startswith(NOTE_LINE)]
     print_stdout("".join(f"{line}\n" for line in lines))
-    tell_notes(made.notes)
+    notes = [*made.notes]
     if made.exceeded > 0:
         beyond = f"{made.exceeded} of {made.checked} random points are beyond max_error"
-        tell_notes([Note(beyond, code="map-error-exceeded")])
+        notes.append(Note(beyond, code="map-error-exceeded"))
+    tell_notes(notes, args.notes)
 
 
 def _plain(text: str) -> str:

@@ -63,9 +63,18 @@ def parser() -> argparse.ArgumentParser:
         to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
         style(to)
 
+    def notes(to: argparse.ArgumentParser) -> None:
+        to.add_argument(
+            "--notes",
+            choices=("few", "all"),
+            default="few",
+            help="on the terminal: the gravest, alike ones joined (default), or all of them",
+        )
+
     def outputs(to: argparse.ArgumentParser) -> None:
         to.add_argument("--output", metavar="FILE", help="where to write (default: the terminal)")
         pictures(to)
+        notes(to)
         to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
 
     def directory(to: argparse.ArgumentParser, default: str) -> None:
@@ -81,6 +90,7 @@ def parser() -> argparse.ArgumentParser:
         "demo", commands.demo, "friction of rubber on a shipped asphalt scan", "--output tryout"
     )
     directory(demo, "asperity-demo")
+    notes(demo)
 
     friction = verb(
         "friction",
@@ -196,7 +206,7 @@ def parser() -> argparse.ArgumentParser:
     )
     outputs(fit)
 
-    add_sweep(verb, pictures)
+    add_sweep(verb, pictures, notes)
 
     mapped = verb(
         "map",
@@ -229,6 +239,7 @@ def parser() -> argparse.ArgumentParser:
         help="write mu on a grid for simulators that interpolate, .mat (MATLAB) or .csv",
     )
     pictures(mapped)
+    notes(mapped)
     mapped.add_argument("--json", action="store_true", help="tell it as JSON")
 
     mock_up = verb(
@@ -293,6 +304,7 @@ def parser() -> argparse.ArgumentParser:
         "--output worth",
     )
     directory(validate, "asperity-validate")
+    notes(validate)
     validate.add_argument(
         "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
     )

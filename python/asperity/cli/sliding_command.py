@@ -71,7 +71,7 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
         picture = found.figure(Path(FILES[2]))
     contents = (found.summary().encode(), table.csv().encode(), picture)
     write_files({directory / n: data for n, data in zip(FILES, contents, strict=True)})
-    tell_notes(notes)
+    tell_notes(notes, args.notes)
     print_stdout(f"{found.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")
 
 

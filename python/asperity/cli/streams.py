@@ -10,7 +10,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
-from asperity.base.diagnostics import Note, fatal_first
+from asperity.base.diagnostics import Note, fatal_first, few_lines, first_step
+
+_FEW = 5  # lines of notes
 
 
 @contextmanager
@@ -52,10 +54,16 @@ def print_stderr(text: str) -> None:
         discard(sys.stderr)
 
 
-def tell_notes(notes: Sequence[Note]) -> None:
-    """Write notes to standard error, a line each and each once, fatal ones first."""
-    for note in fatal_first(notes):
-        print_stderr(f"note: {printable(note)}\n")
+def tell_notes(notes: Sequence[Note], how_many: str | None) -> None:
+    """Write notes to standard error with what to do about them, in a few lines or "all" of them;
+    last what to do first."""
+    if how_many != "all":
+        lines = few_lines(notes, _FEW)
+    else:
+        lines = [f"note: {note.with_step}" for note in fatal_first(notes)]
+        lines += [f"next: {step}" for step in [first_step(notes)] if step]
+    for line in lines:
+        print_stderr(f"{printable(line)}\n")
 
 
 def discard(stream: TextIO | None) -> None:

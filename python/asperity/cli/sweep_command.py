@@ -13,10 +13,11 @@ from typing import Any
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
+from asperity.base.codes import FATAL
 from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.base.table import imported
 from asperity.cli.friction_commands import refuse_overwrite
-from asperity.cli.streams import print_stderr, print_stdout, printable
+from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.io.fields import nearest
 from asperity.io.files import check_output, write_whole
 from asperity.io.table import Table
@@ -27,7 +28,7 @@ from asperity.scene.scene import read_toml
 from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.existing import open_store
-from asperity.sweep.look import choose, fatal_notes, ranks
+from asperity.sweep.look import choose, notes_of, ranks
 from asperity.sweep.plan import cut_of
 from asperity.sweep.timing import estimated, timed
 
@@ -37,7 +38,6 @@ _RANK_NOTES = [
     "certain_share: the lead at a point exceeds the sum of the errors of the two: numerical "
     "error, model error, and half the band where there is one; nan where a model error is unknown",
 ]
-_SHOWN = 20  # notes that go to the terminal: each of a hundred scans may have its own
 _PATIENCE = 10  # seconds that a scheduler has to answer
 
 
@@ -103,8 +103,7 @@ def _compute(args: Namespace, executor: Any) -> None:
     )
     with found:
         _look(args, found)
-        notes = (str(found.attrs[name]).splitlines() for name in ("notes", "note_labels"))
-        _tell_notes([*zip(*notes, strict=True)], output)
+        tell_notes(notes_of(found), args.notes)
         points, failed = plan.points, int(found.attrs["failed"])
         messages = found["failure_message"].values.tolist()
     if failed:
@@ -112,19 +111,6 @@ def _compute(args: Namespace, executor: Any) -> None:
         more = f"; failure_message has {rest} more" if rest else ""
         raise Error(f"{output}: {failed} of {points} points failed: {messages[0]}{more}")
     print_stderr(f"{output}: {points} points, none failed\n")
-
-
-def _tell_notes(notes: list[tuple[str, str]], output: Path) -> None:
-    """Write notes, one of those of a kind."""
-    alike: dict[str, list[str]] = {}
-    for note, label in notes:
-        alike.setdefault(label, []).append(note)
-    shown = list(alike.values())[:_SHOWN]
-    for note, *others in shown:
-        more = f" (and {len(others)} with other numbers)" if others else ""
-        print_stderr(f"note: {printable(note + more)}\n")
-    if len(notes) > len(shown):
-        print_stderr(f"note: all {len(notes)} notes are in the attribute notes of {output}\n")
 
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
@@ -167,11 +153,11 @@ def _look(args: Namespace, found: Any) -> None:
     if args.plot is not None:
         picture = FilePath(args.plot)
         name = (args.variables or "mu").split(",")[0]
-        with drawn_in(args.style, fatal_notes(found)):
+        with drawn_in(args.style, notes_of(found)):
             write_whole(picture, sweep_figure(part, picture, name))
     if args.rank is not None:
         columns = ranks(part, args.rank)
-        fatal = fatal_notes(found)
+        fatal = [note for note in notes_of(found) if note.severity == FATAL]
         at = {f"at {name}": one for name, one in args.at.items()}
         inputs = [{"axis": args.rank, **at, "fatal_notes": len(fatal)}]
         notes = [*fatal, *map(Note, _RANK_NOTES)]

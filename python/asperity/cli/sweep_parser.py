@@ -10,6 +10,7 @@ from asperity.cli.sweep_command import sweep
 def add_sweep(
     verb: Callable[..., argparse.ArgumentParser],
     pictures: Callable[[argparse.ArgumentParser], None],
+    notes: Callable[[argparse.ArgumentParser], None],
 ) -> None:
     added = verb(
         "sweep",
@@ -60,3 +61,4 @@ def add_sweep(
         help="tell which value of an axis has most friction, where, and how certainly, as CSV",
     )
     pictures(added)
+    notes(added)

@@ -38,7 +38,7 @@ def validate(args: Namespace) -> None:
     if args.sliding:
         surface, told, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
         validate_sliding(args, surface, told)
-        return tell_notes(unusual)
+        return tell_notes(unusual, args.notes)
     directory = FilePath(args.output)
     plot.check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
@@ -52,7 +52,7 @@ def validate(args: Namespace) -> None:
         pictures = _pictures(contacts, predictions)
     files = {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
     write_files({directory / name: data for name, data in files.items()})
-    tell_notes(notes)
+    tell_notes(notes, args.notes)
     print_stdout(f"{text}\nfiles: {directory}: {', '.join(_FILES)}\n")
 
 

@@ -48,7 +48,7 @@ class Table:
             for line in input_lines(inputs):
                 out.write(f"# {line}\n")
         for note in fatal_first(self.notes):
-            out.write(f"# note: {note}\n")
+            out.write(f"# note: {note.with_step}\n")
         units = ", ".join(f"{name} [{unit(name)}]" for name in self.columns)
         out.write(f"# columns: {units}\n")
         writer = csv.writer(out, lineterminator="\n")
@@ -65,6 +65,7 @@ class Table:
             "command": self.command,
             "inputs": [dict(inputs) for inputs in self.inputs],
             "notes": fatal_first(self.notes),
+            "next_steps": [note.next_step for note in fatal_first(self.notes)],
             "units": {name: unit(name) for name in self.columns},
             "columns": {
                 name: [_plain(cell) for cell in column] for name, column in self.columns.items()

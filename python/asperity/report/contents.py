@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity._core import __version__
+from asperity.base.diagnostics import html_items
 from asperity.io.table import input_lines
 from asperity.plot.curves import pressure_text
 from asperity.report.comparison import VERDICTS, Pair, shortened
@@ -49,7 +50,7 @@ class Result:
     of: str
     facts: Sequence[Fact]
     errors: Sequence[Told]
-    notes: Sequence[str]
+    notes: str  # items of a list, as HTML
     table_title: str
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -71,7 +72,7 @@ def _result(scene: Scene, result: SceneFriction, *, several: bool) -> Result:
         of=f" at {at}" if several else "",
         facts=_facts(scene, result),
         errors=errors_of(scene, result),
-        notes=list(dict.fromkeys(result.notes)),
+        notes=html_items(result.notes),
         table_title=f"mu and its parts{f' at {at}' if several else ''}{title}",
         head=head,
         rows=shown,

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Argument, Must, Note, refusal, valued
 from asperity.io.fields import nearest
 
@@ -48,15 +47,10 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
     raise InvalidInput(*about, f": is not on the axis, which has {allowed}")
 
 
-def fatal_notes(dataset: Any) -> list[Note]:
-    """The notes of a sweep that make some of its results wrong or empty."""
-    labels, texts = (str(dataset.attrs[name]).splitlines() for name in ("note_labels", "notes"))
-    kinds = (label.split(" ") for label in labels)
-    return [
-        Note(text.removeprefix(f"{FATAL}: "), code=code, severity=severity)
-        for (severity, code, *_), text in zip(kinds, texts, strict=True)
-        if severity == FATAL
-    ]
+def notes_of(dataset: Any) -> list[Note]:
+    """The notes of a sweep, of the texts and labels that its store has."""
+    texts, labels = (str(dataset.attrs[name]).splitlines() for name in ("notes", "note_labels"))
+    return [Note.of_label(label, text) for label, text in zip(labels, texts, strict=True)]
 
 
 def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:

@@ -43,7 +43,7 @@ def expected() -> asperity.Friction:
 def test_friction_table_is_the_cores_to_the_last_digit(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["friction", "scene.toml"]) == 0
+    assert main(["friction", "scene.toml", "--notes", "all"]) == 0
     out, err = capsys.readouterr()
     comments, rows = rows_of(out)
     assert out.splitlines()[len(comments)] == FRICTION
@@ -53,7 +53,11 @@ def test_friction_table_is_the_cores_to_the_last_digit(
         column = {"pressure": "pressure_pa", "velocity": "velocity_m_s"}.get(name, name)
         values = [float(row[column]) for row in rows]
         np.testing.assert_array_equal(values, np.ravel(getattr(result, name)), err_msg=name)
-    assert err.splitlines() == [f"note: {note}" for note in result.notes]
+    *notes, step = err.splitlines()
+    steps = {"heat-left-out": "give [heating], with a temperature and the shift of the rubber"}
+    expected_notes = [f"note: {n} -> {steps.get(n.code, n.next_step)}" for n in result.notes]
+    assert notes == [line.removesuffix(" -> ") for line in expected_notes]
+    assert step.startswith("next: ")
 
 
 def test_header_carries_every_input_and_unit(
@@ -161,17 +165,16 @@ def test_area_has_the_notes_of_the_contact(
 ) -> None:
     assert main(["area", "scene.toml", "--points", "3"]) == 0
     out, err = capsys.readouterr()
-    notes = asperity.contact_notes(
+    given = asperity.contact_notes(
         asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
         asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[]),
         pressure=81e3,
         velocity=1.0,
     )
-    assert notes
-    assert err.splitlines() == [f"note: {note}" for note in notes]
-    assert [line for line in out.splitlines() if line.startswith("# note: ")] == [
-        f"# note: {note}" for note in notes
-    ]
+    *notes, step = err.splitlines()
+    assert [note.partition(" -> ")[0] for note in notes] == [f"note: {one}" for one in given]
+    assert step.startswith("next: ")
+    assert [line[2:] for line in out.splitlines() if line.startswith("# note: ")] == notes
 
 
 FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))

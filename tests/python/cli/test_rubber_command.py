@@ -68,7 +68,7 @@ def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
         tmp_path / "a.png",
     )
     outputs = ["--output", str(table), "--plot", str(picture)]
-    assert main(["rubber", str(file), *SHEAR, *outputs]) == 0
+    assert main(["rubber", str(file), *SHEAR, *outputs, "--notes", "all"]) == 0
     out, err = capsys.readouterr()
     assert out == ""
     assert ("note: the shift factors follow WLF" in err) == follows
@@ -96,6 +96,7 @@ def test_files_of_one_temperature_each(tmp_path, capsys, source):
     files = sorted(map(str, present("dma", "reptate_pi1000k").glob("*.osc")))
     melt = [*flags(POLYISOPRENE["columns"], POLYISOPRENE["units"]), "--modulus", "G"]
     options = ["--vertical-shift", "T/T_ref", "--reference-temperature", "273.15", "--json"]
+    options += ["--notes", "all"]
     assert main(["rubber", *files, *melt, *options]) == 0
     out, err = capsys.readouterr()
     assert "note: the shift factors follow WLF" in err

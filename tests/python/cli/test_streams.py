@@ -112,4 +112,4 @@ def test_the_name_of_a_file_stays_in_its_line(
         assert main([*arguments, *form, "--output", f"{name}.csv"]) == 0
         out, notes = capfd.readouterr()
         assert all(one.isprintable() or one == "\n" for one in out + notes)
-        assert all(line.startswith("note: ") for line in notes.splitlines())
+        assert all(line.startswith(("note: ", "next: ")) for line in notes.splitlines())

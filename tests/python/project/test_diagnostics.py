@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import asperity
-from asperity.base.codes import ERRORS, NOTES
+from asperity.base.codes import ERRORS, FATAL, KINDS, NOTE, NOTES, WARNING
 from asperity.base.diagnostics import (
     MUST_BE,
     Advice,
@@ -18,6 +18,9 @@ from asperity.base.diagnostics import (
     Note,
     Value,
     fatal_first,
+    few_lines,
+    first_step,
+    html_items,
     refusal,
 )
 from helpers.cases import case
@@ -109,6 +112,46 @@ def test_every_code_is_in_the_table_and_every_row_is_used() -> None:
         c for t in texts for c in re.findall(r'Sentence sentence, std::string code = "(.+?)"', t)
     }
     assert thrown <= {*ERRORS}
+
+
+def test_every_note_to_act_on_says_how() -> None:
+    for code, kind in KINDS.items():
+        assert bool(kind.next_step) == (kind.severity != NOTE), code
+        assert Note("a", code=code).next_step == kind.next_step
+
+
+def test_a_few_lines_tell_what_matters_most() -> None:
+    small = Note("small", code="few-periods", effect=0.01)
+    large = Note("large", code="few-long-waves", effect=0.3, next_step="scan a metre")
+    worst = Note("worst", code="large-friction")
+    others = [Note(f"row {i}", code="point-off-curve") for i in range(9)]
+    notes = [small, *others, large]
+    assert first_step(notes) == "scan a metre (few-long-waves)"
+    assert first_step([*notes, worst]).endswith("(large-friction)")
+    assert first_step(others) == ""
+    assert few_lines(notes, 5) == [
+        "note: large -> scan a metre",
+        f"note: small -> {small.next_step}",
+        "note: row 0 (and 8 alike)",
+        "next: scan a metre (few-long-waves)",
+    ]
+    kinds = [Note(code, code=code) for code, kind in KINDS.items() if kind.severity == WARNING]
+    lines = few_lines([*kinds, worst, *others], 5)
+    assert len(lines) == 5
+    assert lines[0].startswith("note: fatal: worst")
+    assert f"{len(kinds) + 7} more ({len(kinds) - 2} warning, 9 note)" in lines[3]
+
+
+def test_pages_show_each_note_with_what_to_do() -> None:
+    notes = [Note("a < b", code="few-periods"), Note("c", code="large-friction")]
+    road = asperity.SelfAffineSpectrum(rms_height=5e-4, hurst=0.8, q0=2e3, q1=1e7)
+    rubber = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4])
+    result = asperity.friction(road, rubber, pressure=1e5, velocity=[1e-4, 1.0])
+    assert "a &lt; b" in html_items(notes)
+    for items, found in ((html_items(notes), notes), (result._repr_html_(), result.notes)):
+        assert items.index("<li>Next: ") < items.index("color: #a30000")
+        assert {note.severity for note in found} >= {FATAL, WARNING}
+        assert all(note.next_step in items for note in found)
 
 
 def test_errors_have_fields_and_keep_them() -> None:
