@@ -8,7 +8,7 @@ def style(gallery_conf: Any, name: Any) -> None:
     from cycler import cycler
     from matplotlib import rcParams
 
-    from asperity.plot.style import COLOURS
+    from asperity.draw.style import COLOURS
 
     rcParams["axes.prop_cycle"] = cycler(color=COLOURS)
     rcParams["figure.figsize"] = (6.6, 3.6)

@@ -19,8 +19,8 @@ import numpy as np
 import timing
 
 import asperity
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import COLOURS
+from asperity.draw.figure import new_figure, picture
+from asperity.draw.style import COLOURS
 
 REFERENCE = Path(__file__).parents[1] / "reference/flash.csv"
 PRESSURE = 2e5

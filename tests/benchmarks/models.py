@@ -29,8 +29,8 @@ from models_sliding import MuError
 
 import asperity
 from asperity.correction import Correction
-from asperity.plot.curves import picture
-from asperity.plot.style import COLOURS
+from asperity.draw.figure import picture
+from asperity.draw.style import COLOURS
 from asperity.validation.boundary_elements import contact
 from asperity.validation.contacts import Contact, shipped
 from asperity.validation.predictions import MODELS, Model, predict

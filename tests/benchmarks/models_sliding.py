@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from sliding_corrections import CORRECTIONS, judged, make_exact_sliding, spectrum_of
 
-from asperity.plot.style import COLOURS
+from asperity.draw.style import COLOURS
 
 SETS = ("judge", "curve")
 MESH = 0.3  # %, by how much twice as many pixels change mu of exact contacts

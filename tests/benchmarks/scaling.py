@@ -17,8 +17,8 @@ from curves import Curve, curves, measured_curves
 from rings import rings
 
 import asperity
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import COLOURS
+from asperity.draw.figure import new_figure, picture
+from asperity.draw.style import COLOURS
 
 TERMS = (1, 2, 5, 10, 20, 50, 100, 200)
 POINTS = tuple(10**k for k in range(7))

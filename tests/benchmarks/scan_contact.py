@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 import asperity
-from asperity.plot.style import COLOURS
+from asperity.draw.style import COLOURS
 from asperity.validation import slide
 
 LARGE, PICTURE = "--large" in sys.argv, "--picture" in sys.argv

@@ -17,7 +17,7 @@ import measured
 import numpy as np
 
 import asperity
-from asperity.plot.style import COLOURS
+from asperity.draw.style import COLOURS
 from asperity.validation import slide
 
 FINER = 2

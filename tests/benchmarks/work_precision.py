@@ -23,8 +23,8 @@ from curves import Curve, curves, measured_curves
 from schemes import by_parts, graded_panels, log_trapezoid, nested_quad
 
 from asperity import NotConverged
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import COLOURS
+from asperity.draw.figure import new_figure, picture
+from asperity.draw.style import COLOURS
 
 RTOLS = [10.0**-k for k in range(2, 13)]
 # nodes, growth, first and longest panel, as good as each number of nodes can be on these curves

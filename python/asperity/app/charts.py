@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from asperity.app.state import Variant
 from asperity.base.celsius import ZERO_CELSIUS
-from asperity.plot.style import COLOURS
+from asperity.draw.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve
 from asperity.scene.model import Scene, SceneFriction

@@ -30,9 +30,8 @@ from asperity.article.readings import Array
 from asperity.article.separation import shifts
 from asperity.article.statement import Finding, Findings
 from asperity.correction import AffineShift, Correction, SFactor
-from asperity.plot.curves import new_figure
-from asperity.plot.labels import legend_where_room_is
-from asperity.plot.style import grey, palette, paper
+from asperity.draw.figure import legend, new_figure
+from asperity.draw.style import grey, palette, paper
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -187,7 +186,7 @@ def _areas(
     for dash, text in (("-", "original"), ("--", label)):
         axes.plot([], [], dash, color=grey(0.3), label=text)
     panel(axes, f"{VELOCITY:g} m/s", **_AREA)
-    legend_where_room_is(figure, axes)
+    legend(axes)
     return page(name, figure, given, _columns({"original_area": before, "modified_area": after}))
 
 

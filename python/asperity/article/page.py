@@ -8,10 +8,10 @@ import numpy as np
 
 from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
 from asperity.base.diagnostics import Note
+from asperity.draw.figure import legend as legend_above
+from asperity.draw.figure import picture
+from asperity.draw.style import narrow
 from asperity.io.table import Table
-from asperity.plot.curves import picture
-from asperity.plot.labels import legend_with_room
-from asperity.plot.style import narrow
 from asperity.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def panel(axes: "Axes", title: str = "", legend: Any = None, **settings: Any) ->
     axes.set(**settings)
     axes.set_title(title, fontsize="medium")
     if legend is not None and narrow():  # where places of the wide picture may be taken
-        legend_with_room(axes)
+        legend_above(axes)
     elif legend is not None:
         axes.legend(loc=legend, fontsize="small")
 

@@ -11,8 +11,8 @@ from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
 from asperity.asperities import separation
 from asperity.contact import contact_area
-from asperity.plot.curves import new_figure
-from asperity.plot.style import grey, palette
+from asperity.draw.figure import new_figure
+from asperity.draw.style import grey, palette
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

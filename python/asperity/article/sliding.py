@@ -23,9 +23,9 @@ from asperity.article.readings import READINGS, Array, Reading
 from asperity.article.statement import Finding, Findings
 from asperity.article.surfaces import printed_eq12
 from asperity.correction import Correction, GreenwoodWilliamson, SFactor
+from asperity.draw.figure import COLUMN, new_figure
+from asperity.draw.style import narrow, palette
 from asperity.friction import Friction, friction
-from asperity.plot.curves import COLUMN, new_figure
-from asperity.plot.style import narrow, palette
 from asperity.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:

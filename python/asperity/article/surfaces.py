@@ -17,9 +17,9 @@ from asperity.article.page import (
 from asperity.article.peaks import local_peaks
 from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
+from asperity.draw.figure import new_figure
+from asperity.draw.style import grey, narrow, palette
 from asperity.measured_spectrum import power_spectrum
-from asperity.plot.curves import new_figure
-from asperity.plot.style import grey, narrow, palette
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan

@@ -21,8 +21,8 @@ from asperity.article.page import page, panel, sandpaper_inputs, scan_inputs, st
 from asperity.article.readings import Array
 from asperity.article.statement import Finding, Findings
 from asperity.contact import contact_area, mean_pressure, pressure_distribution
-from asperity.plot.curves import new_figure
-from asperity.plot.style import grey, palette
+from asperity.draw.figure import new_figure
+from asperity.draw.style import grey, palette
 
 _ZETA = (1.5, 5.0, 25.0)  # of Fig. 1
 _SLIDING: dict[str, Any] = {"pressure": 0.5e6, "velocity": 1e-3}  # of Fig. 1

@@ -8,9 +8,8 @@ from asperity.article import compounds
 from asperity.article.inputs import Inputs, effective_modulus
 from asperity.article.page import LOG, page, panel, stacked
 from asperity.article.statement import Finding, Findings
-from asperity.plot.curves import new_figure
-from asperity.plot.labels import legend_where_room_is
-from asperity.plot.style import grey, palette
+from asperity.draw.figure import legend, new_figure
+from asperity.draw.style import grey, palette
 
 
 def findings(inputs: Inputs) -> Findings:
@@ -58,7 +57,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
         axes.plot([], [], dash, color=grey(0.3), label=text)
     labels = {"xlabel": r"Angular frequency $\omega$ [rad/s]", "ylabel": "Modulus [MPa]"}
     panel(axes, f"surrogates, {compounds.ROOM:g} °C", **LOG, **labels)
-    legend_where_room_is(figure, axes)
+    legend(axes)
     given = {
         "temperature_c": compounds.ROOM,
         **{f"glass_transition_{k}_c": v for k, v in compounds.T_G.items()},

@@ -18,9 +18,9 @@ from asperity.article.statement import judge
 from asperity.article.summary import Rows, counted, markdown
 from asperity.base.arguments import FilePath
 from asperity.cli.streams import print_stdout
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
 from asperity.io.files import check_directory, write_files
-from asperity.plot.curves import check_plot
-from asperity.plot.style import drawn_in
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")

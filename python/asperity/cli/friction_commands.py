@@ -19,12 +19,13 @@ from asperity.base.diagnostics import Argument
 from asperity.base.extras import to_install
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
 from asperity.io.fields import MOST_ROWS
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import friction as plot_friction
-from asperity.plot.style import drawn_in
 from asperity.scene.model import Progress, Scene
 from asperity.scene.results import friction_table, scene_inputs
 from asperity.scene.scene import load_scene
@@ -110,7 +111,7 @@ def area(args: Namespace) -> None:
 def check_outputs(args: Namespace) -> list[Path]:
     """Files to be written, refused before any work where they cannot be."""
     if args.plot is not None:
-        plot.check_plot(FilePath(args.plot))
+        check_plot(FilePath(args.plot))
     elif args.style is not None:
         raise InvalidInput(Argument("--style"), ": goes with --plot")
     outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]

@@ -16,6 +16,7 @@ from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
+from asperity.draw.style import drawn_in
 from asperity.friction import friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.grid import check_export, grid_file
@@ -25,7 +26,6 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
-from asperity.plot.style import drawn_in
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene
 from asperity.scene.progress import with_contacts

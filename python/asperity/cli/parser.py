@@ -25,8 +25,8 @@ from asperity.cli.options import (
 from asperity.cli.report_command import report
 from asperity.cli.rubber_parser import add_rubber
 from asperity.cli.sweep_parser import add_sweep
+from asperity.draw.style import STYLES
 from asperity.measured_spectrum import WINDOWS
-from asperity.plot.style import STYLES
 
 
 def parser() -> argparse.ArgumentParser:

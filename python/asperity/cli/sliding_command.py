@@ -15,11 +15,11 @@ from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.demo import input_files
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
 from asperity.io import plausible
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
-from asperity.plot import curves as plot
-from asperity.plot.style import drawn_in
 from asperity.scene.model import Scene
 from asperity.scene.scene import load_scene
 from asperity.self_affine_fit import synthesize
@@ -41,7 +41,7 @@ def own_map() -> HeightMap:
 def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, object]) -> None:
     """Tables, a picture, and the summary on the terminal."""
     directory = FilePath(args.output)
-    plot.check_plot(directory / FILES[2])
+    check_plot(directory / FILES[2])
     check_directory(directory, FILES, force=args.force)
     with plausible.collected(typed_options(args)) as unusual:
         plausible.check("--velocities", args.velocities or [], quantities.VELOCITY)

@@ -18,11 +18,11 @@ from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.base.table import imported
 from asperity.cli.friction_commands import refuse_overwrite
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
 from asperity.io.fields import nearest
 from asperity.io.files import check_output, write_whole
 from asperity.io.table import Table
-from asperity.plot.curves import check_plot
-from asperity.plot.style import drawn_in
 from asperity.plot.sweep import sweep_figure
 from asperity.scene.scene import read_toml
 from asperity.sweep import run

@@ -13,12 +13,12 @@ from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.sliding_command import refuse_alone, validate_sliding
 from asperity.cli.streams import print_stdout, tell_notes
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
-from asperity.plot import curves as plot
-from asperity.plot.style import drawn_in
 from asperity.scene.scan import read_filled
 from asperity.surface import HeightMap
 from asperity.validation.contacts import Contact, read_contacts, shipped
@@ -40,7 +40,7 @@ def validate(args: Namespace) -> None:
         validate_sliding(args, surface, told)
         return tell_notes(unusual, args.notes)
     directory = FilePath(args.output)
-    plot.check_plot(directory / _AREA)
+    check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
     inputs = [FilePath(name) for name in (args.rows, args.surface) if name is not None]
     refuse_overwrite([directory / name for name in _FILES], inputs)

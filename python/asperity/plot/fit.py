@@ -8,16 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.adhesion import AdhesionFit
-from asperity.plot.curves import (
-    MOST_ENTRIES,
-    band_text,
-    new_figure,
-    picture,
-    pressure_text,
-    shaded,
-)
-from asperity.plot.labels import legend_where_room_is
-from asperity.plot.style import colours, grey, narrow
+from asperity.draw.figure import MOST_ENTRIES, new_figure, picture, pressure_text, shaded
+from asperity.draw.friction import band_text
+from asperity.draw.style import colours, grey, narrow
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 
 if TYPE_CHECKING:
@@ -49,7 +42,8 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    legend_where_room_is(figure, panels[-1], list(entries.values()), list(entries))
+    where: Any = "outside lower center" if narrow() else "outside right upper"
+    figure.legend(list(entries.values()), list(entries), loc=where, fontsize="small")
     return picture(figure, path)
 
 

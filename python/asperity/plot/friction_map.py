@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity.draw.figure import new_figure, picture
+from asperity.draw.style import narrow, shades
 from asperity.friction_map.look_up import FrictionMap
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.style import narrow, shades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,14 +40,14 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     filled = left.contourf(velocity[0], pressure[:, 0], mu, 200, cmap=shades())
     filled.set_edgecolor("face")  # no hairlines between the fills of a vector picture
     label = "Friction coefficient $\\mu$ [-]"
-    figure.colorbar(filled, ax=left, label=label, ticks=ticks, format="%.3g")
+    told = figure.colorbar(filled, ax=left, label=label, ticks=ticks, format="%.3g")
     # light lines where the fill is dark, and the other way
     middle = (float(mu.min()) + float(mu.max())) / 2
     inks = ["white" if level < middle else "black" for level in ticks]
     if made.temperature is not None:
         left.set_title(f"hot, background {lowest:.6g} K", fontsize="small")
     lines = left.contour(velocity[0], pressure[:, 0], mu, ticks, colors=inks, linewidths=0.7)
-    left.clabel(lines, fmt="%.3g", fontsize="x-small")
+    told.add_lines(lines)
     if made.temperature is not None:  # a point of the solver takes a hundred times as long
         pressure, velocity = pressure[::_COARSER], velocity[:, ::_COARSER]
     shape = pressure.size, velocity.size

@@ -8,9 +8,8 @@ import numpy as np
 
 from asperity.base.celsius import ZERO_CELSIUS, temperature_text
 from asperity.dma import MasterCurveBuild
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.labels import legend_with_room
-from asperity.plot.style import grey, palette, shades
+from asperity.draw.figure import legend, new_figure, picture
+from asperity.draw.style import grey, palette, shades
 from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
 from asperity.sweeps import Isotherm
@@ -33,15 +32,19 @@ def rubber_figure(
     """Isotherms as measured, the master curve (the article's Fig. 5), a_T, what the fit leaves.
     Temperatures are in the unit that the files have."""
     figure, (first, second, third, fourth) = new_figure(4)
-    draw_isotherms(first, isotherms, celsius=celsius)
-    first.set_title("(a) isotherms", fontsize="medium")
-    _draw_master(second, build, prony)
     reference = temperature_text(build.reference_temperature, celsius=celsius)
-    second.set_title(f"(b) master curve at {reference}", fontsize="medium")
+    titles = [
+        "(a) isotherms",
+        f"(b) master curve at {reference}",
+        "(c) shift factors",
+        "(d) points about the Prony fit",
+    ]
+    for axes, title in zip((first, second, third, fourth), titles, strict=True):
+        axes.set_title(title, fontsize="medium")
+    draw_isotherms(first, isotherms, celsius=celsius)
+    _draw_master(second, build, prony)
     draw_shifts(third, build, wlf, celsius=celsius)
-    third.set_title("(c) shift factors", fontsize="medium")
     _draw_residual(fourth, build, prony)
-    fourth.set_title("(d) points about the Prony fit", fontsize="medium")
     return picture(figure, path)
 
 
@@ -81,7 +84,7 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     right.set_ylabel("$\\tan\\delta$ [-]", color=palette()[_TAN])
     right.set_ylim(0, 1.6 * float(tan.max()))
     right.tick_params(direction="in", colors=palette()[_TAN])
-    legend_with_room(axes)
+    legend(axes)
 
 
 def draw_shifts(
@@ -106,7 +109,7 @@ def draw_shifts(
         axes.plot(t - zero, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
     axes.set_xlabel(f"Temperature $T$ [{'°C' if celsius else 'K'}]")
     axes.set_ylabel("$\\log_{10} a_T$ [-]")
-    legend_with_room(axes)
+    legend(axes)
 
 
 def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
@@ -128,7 +131,7 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
         label = f"{name}, rms {rms:.2g} %; of the master curve {100 * of_curve:.2g} %"
         w = points.angular_frequency
         axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
-    legend_with_room(axes)
+    legend(axes)
 
 
 def _logarithmic(axes: "Axes", x: str, y: str) -> None:
@@ -136,4 +139,4 @@ def _logarithmic(axes: "Axes", x: str, y: str) -> None:
     axes.set_yscale("log")
     axes.set_xlabel(x)
     axes.set_ylabel(y)
-    legend_with_room(axes)
+    legend(axes)

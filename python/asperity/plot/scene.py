@@ -8,10 +8,9 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.celsius import temperature_text
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.labels import legend_with_room
+from asperity.draw.figure import legend, new_figure, picture
+from asperity.draw.style import grey, palette
 from asperity.plot.rubber import draw_isotherms, draw_shifts
-from asperity.plot.style import grey, palette
 from asperity.plot.surface import draw_line, draw_map, draw_spectrum, without_trend
 from asperity.scene.model import Scene
 from asperity.scene.scan import flat, surface_spectrum
@@ -63,7 +62,7 @@ def _draw_used(
         axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
     used = f"used, rms slope {spectrum.rms_slope:.3g}"
     axes.axvspan(q0, q1, color=grey(0.4), alpha=0.1, linewidth=0, label=used)
-    legend_with_room(axes)
+    legend(axes)
 
 
 def rubber_figure(scene: Scene, path: Path) -> bytes:
@@ -92,13 +91,13 @@ def rubber_figure(scene: Scene, path: Path) -> bytes:
     if built.temperature is not None:
         at = temperature_text(built.temperature, celsius=celsius)
         axes.set_title(f"the rubber at {at}", fontsize="medium")
-    legend_with_room(axes)
+    legend(axes)
     if built.build is not None:
-        draw_isotherms(panels[0], built.isotherms, celsius=celsius)
         panels[0].set_title("isotherms", fontsize="medium")
+        draw_isotherms(panels[0], built.isotherms, celsius=celsius)
         wlf: WlfFit | None = None
         with suppress(InvalidInput, NotConverged):  # then the picture is without the law
             wlf = built.build.fit_wlf()
-        draw_shifts(panels[1], built.build, wlf, celsius=celsius)
         panels[1].set_title("shift factors", fontsize="medium")
+        draw_shifts(panels[1], built.build, wlf, celsius=celsius)
     return picture(figure, path)

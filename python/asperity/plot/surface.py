@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.labels import legend_with_room
-from asperity.plot.style import grey, narrow, palette
+from asperity.draw.figure import legend, new_figure, picture
+from asperity.draw.style import grey, narrow, palette
 from asperity.scene.scan import Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
 _MOST_PIXELS = 1000  # of a side, in a picture: a larger map is thinned out
 _ABOVE = 10  # points between a panel and its title: the 0 of a map's corner stands there
-_BELOW = 0.9  # inches, of the legend below panels under one another
 # inches: of a map, of the scales and the bar beside it, and of the panel of the spectrum
 _MAP_HEIGHT, _BESIDE_MAP, _SPECTRUM = 2.7, 1.7, 4.6
 
@@ -37,10 +35,7 @@ def spectrum_figure(
     """The scan as measured, without its trend (the article's Fig. 6), and its spectrum up to pi /
     pixel (Fig. 7). `floor` is the wavenumber from which noise is more than half of it."""
     figure, (left, middle, right) = new_figure(3)
-    if narrow():
-        width, height = figure.get_size_inches()
-        figure.set_size_inches(float(width), float(height) + _BELOW)
-    elif isinstance(flat, HeightMap):
+    if isinstance(flat, HeightMap) and not narrow():
         _fit_to_maps(figure, flat)
     for axes, scan, title in (
         (left, raw, "(a) as measured"),
@@ -51,8 +46,8 @@ def spectrum_figure(
         else:
             draw_line(axes, scan)
         axes.set_title(title, fontsize="medium", pad=_ABOVE)
-    draw_spectrum(right, spectrum, fit, cutoff, end=nyquist(flat), floor=floor)
     right.set_title("(c) spectrum", fontsize="medium", pad=_ABOVE)
+    draw_spectrum(right, spectrum, fit, cutoff, end=nyquist(flat), floor=floor)
     return picture(figure, path)
 
 
@@ -144,13 +139,8 @@ def draw_spectrum(
     how: dict[str, Any] = {}
     if end is not None:
         slope = f"rms slope {spectrum.rms_slope:.3g} up to π / pixel"
-        how = {"title": slope, "title_fontsize": "small"}
-    if end is not None and narrow():  # so long a legend leaves no room for the curve
-        figure: Any = axes.get_figure()
-        entries = axes.get_legend_handles_labels()
-        figure.legend(*entries, loc="outside lower center", ncols=2, fontsize="small", **how)
-    else:
-        legend_with_room(axes, **how)
+        how = {"title": slope}
+    legend(axes, **how)
 
 
 def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:

@@ -7,9 +7,9 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.draw.figure import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture, pressure_text
+from asperity.draw.style import colours, grey, narrow, shades
 from asperity.io.fields import without_unit
-from asperity.plot.curves import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture, pressure_text
-from asperity.plot.style import colours, grey, narrow, shades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Error
+from asperity.draw.figure import pressure_text
 from asperity.io.table import json_text
-from asperity.plot.curves import pressure_text
 from asperity.report.common_points import Points, at_points, common
 from asperity.report.texts import percent_text
 from asperity.scene.model import Scene, SceneFriction

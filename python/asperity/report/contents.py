@@ -11,8 +11,8 @@ import numpy as np
 
 from asperity._core import __version__
 from asperity.base.diagnostics import html_items
+from asperity.draw.figure import pressure_text
 from asperity.io.table import input_lines
-from asperity.plot.curves import pressure_text
 from asperity.report.comparison import VERDICTS, Pair, shortened
 from asperity.report.digests import Source
 from asperity.report.errors import Told, errors_of, solved_contacts

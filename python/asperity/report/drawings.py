@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from asperity.draw.style import drawn_in
 from asperity.plot import friction as plot_friction
 from asperity.plot import scene as plot_scene
-from asperity.plot.style import drawn_in
 from asperity.report.inline import inline_svg
 from asperity.report.texts import printable
 from asperity.scene.model import Scene, SceneFriction

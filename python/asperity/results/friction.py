@@ -187,33 +187,9 @@ class Friction(Table):
         return Columns(coordinates, variables, {"notes": list(self.notes)})
 
     def _draw(self, axes: Any) -> None:
-        given = self if self.cold is None else self.cold  # whose temperature is the one given
-        velocity, pressure, mu = (np.atleast_1d(a) for a in (self.velocity, self.pressure, self.mu))
-        at = None if given.temperature is None else np.atleast_1d(given.temperature)
-        over_temperature = at is not None and np.ptp(velocity) == 0 < np.ptp(at)
-        x = at if at is not None and over_temperature else velocity
-        sweeps = {"Pa": pressure} | ({} if at is None or over_temperature else {"K": at})
-        points = np.stack([sweep.ravel() for sweep in sweeps.values()], axis=-1)
-        curves, of_curve = np.unique(points, axis=0, return_inverse=True)
-        told = [unit for unit, sweep in sweeps.items() if np.ptp(sweep) > 0] or ["Pa"]
-        for i, curve in enumerate(curves):
-            here = np.flatnonzero(of_curve.ravel() == i)
-            here = here[np.argsort(x.flat[here])]
-            values = zip(sweeps, curve, strict=True)
-            label = ", ".join(f"{found:.4g} {unit}" for unit, found in values if unit in told)
-            [line] = axes.plot(x.flat[here], mu.flat[here], label=label)
-            if self.cold is not None:
-                cold = np.atleast_1d(self.cold.mu).flat[here]
-                axes.plot(x.flat[here], cold, "--", color=line.get_color())
-        if self.cold is not None:
-            axes.plot([], [], "--", color="0.3", label="without heat")
-        axes.set_ylabel("friction coefficient")
-        if over_temperature:
-            axes.set_xlabel("temperature [K]")
-        else:
-            axes.set(xscale="log", xlabel="velocity [m/s]")
-        if 1 < len(curves) <= 8 or self.cold is not None:
-            axes.legend()
+        from asperity.draw.friction import draw_result  # here: `import asperity` is to be quick
+
+        draw_result(axes, self)
 
 
 SWEPT = ("pressure", "velocity", "temperature")

@@ -59,6 +59,8 @@ class FrictionBand(Table):
 
     Attributes
     ----------
+    mu : float or ndarray
+        That of the inputs as they are [-].
     lower, upper : float or ndarray
         A share `level` of the draws has its mu [-] between the two.
     pressure, velocity : float or ndarray
@@ -72,6 +74,7 @@ class FrictionBand(Table):
         modulus it is drawn from, and how many draws failed and were left out, if any.
     """
 
+    mu: Any
     lower: Any
     upper: Any
     pressure: Any
@@ -83,6 +86,7 @@ class FrictionBand(Table):
     def _columns(self) -> Columns:
         axes = tuple(f"axis_{i}" for i in range(np.ndim(self.lower)))
         variables = {
+            "mu": Column(axes, self.mu, "1", "friction coefficient"),
             "lower": Column(axes, self.lower, "1", "lower end of the band on mu"),
             "upper": Column(axes, self.upper, "1", "upper end of the band on mu"),
             "pressure": Column(axes, self.pressure, "Pa", "nominal pressure"),
@@ -90,16 +94,15 @@ class FrictionBand(Table):
         }
         return Columns({}, variables, {"level": self.level, "samples": self.samples})
 
+    @property
+    def band(self) -> tuple[Any, Any]:
+        """Both ends."""
+        return self.lower, self.upper
+
     def _draw(self, axes: Any) -> None:
-        columns = (self.pressure, self.velocity, self.lower, self.upper)
-        p, v, lower, upper = (np.ravel(column) for column in columns)
-        for pressure in np.unique(p):
-            at = np.flatnonzero(p == pressure)
-            at = at[np.argsort(v[at])]
-            label = f"{pressure:.4g} Pa"
-            axes.fill_between(v[at], lower[at], upper[at], alpha=0.4, label=label)
-        axes.set(xscale="log", xlabel="velocity [m/s]", ylabel="friction coefficient")
-        axes.legend(title=f"{self.level:.3g} of {self.samples} draws, at")
+        from asperity.draw.friction import band_text, draw_result  # `import asperity` is quick
+
+        draw_result(axes, self, band=band_text(self.level))
 
 
 def friction_band(
@@ -213,6 +216,7 @@ def friction_band(
         threads=threads,
     )
     return FrictionBand(
+        mu=found.mu,
         lower=found.mu * shaped(band.lower, shape),
         upper=found.mu * shaped(band.upper, shape),
         pressure=found.pressure,

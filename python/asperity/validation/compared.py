@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from asperity.base.diagnostics import Note
 from asperity.correction import Correction, NayakSFactor, PartialContact, SFactor
+from asperity.draw.figure import legend, new_figure, picture
+from asperity.draw.style import colours, grey
 from asperity.friction import friction
 from asperity.measured_spectrum import power_spectrum
-from asperity.plot.curves import new_figure, picture
-from asperity.plot.labels import legend_where_room_is
-from asperity.plot.style import colours, grey
 from asperity.rubber import Rubber
 from asperity.scene.progress import Progress, line_on
 from asperity.spectrum import Spectrum
@@ -98,7 +97,7 @@ class Comparison:
             axes.set_ylabel(label)
         for name, dash in _DRAWN.items():
             panels[0].plot([], [], dash, color=grey(0.3), label=name)
-        legend_where_room_is(figure, panels[0])
+        legend(panels[0])
         return picture(figure, path)
 
 

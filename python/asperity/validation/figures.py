@@ -7,9 +7,9 @@ from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
-from asperity.plot.curves import COLUMN, new_figure, picture
-from asperity.plot.style import colours as colours_for
-from asperity.plot.style import grey, narrow, palette
+from asperity.draw.figure import COLUMN, new_figure, picture
+from asperity.draw.style import colours as colours_for
+from asperity.draw.style import grey, narrow, palette
 from asperity.validation.contacts import Contact
 from asperity.validation.predictions import (
     Prediction,

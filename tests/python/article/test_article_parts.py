@@ -8,7 +8,7 @@ import pytest
 import asperity
 from asperity.article import inputs, readings, sliding, statement, surfaces
 from asperity.article.statement import Finding
-from asperity.plot.style import drawn_in
+from asperity.draw.style import drawn_in
 
 H_RMS = 76.572e-6
 

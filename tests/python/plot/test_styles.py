@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+import asperity
 from asperity.base.diagnostics import Note
 from asperity.cli.main import main
-from helpers.dropped import dma_bytes
+from asperity.scene.scene import load_scene
 from helpers.scenes import SCENE
 
 pytest.importorskip("matplotlib")
@@ -41,11 +42,12 @@ def bars(figure: Any) -> list[Any]:
     return [axes for axes in figure.axes if hasattr(axes, "_colorbar")]
 
 
+@pytest.mark.parametrize("verb", ["friction", "area"])
 def test_many_curves_have_a_colour_bar_instead_of_a_legend(
-    folder: Path, figures: list[Any]
+    folder: Path, figures: list[Any], verb: str
 ) -> None:
     (folder / "scene.toml").write_text(MANY)
-    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    assert main([verb, "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
     (figure,) = figures
     (bar,) = bars(figure)
     assert bar.get_ylabel().startswith("Nominal pressure")
@@ -58,9 +60,25 @@ def test_many_curves_have_a_colour_bar_instead_of_a_legend(
     norm, colours = bar._colorbar.norm, bar._colorbar.cmap
     solid = [line for line in figure.axes[0].lines if line.get_linestyle() == "-"]
     shown = [line for line in solid if len(line.get_xdata())]  # the others are entries of legends
-    assert len(shown) == 40
-    for line, load in zip(shown, np.geomspace(1e4, 1e6, 40), strict=True):
+    loads = np.geomspace(1e4, 1e6, 40)
+    if verb == "area":  # of which some are drawn, so that each can be followed
+        loads = loads[np.linspace(0, 39, 9).round().astype(int)]
+        assert figure.axes[0].get_legend().get_title().get_text().startswith("9 of 40")
+    for line, load in zip(shown, loads, strict=True):
         assert tuple(line.get_color()) == pytest.approx(tuple(colours(norm(load))))
+
+
+def test_of_many_pressures_and_velocities_four_pressures_are_drawn_and_it_says_so(
+    folder: Path, figures: list[Any]
+) -> None:
+    (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 60"))
+    assert (
+        main(["area", "scene.toml", "--points", "9", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    )
+    legend = figures[0].axes[0].get_legend()
+    assert legend.get_title().get_text() == "9 of 60 colours, 4 of 40 line styles"
+    named = [text.get_text() for text in legend.get_texts()]
+    assert (named[0], named[-1], len(named)) == ("10 kPa", "1 MPa", 4)
 
 
 def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[Any]) -> None:
@@ -73,57 +91,26 @@ def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[A
     assert not any("road" in entry for entry in entries(figures[0]))
 
 
-def written(axes: Any) -> dict[str, Any]:
-    return {text.get_text(): text for text in axes.texts}
-
-
-def touches(axes: Any, box: Any, apart: float = 0.0) -> list[str]:
-    """The dashes and colours of the curves that pass through a box of the picture [pixels]."""
-    found = []
-    for line in axes.lines:
-        if len(line.get_xdata()):
-            corners = axes.transData.transform(np.column_stack(line.get_data()))
-            x = np.linspace(box.x0 - apart, box.x1 + apart, 60)
-            y = np.interp(x, *corners[np.argsort(corners[:, 0])].T, left=np.nan, right=np.nan)
-            if np.any((y > box.y0 - apart) & (y < box.y1 + apart)):
-                found.append(f"{line.get_linestyle()} {line.get_color()}")
-    return found
-
-
-def test_few_curves_have_their_names_beside_them(folder: Path, figures: list[Any]) -> None:
-    """81 and 200 kPa each at its own curve, in its colour; dashes and no pressure in the legend."""
-    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    (axes,) = figures[0].axes
-    assert entries(figures[0])[:3] == ["total", "hysteresis", "adhesion"]
-    assert not any("kPa" in entry for entry in entries(figures[0]))
-    names = written(axes)
-    assert list(names) == ["81 kPa", "200 kPa"]
-    totals = [x for x in axes.lines if x.get_linestyle() == "-" and len(x.get_xdata())]
-    for text, line in zip(names.values(), totals, strict=True):
-        assert text.get_color() == line.get_color()
-        box = text.get_window_extent()
-        assert touches(axes, box) == []
-        assert f"- {line.get_color()}" in touches(axes, box, apart=2 * box.height)
-
-
-SCAN = ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m", "--output", "a.csv"]
-VERBS = [["friction", "scene.toml", "--output", "a.csv"], SCAN]
-
-
-@pytest.mark.parametrize("arguments", VERBS, ids=["friction", "spectrum"])
-def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, arguments: list[str]) -> None:
+@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
+def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str) -> None:
     from matplotlib.image import imread
 
+    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
+    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
     for options, low, high in ((["--style", "dark"], 0, 0.15), ([], 0.99, 1)):
         assert main([*arguments, "--plot", "a.png", *options]) == 0
         corner = imread("a.png")[:3, :3, :3]
         assert low <= corner.min() <= corner.max() <= high
 
 
-@pytest.mark.parametrize("arguments", VERBS, ids=["friction", "spectrum"])
+@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
 def test_a_picture_of_a_single_column_is_as_wide_as_one(
-    folder: Path, figures: list[Any], arguments: list[str]
+    folder: Path, figures: list[Any], verb: str
 ) -> None:
+    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
+    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
     assert main([*arguments, "--plot", "a.png", "--style", "single"]) == 0
     (figure,) = figures
     assert figure.get_size_inches()[0] == pytest.approx(3.4)
@@ -134,12 +121,44 @@ def test_a_picture_of_a_single_column_is_as_wide_as_one(
         assert not text.get_text() or 4 <= text.get_fontsize() <= 10
 
 
-def test_levels_of_a_map_are_labelled(folder: Path, figures: list[Any]) -> None:
-    assert main(["map", "scene.toml", "--plot", "a.png", "--checked", "100"]) == 0
-    labels = [float(text.get_text()) for text in figures[0].axes[0].texts]
-    assert len(labels) >= 2
-    ticks = bars(figures[0])[0].get_yticks()
-    assert all(np.isclose(ticks, label, rtol=1e-2).any() for label in labels)
+def test_a_style_goes_with_a_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["friction", "scene.toml", "--style", "dark"]) == 2
+    assert "--style: goes with --plot" in capsys.readouterr().err
+
+
+def test_the_article_and_the_demo_are_drawn_in_a_style(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from matplotlib.image import imread
+
+    from asperity.cli import article_command
+    from asperity.draw.style import grey, palette
+
+    seen: list[tuple[str, str]] = []
+
+    def remake() -> tuple[dict[str, bytes], list[object]]:
+        seen.append((palette()[0], grey(0)))
+        return {}, []
+
+    monkeypatch.setattr(article_command, "remake", remake)
+    monkeypatch.setattr(article_command, "counted", lambda _: "")
+    assert main(["article", "--output", "remade", "--style", "dark"]) == 0
+    assert main(["article", "--output", "remade"]) == 0
+    assert seen == [("#56B4E9", "1"), ("#0072B2", "0")]
+    assert main(["demo", "--output", "dark", "--style", "dark"]) == 0
+    assert imread("dark/friction.png")[:3, :3, :3].max() <= 0.15
+
+
+def test_validate_is_drawn_in_a_style(folder: Path) -> None:
+    from importlib.resources import files
+
+    from matplotlib.image import imread
+
+    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
+    (folder / "few.csv").write_text("\n".join(rows[:12]))
+    assert main(["validate", "--rows", "few.csv", "--output", "dark", "--style", "dark"]) == 0
+    for name in ("area_error.png", "shift.png"):
+        assert imread(f"dark/{name}")[:3, :3, :3].max() <= 0.15
 
 
 def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: list[Any]) -> None:
@@ -168,7 +187,7 @@ def test_colours_show_on_what_is_drawn_on(count: int) -> None:
     """By the contrast of WCAG 2.1, 1.4.11: 3 on a dark screen."""
     from matplotlib.colors import to_rgb
 
-    from asperity.plot import style
+    from asperity.draw import style
 
     def luminance(colour: Any) -> float:
         parts = [
@@ -185,8 +204,8 @@ def test_colours_show_on_what_is_drawn_on(count: int) -> None:
 @pytest.mark.parametrize("style", ["print", "single", "dark"])
 def test_fatal_notes_stand_on_the_picture(style: str) -> None:
     """And no others do; they lie inside of it, below the panels, and say how many were left out."""
-    from asperity.plot import style as styles
-    from asperity.plot.curves import new_figure
+    from asperity.draw import style as styles
+    from asperity.draw.figure import new_figure
 
     words = "which goes on at $length and _much_ " * 4
     notes = [Note(f"number {i}, {words}", severity="fatal") for i in range(5)]
@@ -205,76 +224,102 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
         assert new_figure(2)[0].get_supxlabel() == ""
 
 
-DMA = ["--columns", "frequency=Freq,temperature=Temperature,storage=G',loss=G\""]
-DMA += ["--units", "frequency=Hz,temperature=C,modulus=MPa"]
+def test_a_fatal_note_of_a_result_stands_on_its_picture(folder: Path, figures: list[Any]) -> None:
+    scan = 'file = "scan.npy"\npixel_size_m = [2e-5, 1e-5]\nunit = "m"\nslope_cutoff = 99'
+    before, after = SCENE.split("[rubber]")
+    scene = before[: before.index("rms_height_m")] + scan + "\n[rubber]" + after
+    (folder / "scene.toml").write_text(scene)
+    assert main(["area", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    assert figures[0].get_supxlabel().startswith("fatal: ")
 
 
-@pytest.mark.parametrize(
-    ("verb", "style"), [("area", "print"), ("spectrum", "single"), ("rubber", "single")]
-)
-def test_legends_cover_no_curve(folder: Path, figures: list[Any], verb: str, style: str) -> None:
-    (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 20"))
-    (folder / "dma.csv").write_bytes(dma_bytes())
-    arguments = {
-        "area": ["area", "scene.toml", "--points", "40", "--output", "a.csv"],
-        "spectrum": SCAN,
-        "rubber": ["rubber", "dma.csv", *DMA, "--modulus", "G", "--output", "a.csv"],
-    }
-    assert main([*arguments[verb], "--plot", "a.png", "--style", style]) == 0
+DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
+
+
+def rows_of_dma() -> str:
+    rows = ["f,T,E1,E2"]
+    for celsius in range(-20, 41, 5):
+        for hertz in np.geomspace(0.1, 30, 12):
+            w = hertz * 10 ** (-8 * (celsius - 20) / (110 + celsius - 20))
+            modulus = 3 + sum(30j * w * t / (1 + 1j * w * t) for t in 10.0 ** np.arange(-7, 3))
+            rows.append(f"{hertz},{celsius},{modulus.real},{modulus.imag}")
+    return "\n".join(rows)
+
+
+@pytest.mark.parametrize("style", ["print", "single"])
+@pytest.mark.parametrize("verb", ["friction", "area", "spectrum", "rubber"])
+def test_legends_lie_outside_of_their_panels_and_inside_of_the_picture(
+    folder: Path, figures: list[Any], verb: str, style: str
+) -> None:
+    arguments = ["scene.toml"]
+    if verb == "spectrum":
+        arguments = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
+    if verb == "rubber":
+        (folder / "dma.csv").write_text(rows_of_dma())
+        arguments = ["dma.csv", "--columns", DMA[0], "--units", DMA[1], "--modulus", "E"]
+    output = ["--plot", "a.png", "--output", "a.csv", "--style", style]
+    assert main([verb, *arguments, *output]) == 0
     (figure,) = figures
     figure.draw_without_rendering()
-    seen = 0
-    for axes in figure.axes:
-        if (legend := axes.get_legend()) is None or (verb == "area" and axes is figure.axes[1]):
-            continue
-        box = legend.get_window_extent()
-        for line in axes.lines:
-            with np.errstate(all="ignore"):
-                points = line.get_transform().transform(line.get_xydata())
-            points = points[np.isfinite(points).all(axis=1)]
-            if len(points) == 0 or (verb == "spectrum" and len(points) == 2):  # the cut-off's line
-                continue
-            seen += 1
-            over = (points > (box.x0, box.y0)) & (points < (box.x1, box.y1))
-            assert not over.all(axis=1).any(), (axes.get_ylabel(), line.get_label())
-    assert seen or figure.legends  # below all panels
+    drawn = [(axes, legend) for axes in figure.axes if (legend := axes.get_legend())]
+    assert drawn
+    for axes, legend in drawn:
+        assert axes.get_title() == ""  # it is the legend's
+        box, panel = legend.get_window_extent(), axes.get_window_extent()
+        assert box.y0 >= panel.y1 or box.x0 >= panel.x1
+        assert figure.bbox.x0 - 1 <= box.x0 < box.x1 <= figure.bbox.x1 + 1
+        assert box.y1 <= figure.bbox.y1 + 1
+        others = [one for one, _ in drawn if one is not axes]
+        assert not any(box.overlaps(one.get_window_extent()) for one in others)
 
 
-@pytest.mark.parametrize(("style", "count"), [("single", 1), ("single", 3), ("print", 3)])
-def test_a_legend_above_the_panels_takes_nothing_from_them(style: str, count: int) -> None:
-    from asperity.plot import style as styles
-    from asperity.plot.curves import new_figure
-    from asperity.plot.labels import legend_where_room_is
+def test_python_draws_what_the_shell_draws(folder: Path, figures: list[Any]) -> None:
+    """One code: axis from 0, pressures in kPa, and whether it is hysteresis alone."""
+    from matplotlib import pyplot
 
-    heights = []
-    with styles.drawn_in(style):
-        for legend in (False, True):
-            figure, panels = new_figure(count)
-            for axes in panels:
-                for i in range(8):  # no room between them
-                    curve = 1 + np.sin(np.linspace(0, 40, 99) + i)
-                    axes.plot(curve, label=f"the {i}th of the curves")
-            if legend:
-                legend_where_room_is(figure, panels[0])
-            figure.draw_without_rendering()
-            heights.append(panels[0].get_window_extent().height)
-    (legend_box,) = (one.get_window_extent() for one in figure.legends)
-    assert heights[1] >= 0.95 * heights[0]
-    for axes in panels:
-        assert axes.get_tightbbox().y1 <= legend_box.y0  # type: ignore[union-attr]
+    assert main(["friction", "scene.toml", "--plot", "a.png", "--output", "a.csv"]) == 0
+    result = load_scene("scene.toml").friction()
+    axes = result.plot()
+    (shell,) = figures[0].axes
+    for one, other in zip(axes.lines, shell.lines, strict=True):
+        np.testing.assert_array_equal(one.get_xydata(), other.get_xydata())
+        assert (one.get_color(), one.get_label()) == (other.get_color(), other.get_label())
+    assert axes.get_ylim()[0] == shell.get_ylim()[0] == 0
+    assert axes.get_ylabel() == shell.get_ylabel() == "Friction coefficient $\\mu$ [-]"
+    assert {"81 kPa", "200 kPa", "hysteresis"} <= {t.get_text() for t in axes.get_legend().texts}
+    (folder / "dry.toml").write_text(SCENE.replace("[adhesion]\nshear_stress_pa = 8.3e6\n", ""))
+    assert load_scene("dry.toml").friction().plot().get_ylabel().endswith("of hysteresis alone")
+    pyplot.close("all")
 
 
-def test_a_legend_covers_neither_steps_nor_lines_across() -> None:
-    from asperity.plot.curves import new_figure
-    from asperity.plot.labels import legend_inside
+def test_a_band_is_drawn_about_its_curve() -> None:
+    from matplotlib import pyplot
 
-    figure, (axes,) = new_figure(1)
-    axes.stairs([1, 9, 9, 1], [0, 1, 2, 3, 4], label="steps")
-    axes.axhline(7, label="across")
-    axes.set(xlim=(0, 12), ylim=(0, 10))
-    assert legend_inside(axes)
-    figure.draw_without_rendering()
-    box = axes.transData.inverted().transform(axes.get_legend().get_window_extent())
-    (x0, y0), (_, y1) = box
-    assert not y0 <= 7 <= y1
-    assert x0 > 4 or y0 > 9
+    velocity = np.geomspace(1e-3, 1, 4)
+    values = {"pressure": np.full(4, 81e3), "velocity": velocity, "mu": np.arange(1.0, 5)}
+    ends = {"lower": np.arange(4.0), "upper": np.arange(2.0, 6)}
+    band = asperity.FrictionBand(**values, **ends, level=0.9, samples=20)
+    axes = band.plot()
+    np.testing.assert_array_equal(
+        axes.lines[0].get_xydata(), np.column_stack([velocity, values["mu"]])
+    )
+    corners = axes.collections[0].get_paths()[0].vertices
+    assert {0.0, 3.0, 2.0, 5.0} <= {float(y) for y in corners[:, 1]}
+    entries = " ".join(text.get_text() for text in axes.get_legend().texts)
+    assert "81 kPa" in entries
+    assert "90 % band" in entries
+    pyplot.close("all")
+
+
+def test_greys_on_a_dark_screen_go_from_its_paper_to_white() -> None:
+    from matplotlib.colors import to_rgb
+
+    from asperity.draw import style
+
+    with style.drawn_in("dark"):
+        assert to_rgb(style.grey(0)) == (1, 1, 1)
+        paper = np.mean(to_rgb(style.paper()))
+        assert np.mean(to_rgb(style.grey(1))) == pytest.approx(paper, abs=0.01)
+        for level in (0.2, 0.5, 0.9):
+            away = (np.mean(to_rgb(style.grey(level))) - paper) / (1 - paper)
+            assert away == pytest.approx(1 - level, abs=0.01)
