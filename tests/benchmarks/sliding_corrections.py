@@ -22,7 +22,7 @@ import timing
 import asperity
 from asperity.correction import Correction
 from asperity.draw.figure import new_figure, picture
-from asperity.plot.curves import colours
+from asperity.draw.style import colours
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "reference"))
 import make_exact_sliding

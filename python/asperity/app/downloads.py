@@ -5,7 +5,8 @@ import os
 import tempfile
 import threading
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from asperity.plot.style import drawn_in
 from asperity.report.make import report_page
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.results import notes_of_all, scene_inputs, table_of
+from asperity.scene.results import Bar, notes_of_all, scene_inputs, table_of
 
 # What a download is made of is taken at once; making it may take its time in a thread.
 Make = Callable[[], bytes]
@@ -27,6 +28,7 @@ Make = Callable[[], bytes]
 _drawing = threading.Lock()  # settings of matplotlib are those of the process
 _DAY = (1980, 1, 1, 0, 0, 0)  # of files in an archive: equal scenes are equal bytes
 MAP_RTOL = 1e-3
+Tell = Callable[[str], object]  # hears how far it is
 CHECKED = 10_000  # random points of a map: a million, as by the shell, take minutes
 
 
@@ -61,7 +63,11 @@ def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[SceneFriction])
         return friction_figure(scenes, curves, Path("friction.svg"))
 
 
-def map_of(scene: Scene) -> FrictionMap:
+def _silent(line: str) -> None:
+    """Tell nobody."""
+
+
+def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
     """The friction map over a box about the scene's pressure and its velocities."""
     notes = list(scene.notes)
     inputs = scene_inputs(_unplaced(scene))
@@ -75,6 +81,7 @@ def map_of(scene: Scene) -> FrictionMap:
         correction=scene.correction,
         text="".join([*(f"note: {note.line}\n" for note in notes), *lines]),
         checked=CHECKED,
+        progress=lambda share: tell(f"{100 * share:.0f} %"),
         **{**scene.options, "rtol": MAP_RTOL},
         **heat_of_map(scene),
     )
@@ -88,7 +95,7 @@ def fmu_of(made: FrictionMap) -> bytes:
         return path.read_bytes()
 
 
-def report_of(state: State) -> Make:
+def report_of(state: State, tell: Tell = _silent) -> Make:
     """The report of the scene, compared with the variants that were kept."""
     texts = {"scene.toml": state.text}
     for i, variant in enumerate(state.variants, start=1):
@@ -106,10 +113,21 @@ def report_of(state: State) -> Make:
                 (aside / file).write_text(text, encoding="utf-8")
             paths = [aside / file for file in texts]
             with _drawing:
-                page, _ = report_page(paths, title, folder=aside)
+                page, _ = report_page(paths, title, _bar(tell), folder=aside)
         return page.encode()
 
     return make
+
+
+def _bar(tell: Tell) -> Bar:
+    """What a report takes to say how far it is."""
+
+    def told(title: str, chunks: list[slice]) -> Iterator[slice]:
+        for i, chunk in enumerate(chunks):
+            tell(f"{title}, {100 * i // len(chunks)} %")
+            yield chunk
+
+    return lambda title: lambda chunks: nullcontext(told(Path(title).name, chunks))
 
 
 def _unplaced(scene: Scene) -> Scene:

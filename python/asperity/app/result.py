@@ -1,5 +1,6 @@
 """The part of the result: mu(v), which roughness makes it, notes, variants and downloads."""
 
+import asyncio
 from collections.abc import Callable, Sequence
 from html import escape
 from typing import Any
@@ -206,15 +207,23 @@ class ResultPart:
             .props('role="group" aria-label="Downloads"')
         ):
             for label, name, make in (
-                ("Scene", "scene.zip", lambda f: downloads.scene_archive(self._state)),
-                ("CSV", "friction.csv", lambda f: lambda: downloads.table_csv(f.scene, f.curves)),
-                ("Picture", "friction.svg", self._picture),
-                ("Report", "report.html", lambda f: downloads.report_of(self._state)),
-                ("Map", "friction.fmap", lambda f: lambda: downloads.map_of(f.scene).to_bytes()),
+                ("Scene", "scene.zip", lambda f, _: downloads.scene_archive(self._state)),
+                (
+                    "CSV",
+                    "friction.csv",
+                    lambda f, _: lambda: downloads.table_csv(f.scene, f.curves),
+                ),
+                ("Picture", "friction.svg", lambda f, _: self._picture(f)),
+                ("Report", "report.html", lambda f, tell: downloads.report_of(self._state, tell)),
+                (
+                    "Map",
+                    "friction.fmap",
+                    lambda f, tell: lambda: downloads.map_of(f.scene, tell).to_bytes(),
+                ),
                 (
                     "FMU",
                     "friction.fmu",
-                    lambda f: lambda: downloads.fmu_of(downloads.map_of(f.scene)),
+                    lambda f, tell: lambda: downloads.fmu_of(downloads.map_of(f.scene, tell)),
                 ),
             ):
                 self._download(label, name, make)
@@ -225,7 +234,9 @@ class ResultPart:
         curves = [found.best, *(one.curves for one in kept)]
         return lambda: downloads.picture(named, curves)
 
-    def _download(self, label: str, name: str, make: Callable[[Any], downloads.Make]) -> None:
+    def _download(
+        self, label: str, name: str, make: Callable[[Any, downloads.Tell], downloads.Make]
+    ) -> None:
         async def give() -> None:
             found = self._worker.found
             if found is None or found.curves is None:
@@ -233,8 +244,13 @@ class ResultPart:
                 return
             button.props("loading")
             self._status.set_text(f"{label} is made ...")
+            loop = asyncio.get_running_loop()
+
+            def tell(line: str) -> None:
+                loop.call_soon_threadsafe(self._status.set_text, f"{label} is made: {line}")
+
             try:
-                content = await in_thread(make(found))
+                content = await in_thread(make(found, tell))
             except Error as error:
                 self._problem.set_text(in_one_line(self._state.said(error)))
             else:

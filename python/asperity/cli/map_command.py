@@ -3,6 +3,7 @@
 import json
 import os
 from argparse import Namespace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -99,7 +100,7 @@ def friction_map_of(args: Namespace) -> None:
     if args.plot is not None:
         path = FilePath(args.plot)
         with drawn_in(args.style, made.notes):
-            files[path] = plot_map.map_figure(made, lambda p, v: _errors(made, scene, p, v), path)
+            files[path] = plot_map.map_figure(made, partial(_errors, made, scene), path)
     write_files(files)
     _tell(args, made)
 
@@ -140,23 +141,21 @@ def _check_sides(args: Namespace, scene: Scene) -> None:
 def _errors(
     made: FrictionMap, scene: Scene, pressure: NDArray[np.float64], velocity: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """|mu of the map / mu of the solver - 1|, of the arguments' shape."""
+    """|mu of the map / mu of the solver - 1| at pressures in a column and velocities in a row."""
     options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
     heat, at = heat_of_map(scene), {}
     if heat:  # of several temperatures the lowest, as the picture of mu
         at = {"temperature": heat["temperature"][0]}
-    truth = friction(
-        scene.spectrum,
-        rubber_of_map(scene),
-        pressure=pressure,
-        velocity=velocity,
-        adhesion=scene.adhesion,
-        **options,
-        **heat | at,
-    )
+    compute = partial(friction, scene.spectrum, rubber_of_map(scene), velocity=velocity)
+    compute = partial(compute, adhesion=scene.adhesion, **options, **heat | at)
+    rows = [slice(i, i + 1) for i in range(pressure.size)]
+    with with_contacts(progress(f"{scene.path}, errors of the map"), scene.correction)(
+        rows
+    ) as each:
+        truth = np.concatenate([compute(pressure=pressure[row]).mu for row in each])
     mu: NDArray[np.float64] = made.mu(pressure, velocity, **at)
     # a rubber without loss and without adhesion has no friction to be off by
-    ratio = np.divide(mu, truth.mu, out=np.ones_like(mu), where=truth.mu > 0)
+    ratio = np.divide(mu, truth, out=np.ones_like(mu), where=truth > 0)
     return np.asarray(np.abs(ratio - 1))
 
 

@@ -7,7 +7,15 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument
-from asperity.draw.figure import COLUMN, MOST_ENTRIES, PRESSURE, VELOCITY, picture, pressure_text
+from asperity.draw.figure import (
+    COLUMN,
+    MOST_ENTRIES,
+    PRESSURE,
+    VELOCITY,
+    picture,
+    pressure_text,
+    tell_fatal_notes,
+)
 from asperity.draw.style import colours, grey, narrow, shades
 from asperity.io.fields import without_unit
 
@@ -16,7 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_PANELS = 8  # along either axis
-_MOST_BANDS = 3  # curves of a panel whose bands can be told apart
 _TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}
 _OF_TABLE = ("kind", "file")  # what there is one of in a table
 _WIDE, _LONG = 3.0, 2.5  # inches of a panel
@@ -31,7 +38,9 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
     figure, panels = _grid(across, down)
     count = 1 if lines is None else dataset.sizes[lines]
     tints = _tints(dataset, lines, count)
-    with_band = name == "mu" and "mu_low" in dataset and "mu_high" in dataset
+    with_band = name == "mu" and {"mu_low", "mu_high"} <= {*dataset} and count <= MOST_ENTRIES
+    if with_band and np.isfinite(dataset["mu_low"]).any():
+        fixed.append("shaded: the errors of the inputs")
     for row in range(down):
         for column in range(across):
             axes = panels[row * across + column]
@@ -40,7 +49,7 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
             for i in range(count):
                 curve = dataset.isel({**at, **({} if lines is None else {lines: i})})
                 axes.plot(curve[x], curve[name], color=tints[i], linewidth=1.3)
-                if with_band and count <= _MOST_BANDS:
+                if with_band:
                     how = {"color": tints[i], "alpha": 0.2, "linewidth": 0}
                     axes.fill_between(curve[x], curve["mu_low"], curve["mu_high"], **how)
             _dress(axes, dataset, x, [(axis, at[axis]) for axis in (rows, columns) if axis in at])
@@ -49,6 +58,8 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
     meaning = dataset[name].attrs.get("long_name", name)
     label = f"{meaning[0].upper()}{meaning[1:]} [{_unit(dataset[name].attrs)}]"
     figure.supylabel(label, fontsize="medium")
+    if np.nanmin(dataset[name].values, initial=np.inf) >= 0:
+        panels[0].set_ylim(bottom=0)  # which all share
     for axes in panels[-1 if narrow() else -across :]:
         axes.set_xlabel(_title(dataset, x))
     if fixed:
@@ -108,6 +119,7 @@ def _grid(across: int, down: int) -> "tuple[Figure, list[Axes]]":
     else:
         size = (max(_WIDE * across, 5.0) + 1.2, max(_LONG * down, 3.4) + 0.5)
     figure = Figure(figsize=size, layout="constrained")
+    tell_fatal_notes(figure)
     grid = figure.subplots(down, across, sharex=True, sharey=True, squeeze=False)
     return figure, list(grid.ravel())
 

@@ -5,6 +5,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 
@@ -26,14 +27,14 @@ from asperity.report.digests import Source, check_unchanged, digests
 from asperity.report.drawings import Drawings
 from asperity.report.texts import printable
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.results import Bar, friction_table, table_of, with_temperatures
+from asperity.scene.results import Bar, friction_table, no_bar, table_of, with_temperatures
 from asperity.scene.scene import load_scene
 
 _MOST_SCENES = 20  # of a report: each adds pictures, and a line to that of all
 
 
 def write_report(
-    paths: Sequence[Path], output: Path, title: str | None = None, bar: Bar | None = None
+    paths: Sequence[Path], output: Path, title: str | None = None, bar: Bar = no_bar
 ) -> None:
     """Write the report of scenes; `bar` shows how far it is."""
     check_output(output)
@@ -44,7 +45,7 @@ def write_report(
 def report_page(
     paths: Sequence[Path],
     title: str | None = None,
-    bar: Bar | None = None,
+    bar: Bar = no_bar,
     folder: Path | None = None,
     output: Path | None = None,
 ) -> tuple[str, list[Source]]:
@@ -73,8 +74,7 @@ def report_page(
     loaded = [load_scene(path, for_friction=True) for path in paths]
     results: list[list[SceneFriction]] = []
     for file in loaded:
-        shown = {} if bar is None else {"bar": bar}
-        results.append(friction_table(with_temperatures(file), bands=True, **shown)[1])
+        results.append(friction_table(with_temperatures(file), bands=True, bar=bar)[1])
     if folder is not None:
         loaded = [_without_folder(one, folder) for one in loaded]
     names = _names(paths)
@@ -86,29 +86,34 @@ def report_page(
     environment = jinja.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
     )
-    drawn = Drawings(environment)
+    date, drawn = _now(), Drawings(environment)
+    draw = [partial(drawn.friction, scenes, curves)]
+    for name, file in zip(names, loaded, strict=True):
+        draw += [partial(drawn.surface, file, name), partial(drawn.rubber, file, name)]
+    with bar("pictures")([slice(i, i + 1) for i in range(len(draw))]) as each:
+        overview, *pictures = [draw[one.start]() for one in each]
     page = environment.from_string(_shipped("page.html")).render(
         title=title or f"Friction of {', '.join(names)}",
         version=__version__,
-        date=_now(),
+        date=date,
         style=drawn.plain(_shipped("style.css")),
         fatal=[note for note in table.notes if note.severity == FATAL],
-        overview=drawn.friction(scenes, curves),
+        overview=overview,
         table_link=_link(table.csv(), "text/csv"),
         points=len(table.columns["mu"]),
         files=[
             {
                 "name": name,
                 "results": results_of(with_temperatures(file), of_file),
-                "surface": drawn.surface(file, name),
-                "rubber": drawn.rubber(file, name),
+                "surface": surface,
+                "rubber": rubber,
                 "sources": source_rows(of_one, folder),
                 "inputs": input_rows(file),
                 "text": text,
                 "link": _link(text, "application/toml"),
             }
-            for name, file, of_file, of_one, text in zip(
-                names, loaded, results, sources, texts, strict=True
+            for name, file, of_file, of_one, text, surface, rubber in zip(
+                names, loaded, results, sources, texts, pictures[::2], pictures[1::2], strict=True
             )
         ],
         file_names=names,

@@ -13,7 +13,7 @@ from asperity.scene.model import COLUMNS, Progress, Scene, SceneFriction
 Bar = Callable[[str], Progress]  # shows how far the work of that title is
 
 
-def _no_bar(_: str) -> Progress:
+def no_bar(_: str) -> Progress:
     return nullcontext
 
 
@@ -23,7 +23,7 @@ def with_temperatures(scene: Scene) -> list[Scene]:
 
 
 def friction_table(
-    scenes: Sequence[Scene], *, bands: bool, bar: Bar = _no_bar
+    scenes: Sequence[Scene], *, bands: bool, bar: Bar = no_bar
 ) -> tuple[Table, list[SceneFriction]]:
     """mu of every scene. A band, where standard errors are known, is computed where `bands` are
     asked for and where a scene asks for it; it has columns where all scenes ask."""
