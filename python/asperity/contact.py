@@ -17,9 +17,21 @@ from asperity.base.arguments import (
     shaped,
 )
 from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, fatal_first, refusal
+from asperity.base.quantities import (
+    FIRST_WAVENUMBER,
+    MODULUS,
+    PRESSURE,
+    RMS_HEIGHT,
+    SLOPE,
+    VELOCITY,
+    Quantity,
+)
 from asperity.correction import CORRECTIONS, Correction
 from asperity.dma import AnyRubber, rubber_of
+from asperity.io.plausible import implausible
+from asperity.rubber import Rubber, stiffest
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
+from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors, strain_core
 
 __all__ = [
@@ -203,8 +215,10 @@ def contact_notes(
     """
     _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
-    notes = _core.contact_notes(*surface_and_rubber(spectrum, rubber), model, p, v)
-    return tuple(fatal_first((*rubber_of(rubber).notes, *notes)))
+    surface, solid = spectrum_of(spectrum), rubber_of(rubber)
+    notes = _core.contact_notes(surface._core, solid._core, model, p, v)
+    absurd = implausible_notes(surface, solid, pressure, velocity)
+    return tuple(fatal_first((*solid.notes, *notes, *absurd)))
 
 
 def pressure_distribution(
@@ -271,3 +285,19 @@ def _over_wavenumber(
             raise InvalidInput(Argument("wavenumber"), " has 0 entries", MUST_BE, "1 or more")
         shape += q.shape
     return shaped(function(*surface_and_rubber(spectrum, rubber), model, p, v, q), shape)
+
+
+def implausible_notes(
+    spectrum: Spectrum, rubber: Rubber, pressure: ArrayLike, velocity: ArrayLike
+) -> tuple[Note, ...]:
+    """Return a note where numbers are none of a road, a rubber or a rig."""
+    stiff = stiffest(rubber)
+    numbers: dict[str, tuple[ArrayLike, Quantity]] = {
+        "rms_height": (spectrum.rms_height, RMS_HEIGHT),
+        "rms_slope": (spectrum.rms_slope, SLOPE),
+        "q0": (spectrum.q0, FIRST_WAVENUMBER),
+        "largest modulus": (stiff, MODULUS),
+        "pressure": (pressure, PRESSURE),
+        "velocity": (velocity, VELOCITY),
+    }
+    return implausible(numbers, stiff)

@@ -20,7 +20,7 @@ from asperity.base.arguments import (
     whole,
 )
 from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, valued
-from asperity.contact import Form, Method, contact_model
+from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
@@ -169,7 +169,8 @@ def friction(
                 valued("hot", '"hot"'),
                 ": needs heating=, without which there is one",
             )
-        result = _made(_core.friction(*points), shape, solid.notes)
+        absurd = implausible_notes(surface, solid, p, v)
+        result = _made(_core.friction(*points), shape, (*solid.notes, *absurd))
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
             result = _with(result, gradients=gradients_of_core(of, shape))
@@ -203,7 +204,7 @@ def friction(
         "gain": _shaped(gain, shape),
         "branches": _shaped(branches, shape),
     }
-    result = _made(hot, shape, solid.notes)
+    result = _made(hot, shape, (*solid.notes, *implausible_notes(surface, solid, p, v)))
     if result.wavenumber is not None:
         given["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)

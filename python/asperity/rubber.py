@@ -368,3 +368,10 @@ def effective_modulus(
         poisson_ratio_2=poisson_ratio_2,
     )
     return shaped(_core.effective_modulus(*columns), shape)
+
+
+def stiffest(rubber: Rubber) -> float:
+    """The largest |E| [Pa] that a rubber's data reach."""
+    if isinstance(rubber, PronySeries):
+        return rubber.equilibrium_modulus + float(np.sum(rubber.moduli))
+    return float(np.max(np.hypot(rubber.storage_modulus, rubber.loss_modulus)))

@@ -52,7 +52,7 @@ RMS_HEIGHT = Quantity(
     LENGTH_UNITS,
     likely=(1e-9, 1e-2),
     least=Limit(1e-12, "a hundredth of an atom"),
-    low=Limit(1e-11, "cleaved mica has more"),
+    low=Limit(1e-10, "the size of an atom"),
     high=Limit(0.1, "the texture of a road has at most centimetres"),
     most=Limit(1.0, "no road or stone is so rough"),
 )
@@ -103,7 +103,8 @@ WAVENUMBER = Quantity(  # of no certain end
 SLOPE = Quantity(
     NUMBER_UNITS,
     likely=(0, 0),
-    least=Limit(0.0, ""),
+    least=Limit(1e-5, "a telescope's mirror is as flat; are the heights in another unit"),
+    low=Limit(1e-3, "a mirror is as flat"),
     most=Limit(100.0, "the surface would stand upright; are heights or wavenumbers in other units"),
 )
 # Creep: plates of the Earth drift by 1e-9 m/s, an atom's diameter in an hour is 1e-13 m/s. Racing
@@ -142,7 +143,7 @@ MODULUS = Quantity(
     MODULUS_UNITS,
     likely=(1e5, 2e10),
     least=Limit(100.0, "a network of 50 nm wide meshes, softer than gels"),
-    low=Limit(500.0, "all but the softest gels are stiffer"),
+    low=Limit(1e4, "the softest rubbers have ten times as much, only gels have less"),
     high=Limit(2e10, "glassy polymers reach 5e9 Pa, filled ones 2e10 Pa"),
     most=Limit(1e11, "stiffer than window glass"),
 )

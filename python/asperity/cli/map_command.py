@@ -27,10 +27,10 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
+from asperity.rubber import stiffest
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene
 from asperity.scene.progress import with_contacts
-from asperity.scene.rubber import stiffest
 from asperity.scene.scene import load_scene
 
 _RTOL = 1e-4

@@ -40,6 +40,7 @@ from asperity.base.quantities import (
 from asperity.io.typed import as_typed
 
 _notes: ContextVar[list[Note] | None] = ContextVar("notes", default=None)
+_refuses: ContextVar[bool] = ContextVar("refuses", default=True)  # what is absurd, if noted at all
 
 
 @contextmanager
@@ -60,6 +61,29 @@ def collected(given: Mapping[str, Any] | None = None) -> Iterator[list[Note]]:
     finally:
         _notes.reset(token)
         notes[:] = [note.said(typed) for note in notes]
+
+
+def implausible(
+    numbers: Mapping[str, tuple[ArrayLike, Quantity]], stiffest: float
+) -> tuple[Note, ...]:
+    """Return one note on all numbers of a call that are absurd or unusual in SI units, none where
+    there is nothing to note: any consistent units are taken."""
+    notes: list[Note] = []
+    tokens = _notes.set(notes), _refuses.set(False)
+    try:
+        for name, (values, quantity) in numbers.items():
+            check(name, values, quantity)
+        check_load("pressure", numbers["pressure"][0], stiffest)
+    finally:
+        _notes.reset(tokens[0])
+        _refuses.reset(tokens[1])
+    if not notes:
+        return ()
+    first, *others = notes
+    rest = chain.from_iterable(("; ", *note.sentence) for note in others)
+    code = next((note.code for note in notes if note.code.startswith("absurd")), first.code)
+    step = "check the units: numbers are taken as Pa, m, m/s, unless all are in consistent ones"
+    return (Note(*first.sentence, *rest, code=code, next_step=step),)
 
 
 def tell_again(notes: Sequence[Note]) -> None:
@@ -176,7 +200,7 @@ def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object 
 
 
 def _refuse(sentence: Sentence, code: str, path: object) -> None:
-    if _notes.get() is not None:
+    if _notes.get() is not None and _refuses.get():
         raise InvalidInput(*sentence, code=code, where=path)
     _note(sentence, code, path)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from asperity._core import OutOfRange, extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.celsius import temperature_text
-from asperity.base.codes import FATAL
+from asperity.base.codes import FATAL, NOTES
 from asperity.base.diagnostics import Note, fatal_first
 from asperity.base.value import value
 from asperity.contact import contact_area, contact_notes, pressure_distribution
@@ -46,7 +46,9 @@ COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "erro
 _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
-_OF_MODULUS = {"modulus-extrapolated", "modulus-unmeasured"}  # notes on all points together
+# notes on all points together, and on numbers that a scene checks by its keys
+_OF_ALL = {"modulus-extrapolated", "modulus-unmeasured"}
+_OF_ALL |= {code for code in NOTES if code.startswith(("absurd-", "unusual-", "squashed-"))}
 _OF_STRAIN = "strain-beyond-sweeps"
 
 
@@ -150,7 +152,7 @@ class Scene:
         parts: list[Friction] = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         share = np.concatenate([part.extrapolated_share for part in parts])
-        found = [note for part in parts for note in part.notes if note.code not in _OF_MODULUS]
+        found = [note for part in parts for note in part.notes if note.code not in _OF_ALL]
         found = [*self._with_size_of_heat(found), *extrapolation_notes(self.points[1], share)]
         held = [note for note in found if note.code == _OF_STRAIN]
         most = max(held, key=_share, default=None)  # of all points
@@ -274,8 +276,9 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
+        found = [note for part in parts for note in part if note.code not in _OF_ALL]
         named = partial(in_keys, names=NOTED)
-        return fatal_first([*self.notes, *(note.said(named) for part in parts for note in part)])
+        return fatal_first([*self.notes, *(note.said(named) for note in found)])
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
@@ -37,7 +35,7 @@ from asperity.io.fields import (
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
-from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.rubber import MasterCurve, PronySeries, Rubber, stiffest
 from asperity.scene.shift import (
     BUILD,
     TEMPERATURE,
@@ -233,13 +231,6 @@ def _blaming_conditions() -> Iterator[None]:
     except (InvalidInput, OutOfRange) as error:
         named = {"[rubber] temperature_k": "[conditions] temperature_k"}
         raise error.said(partial(in_keys, names=named)) from error
-
-
-def stiffest(rubber: Rubber) -> float:
-    """The largest |E| [Pa] that a rubber's data reach."""
-    if isinstance(rubber, PronySeries):
-        return rubber.equilibrium_modulus + float(np.sum(rubber.moduli))
-    return float(np.max(np.hypot(rubber.storage_modulus, rubber.loss_modulus)))
 
 
 def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:

@@ -24,6 +24,7 @@ from asperity.io.fields import (
 from asperity.io.files import check_file
 from asperity.io.toml import read_toml_text
 from asperity.io.typed import Typed, typed_in
+from asperity.rubber import stiffest
 from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
@@ -34,7 +35,7 @@ from asperity.scene.parts import (
     build_correction,
     build_heating,
 )
-from asperity.scene.rubber import BuiltRubber, build_rubber, stiffest
+from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
 
 _TABLES = dict.fromkeys(

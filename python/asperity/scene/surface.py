@@ -1,13 +1,15 @@
 """Surface of a scene: a self-affine spectrum, or what a scan gives."""
 
+import math
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from asperity import _core
-from asperity._core import InvalidInput, OutOfRange
+from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.diagnostics import Argument, Note, valued
 from asperity.io import plausible
@@ -60,6 +62,7 @@ _READ = {
 }
 _TRANSFORM = fields_of(power_spectrum, "window", "detrend")
 _MERGED = 10.0  # bins a decade of the spectrum of several scans
+_FINEST = 1e11  # [1/m], beyond the distance of atoms
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
 _FIT = {"fit": Field(text)}
 _DIRECTIONAL = {"directional": Field(truth, "directional")}
@@ -114,15 +117,24 @@ def build_surface(path: Path, table: object) -> Surface:
         fields = {**_SELF_AFFINE, **_BAND}
         with rename_in_errors(path, names_of("surface", fields)):
             spectrum = SelfAffineSpectrum(**arguments(values, fields))
+    law = spectrum if isinstance(spectrum, SelfAffineSpectrum) else None
+    if isinstance(spectrum, TabulatedSpectrum) and "slope_cutoff" in values:
+        with suppress(Error):
+            law = fit_self_affine(spectrum).spectrum
     spectrum = _cut(path, spectrum, values)
     plausible.check("[surface] rms slope", spectrum.rms_slope, quantities.SLOPE, path=path)
+    if scan is not None:  # what a law is given by has been checked
+        plausible.check(
+            "[surface] rms height", spectrum.rms_height, quantities.RMS_HEIGHT, path=path
+        )
+        plausible.check("[surface] q0", spectrum.q0, quantities.FIRST_WAVENUMBER, path=path)
     derived |= {
         "q0_per_m": spectrum.q0,
         "q1_per_m": spectrum.q1,
         "rms_height_m": spectrum.rms_height,
         "rms_slope": spectrum.rms_slope,
     }
-    notes = _slope_notes(spectrum, values, table)
+    notes = _slope_notes(spectrum, values, table, law)
     if scan is not None:
         directional = spectrum.is_directional
         notes += scan_notes(scan, lay(scan, **_transform(values)), directional=directional)
@@ -255,7 +267,11 @@ def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:
     return [Note(text, code="noise-in-spectrum", next_step=step)]
 
 
-def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[Note]:
+def _slope_notes(
+    spectrum: Spectrum, values: Values, typed: Any, law: SelfAffineSpectrum | None
+) -> list[Note]:
+    """A note where the spectrum ends before the slope that was to end it, with what serves; `law`
+    is the one that it may go on by."""
     wanted = values.get("slope_cutoff")
     if wanted is None or "contamination_size_m" in values:
         return []
@@ -265,7 +281,15 @@ def _slope_notes(spectrum: Spectrum, values: Values, typed: Any) -> list[Note]:
         f" is not reached: the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
     )
     value = valued(wanted, f"{typed['slope_cutoff']}")
-    step = "leave slope_cutoff out, or measure with finer pixels"
+    step = "leave slope_cutoff out and take mu as that of the waves that are measured, the least"
+    with suppress(Error):
+        whole = None if law is None else law.extended(q1=_FINEST)
+        end = None if whole is None else whole.cutoff_for_slope(wanted)
+        if end is not None and end < _FINEST * (1 - 1e-9):
+            by_law = f"q1_per_m = {end:.3g}"
+            if "file" in values and "fit" not in values:
+                by_law = f'fit = "self-affine" with {by_law}, beyond what was measured'
+            step += f"; or {by_law}; or measure with pixels of {math.pi / end:.2g} m"
     about = Argument("slope_cutoff"), " = ", value, found
     return [Note(*about, code="slope-not-reached", next_step=step)]
 

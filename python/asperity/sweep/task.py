@@ -14,8 +14,8 @@ import numpy as np
 from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
 from asperity.friction import Friction
 from asperity.io import plausible
+from asperity.rubber import stiffest
 from asperity.scene.model import Scene
-from asperity.scene.rubber import stiffest
 from asperity.scene.scene import Builders, build_scene
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
 from asperity.sweep.chunks import Place

@@ -1,6 +1,7 @@
 """Stated units: what no rubber, road or rig has is refused or noted, and nothing else is."""
 
 import logging
+import re
 import subprocess
 import sys
 
@@ -86,9 +87,9 @@ PLAUSIBLE = {
     "dust": {"surface": ASPHALT + "contamination_size_m = 2e-5"},
     "a polished wafer": {"surface": law(2e-10, 6e6, 6e9)},
     "a road of 3 m with cm heights": {"surface": law(0.02, 2.1, 1e4)},
-    "a gel of 1 kPa under 20 Pa": {"rubber": prony(1e3), "conditions": slid(20, 1e-4)},
+    "a gel of 10 kPa under 20 Pa": {"rubber": prony(1e4), "conditions": slid(20, 1e-4)},
     "a hydrogel's shear stress": {
-        "rubber": prony(1e3),
+        "rubber": prony(1e4),
         "conditions": slid(200, 1e-4),
         "more": "[adhesion]\nshear_stress_pa = 30",
     },
@@ -380,3 +381,57 @@ def test_the_library_takes_any_consistent_units(caplog):
     assert asperity.friction(road, rubber, pressure=0.01, velocity=1.0).mu > 0
     asperity.HeightMap(np.arange(12.0).reshape(3, 4), pixel_size=1e-6)
     assert caplog.messages == []
+
+
+ROAD = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 3e4}
+MODULI = np.array([3e6, 1e8])
+CALLS = {  # factors of heights, wavenumbers, moduli and pressure, and what the note is about
+    "as it should be": (1, 1, 1, 1, None),
+    "heights in m that are in um": (1e-6, 1, 1, 1, "rms_slope"),
+    "moduli and pressure in MPa": (1, 1, 1e-6, 1e-6, "largest modulus"),
+    "pressure in MPa": (1, 1, 1, 1e-6, "pressure"),
+    "moduli in MPa": (1, 1, 1e-6, 1, "largest modulus"),
+    "a road of 160 m": (1, 2e-5, 1, 1, "rms_slope"),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_python_notes_what_a_scene_refuses(name):
+    height, wave, modulus, load, about = CALLS[name]
+    road = asperity.SelfAffineSpectrum(
+        rms_height=height * ROAD["rms_height"],
+        hurst=ROAD["hurst"],
+        q0=wave * ROAD["q0"],
+        q1=wave * ROAD["q1"],
+    )
+    equilibrium, *moduli = modulus * MODULI
+    rubber = asperity.PronySeries(
+        equilibrium_modulus=equilibrium, moduli=moduli, relaxation_times=[1e-4]
+    )
+    found = asperity.friction(road, rubber, pressure=load * 1e5, velocity=[1e-3, 1e-2])
+    notes = [note for note in found.notes if note.next_step.startswith("check the units: ")]
+    assert [note.argument for note in notes] == ([] if about is None else [about])
+
+
+def test_a_scan_flatter_than_a_mirror_is_refused(tmp_path):
+    """As one in m that is called um: it gave mu 6e-12 and no word."""
+    road = asperity.SelfAffineSpectrum(rms_height=5e-5, hurst=0.8, q0=2e3, q1=1e5)
+    scan = asperity.synthesize(road, shape=(64, 64), pixel_size=3e-5, seed=1)
+    np.save(tmp_path / "scan.npy", scan.heights)
+    file = 'file = "scan.npy"\npixel_size_m = 3e-5\nunit = '
+    load_scene(scene(tmp_path, surface=f'{file}"m"'))
+    with pytest.raises(asperity.InvalidInput) as caught:
+        load_scene(scene(tmp_path, surface=f'{file}"um"'))
+    assert (caught.value.code, caught.value.argument) == ("absurd-value", "[surface] rms slope")
+
+
+def test_a_slope_that_is_not_reached_says_what_serves(tmp_path):
+    road = asperity.SelfAffineSpectrum(rms_height=5e-5, hurst=0.7, q0=3e3, q1=1e5)
+    scan = asperity.synthesize(road, shape=(256, 256), pixel_size=2e-5, seed=1)
+    np.save(tmp_path / "scan.npy", scan.heights)
+    file = 'file = "scan.npy"\npixel_size_m = 2e-5\nunit = "m"\n'
+    made = load_scene(scene(tmp_path, surface=f"{file}slope_cutoff = 1.3"))
+    (note,) = [one for one in made.notes if one.code == "slope-not-reached"]
+    (end,) = re.findall(r"q1_per_m = ([\d.e+]+)", note.next_step)
+    by_law = load_scene(scene(tmp_path, surface=f'{file}fit = "self-affine"\nq1_per_m = {end}'))
+    assert by_law.spectrum.rms_slope == pytest.approx(1.3, rel=0.01)
