@@ -24,7 +24,7 @@ from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
-from asperity.results.friction import COLUMNS, Friction
+from asperity.results.friction import COLUMNS, Friction, small_friction_notes
 from asperity.results.gradients import Gradients
 from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
@@ -171,6 +171,7 @@ def friction(
             )
         absurd = implausible_notes(surface, solid, p, v)
         result = _made(_core.friction(*points), shape, (*solid.notes, *absurd))
+        result = _with(result, notes=_size(result))
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
             result = _with(result, gradients=gradients_of_core(of, shape))
@@ -205,12 +206,18 @@ def friction(
         "branches": _shaped(branches, shape),
     }
     result = _made(hot, shape, (*solid.notes, *implausible_notes(surface, solid, p, v)))
+    result = _with(result, notes=_size(result))
     if result.wavenumber is not None:
         given["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
     given["sliding_length"] = lambda: _shaped(length(), shape)
     given["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
     return _with(result, **given)
+
+
+def _size(result: Friction) -> tuple[Note, ...]:
+    """Return the notes of a result, before them one on mu that no rubber has."""
+    return tuple(fatal_first((*small_friction_notes(result.mu), *result.notes)))
 
 
 def _with(result: Friction, **more: Any) -> Friction:

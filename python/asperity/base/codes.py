@@ -31,6 +31,7 @@ NOTES = {
     "map-continued": (NOTE, "how the map was made periodic"),
     # the rubber
     "undetermined-shift": (FATAL, "the moduli do not tell how far an isotherm is to be shifted"),
+    "moduli-disagree": (WARNING, "E' and E'' disagree by some per cent, as many published ones do"),
     "moduli-contradict": (FATAL, "E' and E'' belong to no one material"),
     "modulus-extrapolated": (FATAL, "most of the hysteresis is of frequencies never measured"),
     "modulus-unmeasured": (WARNING, "a part of the hysteresis is of frequencies never measured"),
@@ -68,6 +69,7 @@ NOTES = {
     "regime-constant": (NOTE, "the model error at about constant loss tangents"),
     "regime-fast": (NOTE, "the model error where the modulus outgrows the loss"),
     # friction, heat, adhesion
+    "small-friction": (FATAL, "mu is below 1e-4, less than rubber has on anything rough"),
     "large-friction": (FATAL, "mu is above 4, more than rubber has on clean glass"),
     "heat-left-out": (WARNING, "flash heating changes mu, and is not in it"),
     "hot-rubber": (WARNING, "a rise of more than 100 K, beyond published experiments"),
@@ -147,6 +149,7 @@ _NEXT_STEPS = {
     "few-periods": "measure a longer scan, or merge several",
     "law-beyond-rows": "measure with finer pixels, or state it with mu",
     "undetermined-shift": "measure at temperatures between, or give shift factors from outside",
+    "moduli-disagree": "measure the modulus at a smaller strain, or try a vertical shift",
     "moduli-contradict": "check the columns and units of the moduli",
     "modulus-extrapolated": "measure the modulus at other temperatures, or leave velocities out",
     "modulus-unmeasured": "measure the modulus at other temperatures, or leave velocities out",
@@ -164,6 +167,7 @@ _NEXT_STEPS = {
     "area-further-off": "take PartialContact",
     "coarse-map": "take a finer map, or one without its shortest waves",
     "large-angle": "give the angle in radians",
+    "small-friction": "check the units of the heights, the modulus and the pressure",
     "large-friction": "check where the spectrum ends, and the units",
     "heat-left-out": "give heating, with a temperature and the shift of the rubber",
     "hot-rubber": "hold these points against a measurement",

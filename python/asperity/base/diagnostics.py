@@ -40,6 +40,11 @@ class Unit(Phrase):
     """The unit behind a value, which is its tag."""
 
 
+def kelvin(temperature: float) -> tuple[Value, Unit]:
+    """Return a temperature as phrases that an edge may say in degrees Celsius."""
+    return Value(f"{temperature:.5g}", (float(temperature),), "K"), Unit(" K", (), "K")
+
+
 class Must(Phrase):
     """Stands before what is allowed."""
 

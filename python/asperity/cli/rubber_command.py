@@ -25,6 +25,7 @@ from asperity.io.read_shift_factors import read_shift_factors
 from asperity.io.table import Table, noted
 from asperity.plot import rubber as plot_rubber
 from asperity.prony_fit import PronyFit
+from asperity.scene.celsius import all_in_celsius
 from asperity.scene.rubber import quiet_prony
 from asperity.shift_factors import WlfFit
 
@@ -97,10 +98,10 @@ def rubber(args: Namespace) -> None:
         "storage_modulus_pa": curve.storage_modulus.tolist(),
         "loss_modulus_pa": curve.loss_modulus.tolist(),
     }
+    celsius = (args.units or {}).get("temperature") == "C"
+    notes = [note.said(all_in_celsius) for note in notes] if celsius else notes
     inputs |= noted(notes)  # for a scene that reads the curve
     table = Table("rubber", [inputs], notes, columns)
-
-    celsius = (args.units or {}).get("temperature") == "C"
 
     write_files({path: make(build, prony) for path, make in _tables_wanted(args).items()})
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, Shape, broadcast, frozen, real_array
-from asperity.base.diagnostics import Argument, Note, refusal
+from asperity.base.diagnostics import Argument, Note, Value, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.results.gradients import Gradients
@@ -192,6 +192,7 @@ class Friction(Table):
         draw_result(axes, self)
 
 
+_SMALLEST = 1e-4
 SWEPT = ("pressure", "velocity", "temperature")
 HEAT = {
     "temperature": ("K", "temperature"),
@@ -200,6 +201,17 @@ HEAT = {
     "branches": ("1", "number of steady states"),
 }
 COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if one.metadata)
+
+
+def small_friction_notes(mu: ArrayLike) -> tuple[Note, ...]:
+    """Return a note where mu is below a tenth of what a lubricated bearing has at all points, but
+    for a rubber without loss, which has none."""
+    largest = float(np.max(mu, initial=0))
+    if not 0 < largest < _SMALLEST:
+        return ()
+    about = "mu is ", Value(f"{largest:.3g}", (largest,)), f" at most, below {_SMALLEST:g}"
+    said = ", less than rubber has on anything rough: heights, modulus or pressure are in another"
+    return (Note(*about, f"{said} unit", code="small-friction"),)
 
 
 def joined(parts: Sequence[Friction], shape: Shape) -> Friction:

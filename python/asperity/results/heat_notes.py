@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity._core import Error
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Note, kelvin
 from asperity.heating import Heating
 from asperity.shift_factors import ArrheniusFit, WlfFit
 
@@ -50,15 +50,16 @@ def with_size_of_heat(
         rise = hot.temperature - hot.cold.temperature
         small = abs(hot.mu - hot.cold.mu) < _LITTLE * hot.cold.mu
         size = "changes little here, though it" if small else "matters, which"
-        text = (
+        found[i] = Note(
             f"above 0.01 m/s flash heating {size} is not modelled without heating: at "
-            f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from "
-            f"{hot.cold.temperature:.5g} K and take mu from {hot.cold.mu:.3g} to {hot.mu:.3g}, "
-            "with the constants of a tread compound in contacts of 1 mm (Persson 2006, J. Phys.: "
-            "Condens. Matter 18, 7789)"
+            f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from ",
+            *kelvin(hot.cold.temperature),
+            f" and take mu from {hot.cold.mu:.3g} to {hot.mu:.3g}, with the constants of a tread "
+            "compound in contacts of 1 mm (Persson 2006, J. Phys.: Condens. Matter 18, 7789)",
+            code="little-heat-left-out" if small else note.code,
+            next_step=note.next_step_phrases,
+            effect=float(abs(hot.mu - hot.cold.mu) / max(hot.cold.mu, 1e-300)),
         )
-        code = "little-heat-left-out" if small else note.code
-        found[i] = Note(text, code=code, next_step=note.next_step_phrases)
     return tuple(found)
 
 
@@ -73,9 +74,8 @@ def law_notes(shift: Any, temperature: ArrayLike) -> tuple[Note, ...]:
     if fitted[0] <= lowest and highest <= fitted[1]:
         return ()
     name = "WLF law" if isinstance(shift, WlfFit) else "Arrhenius law"
-    text = (
-        f"the {name} is used from {lowest:.5g} to {highest:.5g} K, it was fitted on "
-        f"{fitted[0]:.5g} to {fitted[1]:.5g} K"
-    )
-    step = "measure the modulus at these temperatures"
-    return (Note(text, code="law-beyond-fit", next_step=step),)
+    asked = (*kelvin(lowest), " to ", *kelvin(highest))
+    about = f"the {name} is used from ", *asked, ", it was fitted on "
+    sentence = (*about, *kelvin(fitted[0]), " to ", *kelvin(fitted[1]))
+    step = ("measure the modulus from ", *asked)
+    return (Note(*sentence, code="law-beyond-fit", next_step=step),)

@@ -23,6 +23,18 @@ def celsius_in_errors(keys: Container[str]) -> Iterator[None]:
         raise error.said(partial(_in_celsius, keys=keys)) from error
 
 
+def all_in_celsius(sentence: Sentence) -> Sentence:
+    """A sentence in which every temperature is in C."""
+    said: list[str] = []
+    for phrase in sentence:
+        if isinstance(phrase, Value) and phrase.tag == "K":
+            phrase = phrase.saying(f"{phrase.numbers[0] - ZERO_CELSIUS:.4g}")
+        elif isinstance(phrase, Unit) and phrase.tag == "K":
+            phrase = phrase.saying(" C")
+        said.append(phrase)
+    return tuple(said)
+
+
 def _in_celsius(sentence: Sentence, keys: Container[str]) -> Sentence:
     """A sentence in which temperatures behind a key that was given in C are so too."""
     said: list[str] = []

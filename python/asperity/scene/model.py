@@ -1,6 +1,6 @@
 """A scene as objects of the core, and what is computed of it."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
@@ -25,11 +25,11 @@ from asperity.io.fields import (
     names_of,
     rename_in_errors,
 )
-from asperity.results.friction import joined
+from asperity.results.friction import joined, small_friction_notes
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
-from asperity.scene.celsius import celsius_in_errors
+from asperity.scene.celsius import all_in_celsius, celsius_in_errors
 from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
 from asperity.scene.parts import (
     HEATING_NAMES,
@@ -47,7 +47,7 @@ _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 # notes on all points together, and on numbers that a scene checks by its keys
-_OF_ALL = {"modulus-extrapolated", "modulus-unmeasured"}
+_OF_ALL = {"modulus-extrapolated", "modulus-unmeasured", "small-friction"}
 _OF_ALL |= {code for code in NOTES if code.startswith(("absurd-", "unusual-", "squashed-"))}
 _OF_STRAIN = "strain-beyond-sweeps"
 
@@ -108,7 +108,8 @@ class Scene:
     def notes(self) -> list[Note]:
         """What the inputs give to note, before anything is computed."""
         of_heights = () if isinstance(self.correction, ScanContact) else self.surface.fitted_heights
-        return [*self.unusual, *self.surface.notes, *of_heights, *self.built_rubber.notes]
+        notes = [*self.unusual, *self.surface.notes, *of_heights, *self.built_rubber.notes]
+        return self._in_its_unit(notes)
 
     @property
     def derived(self) -> Mapping[str, Any]:
@@ -123,6 +124,13 @@ class Scene:
     def in_celsius(self) -> bool:
         """Whether the temperature was given so."""
         return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
+
+    def _in_its_unit(self, notes: Iterable[Note]) -> list[Note]:
+        """Notes with temperatures as the scene, or its isotherms, have them."""
+        units = self.built_rubber.values.get("units", {})
+        if self.in_celsius or (self.temperature is None and units.get("temperature") == "C"):
+            return [note.said(all_in_celsius) for note in notes]
+        return [*notes]
 
     @property
     def temperature_text(self) -> str:
@@ -157,8 +165,9 @@ class Scene:
         held = [note for note in found if note.code == _OF_STRAIN]
         most = max(held, key=_share, default=None)  # of all points
         found = [note for note in found if note.code != _OF_STRAIN or note is most]
+        found += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
         named = partial(in_keys, names=NOTED)
-        notes = fatal_first([*self.notes, *(note.said(named) for note in found)])
+        notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in found)])
         return SceneFriction._made(vars(joined(parts, shape)), notes=tuple(notes))
 
     @property
@@ -278,7 +287,7 @@ class Scene:
         parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
         found = [note for part in parts for note in part if note.code not in _OF_ALL]
         named = partial(in_keys, names=NOTED)
-        return fatal_first([*self.notes, *(note.said(named) for note in found)])
+        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in found)])
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

@@ -203,7 +203,7 @@ def test_temperatures_of_a_picture_are_in_the_unit_of_the_files(folder, monkeypa
     first, second, third = drawn[0].axes[:3]
     ends = [f"{t - 273.15:.5g} °C" for t in (TEMPERATURES.min(), TEMPERATURES.max())]
     assert [text.get_text() for text in first.get_legend().get_texts()][:2] == ends
-    assert second.get_title().endswith(" °C")
+    assert second.get_legend().get_title().get_text().endswith(" °C")
     assert third.get_xlabel() == "Temperature $T$ [°C]"
     (points,) = [line for line in third.lines if line.get_marker() == "o"]
     np.testing.assert_allclose(points.get_xdata(), TEMPERATURES - 273.15, atol=1e-9)

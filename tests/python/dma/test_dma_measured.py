@@ -1,10 +1,12 @@
 """DMA files, made and measured: shift factors, their laws, strain, and friction on a scan."""
 
 import re
+from functools import partial
 
 import numpy as np
 import pytest
 
+import asperity
 from asperity import fit_prony, read_strain_sweep
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
@@ -206,3 +208,29 @@ def test_a_temperature_outside_of_the_isotherms(tmp_path, capsys):
     assert main(["friction", str(path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"asperity: {path}: [rubber] temperature_k = 330.0: shift factors are")
+
+
+@pytest.mark.filterwarnings("ignore:E' and E'':UserWarning", "ignore:fatal:UserWarning")
+@pytest.mark.parametrize("smooth", [False, True])
+@pytest.mark.parametrize("name", ["epdm_70", "material_a", "polyisoprene"])
+def test_published_moduli_contradict_nothing_and_swapped_ones_do(name, smooth):
+    build = polyisoprene if name == "polyisoprene" else partial(shear, name)
+    made = build(smooth=smooth)
+    assert "moduli-contradict" not in [note.code for note in fit_prony(made).notes]
+    curve = made.master_curve
+    swapped = asperity.MasterCurve(
+        angular_frequency=curve.angular_frequency,
+        storage_modulus=curve.loss_modulus,
+        loss_modulus=curve.storage_modulus,
+    )
+    (note,) = fit_prony(swapped).notes
+    assert (note.code, note.severity) == ("moduli-contradict", "fatal")
+
+
+def test_moduli_that_disagree_by_some_per_cent_are_a_warning(source):
+    if source == "made":
+        pytest.skip("made moduli agree")
+    with pytest.warns(UserWarning, match="disagree"):
+        (note,) = fit_prony(polyisoprene(smooth=True)).notes
+    assert (note.code, note.severity) == ("moduli-disagree", "warning")
+    assert 0.04 < note.effect < 0.1

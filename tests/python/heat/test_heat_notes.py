@@ -59,11 +59,11 @@ def test_a_fitted_law_beyond_its_temperatures_is_noted(heated):
     inside = asperity.friction(ROAD, RUBBER, temperature=280.0, **given, **more)
     assert note_of(inside, "law-beyond-fit") is None
     outside = asperity.friction(ROAD, RUBBER, temperature=[280.0, 310.0], **given, **more)
-    assert "it was fitted on 263 to 303 K" in note_of(outside, "law-beyond-fit")
+    assert "it was fitted on 263 K to 303 K" in note_of(outside, "law-beyond-fit")
     if heated:  # from inside of them out, by its own heat
         given["velocity"] = 1.0
         warm = asperity.friction(ROAD, RUBBER, temperature=290.0, **given, **more)
-        assert f"from 290 to {warm.temperature:.5g} K" in note_of(warm, "law-beyond-fit")
+        assert f"from 290 K to {warm.temperature:.5g} K" in note_of(warm, "law-beyond-fit")
         assert note_of(warm.cold, "law-beyond-fit") is None
 
 
@@ -116,12 +116,12 @@ def test_friction_over_temperature_is_drawn_over_temperature():
     given = {"pressure": 1e5, "shift": LAW, "heating": asperity.Heating(**TREAD)}
     over_t = asperity.friction(ROAD, RUBBER, velocity=1.0, temperature=t, **given)
     axes = over_t.plot()
-    assert axes.get_xlabel() == "temperature [K]"
+    assert axes.get_xlabel() == "Temperature $T_0$ [K]"
     hot, cold = axes.lines[:2]
     np.testing.assert_array_equal(hot.get_xdata(), t)
     np.testing.assert_array_equal(hot.get_ydata(), over_t.mu)
     np.testing.assert_array_equal(cold.get_ydata(), over_t.cold.mu)
     grid = asperity.friction(ROAD, RUBBER, velocity=[1e-2, 1.0], temperature=t[:, None], **given)
     axes = grid.plot()
-    assert axes.get_xlabel() == "velocity [m/s]"
-    assert len(axes.lines) == 2 * 5 + 1  # a curve a temperature, hot and cold, and the legend's
+    assert axes.get_xlabel() == "Sliding velocity $v$ [m/s]"
+    assert len(axes.lines) == 2 * 5 + 2  # a curve a temperature, hot and cold, and the legend's

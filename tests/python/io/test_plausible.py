@@ -411,6 +411,8 @@ def test_python_notes_what_a_scene_refuses(name):
     found = asperity.friction(road, rubber, pressure=load * 1e5, velocity=[1e-3, 1e-2])
     notes = [note for note in found.notes if note.next_step.startswith("check the units: ")]
     assert [note.argument for note in notes] == ([] if about is None else [about])
+    small = [note for note in found.notes if note.code == "small-friction"]
+    assert [note.value for note in small] == [found.mu.max()] * bool(found.mu.max() < 1e-4)
 
 
 def test_a_scan_flatter_than_a_mirror_is_refused(tmp_path):

@@ -21,8 +21,10 @@ from asperity.base.diagnostics import (
     few_lines,
     first_step,
     html_items,
+    kelvin,
     refusal,
 )
+from asperity.scene.celsius import all_in_celsius
 from helpers.cases import case
 
 ROOT = Path(__file__).parents[3]
@@ -140,6 +142,15 @@ def test_a_few_lines_tell_what_matters_most() -> None:
     assert len(lines) == 5
     assert lines[0].startswith("note: fatal: worst")
     assert f"{len(kinds) + 7} more ({len(kinds) - 2} warning, 9 note)" in lines[3]
+
+
+def test_temperatures_of_notes_can_be_said_in_celsius() -> None:
+    made = Note(
+        "at ", *kelvin(293.15), code="few-points", next_step=("measure at ", *kelvin(303.4))
+    )
+    assert made.with_step == "at 293.15 K -> measure at 303.4 K"
+    assert made.said(all_in_celsius).with_step == "at 20 C -> measure at 30.25 C"
+    assert made.said(all_in_celsius).severity == made.severity
 
 
 def test_pages_show_each_note_with_what_to_do() -> None:

@@ -116,4 +116,6 @@ def test_a_band_is_drawn_over_velocity():
     assert band.lower.shape == band.pressure.shape == band.velocity.shape == (2, 2)
     mu = asperity.friction(fit.spectrum, RUBBER, **points).mu
     assert np.all((band.lower < mu) & (mu < band.upper))
-    assert len(band.plot().collections) == 2
+    axes = band.plot()
+    assert len(axes.collections) == 2 + 1  # and the legend's
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), mu[0][::-1])
