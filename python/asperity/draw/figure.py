@@ -97,7 +97,9 @@ def legend(axes: "Axes", **how: Any) -> None:
     width = figure.get_figwidth() / (grid.ncols if grid else 1)
     longest = max(len(line) for label in labels for line in label.split("\n"))
     columns = max(1, min(int(width / (_KEY + longest / _LETTERS)), len(labels), 3))
-    title = "\n".join(filter(None, (axes.get_title(), how.pop("title", ""))))
+    drawn = axes.get_legend()  # before more was drawn, under the title of the panel
+    above = axes.get_title() or (drawn.get_title().get_text() if drawn else "")
+    title = "\n".join(filter(None, (above, how.pop("title", ""))))
     axes.set_title("")
     before = _lines_above(axes)
     how |= {"bbox_to_anchor": (0.5, 1.0), "ncols": columns, "title": title or None}
