@@ -113,7 +113,8 @@ class BuiltRubber:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        return self.rubber.notes
+        of_strain = () if self.strain_factors is None else self.strain_factors.notes
+        return (*self.rubber.notes, *of_strain)
 
 
 def build_rubber(
@@ -132,7 +133,7 @@ def build_rubber(
     built = _at(path, values, source, temperature, measure)
     if factors is None:
         return built
-    return replace(built, strain_factors=factors, notes=[*built.notes, *factors.notes])
+    return replace(built, strain_factors=factors)
 
 
 def _at(

@@ -32,7 +32,7 @@ class RoughnessPieces {
   struct Nodes {
     /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.
     std::vector<double> wavenumber;
-    std::vector<double> end;     // of the pieces, their upper ends [1/m]
+    std::vector<double> end;           // of the pieces, their upper ends [1/m]
     std::vector<double> weight;        // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
     std::vector<double> window;        // of RoughnessWindow
     std::vector<double> cosine, sine;  // with directions: harmonics of the table, a row a node
