@@ -2,7 +2,7 @@
 
 Gauss rules of 16 nodes on panels of ln q that end wherever something has a kink: at the rows, a
 unit to each side of each, at the rows of a measured modulus. Behind each of those, where I1 and I2
-begin as the power 5/2, and from the front on, panels grow by factors. Only I1 and I2 of a frequency
+begin as the power 5/2, and from the fronts on, panels grow by factors. Only I1 and I2 of a frequency
 are the library's. Two sets of panels agree to 1e-15 on measured scans and moduli.
 """
 
@@ -22,6 +22,7 @@ from partial_surface import closed_end, closed_moment, end_window, gauss, nodes_
 NODES = 16
 LONGEST = 0.4
 STEEPEST = 3.0  # change of ln c over a panel
+FAR = 10.0
 AFTER_KNOT = 0.3 * 0.25 ** np.arange(1, 5)
 
 
@@ -45,7 +46,11 @@ class Surface:
             )
         ]
         rows = np.concatenate([self.places, *ends])
-        front = self.start + (self.end - self.start) * 0.5 ** np.arange(1, 44)
+        # wherever an interval has far more roughness than all before the contact breaks up anew
+        upto = self.between(self.places[:1], self.places)
+        fronts = np.flatnonzero(np.diff(upto) > FAR * upto[:-1])
+        front = self.places[fronts] + lengths[fronts] * 0.5 ** np.arange(1, 44)[:, None]
+        front = np.append(front, self.start + (self.end - self.start) * 0.5 ** np.arange(1, 44))
         even = np.arange(self.start, self.end, LONGEST)
         self.edges = np.concatenate([rows, rows - 1, rows + 1, front, even])
 

@@ -70,9 +70,9 @@ void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const R
              std::span<const double> wavenumber, Visit visit) {
   check_contact(model, pressure, velocity);
   check_frequencies(spectrum, rubber, velocity);
-  Solver solver(surface, rubber, model, false, {});
   const double q1 = band(spectrum)[1];
-  if (std::ranges::all_of(wavenumber, [&](double q) { return q == q1; })) solver.use_levels_of(spectrum);
+  const bool parts = std::ranges::any_of(wavenumber, [&](double q) { return q != q1; });
+  Solver solver(spectrum, surface, rubber, model, {.hysteresis = false, .parts = parts});
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
@@ -102,27 +102,16 @@ void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const Contact
   check_frequencies(spectrum, rubber, velocity);
   const SurfaceSegments whole(spectrum);
   const double q1 = band(spectrum)[1];
-  Solver solver(whole.get(), rubber, model, true, std::nullopt);
-  solver.use_levels_of(spectrum);
-  ContactModel persson = model;
-  persson.correction = NoCorrection{};
-  std::optional<Solver> along;
-  if (std::ranges::any_of(wavenumber, [&](double q) { return q < q1; }))
-    along.emplace(whole.get(), rubber, persson, false, std::nullopt);
+  const bool parts = std::ranges::any_of(wavenumber, [&](double q) { return q < q1; });
+  Solver solver(spectrum, whole.get(), rubber, model, {.parts = parts});
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     at_point(pressure[i], velocity[i], [&] {
       solver.solve(pressure[i], velocity[i], 1);
-      const double end = solver.kappa() * solver.g(q1);
-      if (along) along->solve(pressure[i], velocity[i], 1);
       for (std::size_t j = 0; j < wavenumber.size(); ++j) {
-        if (wavenumber[j] == q1) {
-          visit(i, j, end, solver.partial_area());
-        } else {
-          heed_at(j);
-          const double g = end * (along->g(wavenumber[j]) / along->g(q1));
-          visit(i, j, g, contact_share(g, model.form));
-        }
+        heed_at(j);
+        const double g = solver.kappa() * solver.g(wavenumber[j]);
+        visit(i, j, g, wavenumber[j] == q1 ? solver.partial_area() : contact_share(g, model.form));
       }
     });
   }
@@ -244,7 +233,7 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
     check_contact(model, pressure, velocity);
     check_frequencies(spectrum, rubber, velocity);
     const SurfaceSegments whole(spectrum);
-    Solver solver(whole.get(), rubber, model, true, std::nullopt);
+    Solver solver(spectrum, whole.get(), rubber, model, {.parts = true});
     for (const std::size_t i : by_velocity(velocity)) {
       at_point(pressure[i], velocity[i], [&] { solver.solve(pressure[i], velocity[i], 1); });
       for (std::size_t j = 0; j < q.size(); ++j) {

@@ -75,8 +75,7 @@ void MissingContacts::solve(unsigned threads) {
 void MissingContacts::add_rule(SolvedContact& contact) const {
   const auto map = scan_.part({contact.q0, contact.q1}, contact.part, contact.coarse);
   const SurfaceSegments surface(map->rings);
-  Solver solver(surface.get(), rubber_, rule_, true, std::nullopt);
-  solver.use_levels_of(map->rings);
+  Solver solver(map->rings, surface.get(), rubber_, rule_, {});
   at_point(contact.pressure, contact.velocity, [&] { solver.solve(contact.pressure, contact.velocity, 1); });
   contact.rule_area = solver.partial_area();
   contact.rule_hysteresis = solver.hysteresis().value;

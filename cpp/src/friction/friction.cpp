@@ -70,7 +70,6 @@ struct Scene {
   const ContactModel& model;
   const std::optional<Adhesion>& adhesion;
   std::span<const Segment> surface;
-  std::optional<SFunction> factor;
   std::span<const double> stops;  // angular frequencies at which contributions are told apart
 };
 
@@ -83,9 +82,8 @@ class PointSolver {
         area_g_(scene.model, scene.spectrum, scene.surface, q1_),
         validity_(scene.surface, scene.model.form, q1_),
         model_error_(scene.model.correction, scene.spectrum, scene.rubber),
-        solver_(scene.surface, scene.rubber, scene.model, true, scene.factor, scene.stops) {
-    if (scene.stops.empty()) solver_.use_levels_of(scene.spectrum);
-  }
+        solver_(scene.spectrum, scene.surface, scene.rubber, scene.model,
+                {.parts = !scene.stops.empty(), .stops = scene.stops}) {}
 
   Point operator()(double pressure, double velocity, const Shift& shift);
   /// Of the last point: row i of the tables.
@@ -134,10 +132,11 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   const double g_error = (solver_.g_error_is_in_hysteresis() ? 0 : of_g) + others;
   const double area_error =
       partial_ ? solver_.partial_area_error() + angular_error : sensitivity(false) * (of_g + others);
-  at.error_estimate = hysteresis.error +
-                      at.hysteresis * (sensitivity(scene_.factor.has_value() || partial_) * g_error +
-                                       2 * shift.relative_error + angular_error) +
-                      at.adhesion * area_error;
+  at.error_estimate =
+      hysteresis.error +
+      at.hysteresis * (sensitivity(s_in_integrand(scene_.model.correction).has_value() || partial_) * g_error +
+                       2 * shift.relative_error + angular_error) +
+      at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) + " where " +
                        argument("rtol") + " = " + show(scene_.model.rtol) + " was asked for");
@@ -254,7 +253,7 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
       f.contributions ? std::span<const double>(f.contributions->decade_edges) : std::span<const double>();
   std::vector<Notes> notes;
   for (const auto& [rubber, order] : groups) {
-    const Scene scene{spectrum, rubber, model, adhesion, kept.get(), s_in_integrand(model.correction), stops};
+    const Scene scene{spectrum, rubber, model, adhesion, kept.get(), stops};
     constexpr std::size_t block = 100;  // points that are worth a thread of their own
     const std::size_t n = order.size(), first = notes.size();
     const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));

@@ -19,12 +19,12 @@ using std::numbers::pi;
 
 namespace {
 
-ContactGridOptions grid_options(const GradientScene& scene, std::size_t number) {
+ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, const RoughnessWindow& window) {
   ContactGridOptions result;
   result.poisson_ratio = scene.model.poisson_ratio;
   result.level = number;
   result.tabulated = std::holds_alternative<MasterCurve>(scene.rubber);
-  result.beyond_end = std::holds_alternative<PartialContact>(scene.model.correction);
+  if (std::holds_alternative<PartialContact>(scene.model.correction)) result.window = &window;
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
   constexpr std::size_t few = 8;
   if (table && table->wavenumber().size() >= few)
@@ -57,7 +57,8 @@ SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t argume
 GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
     : scene_(scene),
       number_(number),
-      grid_(scene.surface, grid_options(scene, number)),
+      window_(scene.surface),
+      grid_(scene.surface, grid_options(scene, number, window_)),
       theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_)),
       roughness_(grid_),
       rows_(scene.surface, std::holds_alternative<TabulatedSpectrum>(scene.spectrum), grid_, scene.rows),

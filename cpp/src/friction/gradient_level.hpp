@@ -70,6 +70,7 @@ class GradientLevel {
 
   const GradientScene& scene_;
   std::size_t number_;
+  RoughnessWindow window_;
   ContactGrid grid_;
   std::unique_ptr<Theory> theory_;
   RoughnessGradient roughness_;

@@ -248,17 +248,10 @@ double FlashMap::hysteresis_density(double wavenumber, double temperature) const
   const AngularIntegrals at = waves_(w, wavenumber);
   const double edges = mu_factor_ * contact_->density_of_edges(wavenumber, at.i1, at.i2);
   if (wavenumber > scene_.surface.back().b) return edges;
-  const std::vector<HeatGrid::Cell>& cells = grid_.cells();
-  std::size_t cell = 0;
-  while (cell + 1 < cells.size() && wavenumber > cells[cell].end) ++cell;
-  const HeatGrid::Cell& in = cells[cell];
-  if (wavenumber < in.segment->a || wavenumber > in.segment->b) return edges;  // in an empty bin
-  const double u = 2 * (grid_.t_at(wavenumber) - in.lower) / (in.upper - in.lower) - 1;
-  const double square = wavenumber * wavenumber, stiff = 1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio;
-  const double unit = square * square * in.segment->density(wavenumber) * at.i2 / (8 * stiff * stiff);
+  const ContactGrid::Place place = grid_.place_of(wavenumber);
   const double root = 1 / (point_.pressure * shift_.shift.p);
   return edges +
-         mu_factor_ * contact_->density(cell, std::clamp(u, -1.0, 1.0), wavenumber, at.i1, at.i2, unit * root * root);
+         mu_factor_ * root * root * place.rate * at.i1 * contact_->stress_at(contact_->g_on(place), wavenumber, at.i2);
 }
 
 }  // namespace asperity

@@ -115,6 +115,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
       known_(known_range(scene.rubber)),
       levels_(has_rows() ? levels_with_rows : levels),
       uniform_(scene) {
+  if (std::holds_alternative<PartialContact>(scene.model.correction)) window_.emplace(scene.surface);
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
   while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;
@@ -142,7 +143,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                                .tabulated = has_rows(),
                                .macro_wavenumber = scene_.macro_wavenumber,
                                .stops = kinks_,
-                               .beyond_end = std::holds_alternative<PartialContact>(scene_.model.correction),
+                               .window = window_ ? &*window_ : nullptr,
                                .held_from = held_from_};
     options.stops.insert(options.stops.end(), stops_.begin(), stops_.end());
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
@@ -349,20 +350,8 @@ double FlashSolver::hysteresis_density(double wavenumber) const {
   return levels_[finest_].map->hysteresis_density(wavenumber, temperature_at(wavenumber));
 }
 
-std::vector<FlashSolver::PanelShare> FlashSolver::shares() const {
-  const HeatGrid& grid = *levels_[finest_].grid;
-  const VectorXd part = levels_[finest_].map->contributions();
-  std::vector<PanelShare> result;
-  const auto sum = [&](std::size_t first, std::size_t count) {
-    return part.segment(static_cast<Index>(first), static_cast<Index>(count)).sum();
-  };
-  for (const HeatGrid::Cell& panel : grid.cells())
-    result.push_back({grid.wavenumber_at(panel.lower), panel.end, sum(panel.first, panel.count)});
-  const HeatGrid::Beyond& beyond = grid.beyond();
-  std::size_t first = beyond.first;
-  for (std::size_t i = 0; i < beyond.panel_nodes.size(); first += beyond.panel_nodes[i++])
-    result.push_back({beyond.ends[i], beyond.ends[i + 1], sum(first, beyond.panel_nodes[i])});
-  return result;
+std::vector<ContactGrid::PanelSum> FlashSolver::shares() const {
+  return levels_[finest_].grid->sums_of_panels(levels_[finest_].map->contributions());
 }
 
 }  // namespace asperity

@@ -43,10 +43,7 @@ class FlashSolver {
   /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
   [[nodiscard]] double temperature_at(double wavenumber) const;
   [[nodiscard]] double hysteresis_density(double wavenumber) const;
-  struct PanelShare {
-    double lower, upper, hysteresis;
-  };
-  [[nodiscard]] std::vector<PanelShare> shares() const;
+  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
 
  private:
   struct Level {
@@ -65,7 +62,8 @@ class FlashSolver {
 
   const HeatScene& scene_;
   Branch branch_;
-  std::vector<double> kinks_, stops_;  // wavenumbers [1/m]
+  std::optional<RoughnessWindow> window_;  // with PartialContact
+  std::vector<double> kinks_, stops_;      // wavenumbers [1/m]
   std::optional<FrequencyRange> known_;
   std::optional<double> held_from_;  // [1/m]
   std::vector<Level> levels_;

@@ -106,12 +106,13 @@ double distance_to_last(const std::vector<double>& values, double step) {
 }  // namespace
 
 double sliding_length(const HeatScene& scene, const HeatPoint& point) {
-  const ContactGridOptions options{.poisson_ratio = scene.model.poisson_ratio,
-                                   .level = level,
-                                   .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
-                                   .macro_wavenumber = scene.macro_wavenumber,
-                                   .stops = Excitation(scene.rubber, scene.model, scene.surface).stops(),
-                                   .beyond_end = std::holds_alternative<PartialContact>(scene.model.correction)};
+  const RoughnessWindow window(scene.surface);
+  const ContactGridOptions options{
+      .poisson_ratio = scene.model.poisson_ratio,
+      .level = level,
+      .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
+      .macro_wavenumber = scene.macro_wavenumber,
+      .window = std::holds_alternative<PartialContact>(scene.model.correction) ? &window : nullptr};
   const HeatGrid grid(scene.surface, options, asperity_wavenumber(scene.model.correction, scene.spectrum));
   FlashMap map(scene, grid);
   map.start(point);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/friction.hpp"
+#include "numerics/libraries.hpp"
 
 using namespace asperity;
 
@@ -77,7 +78,7 @@ Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& 
 
 }  // namespace
 
-TEST_CASE("the stated error on rings holds against GSL") {
+TEST_CASE("the stated error on rings holds against GSL" * doctest::skip(!has_gsl_and_fftw)) {
   std::uniform_real_distribution<> uniform;
   for (std::uint64_t scene = 0; scene < 240; ++scene) {
     CAPTURE(scene);
@@ -136,7 +137,7 @@ TEST_CASE("a point on rings has the same bits alone, in a sweep, after others an
   CHECK(fresh() != TabulatedSpectrum({1, 2}, {1, 1}));
 }
 
-TEST_CASE("the share from outside of the measured frequencies is told on rings") {
+TEST_CASE("the share from outside of the measured frequencies is that of GSL" * doctest::skip(!has_gsl_and_fftw)) {
   std::mt19937_64 dice(2);
   const TabulatedSpectrum table = random_rings(dice, 90);
   const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());

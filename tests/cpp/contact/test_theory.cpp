@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "contact/grid/grid.hpp"
+#include "contact/solver/solver.hpp"
 #include "contact/theory/s_factor.hpp"
 #include "contact/theory/theory.hpp"
 
@@ -46,7 +48,9 @@ std::array<double, 2> at(Theory& theory, const ContactGrid& grid, const Rubber& 
 
 void check_slopes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, bool by_pieces) {
   const std::vector<Segment> surface = segments(spectrum);
-  ContactGridOptions options{.level = 3, .beyond_end = std::holds_alternative<PartialContact>(model.correction)};
+  const RoughnessWindow window(surface);
+  ContactGridOptions options{.level = 3,
+                             .window = std::holds_alternative<PartialContact>(model.correction) ? &window : nullptr};
   if (by_pieces) options.pieces = &roughness_pieces(std::get<TabulatedSpectrum>(spectrum), 2);
   const ContactGrid grid(surface, options);
   const std::unique_ptr<Theory> theory = contact_theory(model, spectrum, surface, grid);
@@ -126,6 +130,50 @@ TEST_CASE("no piece of rings is the same on two levels") {
       CHECK(alike == 0);
     }
   }
+}
+
+TEST_CASE("levels of nodes and panels with errors of their own agree within both errors") {
+  const PronySeries series(3e6, {1e7, 1e8, 1e9}, {1e-2, 1e-4, 1e-6});
+  std::vector<double> w, storage, loss, q, c;
+  for (int i = 0; i < 60; ++i) {
+    w.push_back(std::pow(10, -2 + 12 * i / 59.0));
+    const std::complex<double> e = series.modulus(w.back());
+    storage.push_back(e.real() * (1 + 0.01 * std::sin(5.0 * i)));
+    loss.push_back((e.imag() + 1e4) * (1 + 0.03 * std::sin(7.0 * i)));
+  }
+  for (int i = 0; i < 40; ++i) {
+    q.push_back(2e3 * std::pow(100, i / 39.0));
+    c.push_back(1e-13 * std::pow(q.back() / 2e3, -3.6) * (1 + 0.5 * std::sin(9.0 * i)));
+  }
+  const std::array<Spectrum, 3> spectra{
+      SelfAffineSpectrum{.rms_height = 1e-4, .hurst = 0.8, .q0 = 2e3, .q1 = 2e6, .rolloff = 1e4},
+      TabulatedSpectrum({1e3, 3e3, 2e4, 9e5}, {1e-14, 0.0, 1e-17, 1e-24}), TabulatedSpectrum(q, c)};
+  const std::array<Rubber, 2> rubbers{series, MasterCurve(w, storage, loss)};
+  for (const Spectrum& spectrum : spectra)
+    for (const Rubber& rubber : rubbers)
+      for (const Correction& correction :
+           {Correction(NoCorrection{}), Correction(SFactor{0.4}), Correction(NayakSFactor{})})
+        for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+          const std::vector<Segment> surface = segments(spectrum);
+          const ContactModel model{.correction = correction, .rtol = rtol};
+          Solver levels(spectrum, surface, rubber, model, {.parts = true, .levels = true});
+          Solver panels(spectrum, surface, rubber, model, {.parts = true});
+          for (const double load : {1e4, 1e6, 1e8}) {
+            CAPTURE(rtol);
+            CAPTURE(load);
+            levels.solve(load, velocity, 1);
+            panels.solve(load, velocity, 1);
+            CHECK(levels.g_error_is_in_hysteresis());
+            const double mu = panels.hysteresis().value;
+            CHECK(std::fabs(levels.hysteresis().value - mu) <=
+                  levels.hysteresis().error + panels.hysteresis().error + panels.relative_error() * mu);
+            const double middle = std::sqrt(surface.front().a * surface.back().b);
+            for (const double at : {middle, surface.back().b})
+              CHECK(levels.g(at) == doctest::Approx(panels.g(at)).epsilon(2 * rtol));
+            CHECK(levels.hysteresis_density(middle) ==
+                  doctest::Approx(panels.hysteresis_density(middle)).epsilon(2 * rtol));
+          }
+        }
 }
 
 TEST_CASE("the G of an area comes with its slope") {

@@ -15,40 +15,52 @@ namespace {
 
 constexpr double same = 1e-12;  // relative distance of two wavenumbers that are one
 
+/// Where the pieces of a stretch end. With a kink at its lower end, and another one `before` it by so much, the first
+/// is cut at quarters down to that: kinks that nearly meet are like a step.
+std::vector<double> ends_of_pieces(double lower, double upper, double pieces, double before) {
+  std::vector<double> result;
+  const double first = (upper - lower) / pieces;
+  for (double length = first / 4; length > before; length /= 4) result.push_back(lower + length);
+  std::ranges::reverse(result);
+  for (double k = 1; k < pieces; ++k) result.push_back(lower + k * first);
+  result.push_back(upper);
+  return result;
+}
+
 }  // namespace
 
 ContactGrid::ContactGrid(std::span<const Segment> surface, const ContactGridOptions& options)
-    : lowest_(std::log(surface.front().a)),
+    : options_(options),
+      lowest_(std::log(surface.front().a)),
       highest_(std::log(surface.back().b)),
-      end_of_band_(surface.back().b),
-      pieces_(options.pieces) {
-  const double stiffening = 1 / (1 - options.poisson_ratio * options.poisson_ratio);
+      end_of_band_(surface.back().b) {
+  const double stiffening = 1 / (1 - options_.poisson_ratio * options_.poisson_ratio);
   g_factor_ = stiffening * stiffening / 8;
   std::size_t first = 0;
   while (first + 1 < surface.size() && surface[first].at_a == 0 && surface[first].at_b == 0) ++first;
   start_ = std::log(surface[first].a);
-  if (options.beyond_end && !options.pieces) beyond_.of_surface.emplace(surface);
-  if (options.pieces)
-    add_pieces(*options.pieces);
+  if (options_.pieces)
+    add_pieces(*options_.pieces);
   else
-    add_panels(surface.subspan(first), options);
+    add_panels(surface.subspan(first));
   band_size_ = wavenumber_.size();
-  if (options.beyond_end) add_beyond(options);
-  if (options.pieces) add_macro_nodes(surface.subspan(first), options);
+  if (options_.window) add_beyond();
+  if (options_.pieces) add_macro_nodes(surface.subspan(first));
   macro_weights_.resize(wavenumber_.size());
   weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
   macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
 }
 
-void ContactGrid::add_panels(std::span<const Segment> surface, const ContactGridOptions& options) {
-  const double longest = options.tabulated ? 0.5 : 3;
-  std::vector<double> stops = options.stops;
-  stops.push_back(options.macro_wavenumber);
-  if (options.beyond_end)  // where the window meets the end of a segment it has a kink
+void ContactGrid::add_panels(std::span<const Segment> surface) {
+  const double longest = options_.tabulated ? 0.5 : 3;
+  std::vector<double> stops = options_.stops;
+  stops.push_back(options_.macro_wavenumber);
+  if (options_.window)  // where the window meets the end of a segment it has a kink
     for (const Segment& segment : surface)
       for (const double side : {-RoughnessWindow::half_length, RoughnessWindow::half_length})
         for (const double end : {segment.a, segment.b}) stops.push_back(end * std::exp(side));
   std::ranges::sort(stops);
+  double before = HUGE_VAL;
   for (const Segment& segment : surface) {
     std::vector<double> ends{segment.a};
     for (auto stop = std::ranges::upper_bound(stops, segment.a); stop != stops.end() && *stop < segment.b; ++stop)
@@ -57,29 +69,32 @@ void ContactGrid::add_panels(std::span<const Segment> surface, const ContactGrid
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double lower = std::fmax(std::log(ends[i]) - start_, 0), upper = std::log(ends[i + 1]) - start_;
       const double pieces =
-          pieces_for(upper - lower, longest, options.tabulated ? 0 : options.level, options.tabulated) *
-          std::exp2(options.halvings);
-      for (double k = 1; k <= pieces; ++k) {
-        const double from = lower + (upper - lower) * (k - 1) / pieces, to = lower + (upper - lower) * k / pieces;
-        const double end = k == pieces ? ends[i + 1] : std::exp(start_ + to);
+          pieces_for(upper - lower, longest, options_.tabulated ? 0 : options_.level, options_.tabulated) *
+          std::exp2(options_.halvings);
+      double from = lower;
+      for (const double to : ends_of_pieces(lower, upper, pieces, before)) {
+        const double end = to == upper ? ends[i + 1] : std::exp(start_ + to);
         if (from == 0)
-          add_front(segment, std::sqrt(to), end, options);
+          add_front(segment, std::sqrt(to), end);
         else
-          add_after(surface, segment, from, to, end, options);
+          add_after(surface, segment, from, to, end);
+        from = to;
       }
+      if (options_.kinks_at_stops) before = upper - lower;
     }
   }
   macro_weights_.assign(weights_.size(), 0.0);
   for (const Cell& cell : cells_)
-    if (cell.end <= options.macro_wavenumber * (1 + same))
+    if (cell.end <= options_.macro_wavenumber * (1 + same))
       for (std::size_t i = cell.first; i < cell.first + cell.count; ++i) macro_weights_[i] = weights_[i];
 }
 
 /// The panel that begins where G is 0, cut in t at a quarter once more from level to level, so that two levels tell a
 /// front that is thinner than their nodes apart.
-void ContactGrid::add_front(const Segment& segment, double upper, double end, const ContactGridOptions& options) {
-  const std::size_t cuts = options.level > 1 ? options.level - 1 : 0;
-  const std::size_t n = std::min(nodes_for(upper * upper, options.level, true, options.tabulated), LegendreRule::most);
+void ContactGrid::add_front(const Segment& segment, double upper, double end) {
+  const std::size_t cuts = options_.level > 1 ? options_.level - 1 : 0;
+  const std::size_t n =
+      std::min(nodes_for(upper * upper, options_.level, true, options_.tabulated), LegendreRule::most);
   double lower = 0;
   for (std::size_t k = cuts; k > 0; --k) {
     const double to = upper * std::pow(0.25, static_cast<double>(k));
@@ -92,7 +107,7 @@ void ContactGrid::add_front(const Segment& segment, double upper, double end, co
 /// A panel further on, in y = ln q. Where the roughness of its beginning is far above all that came before, that is
 /// where the contact breaks up: it is cut like a front, down to what came before.
 void ContactGrid::add_after(std::span<const Segment> surface, const Segment& segment, double from, double to,
-                            double end, const ContactGridOptions& options) {
+                            double end) {
   constexpr double cut = 1.0 / 16, far = 100;
   const double before = roughness_before_.back(), first = start_ - std::log(segment.a);
   const auto roughness_to = [&](double y) {  // about, from the panel's beginning
@@ -100,16 +115,15 @@ void ContactGrid::add_after(std::span<const Segment> surface, const Segment& seg
     return g_factor_ * (q * q) * (q * q) * segment.density_at(std::fmax(first + middle, 0)) * (y - from);
   };
   std::vector<double> ends{to};
-  while (ends.size() < options.level && roughness_to(from + cut * (ends.back() - from)) > far * before)
+  while (ends.size() < options_.level && roughness_to(from + cut * (ends.back() - from)) > far * before)
     ends.push_back(from + cut * (ends.back() - from));
   const bool cut_up = ends.size() > 1;
-  std::size_t n = nodes_for(to - from, options.tabulated && !cut_up ? 0 : options.level, cut_up, options.tabulated);
-  if (!options.tabulated && !cut_up) {
+  std::size_t n = nodes_for(to - from, options_.tabulated && !cut_up ? 0 : options_.level, cut_up, options_.tabulated);
+  if (!options_.tabulated && !options_.kinks_at_stops && !cut_up) {
     const auto unit = std::ranges::partition_point(cells_, [&](const Cell& c) { return c.upper * c.upper < from - 1; });
     const double whole_before = roughness_before_[static_cast<std::size_t>(unit - cells_.begin())];
     const PanelPlace place{segment, start_ + from, start_ + to, (before - whole_before) / g_factor_};
-    n = std::min(n,
-                 most_for(to - from, singularity(place, surface, beyond_.of_surface ? &*beyond_.of_surface : nullptr)));
+    n = std::min(n, most_for(to - from, singularity(place, surface, options_.window)));
   }
   double lower = from;
   for (std::size_t k = ends.size(); k-- > 0; lower = ends[k])
@@ -117,17 +131,21 @@ void ContactGrid::add_after(std::span<const Segment> surface, const Segment& seg
               std::min(n, LegendreRule::most));
 }
 
+ContactGrid::OnPanel ContactGrid::on_panel(const Segment& segment, double t, double half) const {
+  const double q = std::exp(start_ + t * t);
+  const double s = std::clamp(start_ - std::log(segment.a) + t * t, 0.0, segment.length());
+  return {q, g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t)};
+}
+
 void ContactGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
   const LegendreRule& rule = legendre_rule(nodes);
   const auto n = static_cast<Eigen::Index>(rule.n);
   Cell cell{wavenumber_.size(), rule.n, &rule, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
-  const double half = (upper - lower) / 2, from = start_ - std::log(segment.a);
+  const double half = (upper - lower) / 2;
   const auto& columns = lower == 0 ? rule.cumulative_linear : rule.cumulative;
   double sum = roughness_before_.back();
   for (std::size_t j = 0; j < rule.n; ++j) {
-    const double t = lower + half * (1 + rule.node[j]), q = std::exp(start_ + t * t);
-    const double s = std::clamp(from + t * t, 0.0, segment.length());
-    const double roughness = g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t);
+    const auto [q, roughness] = on_panel(segment, lower + half * (1 + rule.node[j]), half);
     wavenumber_.push_back(q);
     weights_.push_back(roughness * rule.weight[j]);
     sum += weights_.back();
@@ -150,8 +168,8 @@ void ContactGrid::integrate(const Eigen::VectorXd& i2, Eigen::VectorXd& at_nodes
   at_nodes.resize(static_cast<Eigen::Index>(band_size_));
   at_ends.resize(cells_.size() + 1);
   double g = at_ends[0] = 0;
-  if (pieces_) {
-    const RoughnessPieces::Nodes& nodes = pieces_->nodes();
+  if (options_.pieces) {
+    const RoughnessPieces::Nodes& nodes = options_.pieces->nodes();
     const double *const to_first = nodes.of_first.data(), *const to_second = nodes.of_second.data();
     double* const at = at_nodes.data();
     constexpr double least = 1e-300;  // an interpolated G may be lost at the first nodes
@@ -181,11 +199,11 @@ void ContactGrid::integrate(const Eigen::MatrixXd& i2, Eigen::MatrixXd& at_nodes
     const auto end = static_cast<Eigen::Index>(c);
     const auto here = i2.middleRows(first, count);
     auto nodes = at_nodes.middleRows(first, count);
-    if (pieces_) {
+    if (options_.pieces) {
       for (Eigen::Index i = 0; i < count; ++i) {
         const auto at = static_cast<std::size_t>(first + i);
-        nodes.row(i) = g_factor_ * pieces_->nodes().of_first[at] * here.row(0) +
-                       g_factor_ * pieces_->nodes().of_second[at] * here.row(1);
+        nodes.row(i) = g_factor_ * options_.pieces->nodes().of_first[at] * here.row(0) +
+                       g_factor_ * options_.pieces->nodes().of_second[at] * here.row(1);
       }
     } else {
       nodes.noalias() = cells_[c].to_g * here;
@@ -203,8 +221,8 @@ Eigen::VectorXd ContactGrid::integrate_back(const Eigen::VectorXd& at_nodes, con
     behind += at_ends[static_cast<Eigen::Index>(c) + 1];
     const auto nodes = at_nodes.segment(first, count);
     auto here = result.segment(first, count);
-    if (pieces_) {
-      const RoughnessPieces::Nodes& of = pieces_->nodes();
+    if (options_.pieces) {
+      const RoughnessPieces::Nodes& of = options_.pieces->nodes();
       here.setZero();
       for (Eigen::Index i = 0; i < count; ++i) {
         here[0] += g_factor_ * of.of_first[cells_[c].first + static_cast<std::size_t>(i)] * nodes[i];
@@ -219,21 +237,32 @@ Eigen::VectorXd ContactGrid::integrate_back(const Eigen::VectorXd& at_nodes, con
   return result;
 }
 
-void ContactGrid::add_beyond(const ContactGridOptions& options) {
-  const RoughnessWindow& window = options.pieces ? options.pieces->window() : *beyond_.of_surface;
+void ContactGrid::add_beyond() {
   beyond_.g_factor = g_factor_;
-  if (options.pieces) {
-    for (const double mean : options.pieces->nodes().window) beyond_.window.push_back(g_factor_ * mean);
+  beyond_.roughness = options_.window;
+  if (options_.pieces) {
+    for (const double mean : options_.pieces->nodes().window) beyond_.window.push_back(g_factor_ * mean);
   } else {
-    for (const double q : wavenumber_) beyond_.window.push_back(g_factor_ * window(std::fmin(q, end_of_band_)));
+    for (const double q : wavenumber_) beyond_.window.push_back(beyond_.window_at(std::fmin(q, end_of_band_)));
   }
-  const double q_e = beyond_.end.emplace(window, g_factor_).wavenumber, end = q_e * partial_contact::tail_end;
+  beyond_.end.emplace(*options_.window, g_factor_);
   beyond_.first = wavenumber_.size();
-  if (!options.edge_nodes) return;
+  if (options_.edge_nodes) lay_edges(options_.held_from);
+}
+
+void ContactGrid::lay_edges(const std::optional<double>& held_from) {
+  const double q_e = beyond_.end->wavenumber, end = q_e * partial_contact::tail_end;
+  wavenumber_.resize(beyond_.first);
+  beyond_.ends.clear();
+  beyond_.panel_nodes.clear();
   std::vector<double> ends{q_e, end};
-  for (const double q : options.stops)
-    if (q > q_e * (1 + same) && q < end * (1 - same)) ends.push_back(q);
-  if (options.held_from) ends.push_back(std::clamp(*options.held_from, q_e, end));
+  double before = HUGE_VAL;
+  for (const double q : options_.stops)
+    if (q <= q_e * (1 + same))
+      before = options_.kinks_at_stops ? std::fmax(std::log(q_e / q), same) : HUGE_VAL;
+    else if (q < end * (1 - same))
+      ends.push_back(q);
+  if (held_from) ends.push_back(std::clamp(*held_from, q_e, end));
   std::ranges::sort(ends);
   std::vector<double> weight;
   beyond_.ends.push_back(q_e);
@@ -241,40 +270,50 @@ void ContactGrid::add_beyond(const ContactGridOptions& options) {
     const double length = std::log(ends[i + 1] / ends[i]);
     if (!(length > same)) continue;
     // rows of a measured modulus lie anywhere in panels: only shorter ones lessen what that does
-    const double halvings = options.tabulated && options.level > 1 ? static_cast<double>(options.level) - 1 : 0;
-    const std::size_t level = options.tabulated ? 0 : options.level;
+    const double halvings =
+        static_cast<double>(options_.tabulated && options_.level > 1 ? options_.level - 1 : options_.halvings);
+    // eight nodes on two units have nine digits already of what is analytic
+    const std::size_t fewer = options_.kinks_at_stops ? 0 : 1;
+    const std::size_t level = options_.tabulated ? 0 : std::max(options_.level, fewer) - fewer;
     const double pieces =
-        pieces_for(length, options.tabulated ? 0.5 : 2, level, options.tabulated) * std::exp2(halvings);
-    for (double k = 0; k < pieces; ++k) {
-      const double lower = std::log(ends[i]) + length * (k / pieces), half = length / pieces / 2;
-      const LegendreRule& rule = legendre_rule(nodes_for(2 * half, level, false, options.tabulated));
+        pieces_for(length, options_.tabulated ? 0.5 : 2, level, options_.tabulated) * std::exp2(halvings);
+    double lower = std::log(ends[i]);
+    const double upper = lower + length;
+    for (const double to : ends_of_pieces(lower, upper, pieces, before)) {
+      const double half = (to - lower) / 2;
+      const LegendreRule& rule = legendre_rule(nodes_for(2 * half, level, false, options_.tabulated));
       for (std::size_t j = 0; j < rule.n; ++j) {
         const double q = std::exp(lower + half * (1 + rule.node[j]));
         wavenumber_.push_back(q);
-        weight.push_back(half * rule.weight[j] * std::pow(q / q_e, -partial_contact::tail_power));
+        const double x = q / q_e;
+        static_assert(partial_contact::tail_power == 3);
+        weight.push_back(half * rule.weight[j] / (x * x * x));
       }
       beyond_.panel_nodes.push_back(rule.n);
-      beyond_.ends.push_back(k + 1 == pieces ? ends[i + 1] : std::exp(lower + 2 * half));
+      beyond_.ends.push_back(to == upper ? ends[i + 1] : std::exp(to));
+      lower = to;
     }
+    if (options_.kinks_at_stops) before = length;
   }
   beyond_.count = weight.size();
   beyond_.weight = Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
   wavenumber_.push_back(q_e);
   highest_ = std::fmax(highest_, std::log(end));
   macro_weights_.resize(wavenumber_.size());
+  macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
 }
 
 /// Gauss rules of the roughness, with which I2 is integrated up to q_m. Rows of a measured modulus lie anywhere in
 /// them, and levels tell what they miss of these only where they differ: stretches are halved from level to level.
-void ContactGrid::add_macro_nodes(std::span<const Segment> surface, const ContactGridOptions& options) {
-  const double longest = options.tabulated ? std::exp2(-static_cast<double>(options.level)) : 1;
+void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
+  const double longest = options_.tabulated ? std::exp2(-static_cast<double>(options_.level)) : 1;
   constexpr std::size_t most_nodes = 10;
-  const double end = std::log(options.macro_wavenumber);
+  const double end = std::log(options_.macro_wavenumber);
   if (!(end > start_)) return;
   std::vector<double> stops{start_, end}, ends;
-  for (const double q : options.stops)
+  for (const double q : options_.stops)
     if (const double at = std::log(q); at > start_ + same && at < end - same) stops.push_back(at);
-  if (!options.stops.empty())  // of strain, whose factors begin as the root of ln q
+  if (!options_.stops.empty())  // of strain, whose factors begin as the root of ln q
     for (double part = (end - start_) / 16; part > 1e-5 * (end - start_); part /= 16) stops.push_back(start_ + part);
   std::ranges::sort(stops);
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
@@ -315,34 +354,39 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface, const Contac
   }
 }
 
-double ContactGrid::wavenumber_at(double t) const { return std::exp(start_ + t * t); }
+ContactGrid::Place ContactGrid::place_of(double wavenumber) const {
+  const auto above = std::ranges::lower_bound(cells_, wavenumber, {}, &Cell::end);
+  const Cell& cell = above == cells_.end() ? cells_.back() : *above;
+  const double t = std::clamp(std::sqrt(std::fmax(std::log(wavenumber) - start_, 0)), cell.lower, cell.upper);
+  const bool inside = wavenumber >= cell.segment->a && wavenumber <= cell.segment->b;  // not in an empty bin
+  const double square = wavenumber * wavenumber;
+  return {static_cast<std::size_t>(&cell - cells_.data()), wavenumber, t,
+          inside ? g_factor_ * square * square * cell.segment->density(wavenumber) : 0};
+}
 
-double ContactGrid::t_at(double wavenumber) const { return std::sqrt(std::fmax(std::log(wavenumber) - start_, 0)); }
+void ContactGrid::nodes_to(const Place& place, std::vector<double>& wavenumber, std::vector<double>& weight) const {
+  const Cell& cell = cells_[place.cell];
+  const double half = (place.t - cell.lower) / 2;
+  wavenumber.resize(cell.count);
+  weight.resize(cell.count);
+  for (std::size_t j = 0; j < cell.count; ++j) {
+    const OnPanel at = on_panel(*cell.segment, cell.lower + half * (1 + cell.rule->node[j]), half);
+    wavenumber[j] = at.wavenumber;
+    weight[j] = at.roughness * cell.rule->weight[j];
+  }
+}
 
-// With f = sum_k a_k P_k, a_k = (2 k + 1) / 2 sum_j weight_j P_k(u_j) f_j, int_-1^u P_k = (P_k+1 - P_k-1) / (2 k + 1).
-void integrals_to(const LegendreRule& rule, double u, double* weights) {
-  double to[LegendreRule::most + 1];
-  double before = 1, now = u;
-  to[0] = 1 + u;
-  for (std::size_t k = 1; k < rule.n; ++k) {
-    const auto degree = static_cast<double>(k);
-    const double next = ((2 * degree + 1) * u * now - degree * before) / (degree + 1);
-    to[k] = (next - before) / (2 * degree + 1);
-    before = now;
-    now = next;
-  }
-  for (std::size_t j = 0; j < rule.n; ++j) {
-    double sum = 0, p_before = 1, p = rule.node[j];
-    sum += 0.5 * to[0];
-    for (std::size_t k = 1; k < rule.n; ++k) {
-      const auto degree = static_cast<double>(k);
-      sum += (2 * degree + 1) / 2 * p * to[k];
-      const double next = ((2 * degree + 1) * rule.node[j] * p - degree * p_before) / (degree + 1);
-      p_before = p;
-      p = next;
-    }
-    weights[j] = rule.weight[j] * sum;
-  }
+std::vector<ContactGrid::PanelSum> ContactGrid::sums_of_panels(const Eigen::VectorXd& part) const {
+  std::vector<PanelSum> result;
+  const auto add = [&](double lower, double upper, std::size_t first, std::size_t count) {
+    result.push_back(
+        {lower, upper, part.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).sum()});
+  };
+  for (const Cell& cell : cells_) add(wavenumber_at(cell.lower), cell.end, cell.first, cell.count);
+  std::size_t first = beyond_.first;
+  for (std::size_t i = 0; i < beyond_.panel_nodes.size(); first += beyond_.panel_nodes[i++])
+    add(beyond_.ends[i], beyond_.ends[i + 1], first, beyond_.panel_nodes[i]);
+  return result;
 }
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -21,10 +22,11 @@ struct ContactGridOptions {
   bool tabulated = false;                          // the rubber has knots: panels are shorter
   double macro_wavenumber = 0;                     // at which G is asked for [1/m]
   std::vector<double> stops = {};                  // wavenumbers at which panels shall end [1/m]
-  bool beyond_end = false;                         // PartialContact carries stress beyond the end of the roughness
-  bool edge_nodes = true;                          // which has nodes then
+  bool kinks_at_stops = false;                     // in the modulus
+  const RoughnessWindow* window = nullptr;         // with PartialContact, which must outlive the grid
+  bool edge_nodes = true;                          // for the stress that it carries beyond the end of the roughness
   std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
-  const RoughnessPieces* pieces = nullptr;         // instead of panels, on a table
+  const RoughnessPieces* pieces = nullptr;         // instead of panels
 };
 
 /// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root
@@ -55,7 +57,7 @@ class ContactGrid {
   /// The transpose: from numbers that multiply G at the nodes and at the ends of cells to those that multiply I2.
   [[nodiscard]] Eigen::VectorXd integrate_back(const Eigen::VectorXd& at_nodes, const Eigen::VectorXd& at_ends) const;
   /// What the cells are made of, none with panels.
-  [[nodiscard]] const RoughnessPieces* pieces() const { return pieces_; }
+  [[nodiscard]] const RoughnessPieces* pieces() const { return options_.pieces; }
   /// dG at I2 = 1 and unit load of each node of the band, with the weights of the rule.
   [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
   /// G at q_m as a sum over I2 of all nodes.
@@ -64,8 +66,21 @@ class ContactGrid {
   [[nodiscard]] double lowest() const { return lowest_; }
   [[nodiscard]] double highest() const { return highest_; }
   /// q at t.
-  [[nodiscard]] double wavenumber_at(double t) const;
-  [[nodiscard]] double t_at(double wavenumber) const;
+  [[nodiscard]] double wavenumber_at(double t) const { return std::exp(start_ + t * t); }
+  /// Where in the panels a wavenumber of the band is.
+  struct Place {
+    std::size_t cell;
+    double wavenumber, t;
+    double rate;  // dG / dln q at I2 = 1 and unit load
+  };
+  [[nodiscard]] Place place_of(double wavenumber) const;
+  /// The nodes of a rule from the lower end of the panel up to a place in it, with dG at I2 = 1 and unit load.
+  void nodes_to(const Place& place, std::vector<double>& wavenumber, std::vector<double>& weight) const;
+  /// Sums of `part` over all panels in order, those of the edges behind the others, with their ends [1/m].
+  struct PanelSum {
+    double lower, upper, sum;
+  };
+  [[nodiscard]] std::vector<PanelSum> sums_of_panels(const Eigen::VectorXd& part) const;
 
   /// What PartialContact asks for. c is q^4 C with the factor of dG / dln q. The edges begin at q_e, where the
   /// roughness ends, inside of the band.
@@ -76,27 +91,33 @@ class ContactGrid {
     std::optional<RoughnessEnd> end;   // with PartialContact
     std::vector<double> ends;          // of panels, from q_e on [1/m]
     std::vector<std::size_t> panel_nodes;
-    std::optional<RoughnessWindow> of_surface;  // with panels
-    [[nodiscard]] double window_at(double q) const { return g_factor * (*of_surface)(q); }
+    const RoughnessWindow* roughness = nullptr;
     double g_factor = 0;
+    [[nodiscard]] double window_at(double q) const { return g_factor * (*roughness)(q); }
   };
   [[nodiscard]] const Beyond& beyond() const { return beyond_; }
+  /// The nodes of the edges anew, with panels that end where the modulus is not known any more.
+  void lay_edges(const std::optional<double>& held_from);
 
  private:
-  void add_panels(std::span<const Segment> surface, const ContactGridOptions& options);
-  void add_front(const Segment& segment, double upper, double end, const ContactGridOptions& options);
-  void add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end,
-                 const ContactGridOptions& options);
+  void add_panels(std::span<const Segment> surface);
+  void add_front(const Segment& segment, double upper, double end);
+  void add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end);
   void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
-  void add_beyond(const ContactGridOptions& options);
-  void add_macro_nodes(std::span<const Segment> surface, const ContactGridOptions& options);
+  void add_beyond();
+  void add_macro_nodes(std::span<const Segment> surface);
+  /// q on a panel at t, and dG / du at I2 = 1, u from -1 to 1 over 2 `half` of t.
+  struct OnPanel {
+    double wavenumber, roughness;
+  };
+  [[nodiscard]] OnPanel on_panel(const Segment& segment, double t, double half) const;
 
+  ContactGridOptions options_;
   double g_factor_, start_;  // ln q where the roughness begins
   double lowest_, highest_;
   double end_of_band_;  // [1/m]
   std::size_t band_size_ = 0;
-  const RoughnessPieces* pieces_;
   std::vector<Cell> cells_;
   std::vector<double> wavenumber_;
   Eigen::VectorXd weight_, macro_weight_;
@@ -104,6 +125,9 @@ class ContactGrid {
   std::vector<double> roughness_before_{0.0};  // each panel, and after all: sums of weights_
   Beyond beyond_;
 };
+
+/// From the nodes of panels, those of the edges among them, to those of other panels of the same surface.
+RoughnessCells cells_between(const ContactGrid& from, const ContactGrid& to);
 
 /// int l_j du from -1 to u, l_j the polynomial that is 1 at node j of the rule.
 void integrals_to(const LegendreRule& rule, double u, double* weights);

@@ -26,35 +26,44 @@ constexpr std::size_t padded(std::size_t n) {
 
 }  // namespace
 
+void RoughnessCells::add_cell(std::span<const double> points, std::span<const double> barycentric,
+                              std::span<const double> nodes) {
+  const std::size_t row = weight_.size(), n = padded(nodes.size());
+  cells_.push_back({points.size(), nodes.size()});
+  weight_.resize(row + points.size() * n);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      constexpr double least = 1e-14;
+      const double apart = nodes[i] - points[k];
+      double& weight = weight_[row + k * n + i];
+      weight = barycentric[k] / (std::fabs(apart) < least ? least : apart);
+      sum += weight;
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) weight_[row + k * n + i] /= sum;
+  }
+}
+
 RoughnessCells::RoughnessCells(std::size_t points, double longest, double lower, double upper,
-                               std::span<const double> nodes)
-    : points_(points) {
-  std::vector<double> zeros(points);
-  for (std::size_t k = 0; k < points; ++k)
-    zeros[k] = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(points));
+                               std::span<const double> nodes) {
+  std::vector<double> zeros(points), weights(points);
+  for (std::size_t k = 0; k < points; ++k) {
+    const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(points);
+    zeros[k] = std::cos(angle);
+    weights[k] = k % 2 == 0 ? std::sin(angle) : -std::sin(angle);
+  }
   const double start = std::log(lower), length = std::log(upper / lower);
   const auto cells = static_cast<std::size_t>(std::ceil(std::fmax(1, length / longest)));
   const double half = length / static_cast<double>(cells) / 2;
+  std::vector<double> place;
   std::size_t node = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double middle = start + half * (2 * static_cast<double>(cell) + 1);
     for (const double point : zeros) wavenumber_.push_back(std::clamp(std::exp(middle + half * point), lower, upper));
-    const std::size_t first = node;
-    while (node < nodes.size() && (cell + 1 == cells || std::log(nodes[node]) < middle + half)) ++node;
-    end_.push_back(node);
-    const std::size_t row = weight_.size(), n = padded(node - first);
-    weight_.resize(row + points * n);
-    for (std::size_t i = 0; i < node - first; ++i) {
-      const double z = (std::log(nodes[first + i]) - middle) / half;
-      double sum = 0;
-      for (std::size_t k = 0; k < points; ++k) {
-        const double sine = std::sqrt((1 - zeros[k]) * (1 + zeros[k])), apart = z - zeros[k];
-        double& weight = weight_[row + k * n + i];
-        weight = (k % 2 == 0 ? sine : -sine) / (std::fabs(apart) < 1e-14 ? 1e-14 : apart);
-        sum += weight;
-      }
-      for (std::size_t k = 0; k < points; ++k) weight_[row + k * n + i] /= sum;
-    }
+    place.clear();
+    for (; node < nodes.size() && (cell + 1 == cells || std::log(nodes[node]) < middle + half); ++node)
+      place.push_back((std::log(nodes[node]) - middle) / half);
+    add_cell(zeros, weights, place);
   }
 }
 
@@ -66,14 +75,14 @@ void RoughnessCells::at_nodes(const double* first, const double* second, double*
   constexpr auto loop = baseline::at_nodes_of_cell;
 #endif
   const double* weight = weight_.data();
-  std::size_t begin = 0;
-  for (const std::size_t end : end_) {
-    const std::size_t n = padded(end - begin);
-    loop(weight, points_, n, first, second, first_at_nodes + begin, second_at_nodes + begin);
-    weight += points_ * n;
-    first += points_;
-    second += points_;
-    begin = end;
+  for (const auto& [points, nodes] : cells_) {
+    const std::size_t n = padded(nodes);
+    loop(weight, points, n, first, second, first_at_nodes, second_at_nodes);
+    weight += points * n;
+    first += points;
+    second += points;
+    first_at_nodes += nodes;
+    second_at_nodes += nodes;
   }
 }
 

@@ -1,4 +1,4 @@
-// Functions of ln q that are smooth, at many nodes of a surface, from few points.
+// Functions of ln q that are smooth, at nodes of a surface, from points of cells.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,16 @@
 
 namespace asperity {
 
-/// Polynomials in ln q on equal cells of a band, through values at Chebyshev's points of each, at nodes that rise.
-/// Functions that are analytic within pi / 2 of the real axis in ln q are had to 4e-10 of their size in a cell of
-/// length 1 with 12 points.
+/// Polynomials through values at the points of each cell, at nodes that rise.
 class RoughnessCells {
  public:
   RoughnessCells() = default;
+  /// On equal cells of a band in ln q, through Chebyshev's points of each. Functions that are analytic within pi / 2 of
+  /// the real axis are had to 4e-10 of their size in a cell of length 1 with 12 points.
   RoughnessCells(std::size_t points, double longest, double lower, double upper, std::span<const double> nodes);
-  /// [1/m], as many points in each cell.
+  /// Points and nodes of a cell from -1 to 1 follow those before; `barycentric` are the weights of the points.
+  void add_cell(std::span<const double> points, std::span<const double> barycentric, std::span<const double> nodes);
+  /// Of the equal cells [1/m].
   [[nodiscard]] const std::vector<double>& wavenumber() const { return wavenumber_; }
   /// Two functions at the nodes, from their values at the wavenumbers. What they are written to has room for
   /// `excess` more than there are nodes.
@@ -22,9 +24,11 @@ class RoughnessCells {
   void at_nodes(const double* first, const double* second, double* first_at_nodes, double* second_at_nodes) const;
 
  private:
-  std::size_t points_ = 0;
   std::vector<double> wavenumber_;
-  std::vector<std::size_t> end_;  // of each cell's nodes
+  struct Cell {
+    std::size_t points, nodes;
+  };
+  std::vector<Cell> cells_;
   // of each point of a cell, at each of its nodes, as many as the loop takes: zeros follow
   std::vector<double> weight_;
 };

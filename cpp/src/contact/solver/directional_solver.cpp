@@ -139,10 +139,11 @@ DirectionalSolver::Level& DirectionalSolver::at_velocity(std::size_t number) {
   if (!level.grid) {
     const RoughnessPieces& pieces = roughness_pieces(table_, number);
     const std::span<const Segment> surface = table_.surface().segments(table_);
-    level.grid = std::make_unique<ContactGrid>(
-        surface,
-        ContactGridOptions{
-            .poisson_ratio = model_.poisson_ratio, .beyond_end = with_edges_, .edge_nodes = false, .pieces = &pieces});
+    level.grid =
+        std::make_unique<ContactGrid>(surface, ContactGridOptions{.poisson_ratio = model_.poisson_ratio,
+                                                                  .window = with_edges_ ? &pieces.window() : nullptr,
+                                                                  .edge_nodes = false,
+                                                                  .pieces = &pieces});
     level.theory = contact_theory(model_, spectrum_, surface, *level.grid);
     level.rings = directions_.at_nodes(pieces);
     const std::size_t n = pieces.nodes().weight.size();

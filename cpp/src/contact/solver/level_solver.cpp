@@ -1,11 +1,14 @@
-// Two levels of pieces of rings (contact/grid/roughness_pieces.hpp) solve a point by one theory (contact/theory).
+// Two levels of nodes (contact/grid) solve a point by one theory (contact/theory). Panels of a level more are two
+// digits better; with knots of a measured modulus, at which they end, by a power of the number of nodes.
 #include "contact/solver/level_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
-#include "rubber/loss_part.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -22,119 +25,178 @@ constexpr double of_change = 0.75, of_rest = 2;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;
-/// What the rule of two nodes misses where a function begins to rise as some power of ln q, over the root of the sum of
-/// squares of its fourth differences: at most this for powers from 1 on, wherever it begins and where pieces beside
-/// each other differ in length by two. That of I1 and I2 at a knot of a measured modulus is 5/2, and less at knots that
-/// nearly meet.
-constexpr double of_difference = 0.16;
-constexpr double passed_on = 2;  // |d ln R / d ln G| at most, R that of PartialContact or P S
+
+/// On panels the finer of two levels is off by two fifths of their difference at most, with PartialContact
+/// (tests/stability/ random_partial_contact.py, 1,600 points at each rtol). Levels may agree by chance, so that of the
+/// tolerance something is taken at least, as with heat (heat/flash_solver.cpp).
+constexpr double least_on_panels = 1.0 / 30;
+constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
+constexpr std::size_t finest_at_knots = 3;  // further levels halve panels
+constexpr std::size_t most_levels = 10;
+/// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
+constexpr std::size_t least_rows = 8;
+constexpr double least_rtol = 1e-7;
 
 double difference(double a, double b) { return b == 0 ? 0 : std::fabs(a / b - 1); }
 
 }  // namespace
 
-bool LevelSolver::serves(const Spectrum& spectrum, const ContactModel& model) {
-  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  return table && table->wavenumber().size() >= least_rows && model.method == Method::gauss && model.rtol >= least_rtol;
-}
-
-LevelSolver::LevelSolver(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model)
+LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surface, const Excitation& waves,
+                         const ContactModel& model, const Options& options)
     : spectrum_(spectrum),
-      table_(std::get<TabulatedSpectrum>(spectrum)),
-      rubber_(rubber),
+      surface_(surface),
+      waves_(waves),
       model_(model),
+      options_(options),
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
-      with_edges_(std::holds_alternative<PartialContact>(model.correction)),
-      waves_(rubber, model, table_.surface().segments(table_)),
-      edges_of_(waves_, for_edges * model.rtol) {
-  if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
+      edges_of_(waves, for_edges * model.rtol),
+      known_(known_range(waves.rubber())) {
+  if (std::holds_alternative<PartialContact>(model.correction)) window_.emplace(surface);
+  if (const auto* const series = std::get_if<PronySeries>(&waves.rubber())) {
     known_in_part_ = series->fitted_range().has_value();
     analytic_.emplace(PronySeries(series->equilibrium_modulus(), series->moduli(), series->relaxation_times()));
+    analytic_waves_.emplace(*analytic_, waves);
   }
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  const bool many_rows = table && table->wavenumber().size() >= least_rows;
+  if ((many_rows || (options.panels && !analytic_)) && model.rtol >= least_rtol && !options.parts)
+    pieces_.resize(RoughnessPieces::levels);
+  if (!options.panels) return;
+  panels_.resize(most_levels);
+  // differences of coarser grids are small by chance where a front is thin, which PartialContact does not have
+  first_level_ = window_ ? 0 : 1;
+  constexpr double digits_a_level = 2;
+  const double wanted = -std::log10(model.rtol) - 1 - ContactGrid::first_digits;
+  while (first_level_ + 2 < finest + 1 && digits_a_level * static_cast<double>(first_level_ + 1) < wanted)
+    ++first_level_;
 }
 
-/// I1 and I2 at the nodes: by polynomials where they are analytic, which takes far fewer values.
-void LevelSolver::take_moduli(Level& level, double velocity) {
-  const RoughnessPieces::Nodes& nodes = level.pieces->nodes();
-  const std::size_t n = nodes.weight.size();
-  const bool first = &level == &levels_.front();
-  if (!analytic_) {
-    for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity * nodes.wavenumber[i];
-    const bool asked = first || any_outside_;
-    if (asked) level.i1_outside.resize(n);
-    const bool any = waves_(level.frequency, level.factors, {level.i1.data(), n}, {level.i2.data(), n},
-                            asked ? std::span<double>(level.i1_outside) : std::span<double>());
-    if (first) any_outside_ = any;
+/// The stops of panels, and the edges of contacts beside pieces.
+void LevelSolver::begin(double velocity) {
+  if (velocity == velocity_) return;
+  velocity_ = velocity;
+  if (window_ && !pieces_.empty()) edges_ = edges_of_(velocity, window_->end(), 1, partial_contact::tail_end);
+  if (panels_.empty()) return;
+  std::vector<double> stops;
+  const double end = surface_.back().b,
+               last = window_ ? std::fmax(end, window_->end() * partial_contact::tail_end) : end;
+  const auto add = [&](double q) {
+    if (q > surface_.front().a && q < last) stops.push_back(q);
+  };
+  for (const double w : options_.stops) add(w / velocity);
+  if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
+    for (const double w : curve->knots()) add(w / velocity);
+  for (const double q : waves_.kinks()) add(q);
+  if (waves_.softening()) add(waves_.softening()->end());
+  std::ranges::sort(stops);
+  if (stops != stops_) {
+    for (Level& level : panels_) level = {};
+    from_next_.reset();
+    stops_ = std::move(stops);
+  }
+  if (!window_ || !known_) return;
+  const double from = known_->highest / velocity;
+  const auto held_from = from > window_->end() && from < last ? std::optional(from) : std::nullopt;
+  if (held_from == held_from_) return;
+  held_from_ = held_from;
+  from_next_.reset();
+  for (Level& level : panels_)
+    if (level.grid) {
+      level.grid->lay_edges(held_from_);
+      level.factors = waves_.factors(*level.grid);
+    }
+}
+
+/// I1 and I2 at all nodes of a level from the modulus itself, those of the edges among them. Beyond the band the
+/// modulus keeps the value that it has at the last frequency that is known.
+void LevelSolver::take_moduli(Level& level, bool first) {
+  const ContactGrid& grid = *level.grid;
+  const std::size_t n = grid.size();
+  for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
+  if (grid.pieces() && analytic_) {
+    take_moduli_of_pieces(level, first);
     return;
   }
-  const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside) {
-    const std::size_t points = cells.wavenumber().size();
-    for (auto* const row : {&frequency_, &i1_, &i2_}) row->resize(points);
-    for (std::size_t i = 0; i < points; ++i) frequency_[i] = velocity * cells.wavenumber()[i];
-    return angular_integrals(rubber, frequency_, i1_, i2_, outside);
-  };
-  if (first && known_in_part_) {
-    const RoughnessCells& cells = level.pieces->coarse_cells();
-    outside_at_points_.resize(cells.wavenumber().size());
-    any_outside_ = take(cells, rubber_, outside_at_points_);
-    if (any_outside_) {
-      level.i1_outside.resize(n + RoughnessCells::excess);
-      cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
-    }
-  }
-  const RoughnessCells& cells = level.pieces->cells();  // of the same points at each level
-  if (first) (void)take(cells, *analytic_, {});
-  cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
-  if (level.factors.empty()) return;
-  if (first) {
-    of_loss_.resize(frequency_.size());
-    loss_part(*analytic_, frequency_, of_loss_);
-  }
-  at_nodes_.resize(level.i2.size());
-  cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
-  soften(level.factors, at_nodes_, level.i1, level.i2,
-         first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());
+  level.frequency.resize(n);
+  for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity_ * grid.wavenumber()[i];
+  if (known_)
+    for (double& w : level.frequency) w = std::fmin(w, known_->highest);
+  const std::span<double> i1{level.i1.data(), n}, i2{level.i2.data(), n};
+  const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
+  if (asked) level.i1_outside.resize(n);
+  const Excitation& waves = analytic_waves_ ? *analytic_waves_ : waves_;
+  const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside);
+  if (first) any_outside_ = any;
+  if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {});
 }
 
-LevelSolver::Level& LevelSolver::at_velocity(std::size_t number, double velocity) {
-  Level& level = levels_[number];
-  if (level.velocity == velocity) return level;
-  if (!level.pieces) {
-    const std::span<const Segment> surface = table_.surface().segments(table_);
-    if (!waves_.kinks().empty()) level.cut = std::make_unique<RoughnessPieces>(surface, number, waves_.kinks());
-    level.pieces = level.cut ? level.cut.get() : &roughness_pieces(table_, number);
-    level.grid = std::make_unique<ContactGrid>(surface, ContactGridOptions{.poisson_ratio = model_.poisson_ratio,
-                                                                           .beyond_end = with_edges_,
-                                                                           .edge_nodes = false,
-                                                                           .pieces = level.pieces});
-    if (number > 0) take_common_ends(level, levels_[number - 1]);
-    level.theory = contact_theory(model_, spectrum_, surface, *level.grid);
-    const std::size_t n = level.pieces->nodes().weight.size();
-    level.factors = waves_.factors(*level.grid);
-    if (!level.factors.empty()) level.factors.resize(n);
-    level.frequency.resize(n);
-    for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
+void LevelSolver::lay_out(Levels& levels, std::size_t number) {
+  Level& level = levels[number];
+  ContactGridOptions options{.poisson_ratio = model_.poisson_ratio};
+  if (&levels == &pieces_) {
+    const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum_);
+    if (!table || !waves_.kinks().empty())
+      level.pieces = std::make_unique<RoughnessPieces>(surface_, number, waves_.kinks());
+    options.pieces = level.pieces ? level.pieces.get() : &roughness_pieces(*table, number);
+    if (window_) options.window = &options.pieces->window();
+    options.edge_nodes = false;
+  } else {
+    const bool knots = kinks();
+    const std::size_t of_nodes = knots ? finest_at_knots : finest;
+    options.level = std::min(first_level_ + number, of_nodes);
+    options.halvings = first_level_ + number - options.level;
+    options.stops = stops_;
+    options.kinks_at_stops = knots;
+    if (window_) options.window = &*window_;
+    options.held_from = held_from_;
   }
-  level.velocity = velocity;
-  take_moduli(level, velocity);
-  const std::size_t n = level.frequency.size();
+  level.grid = std::make_unique<ContactGrid>(surface_, options);
+  level.factors = waves_.factors(*level.grid);
+  level.theory = contact_theory(model_, spectrum_, surface_, *level.grid);
+  if (number == 0) return;
+  if (!levels[number - 1].grid) lay_out(levels, number - 1);
+  take_common_ends(level, levels[number - 1]);
+}
+
+LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number) {
+  Level& level = levels[number];
+  if (level.velocity == velocity_) return level;
+  if (!level.grid) lay_out(levels, number);
+  level.velocity = velocity_;
+  const std::size_t n = level.grid->size();
+  if (!kinks() && !level.grid->pieces() && number == 0) {  // at hand from the next level, which every point needs
+    const Level& next = at_velocity(levels, 1);
+    if (!from_next_) from_next_ = cells_between(*next.grid, *level.grid);
+    for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
+    from_next_->at_nodes(next.i1.data(), next.i2.data(), level.i1.data(), level.i2.data());
+  } else {
+    take_moduli(level, number == (kinks() || level.grid->pieces() ? 0 : 1));
+  }
   level.theory->take({{level.i1.data(), n}, {level.i2.data(), n}});
-  if (with_edges_) level.theory->take_edges(edges_);
+  if (window_ && level.grid->pieces()) level.theory->take_edges(edges_);
   return level;
 }
 
-/// Some of the pieces up to whose ends m is the same on both levels.
+/// Some of the cells up to whose ends the surface is the same on both levels: of panels by q, of pieces by m.
 void LevelSolver::take_common_ends(Level& fine, const Level& coarse) {
   constexpr double same = 1e-9;
-  constexpr Index between = 16;  // nodes of the coarse one
-  const VectorXd &weight = coarse.grid->weight(), &finer = fine.grid->weight();
+  constexpr std::size_t between = 16;  // nodes of the coarse one
+  const std::vector<ContactGrid::Cell>&of_coarse = coarse.grid->cells(), &of_fine = fine.grid->cells();
+  const auto end_of = [&](const ContactGrid& grid, const ContactGrid::Cell& cell, double& place) {
+    if (cell.rule) return place = cell.end;
+    const auto first = static_cast<Index>(cell.first);
+    return place += grid.weight()[first] + grid.weight()[first + 1];
+  };
   double place = 0, at = 0;
-  Index k = 0;
-  for (Index i = 0; i + 1 < weight.size(); i += 2) {
-    place += weight[i] + weight[i + 1];
-    for (; k + 1 < finer.size() && at < place * (1 - same); k += 2) at += finer[k] + finer[k + 1];
-    const Index last = fine.common_ends.empty() ? 0 : fine.common_ends.back()[0];
-    if (at <= place * (1 + same) && i + 2 - last >= between) fine.common_ends.push_back({i + 2, k});
+  std::size_t k = 0, last = 0;
+  for (const ContactGrid::Cell& cell : of_coarse) {
+    (void)end_of(*coarse.grid, cell, place);
+    for (; k < of_fine.size() && at < place * (1 - same); ++k) (void)end_of(*fine.grid, of_fine[k], at);
+    const std::size_t end = cell.first + cell.count;
+    if (at > place * (1 + same) || end < last + between) continue;
+    last = end;
+    fine.common_ends.push_back(
+        {static_cast<Index>(end), static_cast<Index>(of_fine[k - 1].first + of_fine[k - 1].count)});
   }
 }
 
@@ -154,109 +216,136 @@ double LevelSolver::apart(const Level& coarse, const Level& fine) {
   return most;
 }
 
-/// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth
-/// differences of I1 and I2 at the nodes tell it, whether two levels miss a knot alike or not. An error of G passes on
-/// to all behind it.
-double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
-  const auto& difference = level.pieces->nodes().difference;
-  const std::size_t n = level.frequency.size();
-  const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / sums.slope;
-  of_i1_.resize(n);
-  of_i2_.resize(n);
-  for (std::size_t i = 2; i + 2 < n; ++i) {
-    double of_i1 = 0, of_i2 = 0;
-    for (std::size_t k = 0; k < 5; ++k) {
-      of_i1 += difference[k][i] * level.i1[i + k - 2];
-      of_i2 += difference[k][i] * level.i2[i + k - 2];
-    }
-    of_i1_[i] = std::fabs(factor * of_i1);
-    of_i2_[i] = std::fabs(factor * of_i2);
-  }
-  const double kappa_on_mu = std::fabs(sums.friction_slope) * by_kappa,
-               kappa_on_area = std::fabs(sums.share_slope) * by_kappa;
-  const double friction_share = sums.friction > 0 ? 1 / sums.friction : 0, variance_share = 1 / sums.variance;
-  const double g1 = level.theory->unit_g();
-  const double *const stress = level.theory->stress().data(), *const g = level.theory->node_g().data(),
-                      *const weight = level.grid->weight().data(), *const ratio = level.theory->ratio().data();
-  double variance_behind = 1 / g1, friction_behind = 0, of_mu = 0, of_area = 0;
-  for (std::size_t i = n - 2; i-- > 2;) {
-    const double of_i1 = of_i1_[i], of_i2 = of_i2_[i], r = stress[i];
-    const double by_g = passed_on * weight[i] * level.i2[i] * r / (g[i] > 1e-300 ? g[i] : 1e-300);
-    variance_behind += by_g * variance_share;
-    friction_behind += by_g * ratio[i] * friction_share;
-    const double on_variance = of_i2 * (r * variance_share + variance_behind);
-    const double on_mu = of_i1 * r * friction_share + of_i2 * friction_behind + kappa_on_mu * on_variance;
-    const double on_area = kappa_on_area * on_variance + of_i2 / (2 * g1);
-    of_mu += on_mu * on_mu;
-    of_area += on_area * on_area;
-  }
-  return std::sqrt(std::fmax(of_mu, of_area));
-}
-
 /// The share of friction from frequencies outside of the measured range.
 double LevelSolver::outside_share(const Level& level, const ContactSums& sums) const {
-  double sum = with_edges_ ? sums.edges * level.grid->beyond().end->window * edges_.i1_outside : 0;
-  if (any_outside_) {
+  if (!(sums.friction > 0)) return 0;
+  double sum = 0;
+  if (level.grid->pieces()) {
+    if (window_) sum = sums.edges * level.grid->beyond().end->window * edges_.i1_outside;
     const VectorXd& stress = level.theory->stress();
-    for (Index i = 0; i < stress.size(); ++i)
+    for (Index i = 0; any_outside_ && i < stress.size(); ++i)
       sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
+    return sum / sums.friction;
   }
-  return sums.friction > 0 ? sum / sums.friction : 0;
+  const VectorXd& part = level.theory->part();
+  for (std::size_t i = 0; i < level.grid->size(); ++i) {
+    const bool held = i >= level.grid->band_size() && known_ && level.frequency[i] >= known_->highest;
+    if (level.i1[i] > 0 && (held || any_outside_))
+      sum += part[static_cast<Index>(i)] * (held ? 1 : level.i1_outside[i] / level.i1[i]);
+  }
+  return sum / scale_ / sums.friction;
 }
 
 double LevelSolver::share_beyond(double wavenumber) const {
   if (!(sums_.friction > 0)) return 0;
   const ContactGrid& grid = *solved_->grid;
-  const VectorXd& stress = solved_->theory->stress();
+  const VectorXd &stress = solved_->theory->stress(), &part = solved_->theory->part();
   double sum = 0;
-  if (with_edges_ && grid.beyond().end->wavenumber > wavenumber)
+  if (window_ && grid.pieces() && window_->end() > wavenumber)
     sum = sums_.edges * grid.beyond().end->window * edges_.i1;
-  for (Index i = 0; i < stress.size(); ++i)
-    if (const auto at = static_cast<std::size_t>(i); grid.wavenumber()[at] > wavenumber)
-      sum += grid.weight()[i] * stress[i] * solved_->i1[at];
+  const std::size_t n = grid.pieces() ? grid.band_size() : grid.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto at = static_cast<Index>(i);
+    if (grid.wavenumber()[i] > wavenumber)
+      sum += grid.pieces() ? grid.weight()[at] * stress[at] * solved_->i1[i] : part[at] / scale_;
+  }
   return std::fmin(1, sum / sums_.friction);
 }
 
 bool LevelSolver::solve(double pressure, double velocity, double shift) {
-  const double root = 1 / (pressure * shift), scale = root * root, mu_factor = 4 * pressure / stiffening_ * scale;
-  if (with_edges_ && velocity != velocity_) {
-    const double q_e = roughness_pieces(table_, 0).window().end();
-    edges_ = edges_of_(velocity, q_e, 1, partial_contact::tail_end);
-  }
-  velocity_ = velocity;
-  const Level* coarse = &at_velocity(0, velocity);
-  g_ = coarse->theory->unit_g() * scale;
-  if (g_ == 0) return false;
+  begin(velocity);
+  solved_ = nullptr;
+  if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return true;
+  if (panels_.empty()) return false;
+  if (solve_on(panels_, pressure, shift)) return true;
+  throw NotConverged("mu_H = " + show(hysteresis_.value) + " with relative error " + show(error_) + " on " +
+                     std::to_string(panels_.back().grid->size()) + " nodes where " + argument("rtol") + " = " +
+                     show(model_.rtol) + " was asked for");
+}
+
+bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
+  const bool by_pieces = &levels == &pieces_;
+  const double root = 1 / (pressure * shift);
+  scale_ = root * root;
+  mu_factor_ = 4 * pressure / stiffening_ * scale_;
+  const Level* coarse = &at_velocity(levels, 0);
+  g_ = coarse->theory->unit_g() * scale_;
+  sums_ = {};
+  hysteresis_ = {};
+  error_ = 0;
+  if (g_ == 0) return !by_pieces;
   check_g(g_, pressure);
-  ContactSums before = coarse->theory->solve(scale, model_.rtol, usual_kappa);
-  const double outside = outside_share(*coarse, before);
-  const double of_edges =
-      with_edges_ ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0) : 0;
-  const bool knots = std::holds_alternative<MasterCurve>(rubber_) || waves_.softening();
-  for (std::size_t number = 1; number < RoughnessPieces::levels; ++number) {
-    const Level& level = at_velocity(number, velocity);
-    const ContactSums& now = level.theory->solve(scale, model_.rtol, before.kappa);
-    const double running = apart(*coarse, level), whole = now.friction * scale;
+  ContactSums before = coarse->theory->solve(scale_, model_.rtol, usual_kappa);
+  double outside = by_pieces || kinks() ? outside_share(*coarse, before) : 0;
+  const double of_edges = window_ && by_pieces
+                              ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0)
+                              : 0;
+  const bool knots = kinks();
+  for (std::size_t number = 1; number < levels.size(); ++number) {
+    if (number > 1) heed();
+    const Level& level = at_velocity(levels, number);
+    const ContactSums& now = level.theory->solve(scale_, model_.rtol, before.kappa);
+    const double running = apart(*coarse, level), whole = now.friction * scale_;
     const double change =
         std::max({difference(now.friction, before.friction), difference(now.share, before.share),
                   difference(level.theory->unit_g(), coarse->theory->unit_g()), difference(now.kappa, before.kappa),
                   std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
                   whole > 0 ? running / whole : 0});
     double error = of_change * change;
-    if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
-    error += of_rest * RoughnessPieces::roughest(number) + of_edges;
+    if (by_pieces) {
+      if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
+      error += of_rest * RoughnessPieces::roughest(number) + of_edges;
+    }
+    if (!analytic_ || (number == 1 && !by_pieces && !kinks())) outside = outside_share(level, now);
     before = now;
     coarse = &level;
+    hysteresis_.value = mu_factor_ * now.friction;
+    error_ = error;
     if (!(error <= 0.85 * model_.rtol)) continue;
     sums_ = now;
+    g_ = level.theory->unit_g() * scale_;
+    error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
+    hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside};
     solved_ = &level;
-    g_ = level.theory->unit_g() * scale;
-    error_ = std::fmax(error, least_error * model_.rtol);
-    const double share = analytic_ ? outside : outside_share(level, now);
-    hysteresis_ = {mu_factor * now.friction, mu_factor * now.friction * error_, mu_factor * now.friction * share};
     return true;
   }
   return false;
+}
+
+AngularIntegrals LevelSolver::modulus(double wavenumber) const {
+  const double w = velocity_ * wavenumber;
+  return waves_(known_ ? std::clamp(w, known_->lowest, known_->highest) : w, wavenumber);
+}
+
+double LevelSolver::g(double wavenumber) const {
+  if (!solved_ || solved_->grid->pieces() || wavenumber >= surface_.back().b) return g_;
+  const ContactGrid::Place place = solved_->grid->place_of(wavenumber);
+  std::vector<double> q, weight;
+  solved_->grid->nodes_to(place, q, weight);
+  double sum = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) sum += weight[i] * modulus(q[i]).i2;
+  return solved_->theory->g_before(place) + scale_ * sum;
+}
+
+double LevelSolver::stress(double wavenumber) const {
+  return solved_ ? solved_->theory->stress_at(g(wavenumber), wavenumber, modulus(wavenumber).i2) : 1;
+}
+
+double LevelSolver::hysteresis_density(double wavenumber) const {
+  if (!solved_) return 0;
+  const AngularIntegrals at = modulus(wavenumber);
+  const double per_stress = mu_factor_ / scale_,
+               edges = per_stress * solved_->theory->density_of_edges(wavenumber, at.i1, at.i2);
+  if (wavenumber > surface_.back().b) return edges;
+  const double rate = solved_->grid->place_of(wavenumber).rate;
+  return edges + mu_factor_ * rate * at.i1 * solved_->theory->stress_at(g(wavenumber), wavenumber, at.i2);
+}
+
+std::vector<ContactGrid::PanelSum> LevelSolver::shares() const {
+  if (!solved_) return {};
+  std::vector<ContactGrid::PanelSum> result = solved_->grid->sums_of_panels(solved_->theory->part());
+  for (ContactGrid::PanelSum& one : result) one.sum *= mu_factor_ / scale_;
+  return result;
 }
 
 }  // namespace asperity

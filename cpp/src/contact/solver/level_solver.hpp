@@ -1,10 +1,11 @@
-// Area and hysteresis of a measured spectrum on levels of nodes, at the cost of a smooth one.
+// Area and hysteresis by one theory of the contact on levels of nodes, with a rubber of one temperature.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contact/grid/grid.hpp"
@@ -15,20 +16,21 @@
 
 namespace asperity {
 
-/// One theory of the contact on pieces of rings, with a rubber of one temperature. Two levels solve each point: the
-/// coarser one starts the root of the finer one, and the difference of both tells the error.
+/// Two levels solve each point: the coarser one starts the root of the finer one, and the difference of both tells the
+/// error. Their nodes are those of pieces of rings where these reach the tolerance, or of Gauss-Legendre panels.
 class LevelSolver {
  public:
-  /// Tables of fewer rows are as quick on panels, and lesser tolerances not reached.
-  static constexpr std::size_t least_rows = 8;
-  static constexpr double least_rtol = 1e-7;
-  /// Whether tables like this one are solved on levels.
-  static bool serves(const Spectrum& spectrum, const ContactModel& model);
+  struct Options {
+    bool parts = false;                  // what a wavenumber has is asked for too, which panels know
+    std::span<const double> stops = {};  // frequencies at which panels shall end [rad/s]; must outlive the solver
+    bool panels = true;                  // where pieces do not serve
+  };
+  /// `surface` is that of the spectrum; all but the options must outlive it.
+  LevelSolver(const Spectrum& spectrum, std::span<const Segment> surface, const Excitation& waves,
+              const ContactModel& model, const Options& options);
 
-  /// `spectrum` is one that it serves; all of them must outlive it.
-  LevelSolver(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model);
-
-  /// A point; one at the velocity of the point before is cheap. False where the tolerance is not reached.
+  /// A point; one at the velocity of the point before is cheap. Where there are panels NotConverged if the tolerance is
+  /// not reached, false elsewhere.
   [[nodiscard]] bool solve(double pressure, double velocity, double shift);
 
   [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
@@ -40,37 +42,58 @@ class LevelSolver {
   [[nodiscard]] double share_beyond(double wavenumber) const;
   [[nodiscard]] double relative_error() const { return error_; }
 
+  /// Of parts: G before kappa, what stands where Eq. 22 has P S, and dmu_H / dln q at a wavenumber of the band, the
+  /// last of the edges of contacts beyond it too.
+  [[nodiscard]] double g(double wavenumber) const;
+  [[nodiscard]] double stress(double wavenumber) const;
+  [[nodiscard]] double hysteresis_density(double wavenumber) const;
+  /// Panels in order, those of the edges behind the others; their hysteresis sums to the whole.
+  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
+
  private:
   struct Level {
-    const RoughnessPieces* pieces = nullptr;
-    std::unique_ptr<const RoughnessPieces> cut;  // where the waves' factors have kinks
+    std::unique_ptr<RoughnessPieces> pieces;  // of its own: of a closed form, or where the waves' factors have kinks
     std::unique_ptr<ContactGrid> grid;
     std::unique_ptr<Theory> theory;
-    std::vector<std::array<Eigen::Index, 2>> common_ends;  // of pieces of the level before, and of this one
+    std::vector<std::array<Eigen::Index, 2>> common_ends;  // of cells of the level before, and of this one
     std::vector<ModulusFactors> factors;                   // none where all are 1
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
-    std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on the coarsest level alone
+    std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on one level alone
   };
-  Level& at_velocity(std::size_t number, double velocity);
-  void take_moduli(Level& level, double velocity);
+  using Levels = std::vector<Level>;
+  /// Whether the modulus has kinks over ln q.
+  [[nodiscard]] bool kinks() const { return !analytic_ || waves_.softening(); }
+  void begin(double velocity);
+  [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift);
+  Level& at_velocity(Levels& levels, std::size_t number);
+  void lay_out(Levels& levels, std::size_t number);
+  void take_moduli(Level& level, bool first);
+  void take_moduli_of_pieces(Level& level, bool first);
   static void take_common_ends(Level& fine, const Level& coarse);
   [[nodiscard]] static double apart(const Level& coarse, const Level& fine);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
+  [[nodiscard]] AngularIntegrals modulus(double wavenumber) const;
 
   const Spectrum& spectrum_;
-  const TabulatedSpectrum& table_;
-  const Rubber& rubber_;
+  std::span<const Segment> surface_;
+  const Excitation& waves_;
   const ContactModel& model_;
+  Options options_;
   double stiffening_;
-  bool with_edges_;  // PartialContact
-  std::array<Level, RoughnessPieces::levels> levels_;
+  std::optional<RoughnessWindow> window_;    // with PartialContact
+  Levels pieces_, panels_;                   // none where they do not serve
+  std::size_t first_level_ = 1;              // of panels
+  std::optional<RoughnessCells> from_next_;  // to the first level of panels, where the modulus is analytic
+  std::vector<double> stops_;                // of panels at the velocity [1/m]
+  std::optional<double> held_from_;          // where beyond the end of the roughness the modulus is not known [1/m]
   double velocity_ = 0;
-  Excitation waves_;
   Edges edges_of_;
   EdgeIntegrals edges_;
+  std::optional<FrequencyRange> known_;
   std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
+  std::optional<Excitation> analytic_waves_;
   std::vector<double> frequency_, i1_, i2_, of_loss_, outside_at_points_;  // at the points of cells
   std::vector<double> at_nodes_;
   std::vector<double> of_i1_, of_i2_;  // what the rule misses of I1 and I2 at the nodes
@@ -78,7 +101,7 @@ class LevelSolver {
   ContactSums sums_;
   PanelSolver::Hysteresis hysteresis_;
   const Level* solved_ = nullptr;  // the finer of the last two
-  double g_ = 0, error_ = 0;
+  double scale_ = 0, mu_factor_ = 0, g_ = 0, error_ = 0;
 };
 
 }  // namespace asperity

@@ -177,8 +177,8 @@ double PanelSolver::full_density(double wavenumber) const {
   return density_factor_ * square * square * segment.density(wavenumber) * panels_.angular(wavenumber).i1;
 }
 
-std::vector<PanelSolver::PanelShare> PanelSolver::shares() const {
-  std::vector<PanelShare> result;
+std::vector<ContactGrid::PanelSum> PanelSolver::shares() const {
+  std::vector<ContactGrid::PanelSum> result;
   result.reserve(active_.size());
   for (const ActivePanel& active : active_) {
     const Panel& p = panels_[active.panel];

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/grid/grid.hpp"
 #include "contact/solver/panels.hpp"
 #include "contact/theory/contact_integral.hpp"
 
@@ -35,12 +36,8 @@ class PanelSolver {
   /// dmu_H / dln q where P S is 1.
   [[nodiscard]] double full_density(double wavenumber) const;
 
-  struct PanelShare {
-    double lower, upper;  // [1/m]
-    double hysteresis;
-  };
   /// The panels in order; their hysteresis sums to the whole.
-  [[nodiscard]] std::vector<PanelShare> shares() const;
+  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
 
  private:
   struct ActivePanel {

@@ -1,5 +1,5 @@
-// Chooses the solver of a point: levels of pieces (level_solver.hpp), panels (panel_solver.hpp), or GSL's adaptive
-// rules (gsl_solver.hpp) as the independent check. All solve Eqs 7 and 22. B. N. J. Persson, J. Chem. Phys. 115, 3840
+// Chooses the solver of a point: levels of nodes (level_solver.hpp), panels (panel_solver.hpp), or GSL's adaptive rules
+// (gsl_solver.hpp) as the independent check. All solve Eqs 7 and 22. B. N. J. Persson, J. Chem. Phys. 115, 3840
 // (2001).
 #include "contact/solver/solver.hpp"
 
@@ -39,33 +39,31 @@ Adaptive adaptive_rule(Method method) {
   }
 }
 
-Solver::Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
-               const std::optional<SFunction>& factor, std::span<const double> stops)
+Solver::Solver(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber,
+               const ContactModel& model, const Options& options)
     : surface_(surface),
       model_(model),
       waves_(rubber, model, surface),
-      factor_(factor),
-      with_hysteresis_(with_hysteresis),
-      panel_solver_(surface, waves_, model.poisson_ratio, model.rtol),
-      stops_(stops) {
+      factor_(s_in_integrand(model.correction)),
+      options_(options),
+      panel_solver_(surface, waves_, model.poisson_ratio, model.rtol) {
   check_scales(surface);
-  if (std::holds_alternative<PartialContact>(model.correction))
-    partial_.emplace(surface, waves_, model, stops);
-  else if (with_hysteresis && model.method == Method::gauss)
-    contact_.emplace(model.form, factor);
-}
-
-void Solver::use_levels_of(const Spectrum& spectrum) {
-  if (is_directional(spectrum))
-    directional_.emplace(spectrum, waves_.rubber(), model_);
-  else if (LevelSolver::serves(spectrum, model_))
-    levels_.emplace(spectrum, waves_.rubber(), model_);
+  if (is_directional(spectrum)) {
+    directional_.emplace(spectrum, rubber, model);
+    return;
+  }
+  if (model.method != Method::gauss) return;
+  const bool panels = options.levels || std::holds_alternative<PartialContact>(model.correction);
+  if (panels || !options.parts)
+    levels_.emplace(spectrum, surface, waves_, model,
+                    LevelSolver::Options{.parts = options.parts, .stops = options.stops, .panels = panels});
+  if (!panels && options.hysteresis) contact_.emplace(model.form, factor_);
 }
 
 void Solver::start(double velocity) {
   velocity_ = velocity;
   stop_wavenumbers_.clear();
-  for (const double w : stops_) stop_wavenumbers_.push_back(w / velocity);
+  for (const double w : options_.stops) stop_wavenumbers_.push_back(w / velocity);
   if (model_.method == Method::gauss)
     stop_wavenumbers_.insert(stop_wavenumbers_.end(), waves_.kinks().begin(), waves_.kinks().end());
 }
@@ -77,10 +75,6 @@ void Solver::solve(double pressure, double velocity, double shift) {
   }
   by_levels_ = levels_ && levels_->solve(pressure, velocity, shift);
   if (by_levels_) return;
-  if (partial_) {
-    partial_->solve(pressure, velocity);
-    return;
-  }
   if (velocity != velocity_) start(velocity);
   if (model_.method == Method::gauss) {
     if (panel_velocity_ != velocity) panel_solver_.start(velocity, stop_wavenumbers_);
@@ -89,9 +83,9 @@ void Solver::solve(double pressure, double velocity, double shift) {
     return;
   }
   gsl_solver_.emplace(surface_, waves_, GslSolver::Point{model_.poisson_ratio, pressure, velocity, shift},
-                      stop_wavenumbers_, with_hysteresis_, model_.rtol, adaptive_rule(model_.method));
+                      stop_wavenumbers_, options_.hysteresis, model_.rtol, adaptive_rule(model_.method));
   if (const double g = gsl_solver_->g(surface_.back().b); g != 0) check_g(g, pressure);
-  if (!with_hysteresis_) return;
+  if (!options_.hysteresis) return;
   const GslSolver::Hysteresis found = gsl_solver_->hysteresis(model_.form, factor_);
   hysteresis_ = {found.value, found.error, found.outside};
   by_panel_ = found.by_panel;
@@ -99,8 +93,7 @@ void Solver::solve(double pressure, double velocity, double shift) {
 
 double Solver::g(double wavenumber) const {
   return directional_  ? directional_->g()
-         : by_levels_  ? levels_->g()
-         : partial_    ? partial_->g()
+         : by_levels_  ? levels_->g(wavenumber)
          : gsl_solver_ ? gsl_solver_->g(wavenumber)
                        : panel_solver_.g(wavenumber);
 }
@@ -108,13 +101,12 @@ double Solver::g(double wavenumber) const {
 double Solver::relative_error() const {
   return directional_  ? directional_->relative_error()
          : by_levels_  ? levels_->relative_error()
-         : partial_    ? partial_->area_error()
          : gsl_solver_ ? gsl_solver_->relative_error()
                        : panel_solver_.relative_error();
 }
 
 double Solver::hysteresis_density(double wavenumber) const {
-  if (partial_) return partial_->hysteresis_density(wavenumber);
+  if (by_levels_) return levels_->hysteresis_density(wavenumber);
   if (gsl_solver_) return gsl_solver_->hysteresis_density(wavenumber, model_.form, factor_);
   const double full = panel_solver_.full_density(wavenumber);
   if (full == 0) return 0;
@@ -122,10 +114,10 @@ double Solver::hysteresis_density(double wavenumber) const {
   return full * share * (factor_ ? (*factor_)(share) : 1);
 }
 
-std::vector<PanelSolver::PanelShare> Solver::shares() const {
-  if (partial_) return partial_->shares();
+std::vector<ContactGrid::PanelSum> Solver::shares() const {
+  if (by_levels_) return levels_->shares();
   if (!gsl_solver_) return panel_solver_.shares();
-  std::vector<PanelSolver::PanelShare> result;
+  std::vector<ContactGrid::PanelSum> result;
   const auto panels = gsl_solver_->panels();
   result.reserve(panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});

@@ -1,5 +1,5 @@
-// Area and hysteresis at a point by the method asked for: levels of pieces on the rings of a table, Gauss-Legendre
-// panels elsewhere and where a result is wanted part by part, or GSL's adaptive integration as the independent check.
+// Area and hysteresis at a point by the method asked for: levels of nodes with PartialContact and on the rings of a
+// table, panels with an error of each elsewhere, or GSL's adaptive integration as the independent check.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,6 @@
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/level_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
-#include "contact/solver/partial_panel_solver.hpp"
 
 namespace asperity {
 
@@ -18,14 +17,15 @@ class Solver {
  public:
   using Hysteresis = PanelSolver::Hysteresis;
 
-  /// Solves for G, and where `with_hysteresis` for mu_H with S by `factor`. Panels end at the frequencies `stops`
-  /// [rad/s] too, which must outlive this.
-  Solver(std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model, bool with_hysteresis,
-         const std::optional<SFunction>& factor, std::span<const double> stops = {});
-
-  /// Takes a table of rings in pieces where that holds: G is known at the upper end of the spectrum alone then, which
-  /// the surface is to reach up to, and nothing part by part.
-  void use_levels_of(const Spectrum& spectrum);
+  struct Options {
+    bool hysteresis = true;              // or G alone
+    bool parts = false;                  // what a wavenumber has is asked for too; else the surface is the whole one
+    std::span<const double> stops = {};  // frequencies at which panels end too [rad/s], which must outlive the solver
+    bool levels = false;                 // by levels of nodes even where panels with errors of their own are quicker
+  };
+  /// `surface` is that of the spectrum, or a part of it from its lower end on.
+  Solver(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
+         const Options& options);
 
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
   void solve(double pressure, double velocity, double shift);
@@ -33,7 +33,6 @@ class Solver {
   [[nodiscard]] const Hysteresis& hysteresis() const {
     return directional_  ? directional_->hysteresis()
            : by_levels_  ? levels_->hysteresis()
-           : partial_    ? partial_->hysteresis()
            : gsl_solver_ ? hysteresis_
                          : panel_solver_.hysteresis();
   }
@@ -41,25 +40,20 @@ class Solver {
   [[nodiscard]] double g(double wavenumber) const;
   /// Of every G; `hysteresis` has what that makes of it where the second holds.
   [[nodiscard]] double relative_error() const;
-  [[nodiscard]] bool g_error_is_in_hysteresis() const { return directional_ || by_levels_ || partial_; }
+  [[nodiscard]] bool g_error_is_in_hysteresis() const { return directional_ || by_levels_; }
   /// Of PartialContact: kappa, A / A0 at the upper end of the spectrum with its relative error, and R at a wavenumber.
-  [[nodiscard]] double kappa() const {
-    return directional_ ? directional_->sums().kappa : by_levels_ ? levels_->sums().kappa : partial_->kappa();
-  }
-  [[nodiscard]] double partial_area() const {
-    return directional_ ? directional_->sums().share : by_levels_ ? levels_->sums().share : partial_->area();
-  }
+  [[nodiscard]] double kappa() const { return sums().kappa; }
+  [[nodiscard]] double partial_area() const { return sums().share; }
   [[nodiscard]] double partial_area_error() const {
-    return directional_ ? directional_->relative_error()
-           : by_levels_ ? levels_->relative_error()
-                        : partial_->area_error();
+    return directional_ ? directional_->relative_error() : levels_->relative_error();
   }
-  [[nodiscard]] double stress(double wavenumber) const { return partial_->stress(wavenumber); }
-  [[nodiscard]] std::vector<PanelSolver::PanelShare> shares() const;
+  [[nodiscard]] double stress(double wavenumber) const { return levels_->stress(wavenumber); }
+  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
   /// Share of the hysteresis from strains beyond the last row of factors, to a hundredth.
   [[nodiscard]] double share_of_held_strains() const;
 
  private:
+  [[nodiscard]] const ContactSums& sums() const { return directional_ ? directional_->sums() : levels_->sums(); }
   void start(double velocity);
 
   std::span<const Segment> surface_;
@@ -67,14 +61,12 @@ class Solver {
   Excitation waves_;
   std::optional<SFunction> factor_;
   std::optional<ContactIntegral> contact_;
-  bool with_hysteresis_;
+  Options options_;
   PanelSolver panel_solver_;
-  std::span<const double> stops_;
   double velocity_ = 0, panel_velocity_ = 0;      // of the point before, and of the last that panels were made for
   std::optional<DirectionalSolver> directional_;  // instead of all others
   std::optional<LevelSolver> levels_;
-  bool by_levels_ = false;                     // the point
-  std::optional<PartialPanelSolver> partial_;  // instead of panel_solver_
+  bool by_levels_ = false;  // the point
   std::vector<double> stop_wavenumbers_;
   std::optional<GslSolver> gsl_solver_;  // by GSL
   Hysteresis hysteresis_;

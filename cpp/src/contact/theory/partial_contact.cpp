@@ -39,8 +39,7 @@ class PartialContactTheory final : public Theory {
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(double by_part, double by_area, ContactGradient& result) override;
-  [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
-                               double rate) const override;
+  [[nodiscard]] double stress_at(double g, double wavenumber, double i2) const override;
   [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
 
  private:
@@ -113,7 +112,16 @@ const ContactSums& PartialContactTheory::solve(double scale, double rtol, double
   end_.band = {grid_.beyond().end->factor, excess_ = excess()};
   const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(),
                            static_cast<std::size_t>(g_.size())};
-  return sums_ = partial_root(nodes, end_, scale, rtol, start, stress_.data());
+  sums_ = partial_root(nodes, end_, scale, rtol, start, stress_.data());
+  kappa_ = sums_.kappa;
+  edges_ = sums_.edges;
+  obstacle_ = sums_.obstacle;
+  if (grid_.pieces()) return sums_;
+  const Index n = g_.size(), count = in_tail_.size();
+  part_.setZero(i2_.size());
+  part_.head(n) = scale * weight_.cwiseProduct(ratio_.head(n)).cwiseProduct(stress_);
+  part_.segment(n, count) = scale * edges_ * end_.window * in_tail_.cwiseProduct(ratio_.segment(n, count));
+  return sums_;
 }
 
 void PartialContactTheory::evaluate(double scale, std::optional<double> log_kappa) {
@@ -131,7 +139,7 @@ void PartialContactTheory::evaluate(double scale, std::optional<double> log_kapp
     kappa_ = std::exp(*log_kappa);
     excess_ = excess();
   } else {
-    kappa_ = solve(scale, to_rounding, kappa_).kappa;
+    (void)solve(scale, to_rounding, kappa_);
   }
 
   const partial_contact::AtEnd at = rule(0, excess_);
@@ -291,19 +299,17 @@ void PartialContactTheory::gradient(double by_part, double by_area, ContactGradi
   result.total = -end_power * by_obstacle - off;
 }
 
-double PartialContactTheory::density(std::size_t panel, double u, double wavenumber, double i1, double i2,
-                                     double rate) const {
-  if (unit_g() == 0) return 0;
-  const double a = share_of(kappa_ * g_on(panel, u));
-  return rate * (i1 / i2) *
-         partial_contact::stress(a, obstacle_ * scale_ * grid_.beyond().window_at(wavenumber) * i2 * a * a);
+double PartialContactTheory::stress_at(double g, double wavenumber, double i2) const {
+  if (unit_g() == 0) return 1;
+  const double a = share_of(kappa_ * g);
+  return partial_contact::stress(a, obstacle_ * scale_ * grid_.beyond().window_at(wavenumber) * i2 * a * a);
 }
 
 double PartialContactTheory::density_of_edges(double wavenumber, double i1, double i2) const {
   const RoughnessEnd& end = *grid_.beyond().end;
   const double x = wavenumber / end.wavenumber;
   if (unit_g() == 0 || !(x >= 1 && x <= partial_contact::tail_end)) return 0;
-  return scale_ * edges_ * end.window * i1 * std::pow(i2 / i2_[end_node()], partial_contact::tail_excess) *
+  return scale_ * edges_ * end.window * i1 * std::pow(i2 / end_.tail.i2_at_end, partial_contact::tail_excess) *
          std::pow(x, -partial_contact::tail_power);
 }
 

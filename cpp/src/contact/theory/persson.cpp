@@ -37,10 +37,10 @@ VectorXd Theory::back_through_g(const VectorXd& by_node, const VectorXd& by_edge
   return scale_ * grid_.integrate_back(by_node, by_edge).cwiseProduct(i2_.head(g_.size()));
 }
 
-double Theory::g_on(std::size_t panel, double u) const {
-  const ContactGrid::Cell& cell = grid_.cells()[panel];
-  double weights[LegendreRule::most], sum = g_edge_[panel];
-  integrals_to(*cell.rule, u, weights);
+double Theory::g_on(const ContactGrid::Place& place) const {
+  const ContactGrid::Cell& cell = grid_.cells()[place.cell];
+  double weights[LegendreRule::most], sum = g_edge_[place.cell];
+  integrals_to(*cell.rule, 2 * (place.t - cell.lower) / (cell.upper - cell.lower) - 1, weights);
   for (std::size_t j = 0; j < cell.count; ++j) {
     const auto at = static_cast<Index>(cell.first + j);
     sum += weights[j] * grid_.weight()[at] / cell.rule->weight[j] * i2_[at];
@@ -67,8 +67,7 @@ class PerssonTheory final : public Theory {
   [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(double by_part, double by_area, ContactGradient& result) override;
-  [[nodiscard]] double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
-                               double rate) const override;
+  [[nodiscard]] double stress_at(double g, double /*wavenumber*/, double /*i2*/) const override { return p_s(g); }
 
  private:
   [[nodiscard]] double p_s(double g) const {
@@ -233,10 +232,6 @@ void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& re
   result.weight += through_g;
   result.i2.head(n) = result.weight;
   result.scale = explicitly + through_g.sum();
-}
-
-double PerssonTheory::density(std::size_t panel, double u, double, double i1, double i2, double rate) const {
-  return rate * (i1 / i2) * p_s(g_on(panel, u));
 }
 
 }  // namespace

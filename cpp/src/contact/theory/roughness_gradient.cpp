@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 RoughnessGradient::RoughnessGradient(const ContactGrid& grid) : grid_(grid) {
   const ContactGrid::Beyond& beyond = grid.beyond();
   if (!beyond.end) return;
-  window_ = grid.pieces() ? &grid.pieces()->window() : &*beyond.of_surface;
+  window_ = beyond.roughness;
   const auto n = static_cast<Index>(grid.band_size());
   mass_at_ends_.push_back(0);
   for (const ContactGrid::Cell& cell : grid.cells())
@@ -67,7 +67,7 @@ RoughnessGradient::Reach RoughnessGradient::reach(double wavenumber) const {
   }
   const auto in = std::ranges::upper_bound(cells, wavenumber, {}, &ContactGrid::Cell::end);
   if (in == cells.end()) return {cells.size(), {}};
-  const double t = wavenumber > std::exp(grid_.lowest()) ? grid_.t_at(wavenumber) : 0;
+  const double t = grid_.place_of(wavenumber).t;
   const double u = std::clamp(2 * (t - in->lower) / (in->upper - in->lower) - 1, -1.0, 1.0);
   Reach result{static_cast<std::size_t>(in - cells.begin()), std::vector<double>(in->count)};
   integrals_to(*in->rule, u, result.share.data());

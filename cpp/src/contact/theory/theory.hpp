@@ -75,10 +75,10 @@ class Theory {
   virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
   /// The same, of `by_part` times the sum of all parts plus `by_area` times A / A0, over all directions at once.
   virtual void gradient(double by_part, double by_area, ContactGradient& result) = 0;
-  /// dmu_H / dln q over 4 (1 - nu^2) sigma0 where G has the slope `rate` over ln q, at u in [-1, 1] of a panel.
-  [[nodiscard]] virtual double density(std::size_t panel, double u, double wavenumber, double i1, double i2,
-                                       double rate) const = 0;
-  /// The same of the edges of contacts, which PartialContact has from the end of the roughness on.
+  /// What stands where Eq. 22 has P S, at a wavenumber of the band where G at the load is `g`.
+  [[nodiscard]] virtual double stress_at(double g, double wavenumber, double i2) const = 0;
+  /// dmu_H / dln q over 4 (1 - nu^2) sigma0 of the edges of contacts, which PartialContact has from the end of the
+  /// roughness on.
   [[nodiscard]] virtual double density_of_edges(double /*wavenumber*/, double /*i1*/, double /*i2*/) const { return 0; }
 
   [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
@@ -86,6 +86,9 @@ class Theory {
   [[nodiscard]] double macro_area() const { return macro_; }  // P at q_m
   [[nodiscard]] double g() const { return scale_ * unit_g(); }
   [[nodiscard]] double unit_g() const { return g_edge_.empty() ? 0 : g_edge_.back(); }  // at q1 and unit load
+  /// G at the load at a place, by the polynomial through I2 of its panel's nodes; and where the panel begins.
+  [[nodiscard]] double g_on(const ContactGrid::Place& place) const;
+  [[nodiscard]] double g_before(const ContactGrid::Place& place) const { return scale_ * g_edge_[place.cell]; }
   /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
   [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
   [[nodiscard]] const Eigen::VectorXd& stress() const { return stress_; }
@@ -102,8 +105,6 @@ class Theory {
   void add_up(const ModulusSlopes& along, GSlopes& slopes) const;
   /// From slopes of a number over G at the nodes and at the ends of cells to those over ln I2, which go through G.
   [[nodiscard]] Eigen::VectorXd back_through_g(const Eigen::VectorXd& by_node, const Eigen::VectorXd& by_edge) const;
-  /// G at u on a panel, at the load.
-  [[nodiscard]] double g_on(std::size_t panel, double u) const;
 
   const ContactGrid& grid_;
   double scale_ = 0, macro_ = 1;

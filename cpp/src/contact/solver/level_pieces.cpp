@@ -1,0 +1,93 @@
+// Levels of pieces of rings (contact/grid/roughness_pieces.hpp): their I1 and I2, and what their rule misses at knots.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/solver/level_solver.hpp"
+#include "rubber/loss_part.hpp"
+
+namespace asperity {
+
+namespace {
+
+/// What the rule of two nodes misses where a function begins to rise as some power of ln q, over the root of the sum of
+/// squares of its fourth differences: at most this for powers from 1 on, wherever it begins and where pieces beside
+/// each other differ in length by two. That of I1 and I2 at a knot of a measured modulus is 5/2, and less at knots that
+/// nearly meet.
+constexpr double of_difference = 0.16;
+constexpr double passed_on = 2;  // |d ln R / d ln G| at most, R that of PartialContact or P S
+
+}  // namespace
+
+/// By polynomials, which takes far fewer values where I1 and I2 are analytic.
+void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
+  const RoughnessPieces& pieces = *level.grid->pieces();
+  const std::size_t n = level.grid->size();
+  const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside) {
+    const std::size_t points = cells.wavenumber().size();
+    for (auto* const row : {&frequency_, &i1_, &i2_}) row->resize(points);
+    for (std::size_t i = 0; i < points; ++i) frequency_[i] = velocity_ * cells.wavenumber()[i];
+    return angular_integrals(rubber, frequency_, i1_, i2_, outside);
+  };
+  if (first && known_in_part_) {
+    const RoughnessCells& cells = pieces.coarse_cells();
+    outside_at_points_.resize(cells.wavenumber().size());
+    any_outside_ = take(cells, waves_.rubber(), outside_at_points_);
+    if (any_outside_) {
+      level.i1_outside.resize(n + RoughnessCells::excess);
+      cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
+    }
+  }
+  const RoughnessCells& cells = pieces.cells();  // of the same points at each level
+  if (first) (void)take(cells, *analytic_, {});
+  cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
+  if (level.factors.empty()) return;
+  if (first) {
+    of_loss_.resize(frequency_.size());
+    loss_part(*analytic_, frequency_, of_loss_);
+  }
+  at_nodes_.resize(level.i2.size());
+  cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
+  soften(level.factors, at_nodes_, level.i1, level.i2,
+         first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());
+}
+
+/// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth
+/// differences of I1 and I2 at the nodes tell it, whether two levels miss a knot alike or not. An error of G passes on
+/// to all behind it.
+double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
+  const auto& difference = level.grid->pieces()->nodes().difference;
+  const std::size_t n = level.grid->size();
+  const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / sums.slope;
+  of_i1_.resize(n);
+  of_i2_.resize(n);
+  for (std::size_t i = 2; i + 2 < n; ++i) {
+    double of_i1 = 0, of_i2 = 0;
+    for (std::size_t k = 0; k < 5; ++k) {
+      of_i1 += difference[k][i] * level.i1[i + k - 2];
+      of_i2 += difference[k][i] * level.i2[i + k - 2];
+    }
+    of_i1_[i] = std::fabs(factor * of_i1);
+    of_i2_[i] = std::fabs(factor * of_i2);
+  }
+  const double kappa_on_mu = std::fabs(sums.friction_slope) * by_kappa,
+               kappa_on_area = std::fabs(sums.share_slope) * by_kappa;
+  const double friction_share = sums.friction > 0 ? 1 / sums.friction : 0, variance_share = 1 / sums.variance;
+  const double g1 = level.theory->unit_g();
+  const double *const stress = level.theory->stress().data(), *const g = level.theory->node_g().data(),
+                      *const weight = level.grid->weight().data(), *const ratio = level.theory->ratio().data();
+  double variance_behind = 1 / g1, friction_behind = 0, of_mu = 0, of_area = 0;
+  for (std::size_t i = n - 2; i-- > 2;) {
+    const double of_i1 = of_i1_[i], of_i2 = of_i2_[i], r = stress[i];
+    const double by_g = passed_on * weight[i] * level.i2[i] * r / (g[i] > 1e-300 ? g[i] : 1e-300);
+    variance_behind += by_g * variance_share;
+    friction_behind += by_g * ratio[i] * friction_share;
+    const double on_variance = of_i2 * (r * variance_share + variance_behind);
+    const double on_mu = of_i1 * r * friction_share + of_i2 * friction_behind + kappa_on_mu * on_variance;
+    const double on_area = kappa_on_area * on_variance + of_i2 / (2 * g1);
+    of_mu += on_mu * on_mu;
+    of_area += on_area * on_area;
+  }
+  return std::sqrt(std::fmax(of_mu, of_area));
+}
+
+}  // namespace asperity
