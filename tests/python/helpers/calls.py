@@ -11,6 +11,7 @@ RESULTS = {"Friction", "FrictionBand", "FrictionSlopes", "Separation"}
 METHODS: dict[str, dict[str, Any]] = {  # by name: classes that have the method take the same
     "adhesion": AT,
     "affine_shift": {"p": 2.0},
+    "angular_harmonics": {"angular_frequency": 10.0, "count": 2},
     "angular_integrals": {"angular_frequency": 10.0},
     "at": {"wavenumber": 5e3},
     "at_strain": {"strain": 5e-3, "sweeps": SWEEPS, "shift_factors": SLOW.shift_factors},
@@ -47,6 +48,7 @@ METHODS: dict[str, dict[str, Any]] = {  # by name: classes that have the method 
     "to_bytes": {},
     "to_dataframe": {},
     "to_xarray": {},
+    "toward": {"wavenumber": 5e3, "direction": 0.3},
     "traction": AT,
     "truncated": {},
 }
