@@ -70,10 +70,10 @@ class _Spectrum(Table):
         return bool(_core.is_directional(self._core))
 
     def toward(self, wavenumber: ArrayLike, direction: ArrayLike) -> Any:
-        """Return C [m^4] of vectors q: at |q| [1/m] and the direction of q from x towards y [rad].
+        """Return C [m^4] of vectors q, of length `wavenumber` [1/m] towards `direction` [rad].
 
-        Both broadcast. An isotropic spectrum is the same in all directions. Harmonics of a scan are
-        few, and their sum may be below 0.
+        The direction is that of q from x towards y; both broadcast. An isotropic spectrum is the
+        same in all directions. Harmonics of a scan are few, and their sum may be below 0.
         """
         shape, (q, phi) = broadcast(wavenumber=wavenumber, direction=direction)
         return shaped(_core.plane_density(self._core, q, phi), shape)

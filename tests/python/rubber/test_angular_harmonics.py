@@ -74,12 +74,12 @@ def compare(found, expected, tolerance):
         np.testing.assert_allclose(values, truth, rtol=0, atol=tolerance * scale)
 
 
-@pytest.mark.parametrize("name", ["two rows, 30 decades", "four rows", "50 rows", "kinks", "step"])
+@pytest.mark.parametrize("name", ["two rows, 30 decades", "50 rows", "kinks", "step"])
 def test_harmonics_of_a_table_are_those_of_the_definition(name):
     w, storage, loss = TABLES[name]
     curve = MasterCurve(angular_frequency=w, storage_modulus=storage, loss_modulus=loss)
     definition = Definition(w, storage, loss)
-    at = np.exp(np.random.default_rng(7).uniform(np.log(w[0]), np.log(w[-1]), 4))
+    at = np.exp(np.random.default_rng(7).uniform(np.log(w[0]), np.log(w[-1]), 2))
     at = np.concatenate([at, w[:2], w[:1] * (1 + 1e-6), w[-1:]])
     found = curve.angular_harmonics(at, 30)
     for n, one in enumerate(at):
