@@ -60,7 +60,8 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
 
 /// No mean over a direction may be above the whole: |a_m + i b_m| is 1 at most.
 void validate_harmonics(const RingHarmonics& harmonics, std::size_t rows) {
-  if (harmonics.count > most_harmonics) refuse("cosine: its columns", harmonics.count, "64 or fewer");
+  if (harmonics.count > most_harmonics)
+    refuse("cosine: its columns", static_cast<double>(harmonics.count), "64 or fewer");
   const std::size_t size = rows * harmonics.count;
   require_same_size("cosine", harmonics.cosine.size(), "wavenumber times harmonics", size);
   require_same_size("sine", harmonics.sine.size(), "wavenumber times harmonics", size);
