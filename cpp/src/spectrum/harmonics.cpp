@@ -125,7 +125,7 @@ PlaneDensity::PlaneDensity(const Spectrum& spectrum) : spectrum_(spectrum) {
   if (s && is_directional(spectrum))
     top_ = density_at_rolloff(*s) / (s->rolloff ? 1 : mean_of_shape(*s));
   else
-    pieces_ = segments(spectrum);
+    pieces_ = s ? segments(spectrum) : segments_of_rows(std::get<TabulatedSpectrum>(spectrum));
 }
 
 double PlaneDensity::operator()(double wavenumber, double direction) const {
