@@ -106,12 +106,12 @@ void DirectionalSolver::take_moduli(Level& level, bool first) {
   loss_.resize(std::max<std::size_t>(used_, 1) * stride);
   square_.resize(loss_.size());
   std::size_t row = stride;
-  if (std::holds_alternative<PronySeries>(rubber_)) {
+  if (const auto* const series = std::get_if<PronySeries>(&rubber_)) {
     cells.at_nodes(at_points_.loss.data(), at_points_.square.data(), level.i1.data(), level.i2.data());
     for (std::size_t m = 0; m < used_; ++m)
       cells.at_nodes(at_points_.loss.data() + (m + 1) * count, at_points_.square.data() + (m + 1) * count,
                      loss_.data() + m * stride, square_.data() + m * stride);
-    if (first) {
+    if (first && series->fitted_range()) {
       std::vector<double> i1(n), i2(n);
       (void)angular_integrals(rubber_, level.frequency, i1, i2, level.i1_outside);
     }
