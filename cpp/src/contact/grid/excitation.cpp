@@ -58,10 +58,10 @@ bool Softening::idle() const {
          });
 }
 
-std::optional<double> Softening::held_from() const {
+double Softening::held_from() const {
   const double last = factors_.strain().back();
   if (last == 0) return surface_.front().a;
-  if (!(last < strain_at_end_)) return std::nullopt;
+  if (!(last < strain_at_end_)) return HUGE_VAL;
   return kinks_.back();
 }
 

@@ -25,8 +25,8 @@ class Softening {
   [[nodiscard]] std::vector<ModulusFactors> at_nodes(const ContactGrid& grid) const;
   /// Whether all factors are 1 as far as the strain goes.
   [[nodiscard]] bool idle() const;
-  /// The wavenumber beyond which the strain is above the last row, none where it never is [1/m].
-  [[nodiscard]] std::optional<double> held_from() const;
+  /// The wavenumber beyond which the strain is above the last row [1/m], infinite where it never is.
+  [[nodiscard]] double held_from() const;
   /// Where eps passes a row: the wavenumbers at which f and g have kinks [1/m].
   [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
 

@@ -125,13 +125,13 @@ std::vector<ContactGrid::PanelSum> Solver::shares() const {
 }
 
 double Solver::share_of_held_strains() const {
-  const std::optional<double> from = waves_.softening() ? waves_.softening()->held_from() : std::nullopt;
   const double whole = hysteresis().value;
-  if (!from || !(whole > 0)) return 0;
-  if (by_levels_) return levels_->share_beyond(*from);
+  const double from = waves_.softening() ? waves_.softening()->held_from() : HUGE_VAL;
+  if (from == HUGE_VAL || !(whole > 0)) return 0;
+  if (by_levels_) return levels_->share_beyond(from);
   double sum = 0;
   for (const auto& [lower, upper, part] : shares())
-    if (std::sqrt(lower * upper) > *from) sum += part;
+    if (std::sqrt(lower * upper) > from) sum += part;
   return std::fmin(1, sum / whole);
 }
 
