@@ -36,7 +36,7 @@ def test_the_note_on_heat_says_its_size():
     def heated_at(i, heat):
         return asperity.friction(ROAD, RUBBER, velocity=v[i], heating=heat, **AT)
 
-    (note,) = with_size_of_heat(cold.notes, v, False, heated_at)
+    _, note = with_size_of_heat(cold.notes, v, False, heated_at)  # behind that on no correction
     assert f"at 10 m/s it would warm the rubber by {rise:.2g} K from 290 K" in note
     assert f"take mu from {hot.cold.mu[1]:.3g} to {hot.mu[1]:.3g}" in note
     assert note.next_step == note_of(cold, "heat-left-out").next_step
@@ -46,9 +46,9 @@ def test_the_note_on_heat_says_its_size():
 def test_reading_notes_computes_nothing(monkeypatch):
     found = asperity.friction(ROAD, RUBBER, velocity=[1e-3, 10.0], **AT)
     monkeypatch.setattr(asperity._core, "flash_friction", None)
-    assert [note.code for note in found.notes] == ["heat-left-out"]
+    assert [note.code for note in found.notes] == ["no-correction", "heat-left-out"]
     slow = asperity.friction(ROAD, RUBBER, velocity=1e-3, **AT)
-    assert slow.notes == ()
+    assert [note.code for note in slow.notes] == ["no-correction"]
 
 
 @pytest.mark.parametrize("heated", [False, True])
@@ -80,7 +80,7 @@ def test_a_fitted_law_knows_both_ends_or_none():
     cold = asperity.friction(
         ROAD, RUBBER, pressure=1e5, velocity=1e-3, temperature=250.0, shift=plain
     )
-    assert cold.notes == ()
+    assert [note.code for note in cold.notes] == ["no-correction"]
     with refused("highest_temperature", "invalid-input"):
         asperity.WlfFit(**constants, lowest_temperature=270.0)
     with refused("lowest_temperature"):
