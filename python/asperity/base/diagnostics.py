@@ -250,7 +250,9 @@ class Note(_Diagnostic, str):
     @property
     def with_step(self) -> str:
         """The text, and what to do about it unless the sentence says it."""
-        said = any(isinstance(phrase, Advice) for phrase in self.next_step_phrases)
+        said = any(
+            isinstance(one, Advice) and one in self.sentence for one in self.next_step_phrases
+        )
         return f"{self} -> {self.next_step}" if self.next_step and not said else str(self)
 
     @property
