@@ -102,7 +102,8 @@ class Scene:
         """Where friction is wanted, as arguments of `friction`."""
         points = {"pressure": self.pressure[:, None], "velocity": self.velocity}
         heated = {} if self.heating is None else {"temperature": self.temperature}
-        return {**points, "poisson_ratio": self.options["poisson_ratio"], **heated}
+        others = ("poisson_ratio", "direction", "strain_factors")
+        return {**points, **{k: self.options[k] for k in others if k in self.options}, **heated}
 
     @property
     def notes(self) -> list[Note]:
