@@ -11,12 +11,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from asperity.app.state import State
+from asperity.draw.style import drawn_in
 from asperity.fmu.export import export_fmu
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
-from asperity.plot.style import drawn_in
 from asperity.report.make import report_page
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene, SceneFriction

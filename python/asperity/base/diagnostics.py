@@ -250,9 +250,8 @@ class Note(_Diagnostic, str):
     @property
     def with_step(self) -> str:
         """The text, and what to do about it unless the sentence says it."""
-        said = any(
-            isinstance(one, Advice) and one in self.sentence for one in self.next_step_phrases
-        )
+        advice = [one for one in self.next_step_phrases if isinstance(one, Advice)]
+        said = any(one in self.sentence for one in advice)
         return f"{self} -> {self.next_step}" if self.next_step and not said else str(self)
 
     @property
