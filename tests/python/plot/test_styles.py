@@ -68,19 +68,6 @@ def test_many_curves_have_a_colour_bar_instead_of_a_legend(
         assert tuple(line.get_color()) == pytest.approx(tuple(colours(norm(load))))
 
 
-def test_of_many_pressures_and_velocities_four_pressures_are_drawn_and_it_says_so(
-    folder: Path, figures: list[Any]
-) -> None:
-    (folder / "scene.toml").write_text(MANY.replace("points = 5", "points = 60"))
-    assert (
-        main(["area", "scene.toml", "--points", "9", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    )
-    legend = figures[0].axes[0].get_legend()
-    assert legend.get_title().get_text() == "9 of 60 colours, 4 of 40 line styles"
-    named = [text.get_text() for text in legend.get_texts()]
-    assert (named[0], named[-1], len(named)) == ("10 kPa", "1 MPa", 4)
-
-
 def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[Any]) -> None:
     names = [f"road{i}.toml" for i in range(9)]
     for name in names:
@@ -91,7 +78,7 @@ def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[A
     assert not any("road" in entry for entry in entries(figures[0]))
 
 
-@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
+@pytest.mark.parametrize("verb", ["friction", "map", "spectrum"])
 def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str) -> None:
     from matplotlib.image import imread
 
@@ -104,13 +91,12 @@ def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str)
         assert low <= corner.min() <= corner.max() <= high
 
 
-@pytest.mark.parametrize("verb", ["friction", "area", "map", "spectrum"])
+@pytest.mark.parametrize("verb", ["friction", "spectrum"])
 def test_a_picture_of_a_single_column_is_as_wide_as_one(
     folder: Path, figures: list[Any], verb: str
 ) -> None:
     scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"])]
-    arguments += ["--checked", "100"] if verb == "map" else ["--output", "a.csv"]
+    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"]), "--output", "a.csv"]
     assert main([*arguments, "--plot", "a.png", "--style", "single"]) == 0
     (figure,) = figures
     assert figure.get_size_inches()[0] == pytest.approx(3.4)
@@ -119,46 +105,6 @@ def test_a_picture_of_a_single_column_is_as_wide_as_one(
     assert max(lefts) - min(lefts) < 0.2
     for text in figure.findobj(lambda one: hasattr(one, "get_fontsize")):
         assert not text.get_text() or 4 <= text.get_fontsize() <= 10
-
-
-def test_a_style_goes_with_a_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["friction", "scene.toml", "--style", "dark"]) == 2
-    assert "--style: goes with --plot" in capsys.readouterr().err
-
-
-def test_the_article_and_the_demo_are_drawn_in_a_style(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from matplotlib.image import imread
-
-    from asperity.cli import article_command
-    from asperity.draw.style import grey, palette
-
-    seen: list[tuple[str, str]] = []
-
-    def remake() -> tuple[dict[str, bytes], list[object]]:
-        seen.append((palette()[0], grey(0)))
-        return {}, []
-
-    monkeypatch.setattr(article_command, "remake", remake)
-    monkeypatch.setattr(article_command, "counted", lambda _: "")
-    assert main(["article", "--output", "remade", "--style", "dark"]) == 0
-    assert main(["article", "--output", "remade"]) == 0
-    assert seen == [("#56B4E9", "1"), ("#0072B2", "0")]
-    assert main(["demo", "--output", "dark", "--style", "dark"]) == 0
-    assert imread("dark/friction.png")[:3, :3, :3].max() <= 0.15
-
-
-def test_validate_is_drawn_in_a_style(folder: Path) -> None:
-    from importlib.resources import files
-
-    from matplotlib.image import imread
-
-    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
-    (folder / "few.csv").write_text("\n".join(rows[:12]))
-    assert main(["validate", "--rows", "few.csv", "--output", "dark", "--style", "dark"]) == 0
-    for name in ("area_error.png", "shift.png"):
-        assert imread(f"dark/{name}")[:3, :3, :3].max() <= 0.15
 
 
 def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: list[Any]) -> None:
@@ -246,8 +192,10 @@ def rows_of_dma() -> str:
     return "\n".join(rows)
 
 
-@pytest.mark.parametrize("style", ["print", "single"])
-@pytest.mark.parametrize("verb", ["friction", "area", "spectrum", "rubber"])
+@pytest.mark.parametrize(
+    ("verb", "style"),
+    [("friction", "print"), ("area", "print"), ("spectrum", "single"), ("rubber", "single")],
+)
 def test_legends_lie_outside_of_their_panels_and_inside_of_the_picture(
     folder: Path, figures: list[Any], verb: str, style: str
 ) -> None:
@@ -309,17 +257,3 @@ def test_a_band_is_drawn_about_its_curve() -> None:
     assert "81 kPa" in entries
     assert "90 % band" in entries
     pyplot.close("all")
-
-
-def test_greys_on_a_dark_screen_go_from_its_paper_to_white() -> None:
-    from matplotlib.colors import to_rgb
-
-    from asperity.draw import style
-
-    with style.drawn_in("dark"):
-        assert to_rgb(style.grey(0)) == (1, 1, 1)
-        paper = np.mean(to_rgb(style.paper()))
-        assert np.mean(to_rgb(style.grey(1))) == pytest.approx(paper, abs=0.01)
-        for level in (0.2, 0.5, 0.9):
-            away = (np.mean(to_rgb(style.grey(level))) - paper) / (1 - paper)
-            assert away == pytest.approx(1 - level, abs=0.01)
