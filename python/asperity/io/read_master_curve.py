@@ -82,6 +82,8 @@ def read_master_curve(
     if len(missing) not in (0, 3):
         given = next(name for name in declared if name not in missing)
         raise InvalidInput(Argument(missing[0]), f": is missing, which goes with {given}")
+    if shift is not None and not isinstance(shift, HasShiftFactors):
+        temperature_shift_core(shift)  # refuses what is none
     factor = young(modulus or "E", poisson_ratio)
     known = units or {"frequency": "rad/s", "modulus": "Pa"}
     try:
@@ -105,7 +107,6 @@ def read_master_curve(
 def _log10_a_t(shift: TemperatureShift, temperature: NDArray[np.float64]) -> Any:
     if isinstance(shift, HasShiftFactors):
         return np.log10(shift.shift_factor(temperature))
-    temperature_shift_core(shift)  # refuses what is none
     return shift.log10_a_T(temperature)
 
 
