@@ -61,14 +61,8 @@ def found_in(text):
 def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
     tmp_path, capsys, name, follows, residual, source
 ):
-    pytest.importorskip("matplotlib")
-    file, table, picture = (
-        present("dma", name, "tf_015p.csv"),
-        tmp_path / "a.csv",
-        tmp_path / "a.png",
-    )
-    outputs = ["--output", str(table), "--plot", str(picture)]
-    assert main(["rubber", str(file), *SHEAR, *outputs, "--notes", "all"]) == 0
+    file, table = present("dma", name, "tf_015p.csv"), tmp_path / "a.csv"
+    assert main(["rubber", str(file), *SHEAR, "--output", str(table), "--notes", "all"]) == 0
     out, err = capsys.readouterr()
     assert out == ""
     assert ("note: the shift factors follow WLF" in err) == follows
@@ -78,7 +72,6 @@ def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
         assert found["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
     assert (found["wlf_residual_decades"] < 0.05) == follows
     assert found["prony_storage_residual"] < 0.03
-    assert picture.read_bytes().startswith(b"\x89PNG")
     curve = read_master_curve(table)
     ends = found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"]
     np.testing.assert_allclose(curve.angular_frequency[[0, -1]], ends, rtol=1e-5)
