@@ -155,6 +155,9 @@ RESULTS = {
     "Friction with contributions": asperity.friction(
         ROAD, RUBBER, pressure=1e5, velocity=0.01, contributions=True
     ),
+    "Gradients": asperity.friction(
+        ROAD, RUBBER, pressure=1e5, velocity=0.01, gradients=True
+    ).gradients,
     "Separation": asperity.separation(**SEPARATION),
     "Separation with states": asperity.separation(**SEPARATION, z_max=1e-3, z_min=-1e-3),
     "WlfFit": asperity.ShiftFactors(

@@ -148,7 +148,7 @@ def used(value):
 
 
 RESULTS = {"Friction", "Separation", "Anisotropy", "SpectralDensity", "HeightStatistics"}
-RESULTS |= {"MasterPoints", "FrictionBand", "FrictionSlopes"}
+RESULTS |= {"Gradients", "MasterPoints", "FrictionBand", "FrictionSlopes"}
 
 
 @pytest.mark.parametrize("name", ALL)
