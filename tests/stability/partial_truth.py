@@ -2,8 +2,8 @@
 
 Gauss rules of 16 nodes on panels of ln q that end wherever something has a kink: at the rows, a
 unit to each side of each, at the rows of a measured modulus. Behind each of those, where I1 and I2
-begin as the power 5/2, and from the fronts on, panels grow by factors. Only I1 and I2 of a frequency
-are the library's. Two sets of panels agree to 1e-15 on measured scans and moduli.
+begin as the power 5/2, and from the fronts on, panels grow by factors. Only I1 and I2 of a
+frequency are the library's. Two sets of panels agree to 1e-15 on measured scans and moduli.
 """
 
 import sys

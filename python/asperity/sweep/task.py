@@ -136,7 +136,8 @@ def _compute_scene(
             outcome.fail(tuple(where), result)
             continue
         for note in result.notes:
-            outcome.notes[note] = min(number, outcome.notes.get(note, number))
+            if note.code != "small-friction":  # on all points of a scene, of which this has some
+                outcome.notes[note] = min(number, outcome.notes.get(note, number))
         for name in task.variables:
             if name not in BAND:
                 _put(outcome, name, at, shape, part, _found(result, name))

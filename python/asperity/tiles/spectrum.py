@@ -66,8 +66,7 @@ def tile_columns(
     if missing:
         tile = tile.fill_dropouts(most)
     found = _core.power_spectrum(tile, window, detrend, 1, 0)
-    columns = found.wavenumber, found.density, found.count, found.standard_error, found.flag
-    return *columns, found.correlation, found.skewness, found.kurtosis, found.q1
+    return tuple(getattr(found, name) for name in TabulatedSpectrum.__match_args__)
 
 
 def _single(

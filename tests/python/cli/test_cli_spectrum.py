@@ -129,8 +129,8 @@ def test_noise_is_seen_where_it_is_and_nowhere_else(
     for side in (SIDE // 2, SIDE):  # a part of it is not periodic
         clean = made.heights[::finer, ::finer][:side, :side]
         noisy = clean + white[:side, :side]
-        assert noise_floor(measured(clean), end) is None
-        assert noise_floor(measured(noisy), end) == pytest.approx(crossing, rel=0.2)
+        assert noise_floor(measured(clean)) is None
+        assert noise_floor(measured(noisy)) == pytest.approx(crossing, rel=0.2)
 
 
 def measured(heights: Any) -> asperity.TabulatedSpectrum:
