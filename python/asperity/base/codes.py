@@ -161,6 +161,7 @@ _NEXT_STEPS = {
     "law-beyond-fit": "measure the modulus at these temperatures",
     "no-vertical-shift": "compute with a vertical shift too: mu lies between the two, or beyond",
     "lines-in-spectrum": "measure friction along and across the lines",
+    "no-correction": "take PartialContact, or ScanContact where there is a map",
     "full-conformity": "take PartialContact",
     "separation-too-large": "take PartialContact",
     "no-contact": "take PartialContact, or check z_max and the load",
@@ -194,6 +195,7 @@ _EFFECTS = {
     "different-shifts": 0.5,
     "no-vertical-shift": 0.5,
     "steep-spectrum": 0.5,
+    "no-correction": 0.39,
     "heat-left-out": 0.2,
 }
 _OF_SEVERITY = {FATAL: 1.0, WARNING: 0.05, NOTE: 0.0}
