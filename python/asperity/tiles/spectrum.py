@@ -66,7 +66,8 @@ def tile_columns(
     if missing:
         tile = tile.fill_dropouts(most)
     found = _core.power_spectrum(tile, window, detrend, 1, 0)
-    return tuple(getattr(found, name) for name in TabulatedSpectrum.__match_args__)
+    names: tuple[str, ...] = TabulatedSpectrum.__match_args__
+    return tuple(getattr(found, name) for name in names)
 
 
 def _single(
