@@ -205,6 +205,26 @@ def test_elastic_rubber_and_complete_contact():
     np.testing.assert_allclose(pressed.gradients.pressure, -pressed.mu, rtol=1e-6)
 
 
+def test_a_scan_has_the_slopes_of_what_it_interpolates_and_ratios_of_the_others():
+    law = asperity.SelfAffineSpectrum(rms_height=2e-6, hurst=0.8, q0=1.2e5, q1=1.5e6)
+    rough = asperity.synthesize(law, shape=(64, 64), pixel_size=1e-6, seed=1)
+    worn = asperity.HeightMap(np.minimum(rough.heights, 1e-6), pixel_size=1e-6)
+    spectrum = asperity.power_spectrum(worn).truncated(q1=1.5e6)
+    exact = asperity.ScanContact(worn)
+
+    def at(correction, p=1.0, v=1.0, **more):
+        points = {"pressure": 2e6 * p, "velocity": np.array([1e-3, 0.1]) * v, "rtol": 1e-8}
+        return asperity.friction(spectrum, SERIES, correction=correction, **points, **more)
+
+    result = at(exact, gradients=True)
+    of = result.gradients
+    np.testing.assert_allclose(of.velocity, slope(lambda f: at(exact, v=f).mu), rtol=1e-4)
+    np.testing.assert_allclose(of.pressure, slope(lambda f: at(exact, p=f).mu, 0.1), rtol=1e-6)
+    over_c = of.spectrum @ weights(of.wavenumber)
+    over_e = (of.storage + of.loss) @ weights(of.angular_frequency)
+    np.testing.assert_allclose(over_c, (result.mu + over_e) / 2, rtol=1e-3)
+
+
 @pytest.mark.parametrize(
     ("argument", "more"),
     [("method", {"method": "qag"}), ("gradients", {"gradients": 1.5})],
