@@ -218,7 +218,7 @@ def contact_notes(
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     notes = _core.contact_notes(surface._core, solid._core, model, p, v)
     absurd = implausible_notes(surface, solid, pressure, velocity)
-    return tuple(fatal_first((*solid.notes, *notes, *absurd)))
+    return tuple(fatal_first((*solid.notes, *absurd, *notes)))
 
 
 def pressure_distribution(
