@@ -54,7 +54,9 @@ def test_friction_table_is_the_cores_to_the_last_digit(
         values = [float(row[column]) for row in rows]
         np.testing.assert_array_equal(values, np.ravel(getattr(result, name)), err_msg=name)
     *notes, step = err.splitlines()
-    steps = {"heat-left-out": "give [heating], with a temperature and the shift of the rubber"}
+    plain = 'take [correction] kind = "partial-contact", which was 4 % rms off'
+    heat = "give [heating], with a temperature and the shift of the rubber"
+    steps = {"heat-left-out": heat, "no-correction": plain}
     expected_notes = [f"note: {n} -> {steps.get(n.code, n.next_step)}" for n in result.notes]
     assert notes == [line.removesuffix(" -> ") for line in expected_notes]
     assert step.startswith("next: ")
