@@ -169,8 +169,9 @@ def friction(
                 valued("hot", '"hot"'),
                 ": needs heating=, without which there is one",
             )
+        found = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
-        result = _made(_core.friction(*points), shape, (*solid.notes, *absurd))
+        result = _made(found, shape, (*solid.notes, *absurd))
         result = _with(result, notes=_size(result))
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)

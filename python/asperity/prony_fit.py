@@ -1,6 +1,5 @@
 """A Prony series through a master curve."""
 
-import math
 import warnings
 from typing import Any, Literal, Self
 
@@ -24,9 +23,6 @@ from asperity.dma import MasterCurveBuild
 from asperity.rubber import MasterCurve, PronySeries
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 
-# Swapped columns leave 40 to 70 %, one modulus twice or half of what it is 13 to 27 %; published
-# sweeps of filled rubbers and melts up to 6 %.
-_MISTAKEN = 0.1
 PronyExtrapolation = Literal["prony"]
 
 
@@ -158,7 +154,6 @@ def fit_prony(
         number_or_none(residual, "residual"),
         beyond,
     )
-    notes = _graded(notes, storage_residual, loss_residual)
     w = np.append(measured, curve.angular_frequency[[0, -1]])
     core = core.fitted_on(w.min(), w.max(), beyond)
     own = {note.identity for note in notes}  # a build says of its curve what a fit to it does
@@ -174,19 +169,3 @@ def fit_prony(
         notes=(*(one for one in curve.notes if one.identity not in own), *notes),
         shift_factors=curve.shift_factors,
     )
-
-
-def _graded(notes: tuple[Note, ...], storage: float, loss: float) -> tuple[Note, ...]:
-    """Return the notes, of which that on moduli that contradict each other is a warning where they
-    do so by no more than those of published sweeps."""
-    left = math.hypot(storage, loss) / math.sqrt(2)
-    if not left < _MISTAKEN:
-        return notes
-    text = (
-        f"E' and E'' disagree: no Prony series follows both (Kramers-Kronig relations), the best "
-        f"leaves {100 * left:.2g} % (E' {100 * storage:.2g} %, E'' {100 * loss:.2g} %). Those of "
-        "filled rubbers do whose moduli depend on the strain, and isotherms that want a vertical "
-        "shift"
-    )
-    disagree = Note(text, code="moduli-disagree", effect=left)
-    return tuple(disagree if note.code == "moduli-contradict" else note for note in notes)

@@ -131,7 +131,7 @@ def test_several_pressures_are_fitted_together_each_point_at_its_own(scene, tmp_
         assert content["inputs"][0]["found"][key] == pytest.approx(TRUTH[name], rel=1e-4)
     assert "drawn beside the nearest" not in capsys.readouterr().err
     far = table(tmp_path / "far.csv", measurement(path, 0, 8e4))
-    assert main(["fit", str(path), str(far), "--output", str(out)]) == 0
+    assert main(["fit", str(path), str(far), "--output", str(out), "--notes", "all"]) == 0
     assert "drawn beside the nearest" in capsys.readouterr().err
 
 
