@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Callable
 
-from asperity.cli import fit_command, map_command, spectrum_command
+from asperity.cli import design_command, fit_command, map_command, spectrum_command
 from asperity.cli import friction_commands as commands
 from asperity.cli import validate_command as validation
 from asperity.cli.app_command import app
@@ -115,6 +115,15 @@ def parser() -> argparse.ArgumentParser:
         help="wavenumbers, logarithmic (default: %(default)s)",
     )
     outputs(area)
+
+    design = verb(
+        "design",
+        design_command.design,
+        "what 10 % of each decade of modulus and roughness, and of each number, is worth in mu",
+        "scene.toml --output design.csv --plot design.png",
+    )
+    design.add_argument("scene", metavar="SCENE.toml")
+    outputs(design)
 
     spectrum = verb(
         "spectrum",

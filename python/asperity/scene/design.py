@@ -1,0 +1,166 @@
+"""What makes the friction of a scene: what 10 % more of each part of its inputs is worth."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity import _core
+from asperity._core import InvalidInput, OutOfRange
+from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.friction import friction
+from asperity.io.fields import names_of, rename_in_errors
+from asperity.results.friction import Friction
+from asperity.results.gradients import Gradients
+from asperity.scene.keys import CONDITIONS, SOLVER
+from asperity.scene.model import Scene
+from asperity.shift_factors import TemperatureShift, temperature_shift_core
+
+MORE = np.log(1.1)  # 10 % more, in a logarithm
+DMA_HERTZ = 10.0  # at which tan delta at 0 and 60 C are the trade's handles
+_COLDEST, _HOTTEST = 150.0, 700.0  # [K]
+_NUMBERS = (
+    "equilibrium_modulus",
+    "rms_height",
+    "hurst",
+    "q0",
+    "q1",
+    "rolloff",
+    "shear_stress",
+    "reference_velocity",
+    "width",
+)
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What a change of one part of the inputs is worth at a point."""
+
+    pressure: float
+    velocity: float
+    part: str
+    change: str
+    lower: float | None  # of the decade [rad/s], or of the wavelengths [m]
+    upper: float | None
+    temperature: float | None  # at which a DMA at 10 Hz has the decade's middle [K]
+    mu: float
+
+
+@dataclass(frozen=True)
+class Design:
+    """The friction of a scene with its slopes, and what follows for a person who may change it."""
+
+    result: Friction
+    worths: tuple[Worth, ...]
+
+    @property
+    def gradients(self) -> Gradients:
+        """The slopes of mu."""
+        assert self.result.gradients is not None
+        return self.result.gradients
+
+
+def design(scene: Scene) -> Design:
+    """Return what 10 % of each decade and number is worth at every point of a scene."""
+    built = scene.built_rubber
+    if scene.heating is not None:
+        raise InvalidInput(
+            Argument("[heating]"), MUST_BE, "left out: slopes know no heat yet", where=scene.path
+        )
+    pressure, velocity = scene.points
+    at: dict[str, Any] = {"pressure": pressure, "velocity": velocity}
+    rubber, shift = scene.rubber, built.shift
+    temperature = built.temperature if scene.temperature is None else scene.temperature
+    if shift is not None and built.at_reference is not None and temperature is not None:
+        rubber = built.at_reference
+        at |= {"temperature": temperature, "shift": shift}
+    else:
+        shift = None
+    with rename_in_errors(scene.path, names_of("conditions", {**CONDITIONS, **SOLVER})):
+        result = friction(
+            scene.spectrum,
+            rubber,
+            correction=scene.correction,
+            adhesion=scene.adhesion,
+            gradients=True,
+            **at,
+            **scene.options,
+        )
+    assert result.gradients is not None
+    rows = [
+        row
+        for i in range(pressure.size)
+        for row in _at_point(result.gradients, i, pressure[i], velocity[i], shift)
+    ]
+    return Design(result, tuple(rows))
+
+
+def _at_point(
+    of: Gradients, i: int, pressure: float, velocity: float, shift: TemperatureShift | None
+) -> Iterator[Worth]:
+    point = float(pressure), float(velocity)
+    for part in ("storage", "loss"):
+        edges, sums = by_decade(of.angular_frequency, getattr(of, part)[i])
+        for k, worth in enumerate(sums):
+            middle = float(np.sqrt(edges[k] * edges[k + 1]))
+            seen = None if shift is None else temperature_of_dma(shift, middle)
+            yield Worth(*point, part, "10 %", edges[k], edges[k + 1], seen, MORE * worth)
+    edges, sums = by_decade(2 * np.pi / of.wavenumber[::-1], of.spectrum[i, ::-1])
+    for k, worth in enumerate(sums):
+        yield Worth(*point, "spectrum", "10 %", edges[k], edges[k + 1], None, MORE * worth)
+    for part in ("pressure", "velocity"):
+        yield Worth(*point, part, "10 %", None, None, None, MORE * getattr(of, part)[i])
+    if of.temperature is not None:
+        yield Worth(*point, "temperature", "1 K", None, None, None, float(of.temperature[i]))
+    for name in _NUMBERS:
+        if (slope := getattr(of, name)) is not None:
+            yield Worth(*point, name, "10 %", None, None, None, MORE * float(slope[i]))
+
+
+def by_decade(
+    rows: NDArray[np.float64], density: NDArray[np.float64]
+) -> tuple[list[float], NDArray[np.float64]]:
+    """Return powers of ten and the integral of a density over the logarithm between them, which is
+    linear between rows; decades with less than a thousandth of all are left out at the ends."""
+    x = np.log(rows)
+    low, high = np.floor(np.log10(rows[0])), np.ceil(np.log10(rows[-1]))
+    powers = np.arange(low, max(high, low + 1) + 1)
+    edges = powers * np.log(10)
+    steps = np.diff(x) * (density[1:] + density[:-1]) / 2
+    up_to_rows = np.concatenate([[0.0], np.cumsum(steps)])
+
+    def up_to(at: float) -> float:
+        at = float(np.clip(at, x[0], x[-1]))
+        k = min(int(np.searchsorted(x, at, side="right")) - 1, x.size - 2)
+        inside = (at - x[k]) / (x[k + 1] - x[k])
+        here = density[k] + inside / 2 * (density[k + 1] - density[k])
+        return float(up_to_rows[k] + (at - x[k]) * here)
+
+    sums = np.diff([up_to(edge) for edge in edges])
+    of_note = np.flatnonzero(np.abs(sums) > 1e-3 * np.abs(sums).sum())
+    first, last = (of_note[0], of_note[-1] + 1) if of_note.size else (0, sums.size)
+    return (10.0 ** powers[first : last + 1]).tolist(), sums[first:last]
+
+
+def temperature_of_dma(shift: TemperatureShift, reduced: float) -> float | None:
+    """Return the temperature [K] at which a DMA at 10 Hz has this reduced frequency [rad/s], None
+    where the shift does not know it."""
+    wanted = np.log10(reduced / (2 * np.pi * DMA_HERTZ))
+
+    core = temperature_shift_core(shift)
+
+    def off(temperature: float) -> float:
+        try:
+            return float(_core.shift_at(core, np.array([temperature]))[0][0] - wanted)
+        except (InvalidInput, OutOfRange):
+            return math.nan
+
+    grid = np.arange(_COLDEST, _HOTTEST, 2.0)
+    for (lower, above), (upper, below) in pairwise((t, off(t)) for t in grid):
+        if above >= 0 >= below:
+            return float(lower + (upper - lower) * above / max(above - below, 1e-300))
+    return None
