@@ -79,13 +79,17 @@ TEST_CASE("E' and E'' that contradict each other are found out") {
     CHECK(found.notes.size() == (found.causal ? 0 : 1));
     if (found.causal) continue;
     ++contradictions;
-    CHECK(found.notes[0].code == "moduli-contradict");
-    CHECK(found.notes[0].severity == Severity::fatal);
+    // a loss that is 1.2 times what it should be is no mistake of columns or units
+    const bool slight = combined(found) < 0.1;
+    CHECK(found.notes[0].code == (slight ? "moduli-disagree" : "moduli-contradict"));
+    CHECK(found.notes[0].severity == (slight ? Severity::warning : Severity::fatal));
     CHECK(combined(found) > 0.05);
   }
   CHECK(contradictions == 4);
   Modulus m = case_named("sbr and 1 % noise");
-  CHECK_FALSE(fit({m.w, m.loss, m.storage}).causal);
+  const PronyFit swapped = fit({m.w, m.loss, m.storage});
+  CHECK_FALSE(swapped.causal);
+  CHECK(swapped.notes.at(0).code == "moduli-contradict");
   // few modes are no contradiction
   CHECK(fit(m, {.modes_per_decade = 0.5}).causal);
   CHECK(combined(fit(m, {.modes_per_decade = 0.5})) > 0.1);
