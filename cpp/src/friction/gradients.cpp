@@ -90,7 +90,7 @@ void check(const Spectrum& spectrum, const ContactModel& model, const std::optio
   if (adhesion) validate(*adhesion);
   if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
   check_gauss(model.method, "with gradients, which GSL's methods do not give");
-  refuse_directions(spectrum, "gradients");
+  refuse_directions(spectrum, "gradient");
   if (model.strain_factors)
     throw InvalidInput(argument("strain_factors") + " = " + word("StrainFactors") + must_be() +
                        "None with gradients, which do not know how the strain follows the roughness");
