@@ -119,7 +119,7 @@ def parser() -> argparse.ArgumentParser:
     design = verb(
         "design",
         design_command.design,
-        "what 10 % of each decade of modulus and roughness, and of each number, is worth in mu",
+        "what a tenth more of each decade of modulus and roughness, and of each number, is worth",
         "scene.toml --output design.csv --plot design.png",
     )
     design.add_argument("scene", metavar="SCENE.toml")
