@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers import table_rows
 
 SPEEDS = np.geomspace(1e-4, 10, 4)
 ROAD = asperity.SelfAffineSpectrum(rms_height=265e-6, hurst=0.87, q0=300, q1=2e5, rolloff=2000)
@@ -61,6 +62,36 @@ def modulus(rubber, w):
     """E' and E'' at the rows: of a master curve its own."""
     e = rubber.modulus(w)
     return e.real, e.imag
+
+
+MODELS = {"partial-contact": asperity.PartialContact(), "none": None}
+MODELS |= {"s-factor": asperity.SFactor(gamma=0.5)}
+
+
+def test_slopes_by_definition(reference_table):
+    """Differences of mu that another program computed, relative to mu."""
+    made = {}
+    for row in reference_table("gradients"):
+        scene, model, slope_of = row["case"].split(", ")
+        if (scene, model) not in made:
+            law = row["rms_height"] is not None
+            spectrum = table_rows.self_affine(row) if law else table_rows.tabulated(row)
+            series = row["table_frequency"].size == 0
+            rubber = table_rows.prony(row) if series else table_rows.master_curve(row)
+            conditions = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+            made[scene, model] = asperity.friction(
+                spectrum, rubber, correction=MODELS[model], gradients=True, **conditions
+            )
+        name, _, index = slope_of.partition(" ")
+        of = made[scene, model].gradients
+        found = getattr(of, name)
+        if name in ("spectrum", "storage", "loss"):
+            found = found * weights(of.wavenumber if name == "spectrum" else of.angular_frequency)
+        found = found[int(index)] if index else found
+        # the slopes over both ends of a band are extrapolated from its nodes
+        end = 1e-3 * row["mu"] if name in ("q0", "q1") else 0
+        within = of.error_estimate + row["rtol"] * row["mu"] + end
+        assert abs(found - row["slope"]) <= within, (row["case"], found, row["slope"])
 
 
 @pytest.mark.parametrize("surface", SURFACES)
