@@ -77,7 +77,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     -------
     Scene
         `.friction()` has the digits of the shell, of shape (pressures, velocities) [-]. Its parts
-        are `.spectrum` and `.rubber` as `friction` takes them, `.correction`, `.adhesion` and
+        are `.spectrum` and `.rubber` as `friction` takes them, `.correction`, ``.adhesion`` and
         `.heating`, or None, and `.conditions`, the arguments that say where: `pressure` [Pa],
         `velocity` [m/s], `poisson_ratio` and, with heating, `temperature` [K]. `.surface` has the
         scan and what was made of it, `.inputs` all that was used, `.notes` what the inputs give to
