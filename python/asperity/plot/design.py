@@ -49,7 +49,7 @@ def _name_temperatures(axes: object, rows: list[Worth]) -> None:
         return
     top = axes.secondary_xaxis("top")  # type: ignore[attr-defined]
     places = [float(np.log10(_known(one.lower))) + 0.5 for one in known]
-    names = [f"{_known(one.temperature) - ZERO_CELSIUS:.0f}" for one in known]
+    names = [f"{round(_known(one.temperature) - ZERO_CELSIUS)}" for one in known]
     top.set_xticks(places, names)
     top.set_xlabel("temperature in a DMA at 10 Hz [°C]")
 
