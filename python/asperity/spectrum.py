@@ -215,6 +215,7 @@ class _Rows(Table):
     correlation: Any
     skewness: Any
     kurtosis: Any
+    curvature_kurtosis: Any
 
     def __post_init__(self) -> None:
         for name in ("wavenumber", "density"):
@@ -233,12 +234,15 @@ class _Rows(Table):
                     Must(": must have "),
                     "one for each wavenumber",
                 )
-        for name in ("skewness", "kurtosis"):
+        for name in ("skewness", "kurtosis", "curvature_kurtosis"):
             self._set(**{name: number_or_none(getattr(self, name), name)})
         if (self.skewness is None) != (self.kurtosis is None):
             missing = "kurtosis" if self.kurtosis is None else "skewness"
             allowed = Must(": must be "), "given with the other"
             raise InvalidInput(Argument(missing), " = None", *allowed)
+        if self.curvature_kurtosis is not None and self.kurtosis is None:
+            allowed = Must(": must be "), "given with curvature_kurtosis"
+            raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
         self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
 
     def _take_harmonics(self) -> None:
@@ -277,7 +281,8 @@ class _Rows(Table):
             variables["standard_error"] = Column(row, self.standard_error, self._unit)
         if self.flag is not None:
             variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
-        shape = {"skewness": self.skewness, "kurtosis": self.kurtosis}
+        names = "skewness", "kurtosis", "curvature_kurtosis"
+        shape = {name: getattr(self, name) for name in names}
         known = {name: number for name, number in shape.items() if number is not None}
         return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables, known)
 
@@ -355,6 +360,10 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     skewness, kurtosis : float, optional
         Of the heights that the spectrum was measured on [-], both or none. Far from 0 and 3 a
         spectrum is too little to know mu by, which a result notes.
+    curvature_kurtosis : float, optional
+        Kurtosis of their second differences along x over two pixels [-], with the other two alone:
+        3 where short waves are spread evenly, above where they are gathered in places, which a
+        spectrum does not know either.
     cosine, sine : array_like, shape (n, m), optional
         Harmonics a_m, b_m of each row [-], both or none, m up to 64:
         C(q, phi) = C(q) (1 + 2 sum_m [a_m cos 2 m phi + b_m sin 2 m phi]), phi the direction of q
@@ -382,6 +391,7 @@ class TabulatedSpectrum(_Rows, _Spectrum):
     correlation: OptionalVector = ABSENT
     skewness: float | None = None
     kurtosis: float | None = None
+    curvature_kurtosis: float | None = None
     cosine: OptionalVector = ABSENT
     sine: OptionalVector = ABSENT
     harmonic_error: OptionalVector = ABSENT
@@ -439,7 +449,7 @@ class LineSpectrum(_Rows):
     correlation : array_like, shape (n, m), optional
         As in TabulatedSpectrum. `line_spectrum` leaves it out: its errors are those that give
         averages of many rows theirs.
-    skewness, kurtosis : float, optional
+    skewness, kurtosis, curvature_kurtosis : float, optional
         As in TabulatedSpectrum.
 
     Raises
@@ -458,6 +468,7 @@ class LineSpectrum(_Rows):
     correlation: OptionalVector = ABSENT
     skewness: float | None = None
     kurtosis: float | None = None
+    curvature_kurtosis: float | None = None
 
     def isotropic(self, *, per_decade: float | None = 10.0) -> TabulatedSpectrum:
         """Return the spectrum C [m^4] of the isotropic surface that has such profiles.

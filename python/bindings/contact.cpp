@@ -164,8 +164,9 @@ void bind_contact(py::module_& m) {
         [](const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, const Array& p, const Array& v) {
           return tuple_of(released([&] { return contact_notes(spectrum, rubber, model, span_of(p), span_of(v)); }));
         });
-  m.def("notes_on_heights", [](double skewness, double kurtosis) {
-    const auto note = note_on_heights(HeightShape{skewness, kurtosis});
+  m.def("notes_on_heights", [](const TabulatedSpectrum& measured) {
+    const auto& heights = measured.quality().heights;
+    const auto note = heights ? note_on_heights(*heights) : std::nullopt;
     return tuple_of(note ? std::vector{*note} : std::vector<Diagnostic>{});
   });
   m.def("pressure_distribution", [](const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,

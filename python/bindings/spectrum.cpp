@@ -27,13 +27,13 @@ using Column = std::optional<Array>;
 using Flags = std::optional<std::vector<std::uint8_t>>;
 
 RowQuality quality_of(const Column& count, const Column& error, const Flags& flag, const Column& correlation,
-                      Optional skewness, Optional kurtosis) {
+                      Optional skewness, Optional kurtosis, Optional curvature_kurtosis) {
   RowQuality quality;
   if (count) quality.count = vector_of(*count);
   if (error) quality.standard_error = vector_of(*error);
   if (flag) quality.flag = *flag;
   if (correlation) quality.correlation = vector_of(*correlation);
-  if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis};
+  if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis, curvature_kurtosis};
   return quality;
 }
 
@@ -53,10 +53,12 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
     return values.empty() ? py::object(py::none()) : py::object(array_of(std::vector(values)));
   };
   return py::classh<S>(m, name)
-      .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
-                       const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis) {
-        return S(vector_of(q), vector_of(density), quality_of(count, error, flag, correlation, skewness, kurtosis));
-      }))
+      .def(
+          py::init([](const Array& q, const Array& density, const Column& count, const Column& error, const Flags& flag,
+                      const Column& correlation, Optional skewness, Optional kurtosis, Optional curvature_kurtosis) {
+            return S(vector_of(q), vector_of(density),
+                     quality_of(count, error, flag, correlation, skewness, kurtosis, curvature_kurtosis));
+          }))
       .def_property_readonly("wavenumber", [](const S& s) { return array_of(std::vector(s.wavenumber())); })
       .def_property_readonly("density", [](const S& s) { return array_of(std::vector(s.density())); })
       .def_property_readonly("count", [column](const S& s) { return column(s.quality().count); })
@@ -75,6 +77,9 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
       .def_property_readonly(
           "kurtosis",
           [](const S& s) { return s.quality().heights ? Optional(s.quality().heights->kurtosis) : std::nullopt; })
+      .def_property_readonly(
+          "curvature_kurtosis",
+          [](const S& s) { return s.quality().heights ? s.quality().heights->curvature_kurtosis : std::nullopt; })
       .def(
           "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
 }
@@ -176,9 +181,10 @@ void bind_spectrum(py::module_& m) {
   bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum")
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
                        const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis,
-                       const Column& cosine, const Column& sine, const Column& harmonic_error, Optional q1) {
+                       Optional curvature_kurtosis, const Column& cosine, const Column& sine,
+                       const Column& harmonic_error, Optional q1) {
         return TabulatedSpectrum(vector_of(q), vector_of(density),
-                                 quality_of(count, error, flag, correlation, skewness, kurtosis),
+                                 quality_of(count, error, flag, correlation, skewness, kurtosis, curvature_kurtosis),
                                  harmonics_of(span_of(q).size(), cosine, sine, harmonic_error), q1);
       }))
       .def_property_readonly("q1", &TabulatedSpectrum::q1)

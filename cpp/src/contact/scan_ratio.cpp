@@ -225,9 +225,9 @@ std::vector<Diagnostic> ScanRatios::notes() const {
                                  "model_error says",
                              {"measure a longer scan, or begin the spectrum at a higher " + std::string("q0")}));
   if (!contact_.scan().one_grid(band_))
-    result.push_back(
-        note("scan-in-parts",
-             {"the scan is too large to be solved whole: its short waves are solved on four pieces of it alone"}));
+    result.push_back(note("scan-in-parts", {"with eight points to its shortest wave the scan needs more than one grid "
+                                            "holds: its short waves are solved on "
+                                            "four pieces of it alone"}));
   else if (const auto solved = contact_.scan().part(band_, Scan::whole, false);
            solved->period.shape[0] > solved->scanned[0] || solved->period.shape[1] > solved->scanned[1])
     result.push_back(note("scan-interpolated",

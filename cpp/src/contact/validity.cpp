@@ -145,10 +145,11 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                                  " 1/m, where the scan holds too few periods",
                              {"measure a longer scan, or merge several"}));
   if (std::isfinite(flagged_ends_[1]))
-    result.push_back(warning("near-nyquist",
-                             "the measured spectrum is too high from " + value(flagged_ends_[1], 4, "1/m") +
-                                 " 1/m on, half of pi / pixel, if the surface is rough below the pixel too",
-                             {"end the spectrum there, or measure with finer pixels"}));
+    result.push_back(
+        warning("near-nyquist",
+                "the measured spectrum is too high from " + value(flagged_ends_[1], 4, "1/m") +
+                    " 1/m on, half of pi / pixel, if the surface is rough below the pixel too",
+                "end the spectrum at " + value(flagged_ends_[1], 4, "1/m") + " 1/m, or measure with finer pixels"));
   if (plain_)
     result.push_back(warning("no-correction",
                              {"no correction is taken: without one mu was 39 % rms off exact sliding contacts, and the "
@@ -233,11 +234,11 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
 std::optional<Diagnostic> note_on_strain(const StrainFactors& factors, double rms_slope, double share) {
   const double strain = factors.strain_per_slope() * rms_slope, last = factors.strain().back();
   if (!(strain > last)) return std::nullopt;
-  return note("strain-beyond-sweeps",
-              argument("strain_factors") + ": up to " + value(show(std::round(100 * share)), share) +
-                  " % of mu_H rests on strains beyond the last row, " + show(last, 3) +
-                  ", where the factors are held: the roughness brings up to " + show(strain, 3),
-              {"measure strain sweeps up to that strain"});
+  return warning("strain-beyond-sweeps",
+                 argument("strain_factors") + ": up to " + value(show(std::round(100 * share)), share) +
+                     " % of mu_H rests on strains beyond the last row, " + show(last, 3) +
+                     ", where the factors are held: the roughness brings up to " + show(strain, 3),
+                 {"measure strain sweeps up to that strain"});
 }
 
 }  // namespace asperity

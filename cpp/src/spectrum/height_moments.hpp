@@ -1,4 +1,4 @@
-// Skewness and kurtosis of heights from one reading.
+// Skewness and kurtosis of heights and the kurtosis of their curvature from one reading.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-/// Sums of the first four powers of heights about a height near their mean.
+/// Sums of the first four powers of heights about a height near their mean, and of second differences over two points.
 class HeightMoments {
  public:
   void add(std::span<const double> heights, double anchor) {
@@ -26,6 +26,12 @@ class HeightMoments {
     third_ += s3;
     fourth_ += s4;
     count_ += static_cast<double>(heights.size());
+    for (std::size_t i = 4; i < heights.size(); ++i) {
+      const double curvature = heights[i - 4] - 2 * heights[i - 2] + heights[i], square = curvature * curvature;
+      curvature_second_ += square;
+      curvature_fourth_ += square * square;
+      curvatures_ += 1;
+    }
   }
 
   /// None where all heights are alike.
@@ -34,11 +40,15 @@ class HeightMoments {
     const double m2 = raw2 - m * m, m3 = raw3 - 3 * m * raw2 + 2 * m * m * m,
                  m4 = raw4 - 4 * m * raw3 + 6 * m * m * raw2 - 3 * m * m * m * m;
     if (!(m2 > 1e-20 * raw2) || !std::isfinite(m4 / (m2 * m2))) return {};
-    return HeightShape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+    HeightShape shape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+    const double square = curvature_second_ * curvature_second_;
+    if (square > 0 && std::isfinite(square)) shape.curvature_kurtosis = curvature_fourth_ * curvatures_ / square;
+    return shape;
   }
 
  private:
   double first_ = 0, second_ = 0, third_ = 0, fourth_ = 0, count_ = 0;
+  double curvature_second_ = 0, curvature_fourth_ = 0, curvatures_ = 0;
 };
 
 }  // namespace asperity

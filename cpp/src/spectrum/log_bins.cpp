@@ -182,14 +182,19 @@ bool same_wavenumbers(std::span<const TabulatedSpectrum> spectra) {
 
 /// Means of the scans; none where one does not know its own.
 std::optional<HeightShape> mean_heights(std::span<const TabulatedSpectrum> spectra) {
-  HeightShape sum{0, 0};
+  HeightShape sum{0, 0, 0.0};
   for (const TabulatedSpectrum& s : spectra) {
     if (!s.quality().heights) return {};
     sum.skewness += s.quality().heights->skewness;
     sum.kurtosis += s.quality().heights->kurtosis;
+    if (s.quality().heights->curvature_kurtosis && sum.curvature_kurtosis)
+      *sum.curvature_kurtosis += *s.quality().heights->curvature_kurtosis;
+    else
+      sum.curvature_kurtosis.reset();
   }
   const auto count = static_cast<double>(spectra.size());
-  return HeightShape{sum.skewness / count, sum.kurtosis / count};
+  if (sum.curvature_kurtosis) *sum.curvature_kurtosis /= count;
+  return HeightShape{sum.skewness / count, sum.kurtosis / count, sum.curvature_kurtosis};
 }
 
 }  // namespace

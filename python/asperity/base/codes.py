@@ -17,6 +17,10 @@ NOTES = {
         WARNING,
         "the spectrum does not know that tops are worn or peaked",
     ),
+    "gathered-waves": (
+        WARNING,
+        "the spectrum does not know that short waves are gathered in places",
+    ),
     "lines-in-spectrum": (WARNING, "a machined surface: its roughness is no random one"),
     "lay": (WARNING, "the surface is rougher in one direction"),
     "few-long-waves": (WARNING, "the scan holds few of its longest waves"),
@@ -49,7 +53,7 @@ NOTES = {
     "ramp-cut": (NOTE, "the ends of a temperature ramp tell no shift"),
     "rows-left-out": (NOTE, "rows of a file belong to another test"),
     "strain-sweeps-differ": (NOTE, "how far strain sweeps of one rubber differ"),
-    "strain-beyond-sweeps": (NOTE, "a part of the hysteresis is of strains never measured"),
+    "strain-beyond-sweeps": (WARNING, "a part of the hysteresis is of strains never measured"),
     "strain-ratios-held": (NOTE, "strain sweeps do not reach as far as the master curve"),
     "wlf-fit": (NOTE, "how well the shift factors follow WLF"),
     "no-wlf-fit": (NOTE, "why there is no WLF fit"),
@@ -144,6 +148,8 @@ _NEXT_STEPS = {
     "near-nyquist": "end the spectrum at half of pi / pixel, or measure with finer pixels",
     "noise-in-spectrum": "end the spectrum where the noise begins",
     "heights-not-gaussian": "take ScanContact, the contact of the scan itself",
+    "gathered-waves": "take ScanContact, the contact of the scan itself",
+    "strain-beyond-sweeps": "measure strain sweeps up to that strain",
     "lay": "measure friction along and across the lay",
     "few-long-waves": "measure a longer scan, or begin the spectrum at a higher q0",
     "few-periods": "measure a longer scan, or merge several",
@@ -192,6 +198,7 @@ _NEXT_STEPS = {
 # doubled q1 beyond a slope of 1.3 raises that of the README's road by 0.4 to 0.7.
 _EFFECTS = {
     "heights-not-gaussian": 1.0,
+    "gathered-waves": 0.4,
     "different-shifts": 0.5,
     "no-vertical-shift": 0.5,
     "steep-spectrum": 0.5,

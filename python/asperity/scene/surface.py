@@ -250,9 +250,7 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
 
 
 def _height_notes(measured: TabulatedSpectrum) -> tuple[Note, ...]:
-    if measured.skewness is None or measured.kurtosis is None:
-        return ()
-    notes: tuple[Note, ...] = _core.notes_on_heights(measured.skewness, measured.kurtosis)
+    notes: tuple[Note, ...] = _core.notes_on_heights(measured._core)
     return notes
 
 

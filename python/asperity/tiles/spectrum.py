@@ -177,5 +177,6 @@ def _merged(
         correlation=correlation,
         skewness=coarse.skewness,
         kurtosis=coarse.kurtosis,
+        curvature_kurtosis=coarse.curvature_kurtosis,
         q1=math.pi / max(pixel_size),
     )
