@@ -138,7 +138,7 @@ MasterCurveBuild build_master_curve(std::span<const Isotherm> given, const Maste
       deviation[i] = std::sqrt(covariance[i * n + i]);
     }
     if (options.vertical_shift == VerticalShift::none) note_vertical_shift(isotherms, shifted, fixed, reference, notes);
-    note_misfit(points, shifted, notes);
+    note_misfit(points, shifted, b_T, notes);
     note_undetermined(isotherms, deviation, notes);
     note_disagreement(isotherms, moduli_apart(points, fixed, shifted, undetermined_shift), fixed, notes);
     log10_a_T = shift;

@@ -15,6 +15,16 @@ namespace {
 
 constexpr Eigen::Index shape = 3;  // terms of a parabola
 
+bool shifted(const std::vector<double>& b_T) {
+  return std::ranges::any_of(b_T, [](double b) { return b != 1; });
+}
+
+/// Of isotherms that do not superpose.
+Sentence next_step(const std::vector<double>& b_T) {
+  return {shifted(b_T) ? "leave out the isotherms that lie off, or measure at a smaller strain"
+                       : "try a vertical shift"};
+}
+
 }  // namespace
 
 std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference) {
@@ -97,12 +107,13 @@ void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<dou
   const auto size = [](const Miss& m) { return std::max(std::fabs(m.storage), std::fabs(m.loss)); };
   std::erase_if(misses, [&](const Miss& m) { return size(m) <= limit; });
   if (misses.size() > 5 + sizes.size() / 100) {
-    notes.push_back(warning("points-off-curve",
-                            {std::to_string(misses.size()) + " of " + std::to_string(sizes.size() / 2) +
-                             " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
-                             " %: these isotherms do not superpose (a vertical shift may be needed, or the rubber is "
-                             "not thermorheologically simple)"},
-                            {"try a vertical shift"}));
+    notes.push_back(warning(
+        "points-off-curve",
+        {std::to_string(misses.size()) + " of " + std::to_string(sizes.size() / 2) +
+         " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
+         " %: these isotherms do not superpose (" + (shifted(b_T) ? "the" : "a vertical shift may be needed, or the") +
+         " rubber is not thermorheologically simple)"},
+        next_step(b_T)));
     return;
   }
   for (const Miss& m : misses)
@@ -114,7 +125,7 @@ void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<dou
 
 // Residuals of noise alone have no level, slope or bend of an isotherm in them beyond chance: the ratio of two mean
 // squares (R. A. Fisher's F), that of a parabola through each isotherm's residuals over that of what is left of them.
-void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes) {
+void note_misfit(const SweepPoints& points, const Shifted& fit, const std::vector<double>& b_T, Notes& notes) {
   constexpr double beyond_chance = 2;  // of the ratio, 0.8 on average and 1.8 at most where isotherms superpose
   constexpr double own_misfit = 1e-3;  // of clean moduli about the spline, and ten times less as a rule
   std::string each;
@@ -129,8 +140,8 @@ void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes
       Eigen::MatrixXd polynomials(size, shape);
       for (Eigen::Index i = 0; i < size; ++i) {
         const std::size_t at = points.first[k] + static_cast<std::size_t>(i);
-        left[i] = points.y[modulus][at] -
-                  shifted.spline.at(points.x[at] + shifted.log10_a_T[k])[static_cast<Eigen::Index>(modulus)];
+        left[i] =
+            points.y[modulus][at] - fit.spline.at(points.x[at] + fit.log10_a_T[k])[static_cast<Eigen::Index>(modulus)];
         const double x = (points.x[at] - points.middle(k)) / points.length(k);
         polynomials.row(i) << 1, x, x * x;
       }
@@ -149,9 +160,10 @@ void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes
     notes.push_back(
         warning("isotherms-off-curve",
                 {"whole isotherms lie off the master curve by more than their scatter explains, " + each +
-                 " (root mean square): a vertical shift or an error of the instrument between them, or a rubber that "
-                 "is not thermorheologically simple; the standard deviations of a_T take it for chance"},
-                {"try a vertical shift"}));
+                 " (root mean square): " + (shifted(b_T) ? "an" : "a vertical shift or an") +
+                 " error of the instrument between them, or a rubber that is not thermorheologically simple; the "
+                 "standard deviations of a_T take it for chance"},
+                next_step(b_T)));
 }
 
 void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,

@@ -23,7 +23,7 @@ void note_disagreement(const std::vector<Isotherm>& isotherms, const Disagreemen
 void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<double>& b_T, const MasterSpline& spline,
                    const std::vector<double>& shift, Notes& notes);
 /// Isotherms that lie off the curve as wholes, by level, slope or bend, more than their scatter has it.
-void note_misfit(const SweepPoints& points, const Shifted& shifted, Notes& notes);
+void note_misfit(const SweepPoints& points, const Shifted& fit, const std::vector<double>& b_T, Notes& notes);
 /// The difference that the vertical shift b_T = T / T_ref would have made, where it matters.
 void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,
                          double reference, Notes& notes);
