@@ -3,9 +3,9 @@ Takes about three minutes:
 
     python tests/benchmarks/charts.py
 
-Runs rings, friction, point, scaling, work_precision and models one after the other and writes what
-they find to docs/benchmarks, and the tables between their two marks in that page. Needs
-ASPERITY_DATA as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
+Runs rings, friction, point, scaling and work_precision one after the other and writes what they
+find to docs/benchmarks, and the tables between their two marks in that page. Needs ASPERITY_DATA
+as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
 pip install asperity scipy pybind11.
 """
 
@@ -14,7 +14,6 @@ import io
 from pathlib import Path
 
 import measured
-import models
 import point
 import rings
 import scaling
@@ -27,7 +26,7 @@ from asperity.io.files import write_files
 ROOT = Path(__file__).parents[2]
 DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "notes" / "speed.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
-PARTS = (rings, friction, point, scaling, work_precision, models)
+PARTS = (rings, friction, point, scaling, work_precision)
 
 Rows = list[dict[str, str]]
 

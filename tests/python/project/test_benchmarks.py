@@ -6,11 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import asperity
-
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import charts
-import models
 import schemes
 from curves import curves, measured_curves
 
@@ -67,21 +64,6 @@ def test_the_logarithmic_trapezoid_converges_with_the_square_of_its_step():
     assert coarse / fine == pytest.approx(4, rel=0.02)
 
 
-def test_nested_quad_meets_a_mild_curve():
-    curve = CURVES["mild"].of_velocities(slice(10, 11))
-    assert curve.error(schemes.nested_quad(curve, 1e-6)) < 1e-6
-
-
-def test_the_single_scale_is_light_contact():
-    curve = CURVES["weak contact"]
-    rubber = asperity.PronySeries(equilibrium_modulus=1e9, moduli=[], relaxation_times=[])
-    area = asperity.contact_area(
-        curve.road, rubber, pressure=1e3, velocity=1.0, poisson_ratio=0.0, rtol=1e-9
-    )
-    # erf(x) = 2 x / sqrt(pi) (1 - x^2 / 3), x^2 = 2 p*^2 of 1e-6
-    assert models.single_scale(curve.road, 1e9, 1e3) == pytest.approx(area, rel=1e-6)
-
-
 def test_the_notes_on_speed_have_the_table_of_the_benchmarks():
     assert charts.with_page(NOTES, charts.page(TABLES)) == NOTES
 
@@ -94,15 +76,3 @@ def test_ours_and_gsls_kept_what_they_promised_in_the_diagrams():
     ]
     assert len(kept) > 100
     assert all(error <= max(rtol, 1e-14) for error, rtol in kept)
-
-
-def test_a_single_scale_of_light_contact_has_the_friction_of_its_wave():
-    # a narrow band is one scale, and an even loss makes I1 = 4 E'', I2 = 2 pi |E|^2
-    loss = asperity.MasterCurve(
-        angular_frequency=[1e-6, 1.0, 1e6], storage_modulus=[1e6] * 3, loss_modulus=[5e5] * 3
-    )
-    road = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=1e4, q1=1.0001e4)
-    exact = asperity.friction(road, loss, pressure=1.0, velocity=1e-6).hysteresis
-    modulus = loss.modulus(1e-6 * road.q1) / 0.75
-    found = models.models_sliding.friction_of_a_single_scale(road.rms_slope, modulus, 1.0)
-    assert found == pytest.approx(float(exact), rel=1e-3)
