@@ -13,7 +13,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.io.table import Table, terminal_table
+from asperity.io.table import Table
 from helpers.scenes import SCENE
 
 FRICTION = (
@@ -162,23 +162,6 @@ def test_bar_only_on_a_terminal(
     assert bars == [(2, 3)]  # two seconds, ten points
 
 
-def test_area_has_the_notes_of_the_contact(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["area", "scene.toml", "--points", "3"]) == 0
-    out, err = capsys.readouterr()
-    given = asperity.contact_notes(
-        asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
-        asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[]),
-        pressure=81e3,
-        velocity=1.0,
-    )
-    *notes, step = err.splitlines()
-    assert [note.partition(" -> ")[0] for note in notes] == [f"note: {one}" for one in given]
-    assert step.startswith("next: ")
-    assert [line[2:] for line in out.splitlines() if line.startswith("# note: ")] == notes
-
-
 FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
 
 
@@ -236,8 +219,3 @@ def test_infinite_numbers_survive_both_forms() -> None:
     )
     assert table.csv().splitlines()[-2:] == ["inf,3", "1.5,4"]
     assert json.loads(table.json())["columns"] == {"shift_factor": ["inf", 1.5], "count": [3, 4]}
-
-
-def test_terminal_table_is_aligned() -> None:
-    text = terminal_table({"v": [1e-6, 10.0], "mu": [0.123456, 1.0]})
-    assert text == "    v      mu\n1e-06  0.1235\n   10       1\n"

@@ -10,7 +10,6 @@ import pytest
 
 import asperity
 from asperity.base.diagnostics import Argument
-from asperity.base.extras import to_install
 from asperity.cli.main import main
 from asperity.io.files import write_files
 from helpers.scenes import SCENE
@@ -179,36 +178,6 @@ def test_failing_disk_leaves_nothing(
     assert names(folder) == before
 
 
-def test_a_file_is_the_old_one_or_the_new_one_whole(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    replace = os.replace
-    for failure in (OSError(28, "No space left on device"), KeyboardInterrupt()):
-        (tmp_path / "b").write_bytes(b"old")
-        (tmp_path / "b").chmod(0o640)
-
-        def fail(part: Path, target: Path, failure: BaseException = failure) -> None:
-            if target.name == "b":
-                raise failure
-            replace(part, target)
-
-        monkeypatch.setattr("os.replace", fail)
-        with pytest.raises((asperity.Error, KeyboardInterrupt)) as caught:
-            write_files({tmp_path / name: b"new" for name in "abc"})
-        if isinstance(failure, OSError):
-            problem = "cannot be written: No space left on device"
-            assert str(caught.value) == f"{tmp_path / 'b'}: {problem}"
-        assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {
-            "a": b"new",
-            "b": b"old",
-        }
-        monkeypatch.undo()
-    write_files({tmp_path / name: b"new" for name in "abc"})
-    written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-    assert written == dict.fromkeys("abc", b"new")
-    assert (tmp_path / "b").stat().st_mode & 0o777 == 0o640
-
-
 def test_no_name_for_the_parts_is_known_beforehand(tmp_path: Path) -> None:
     """Another process with the same number, or a planted link, takes nobody's place."""
     planted = tmp_path / "planted"
@@ -285,13 +254,3 @@ def test_interrupt_ends_a_long_computation(folder: Path) -> None:
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "asperity: interrupted\n")
     assert names(folder) == before
-
-
-def test_without_matplotlib_says_what_to_install(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert main(["friction", "scene.toml", "--plot", "mu.png"]) == 2
-    err = capsys.readouterr().err
-    line = f"pictures are drawn by matplotlib: {to_install('plot')}"
-    assert err == f"asperity: mu.png: {line}\n"

@@ -9,7 +9,6 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.scene.scan import noise_floor
-from helpers.scenes import SCENE
 
 SIDE, PIXEL = 256, 1e-6
 SURFACE = asperity.SelfAffineSpectrum(
@@ -70,14 +69,6 @@ def test_a_line_scan_gives_the_surface_behind_it(
     assert "# pixel_size_m = 1e-06" in lines
     header = next(line for line in lines if not line.startswith("#"))
     assert header == "wavenumber_per_m,density_m4,standard_error_m4,count,flag"
-
-
-def test_a_scene_takes_a_line_scan(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    np.save("scan.npy", LONG)
-    scene = SCENE.replace("[2e-5, 1e-5]", "1e-6")
-    (folder / "scene.toml").write_text(scene)
-    assert main(["area", "scene.toml", "--points", "5"]) == 0
-    assert "contact_area" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("limit", "code"), [("0.1", 2), ("0.3", 0)])

@@ -209,21 +209,6 @@ def test_units_are_those_of_the_columns_names(scene, tmp_path):
     assert hourly.pressure is None
 
 
-def test_where_the_original_theory_leaves_no_adhesion_the_picture_says_so(scene, tmp_path, capsys):
-    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
-    path = scene('[correction]\nkind = "affine-shift"\np = 3')
-    velocity = np.geomspace(1e-4, 1, 25)
-    mu = theory(path, 81e3, velocity, shear_stress=8e5)
-    rows = np.column_stack([np.full(25, 81e3), velocity, mu])
-    measured = table(tmp_path / "measured.csv", rows)
-    picture = tmp_path / "fit.svg"
-    status = main(["fit", str(path), str(measured), "--plot", str(picture)])
-    captured = capsys.readouterr()
-    assert status == 0, captured.err
-    assert "note: without the correction: " in captured.err
-    assert "no adhesion fits" in picture.read_text()
-
-
 GOOD = "velocity_m_s,mu\n1e-6,0.7\n1e-4,1.1\n1e-2,1.3\n1,0.8\n"
 BAD = [  # the file, options, and what the line names
     ("velocity,mu\n1,1\n2,1", "", "column 'velocity' names no unit"),
@@ -254,12 +239,6 @@ def test_bad_files_and_holds_are_refused_in_one_line(scene, tmp_path, capsys, te
     (line,) = capsys.readouterr().err.splitlines()
     assert named in line
     assert not out.exists()
-
-
-def test_pressures_of_a_scene_are_one_where_the_file_has_none(scene, tmp_path):
-    measured = tmp_path / "measured.csv"
-    measured.write_text(GOOD)
-    assert main(["fit", str(scene(pressure="[1e5, 2e5]")), str(measured)]) == 2
 
 
 def test_what_the_points_leave_open_is_said_in_words_of_the_command_line(scene, tmp_path, capsys):

@@ -133,15 +133,6 @@ def test_shift_factors_from_a_file(folder, capsys):
     assert found["wlf_c2_k"] == pytest.approx(101.6, rel=1e-6)
 
 
-def test_moduli_that_contradict_each_other_are_said(folder, capsys):
-    swapped = [option.replace("storage=E1,loss=E2", "storage=E2,loss=E1") for option in SYNTHETIC]
-    assert swapped != SYNTHETIC
-    assert main(["rubber", "dma.csv", *swapped, "--output", "swapped.csv"]) == 0
-    err = capsys.readouterr().err
-    assert "note: fatal: no Prony series follows E' and E'' together" in err
-    assert "Kramers-Kronig" in (folder / "swapped.csv").read_text()
-
-
 def without(option):
     at = SYNTHETIC.index(option)
     return SYNTHETIC[:at] + SYNTHETIC[at + 2 :]
@@ -181,22 +172,3 @@ def test_refusals_are_one_line_and_status_2(folder, capsys, arguments, named):
     (line,) = err.splitlines()
     assert named in line
     assert line.startswith("asperity")
-
-
-def test_temperatures_of_a_picture_are_in_the_unit_of_the_files(folder, monkeypatch):
-    figure_of = pytest.importorskip("matplotlib.figure").Figure
-    drawn = []
-    monkeypatch.setattr(figure_of, "savefig", lambda self, file, **_: drawn.append(self))
-    header, *rows = (folder / "dma.csv").read_text().splitlines()
-    cells = [row.split(",", 1) for row in rows]
-    text = "\n".join([header, *(f"{float(t) - 273.15!r},{rest}" for t, rest in cells)])
-    (folder / "dma.csv").write_text(text)
-    options = [one.replace("temperature=K", "temperature=C") for one in SYNTHETIC]
-    assert main(["rubber", "dma.csv", *options, "--output", "a.csv", "--plot", "a.png"]) == 0
-    first, second, third = drawn[0].axes[:3]
-    ends = [f"{t - 273.15:.5g} °C" for t in (TEMPERATURES.min(), TEMPERATURES.max())]
-    assert [text.get_text() for text in first.get_legend().get_texts()][:2] == ends
-    assert second.get_legend().get_title().get_text().endswith(" °C")
-    assert third.get_xlabel() == "Temperature $T$ [°C]"
-    (points,) = [line for line in third.lines if line.get_marker() == "o"]
-    np.testing.assert_allclose(points.get_xdata(), TEMPERATURES - 273.15, atol=1e-9)
