@@ -94,12 +94,6 @@ def test_heat_adds_its_columns(folder, capsys):
         np.testing.assert_allclose([float(row[name]) for row in found], column, rtol=1e-9)
 
 
-def test_a_scene_without_a_temperature_has_no_column_of_it(folder, capsys):
-    found, out = rows(scenes.SCENE, capsys)
-    assert list(found[0])[-1] == "error_estimate"
-    assert "temperature_k" not in out
-
-
 def test_conditions_and_rubber_may_both_be_the_place_of_one_temperature(folder):
     here = load_scene(written(scene("temperature_k = 300")))
     there = load_scene(written(scene("", law=LAW + "temperature_k = 300\n")))

@@ -80,15 +80,6 @@ def test_a_pattern_stands_for_files(dma: Path) -> None:
     np.testing.assert_array_equal(mu, in_brackets.friction().mu)
 
 
-def test_swapped_columns_are_fatal(dma: Path) -> None:
-    def fatal(text: str) -> list[str]:
-        return [note for note in loaded(dma, text).notes if note.startswith("fatal: ")]
-
-    assert fatal(SCENE) == []
-    (note,) = fatal(SCENE.replace('"E1"', '"x"').replace('"E2"', '"E1"').replace('"x"', '"E2"'))
-    assert "columns swapped" in note
-
-
 def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
     _, fastest = known(dma)
     beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
@@ -184,15 +175,6 @@ def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
     here = loaded(dma, moved, for_friction=True)
     assert there.temperature == here.temperature == pytest.approx(293.15)
     np.testing.assert_array_equal(there.friction().mu, here.friction().mu)
-
-
-def test_the_lay_of_a_scan_is_noted(dma: Path) -> None:
-    heights = np.random.default_rng(3).normal(size=(256, 256))
-    grooves = np.cumsum(heights, axis=1)
-    np.save(dma / "scan.npy", grooves - grooves.mean(axis=1, keepdims=True))
-    surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 1e-4\nunit = "um"\n'
-    slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
-    assert any("across the lay" in note for note in loaded(dma, slow, surface).notes)
 
 
 def test_what_is_said_of_one_temperature_names_it(

@@ -121,15 +121,6 @@ def test_scan_defaults_are_the_cores_and_are_recorded(folder: Path) -> None:
     assert scene.inputs["surface"]["detrend"] == "plane"
 
 
-@pytest.mark.parametrize(("cutoff", "said"), [(0.05, False), (1e6, True)])
-def test_a_slope_cutoff_that_is_not_reached_is_said(
-    folder: Path, cutoff: float, said: bool
-) -> None:
-    scene = load_scene(write(folder, SCAN + f"slope_cutoff = {cutoff}\n" + RUBBER + CONDITIONS))
-    for notes in (scene.friction().notes, scene.contact_notes()):
-        assert any("is not reached" in note for note in notes) == said
-
-
 def test_smaller_cutoff_wins(folder: Path) -> None:
     def q1(keys: str) -> float:
         return load_scene(write(folder, SURFACE + keys + RUBBER + CONDITIONS)).spectrum.q1
