@@ -1,7 +1,5 @@
 """Files as laboratories have them: what is guessed, left out, converted, and said of them."""
 
-import re
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,6 @@ from asperity.app.state import State
 from asperity.app.words import allowed_velocities
 from asperity.base.diagnostics import Advice
 from helpers.dropped import dma_bytes, scan_bytes
-from helpers.measured import present
 
 STRAIN = b"T;f;G';G\"\nC;Hz;MPa;MPa\n20;10;1;0.1\n20;10;0.9;0.2\n"
 
@@ -32,15 +29,6 @@ def test_files_of_one_frequency_are_left_out_and_it_is_said(state: State) -> Non
     assert str(state.said(caught.value)).startswith(
         "strain.csv: holds one frequency: must be sweeps"
     )
-
-
-def test_decimal_commas_are_read(state: State) -> None:
-    plain = state.keep_dma("dma.csv", dma_bytes())
-    take(state, plain)
-    mu = state.load().friction().mu
-    commas = state.keep_dma("komma.csv", dma_bytes().replace(b".", b","))
-    take(state, commas)
-    assert np.array_equal(state.load().friction().mu, mu)
 
 
 @pytest.mark.parametrize("modulus", ["E", "G"])
@@ -94,29 +82,3 @@ def test_a_message_on_velocities_offers_those_that_are_known(state: State) -> No
     assert state.velocities == (1e-6, high)
     state.keep_velocities(1, 2)
     assert state.velocities == (1, 2)
-
-
-def test_measured_scans_and_sweeps_give_a_curve(state: State) -> None:
-    for file in ("opd-1.opd", "al3d-1.al3d"):
-        state.keep_scan(file, present("topography", file).read_bytes())
-        state.use_scan({})()
-        names = [
-            state.keep_dma(path.name, path.read_bytes())
-            for path in (
-                present("dma", "epdm_70", f"{name}.csv")
-                for name in ("sd_100hz", "sd_10hz", "tf_015p")
-            )
-        ]
-        assert take(state, *names).endswith(": sd_100hz.csv, sd_10hz.csv.")
-        curves = state.load().friction()
-        assert curves.mu.max() > 0
-        notes = [state.said(one) for one in curves.notes]
-        assert [one for one in notes if re.search(r"[a-z]_[a-z]|NaN", one.replace("b_T", ""))] == []
-        take(state, *names, prony=False)  # the master curve alone ends sooner
-        with pytest.raises(asperity.OutOfRange) as caught:
-            state.load().friction()
-        allowed = allowed_velocities(state.said(caught.value))
-        assert allowed is not None
-        state.keep_velocities(*allowed)
-        assert state.load().friction().mu.max() > 0
-        state.set_velocities(1e-6, 10)

@@ -14,7 +14,7 @@ import asperity
 from asperity.app import files
 from asperity.app.computed import contributions, without_heat
 from asperity.app.corrections import OF_SCAN, PLAIN, offered
-from asperity.app.downloads import map_of, picture, report_of, scene_archive, table_csv
+from asperity.app.downloads import map_of, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
 from asperity.app.state import MOST_VARIANTS, State
 from asperity.cli.main import main
@@ -120,16 +120,6 @@ def test_the_surface_is_read_once(state: State) -> None:
     assert second.built_rubber is not first.built_rubber
     state.surfaces["shipped scan"]["detrend"] = "plane"
     assert state.load().surface is not first.surface
-
-
-def test_another_temperature_has_the_digits_of_the_shell(state: State) -> None:
-    drop_both(state)
-    first = state.load()
-    state.conditions = {**state.conditions, "temperature_c": 33.0}
-    second = state.load()
-    shell = load_scene_of(state)
-    assert np.array_equal(second.friction().mu, shell.friction().mu)
-    assert not np.array_equal(second.friction().mu, first.friction().mu)
 
 
 def test_what_is_kept_is_noted_again_and_absurd_numbers_are_refused(state: State) -> None:
@@ -263,13 +253,6 @@ def test_the_report_tells_no_folder(state: State, monkeypatch: pytest.MonkeyPatc
     assert str(state.folder.path) not in page
     assert "<title>Friction of this scene, &lt;b&gt;</title>" in page
     assert "variant-1.toml against scene.toml" in page
-
-
-def test_a_picture_names_the_curves_as_the_page_does(state: State) -> None:
-    scene = state.load()
-    names = ["this scene", "dry_$x$", "wet", "hot"]  # few enough curves have theirs as outlines
-    drawn = picture([(name, scene) for name in names], [scene.friction()] * 4).decode()
-    assert [name for name in names if f">{name}, 81 kPa<" not in drawn] == []
 
 
 def test_the_map_is_that_of_the_scene(state: State, monkeypatch: pytest.MonkeyPatch) -> None:
