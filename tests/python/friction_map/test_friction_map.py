@@ -440,10 +440,3 @@ def test_an_elastic_rubber_has_area_and_adhesion_alone():
     np.testing.assert_array_equal(bare.mu(p, v), 0)
     assert bare.adhesion_law is None
     assert found.adhesion_law == ADHESION
-
-
-def test_notes_are_those_of_friction():
-    box = {"pressure": (1e5, 2e5), "velocity": (1e-3, 1.0)}
-    noted = friction(ROAD, RUBBER, pressure=1e5, velocity=1.0, adhesion=ADHESION).notes
-    assert noted
-    assert set(noted) <= set(made(box=box).notes)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import asperity
 from asperity import (
     WLF,
     Adhesion,
@@ -170,14 +169,6 @@ def test_what_heat_hardly_changes_is_the_error_of_its_memory():
 
 
 @pytest.mark.parametrize("which", ["one", "several"])
-def test_the_check_counts_what_is_beyond_the_certified_error(which, request):
-    found = request.getfixturevalue(which)
-    assert (found.checked, found.exceeded) == (4000, 0)
-    assert 0.2 * found.max_error < found.largest_checked_error <= found.max_error
-    assert found.cold.checked == 4000
-
-
-@pytest.mark.parametrize("which", ["one", "several"])
 def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
     found = request.getfixturevalue(which)
     p, v, t = random_points(200, seed=2)
@@ -204,29 +195,6 @@ def test_the_grid_of_the_sliding_length_is_halved_where_it_is_steep():
     """Steps of 0.25 in ln v alone leave 2 % of mu."""
     found = made(adhesion=None, rtol=1e-2)
     assert 0 < found.memory_error < 0.01
-
-
-def test_slopes_are_those_of_mu(several):
-    p, v, t = random_points(100, {"pressure": (9e4, 3e5), "velocity": (0.02, 10)})
-    for distance in (None, 0.0, 1e-4):
-        at = {"temperature": t, "distance": distance}
-        slopes, h = several.derivatives(p, v, **at), 1e-5
-        by_v = several.mu(p, v * np.exp(h), **at) - several.mu(p, v * np.exp(-h), **at)
-        by_p = several.mu(p * np.exp(h), v, **at) - several.mu(p * np.exp(-h), v, **at)
-        np.testing.assert_allclose(slopes.dmu_dlnv, by_v / (2 * h), rtol=1e-5, atol=1e-6)
-        np.testing.assert_allclose(slopes.dmu_dlnp, by_p / (2 * h), rtol=1e-5, atol=1e-6)
-
-
-def test_arrays_and_numbers_give_the_same(several):
-    p, v, t = random_points(700)
-    together = several.mu(p, v, temperature=t, distance=1e-4)
-    alone = [
-        several.mu(float(a), float(b), temperature=float(c), distance=1e-4)
-        for a, b, c in zip(p, v, t, strict=True)
-    ]
-    np.testing.assert_allclose(together, alone, rtol=1e-14)
-    assert several.mu(p[:, None], v[:3], temperature=t[:3]).shape == (700, 3)
-    assert several.traction(p, -v, temperature=t)[0] < 0
 
 
 def test_a_map_is_the_same_for_any_number_of_threads():
@@ -267,12 +235,6 @@ def test_look_ups_refuse_what_would_lie(several, argument, value, error):
         for outside in ("nan", "clamp"):  # it is no place
             with pytest.raises(InvalidInput):
                 several.mu(2e5, 0.3, temperature=293.0, outside=outside, a_T=value)
-
-
-def test_outside_is_what_the_caller_chooses(several):
-    assert np.isnan(several.mu(2e5, 0.3, temperature=310.0, outside="nan"))
-    held = several.mu(2e5, 0.3, temperature=310.0, outside="clamp")
-    assert held == pytest.approx(several.mu(2e5, 0.3, temperature=RANGE[1]), rel=1e-14)
 
 
 def test_a_map_without_heat_knows_no_temperature():
@@ -329,29 +291,6 @@ def test_what_no_map_is_made_of_is_refused(argument, given):
     with pytest.raises(InvalidInput) as caught:
         made(**given)
     assert caught.value.argument == argument
-
-
-def test_a_table_of_shift_factors_will_do_too():
-    t = np.arange(273.15, 374, 10.0)
-    table = asperity.ShiftFactors(
-        reference_temperature=293.15, temperature=t, log10_a_T=LAW.log10_a_T(t)
-    )
-    box = BOX | {"velocity": (0.5, 5.0)}
-    found = made(RANGE, shift=table, rtol=1e-2, box=box)
-    p, v, at = random_points(100, box)
-    truth = friction(
-        ROAD,
-        RUBBER,
-        pressure=p,
-        velocity=v,
-        temperature=at,
-        shift=table,
-        heating=TREAD,
-        adhesion=ADHESION,
-    )
-    assert (np.abs(found.mu(p, v, temperature=at) / truth.mu - 1) < found.max_error).all()
-    with pytest.raises(OutOfRange):
-        made((260.0, 303.0), shift=table, rtol=1e-2)
 
 
 @pytest.mark.long

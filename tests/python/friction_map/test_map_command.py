@@ -4,7 +4,6 @@ import json
 import re
 import subprocess
 import sys
-from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -102,23 +101,6 @@ def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message
     assert message in told.err
     assert len(told.err.splitlines()) == 1
     assert {path.name for path in scene.parent.iterdir()} == {"scene.toml", "cold.toml"}
-
-
-def test_a_bar_only_on_a_terminal(scene, monkeypatch):
-    tqdm = pytest.importorskip("tqdm")
-    bars, seen = [], []
-
-    def bar(steps, **settings):
-        bars.append((settings["delay"], len(steps)))
-        return nullcontext(seen.append(step.start) or step for step in steps)
-
-    monkeypatch.setattr(tqdm, "tqdm", bar)
-    assert status_of(["map", scene, *QUICK]) == 0
-    assert bars == []
-    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    assert status_of(["map", scene, *QUICK]) == 0
-    assert bars == [(2, 100)]  # after two seconds
-    assert seen == list(range(100))
 
 
 INTERRUPTED = """
