@@ -165,12 +165,3 @@ def test_a_loop_of_links_is_refused(tmp_path: Path, check: Callable[[Path], None
         check(loop)
     with pytest.raises(InvalidInput, match=r"loop: cannot be written: .*loop is no directory"):
         check_directory(loop, ["a"], force=False)
-
-
-def test_a_name_of_two_lines_is_shown_in_one(tmp_path: Path) -> None:
-    for path in (tmp_path / "no\nsuch" / "a", tmp_path / "no\x1b[2Jsuch" / "a"):
-        for check in (check_output, lambda path: write_whole(path, b"new")):
-            with pytest.raises(InvalidInput) as caught:
-                check(path)
-            assert str(caught.value).isprintable()
-            assert str(caught.value).startswith("'")

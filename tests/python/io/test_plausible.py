@@ -2,8 +2,6 @@
 
 import logging
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -12,8 +10,6 @@ import asperity
 from asperity.base import quantities
 from asperity.cli.main import main
 from asperity.demo import input_files
-from asperity.io import plausible
-from asperity.io.read_friction import read_friction
 from asperity.scene.scene import load_scene
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present, scans_of
 
@@ -250,33 +246,8 @@ def test_the_shell_notes_what_is_unusual_in_one_line_and_in_the_table(tmp_path, 
     assert (tmp_path / "mu.csv").read_text().count(f"# {line}\n") == 1
 
 
-SPECTRUM = ["spectrum", "scan.npy", "--pixel-size", "5e-6", "--unit"]
 DMA = ["rubber", "dma.csv", "--columns", "frequency=f,temperature=T,storage=a,loss=b"]
 DMA += ["--modulus", "E", "--units"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ([*SPECTRUM, "m"], "--unit = 'm': rms height 17"),
-        ([*SPECTRUM, "um", "--pixel-size", "5"], "--pixel-size = 5: must be"),
-        ([*SPECTRUM, "um", "--q-min", "1e-4"], "--q-min = 1e-4: must be"),
-        (["map", "scene.toml", "--pressure", "0.01,0.1"], "--pressure = 0.01: must be"),
-        (["map", "scene.toml", "--pressure", "1e4,1e11"], "--pressure = 1e11: must be"),
-        (["map", "scene.toml", "--velocity", "1,1e5"], "--velocity = 1e5: must be"),
-        ([*DMA, "frequency=Hz,temperature=C,modulus=GPa"], "largest |E| = 3000.49: must be"),
-        ([*DMA, "frequency=Hz,temperature=K,modulus=MPa"], "temperature = -80: must be"),
-    ],
-)
-def test_the_shell_refuses_it_in_one_line_by_option(
-    measured, monkeypatch, capsys, arguments, message
-):
-    monkeypatch.chdir(measured)
-    scene(measured)
-    assert main(arguments) == 2
-    err = capsys.readouterr().err
-    assert err.count("\n") == 1
-    assert message in err
 
 
 @pytest.mark.parametrize("rms", [20.0, 0.002])  # in um, and in mm
@@ -285,16 +256,6 @@ def test_the_reader_of_scans_notes_it(tmp_path, caplog, rms):
     asperity.read_surface(tmp_path / "scan.npy", pixel_size=5e-6, unit="m")
     (line,) = caplog.messages
     assert f"heights in {'um' if rms > 1 else 'mm'}?" in line
-
-
-def test_the_readers_note_is_one_line_on_stderr(measured):
-    code = "import asperity; asperity.read_surface('scan.npy', pixel_size=5e-6, unit='m')"
-    run = subprocess.run(
-        [sys.executable, "-c", code], cwd=measured, capture_output=True, text=True, check=True
-    )
-    assert run.stdout == ""
-    assert run.stderr.startswith("scan.npy: unit = 'm': rms height ")
-    assert run.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize(
@@ -314,54 +275,6 @@ def test_the_reader_of_isotherms_notes_it(tmp_path, caplog, written, units, mess
     assert any(message in line for line in caplog.messages), caplog.messages
 
 
-def test_master_curve_and_measured_friction_in_other_units(tmp_path):
-    header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa\n"
-    (tmp_path / "curve.csv").write_text(header + "1,3e-3,1e-3\n1e3,0.03,0.01\n1e6,1.0,0.1\n")
-    with pytest.raises(asperity.InvalidInput, match=r"in MPa\?") as caught:
-        load_scene(scene(tmp_path, rubber='master_curve = "curve.csv"'))
-    assert caught.value.code == "absurd-value"
-    (tmp_path / "test.csv").write_text("velocity_m_s,mu,pressure_mpa\n0.1,1.1,81e3\n0.2,1.2,81e3\n")
-    with plausible.collected(), pytest.raises(asperity.InvalidInput) as caught:
-        read_friction(tmp_path / "test.csv")
-    assert (caught.value.argument, caught.value.value) == ("pressure_mpa", 81000)
-
-
-def test_celsius_and_kelvin_are_the_same_rubber(measured):
-    w = np.geomspace(1, 100, 5)
-    found = [
-        load_scene(scene(measured, rubber=ISOTHERMS + keys)).rubber.modulus(w)
-        for keys in ("temperature_c = 25", "temperature_k = 298.15")
-    ]
-    np.testing.assert_array_equal(*found)
-
-
-@pytest.mark.parametrize(
-    ("keys", "argument"),
-    [
-        ("", "temperature_k"),
-        ("temperature_c = 25\ntemperature_k = 298.15", "temperature_c"),
-        ("temperature_c = 25\nmoduli_pa = []", "moduli_pa"),
-        ("temperature_c = 25\nprony = 1", "prony"),
-    ],
-)
-def test_keys_of_isotherms_that_are_missing_or_too_many(measured, keys, argument):
-    with pytest.raises(asperity.InvalidInput) as error:
-        load_scene(scene(measured, rubber=ISOTHERMS + keys))
-    assert error.value.argument == f"[rubber] {argument}"
-
-
-def test_kelvin_given_as_celsius_is_noted(measured):
-    more = "temperature_c = 298.15\nreference_temperature_c = 25"
-    with pytest.raises(asperity.Error, match=r"in K\? 298.15 K is 25 C$"):  # no isotherm is so hot
-        load_scene(scene(measured, rubber=ISOTHERMS + more))
-
-
-def test_a_unit_is_offered_only_where_the_number_is_likely_in_it():
-    with plausible.collected(), pytest.raises(asperity.InvalidInput) as error:
-        plausible.check("temperature", -300, quantities.TEMPERATURE, "C")
-    assert "?" not in str(error.value)
-
-
 def test_every_limit_has_its_reason():
     found = {name: q for name, q in vars(quantities).items() if isinstance(q, quantities.Quantity)}
     assert len(found) > 12
@@ -372,15 +285,6 @@ def test_every_limit_has_its_reason():
         assert least <= low < high <= most, name
         limits = (quantity.least, quantity.low, quantity.high, quantity.most)
         assert all(limit.reason for limit in limits if limit is not None and limit.value > 0), name
-
-
-def test_the_library_takes_any_consistent_units(caplog):
-    """Lengths, moduli and loads of order 1, as exact contacts have them."""
-    road = asperity.SelfAffineSpectrum(rms_height=1.0, hurst=0.8, q0=1.0, q1=100.0)
-    rubber = asperity.PronySeries(equilibrium_modulus=1.0, moduli=[10.0], relaxation_times=[1.0])
-    assert asperity.friction(road, rubber, pressure=0.01, velocity=1.0).mu > 0
-    asperity.HeightMap(np.arange(12.0).reshape(3, 4), pixel_size=1e-6)
-    assert caplog.messages == []
 
 
 ROAD = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 3e4}
@@ -413,18 +317,6 @@ def test_python_notes_what_a_scene_refuses(name):
     assert [note.argument for note in notes] == ([] if about is None else [about])
     small = [note for note in found.notes if note.code == "small-friction"]
     assert [note.value for note in small] == [found.mu.max()] * bool(found.mu.max() < 1e-4)
-
-
-def test_a_scan_flatter_than_a_mirror_is_refused(tmp_path):
-    """As one in m that is called um: it gave mu 6e-12 and no word."""
-    road = asperity.SelfAffineSpectrum(rms_height=5e-5, hurst=0.8, q0=2e3, q1=1e5)
-    scan = asperity.synthesize(road, shape=(64, 64), pixel_size=3e-5, seed=1)
-    np.save(tmp_path / "scan.npy", scan.heights)
-    file = 'file = "scan.npy"\npixel_size_m = 3e-5\nunit = '
-    load_scene(scene(tmp_path, surface=f'{file}"m"'))
-    with pytest.raises(asperity.InvalidInput) as caught:
-        load_scene(scene(tmp_path, surface=f'{file}"um"'))
-    assert (caught.value.code, caught.value.argument) == ("absurd-value", "[surface] rms slope")
 
 
 def test_a_slope_that_is_not_reached_says_what_serves(tmp_path):

@@ -9,16 +9,6 @@ import pytest
 import asperity
 from asperity import InvalidInput, read_surface
 
-INSTRUMENT = """\
-# Channel: Main
-# Width: 10 µm
-# Height: 9 µm
-# Value units: nm
-1 2 3 4 5
-6 7 8 9 10
-11 12 13 14 15
-"""
-
 
 @pytest.mark.parametrize(
     ("unit", "metres"),
@@ -71,18 +61,6 @@ def test_a_comma_that_parts_no_cells_is_a_decimal_one(tmp_path: Path, text: str)
     path.write_text(text, encoding="utf-8")
     heights = read_surface(path, pixel_size=1.0, unit="m").heights[:, :2]
     np.testing.assert_array_equal(heights, [[1.5, -22.5], [0.5, np.nan]])
-
-
-def test_instrument_file_is_turned_to_y_x(tmp_path: Path) -> None:
-    pytest.importorskip("SurfaceTopography")
-    path = tmp_path / "scan.asc"
-    path.write_text(INSTRUMENT, encoding="utf-8")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        surface = read_surface(path)
-    expected = np.arange(1, 16).reshape(3, 5) * 1e-9
-    np.testing.assert_allclose(surface.heights, expected, rtol=1e-12)
-    assert surface.pixel_size == pytest.approx((3e-6, 2e-6), rel=1e-12, abs=0)
 
 
 def test_instrument_dropouts_are_nan(tmp_path: Path) -> None:

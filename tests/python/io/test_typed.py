@@ -1,6 +1,5 @@
 """Numbers in messages as they were typed, from options and from scenes."""
 
-import pickle
 from pathlib import Path
 
 import pytest
@@ -8,9 +7,8 @@ import pytest
 from asperity import InvalidInput
 from asperity.base.diagnostics import Argument, Value
 from asperity.io.typed import Typed, TypedWhole, as_typed
-from asperity.scene.scene import load_scene, read_toml
+from asperity.scene.scene import load_scene
 from helpers.scenes import SCENE
-from helpers.shell import status_of
 
 
 @pytest.mark.parametrize(
@@ -32,28 +30,6 @@ def test_scenes(folder: Path, old: str, new: str, typed: str) -> None:
     assert typed in str(error.value)
 
 
-SCAN = ["spectrum", "scan.npy", "--pixel-size", "1e-5", "--unit", "m"]
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        [*SCAN, "--q-max", "7.00e99"],
-        [*SCAN, "--channel", "7_0"],
-        [*SCAN, "--tiles", "064,10_00"],
-        ["area", "scene.toml", "--points", "1_000_000"],
-        ["map", "scene.toml", "--rtol", "0.50"],
-        ["map", "scene.toml", "--checked", "-07"],
-        ["app", "--port", "99_999_999"],
-    ],
-)
-def test_options(folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
-    assert status_of(arguments) == 2
-    told = capsys.readouterr().err
-    assert arguments[-2] in told
-    assert arguments[-1] in told
-
-
 @pytest.mark.parametrize(
     ("name", "value", "given", "typed"),
     [
@@ -71,12 +47,3 @@ def test_numbers_are_as_they_were_typed(
 ) -> None:
     sentence = (Argument(name), " = ", Value("shown", (value,)), ": no")
     assert "".join(as_typed(sentence, given)) == f"{name} = {typed}: no"
-
-
-def test_numbers_are_plain_where_they_are_written(tmp_path: Path) -> None:
-    path = tmp_path / "t.toml"
-    path.write_text("[a]\nb = 1_000.00\nc = 7.00e99\n")
-    table = read_toml(path)["a"]
-    assert (repr(table["b"]), repr(table["c"])) == ("1000.0", "7e+99")
-    again = pickle.loads(pickle.dumps(table["c"]))
-    assert (again, str(again)) == (7e99, "7.00e99")
