@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, SURFACE
 
@@ -42,18 +41,6 @@ def test_temperatures_go_with_their_files(files: list[Path]) -> None:
     assert [round(sweep.temperature, 2) for sweep in sweeps] == [283.15, 293.15, 303.15]
     build = asperity.build_master_curve(sweeps, reference_temperature=293.15)
     np.testing.assert_allclose(build.log10_a_T, [1, 0, -1], atol=1e-3)
-
-
-def test_the_command_takes_them(files: list[Path], capsys: pytest.CaptureFixture[str]) -> None:
-    names = [str(path) for path in files]
-    how = ["--columns", "frequency=f,storage=a,loss=b", "--modulus", "E"]
-    how += ["--units", "frequency=rad/s,temperature=C,modulus=MPa"]
-    assert main(["rubber", *names, *how, "--temperatures", "30,10,20"]) == 0
-    out = capsys.readouterr().out
-    assert "# temperatures = [30.0, 10.0, 20.0]" in out
-    assert main(["rubber", *names, *how, "--temperatures", "30,10"]) == 2
-    said = capsys.readouterr().err
-    assert said == "asperity: --temperatures (2) and paths (3) must have equal length\n"
 
 
 @pytest.mark.parametrize("given", [None, CELSIUS])

@@ -46,20 +46,6 @@ def test_plots_of_other_scenes(folder: Path, verb: str, old: str, new: str) -> N
     assert (folder / "a.png").stat().st_size > 10000
 
 
-@pytest.mark.parametrize(("form", "said"), [("exact", False), ("interpolated", True)])
-def test_distribution_says_when_the_area_has_another_form(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, form: str, said: bool
-) -> None:
-    titles: list[str] = []
-    monkeypatch.setattr("matplotlib.axes.Axes.set_title", lambda _, text, **__: titles.append(text))
-    (folder / "scene.toml").write_text(f"{SCENE}[solver]\nform = '{form}'\n")
-    arguments = ["area", "scene.toml", "--points", "3", "--output", "a.csv", "--plot", "a.svg"]
-    assert main(arguments) == 0
-    title = next(title for title in titles if "m/s" in title)
-    assert title.startswith("81 kPa, 0.0001 m/s")
-    assert ("exact form" in title) == said
-
-
 STRANGE = ["_hidden.toml", "a$b_$^.toml", "größe.toml", "日.toml"]
 
 

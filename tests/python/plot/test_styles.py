@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import asperity
 from asperity.base.diagnostics import Note
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
@@ -68,16 +67,6 @@ def test_many_curves_have_a_colour_bar_instead_of_a_legend(
         assert tuple(line.get_color()) == pytest.approx(tuple(colours(norm(load))))
 
 
-def test_many_scenes_have_their_names_beside_a_bar(folder: Path, figures: list[Any]) -> None:
-    names = [f"road{i}.toml" for i in range(9)]
-    for name in names:
-        (folder / name).write_text(SCENE.replace("[81e3, 2e5]", "81e3"))
-    assert main(["friction", *names, "--plot", "a.svg", "--output", "a.csv"]) == 0
-    (bar,) = bars(figures[0])
-    assert [text.get_text() for text in bar.get_yticklabels()] == [f"{n}, 81 kPa" for n in names]
-    assert not any("road" in entry for entry in entries(figures[0]))
-
-
 @pytest.mark.parametrize("verb", ["friction", "map", "spectrum"])
 def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str) -> None:
     from matplotlib.image import imread
@@ -105,27 +94,6 @@ def test_a_picture_of_a_single_column_is_as_wide_as_one(
     assert max(lefts) - min(lefts) < 0.2
     for text in figure.findobj(lambda one: hasattr(one, "get_fontsize")):
         assert not text.get_text() or 4 <= text.get_fontsize() <= 10
-
-
-def test_validate_of_a_single_column_is_as_wide_as_one(folder: Path, figures: list[Any]) -> None:
-    from importlib.resources import files
-
-    rows = files("asperity.validation").joinpath("bem_area.csv").read_text().splitlines()
-    (folder / "few.csv").write_text("\n".join(rows[:12]))
-    asked = ["validate", "--rows", "few.csv", "--output", "worth", "--style", "single"]
-    assert main(asked) == 0
-    assert len(figures) == 3
-    for figure in figures:
-        width, height = figure.get_size_inches() * figure.dpi
-        assert width / figure.dpi == pytest.approx(3.4)
-        figure.draw_without_rendering()
-        axes = [one for one in figure.axes if one.axison]
-        assert len({round(one.get_position().x0, 1) for one in axes}) <= 2
-        boxes = [one.get_tightbbox() for one in figure.axes]
-        boxes += [legend.get_window_extent() for one in axes if (legend := one.get_legend())]
-        for box in boxes:
-            assert -1 <= box.x0 <= box.x1 <= width + 1
-            assert -1 <= box.y0 <= box.y1 <= height + 1
 
 
 @pytest.mark.parametrize("count", range(1, 13))
@@ -168,15 +136,6 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
     assert box.y1 < min(axes.get_tightbbox().y0 for axes in panels)  # type: ignore[union-attr]
     with styles.drawn_in(style):
         assert new_figure(2)[0].get_supxlabel() == ""
-
-
-def test_a_fatal_note_of_a_result_stands_on_its_picture(folder: Path, figures: list[Any]) -> None:
-    scan = 'file = "scan.npy"\npixel_size_m = [2e-5, 1e-5]\nunit = "m"\nslope_cutoff = 99'
-    before, after = SCENE.split("[rubber]")
-    scene = before[: before.index("rms_height_m")] + scan + "\n[rubber]" + after
-    (folder / "scene.toml").write_text(scene)
-    assert main(["area", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
-    assert figures[0].get_supxlabel().startswith("fatal: ")
 
 
 DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
@@ -237,23 +196,4 @@ def test_python_draws_what_the_shell_draws(folder: Path, figures: list[Any]) -> 
     assert {"81 kPa", "200 kPa", "hysteresis"} <= {t.get_text() for t in axes.get_legend().texts}
     (folder / "dry.toml").write_text(SCENE.replace("[adhesion]\nshear_stress_pa = 8.3e6\n", ""))
     assert load_scene("dry.toml").friction().plot().get_ylabel().endswith("of hysteresis alone")
-    pyplot.close("all")
-
-
-def test_a_band_is_drawn_about_its_curve() -> None:
-    from matplotlib import pyplot
-
-    velocity = np.geomspace(1e-3, 1, 4)
-    values = {"pressure": np.full(4, 81e3), "velocity": velocity, "mu": np.arange(1.0, 5)}
-    ends = {"lower": np.arange(4.0), "upper": np.arange(2.0, 6)}
-    band = asperity.FrictionBand(**values, **ends, level=0.9, samples=20)
-    axes = band.plot()
-    np.testing.assert_array_equal(
-        axes.lines[0].get_xydata(), np.column_stack([velocity, values["mu"]])
-    )
-    corners = axes.collections[0].get_paths()[0].vertices
-    assert {0.0, 3.0, 2.0, 5.0} <= {float(y) for y in corners[:, 1]}
-    entries = " ".join(text.get_text() for text in axes.get_legend().texts)
-    assert "81 kPa" in entries
-    assert "90 % band" in entries
     pyplot.close("all")

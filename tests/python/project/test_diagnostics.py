@@ -4,13 +4,12 @@ import ast
 import copy
 import pickle
 import re
-from html import escape
 from pathlib import Path
 
 import pytest
 
 import asperity
-from asperity.base.codes import ERRORS, FATAL, KINDS, NOTE, NOTES, WARNING
+from asperity.base.codes import ERRORS, KINDS, NOTE, NOTES, WARNING
 from asperity.base.diagnostics import (
     MUST_BE,
     Advice,
@@ -21,11 +20,8 @@ from asperity.base.diagnostics import (
     fatal_first,
     few_lines,
     first_step,
-    html_items,
-    kelvin,
     refusal,
 )
-from asperity.scene.celsius import all_in_celsius
 from helpers.cases import case
 
 ROOT = Path(__file__).parents[3]
@@ -143,27 +139,6 @@ def test_a_few_lines_tell_what_matters_most() -> None:
     assert len(lines) == 5
     assert lines[0].startswith("note: fatal: worst")
     assert f"{len(kinds) + 7} more ({len(kinds) - 2} warning, 9 note)" in lines[3]
-
-
-def test_temperatures_of_notes_can_be_said_in_celsius() -> None:
-    made = Note(
-        "at ", *kelvin(293.15), code="few-points", next_step=("measure at ", *kelvin(303.4))
-    )
-    assert made.with_step == "at 293.15 K -> measure at 303.4 K"
-    assert made.said(all_in_celsius).with_step == "at 20 C -> measure at 30.25 C"
-    assert made.said(all_in_celsius).severity == made.severity
-
-
-def test_pages_show_each_note_with_what_to_do() -> None:
-    notes = [Note("a < b", code="few-periods"), Note("c", code="large-friction")]
-    road = asperity.SelfAffineSpectrum(rms_height=5e-4, hurst=0.8, q0=2e3, q1=1e7)
-    rubber = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4])
-    result = asperity.friction(road, rubber, pressure=1e5, velocity=[1e-4, 1.0])
-    assert "a &lt; b" in html_items(notes)
-    for items, found in ((html_items(notes), notes), (result._repr_html_(), result.notes)):
-        assert items.index("<li>Next: ") < items.index("color: #a30000")
-        assert {note.severity for note in found} >= {FATAL, WARNING}
-        assert all(escape(note.next_step) in items for note in found)
 
 
 def test_errors_have_fields_and_keep_them() -> None:

@@ -69,27 +69,6 @@ def test_the_licence_is_that_of_what_is_built(state, permissive, licence, lackin
     assert provider.dynamic_wheel(settings).keys() == said.keys()
 
 
-def test_the_backend_remembers_its_settings(monkeypatch):
-    module, _, _ = provider_and_settings()
-    heard = []
-    hook = module._remembering(lambda *arguments: heard.append(arguments) or "a name")
-    monkeypatch.setattr(module, "_settings", {})
-    assert hook("folder", {"a": "b"}, "metadata") == "a name"
-    assert heard == [("folder", {"a": "b"}, "metadata")]
-    assert module._settings == {"a": "b"}
-    hook("folder")
-    assert module._settings == {}
-
-
-@pytest.mark.parametrize("change", [{"sources": SOURCE}, {}])
-def test_the_provider_refuses_other_settings(change):
-    _, provider, settings = provider_and_settings()
-    provider.build_state("wheel")
-    wrong = {"binary": settings["binary"], **change}
-    with pytest.raises(ValueError, match="needs source, binary and permissive"):
-        provider.dynamic_metadata(wrong, PROJECT["project"])
-
-
 def test_the_installed_distribution_says_it_and_has_the_notices():
     installed = importlib.metadata.distribution("asperity")
     said = installed.metadata

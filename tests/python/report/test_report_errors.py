@@ -1,7 +1,6 @@
 """Reports that cannot be made are refused in one line, and verdicts of differences by hand."""
 
 import os
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,15 +47,6 @@ def test_bad_input_is_one_line_before_anything_is_computed(
     assert problem in line
     assert Path("scene.toml").read_bytes() == before
     assert not Path("r.html").exists()
-
-
-@pytest.mark.parametrize("module", ["jinja2", "matplotlib"])
-def test_what_is_missing_is_named(
-    module: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises((asperity.Error, ImportError), match=f"{module} is missing: "):
-        asperity.report("scene.toml", "r.html")
 
 
 def test_a_file_that_changes_meanwhile_is_refused(

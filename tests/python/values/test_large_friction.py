@@ -8,9 +8,7 @@ import pytest
 
 import asperity
 from asperity.base.codes import FATAL, NOTES, WARNING
-from asperity.cli.main import main
 from helpers.heat import HEATING, LAW
-from helpers.scenes import SCENE
 
 PAGE = Path(__file__).parents[3] / "docs/howto/fatal_notes.md"
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=3e4)
@@ -63,16 +61,3 @@ def test_with_heat_the_hot_friction_counts(shear_stress: float, large: bool) -> 
     assert found.cold.mu > 4
     assert (found.mu > 4) == large
     assert any(note.code == "large-friction" for note in found.notes) == large
-
-
-def test_the_shell_tells_it_first_and_names_the_scenes(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in ("a.toml", "b.toml"):
-        Path(name).write_text(SCENE.replace("8.3e6", "4e8"), encoding="utf-8")
-    assert main(["friction", "a.toml", "b.toml", "--output", "mu.csv", "--notes", "all"]) == 0
-    *told, step = capsys.readouterr().err.splitlines()
-    assert step.startswith("next: ")
-    assert told[0].startswith("note: fatal: a.toml, b.toml: mu reaches")
-    written = [line for line in Path("mu.csv").read_text().splitlines() if "# note: " in line]
-    assert [line.removeprefix("# ") for line in written] == told

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import HeightMap, InvalidInput, MasterCurve, TabulatedSpectrum
+from asperity import HeightMap, InvalidInput, TabulatedSpectrum
 from helpers.examples import FMAP
 
 
@@ -55,20 +55,6 @@ def test_a_measured_spectrum_that_had_to_give_its_lowest_bin_says_so():
             table, rubber, pressure=1e5, velocity=0.001, correction=correction
         )
         assert any("give q0" in note for note in notes) == said
-
-
-def test_what_comes_from_outside_of_the_measured_frequencies_is_said():
-    curve = {
-        "angular_frequency": [1.0, 10.0, 100.0],
-        "storage_modulus": [1e6, 2e6, 4e6],
-        "loss_modulus": [2e5, 4e5, 8e5],
-    }
-    spectrum = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=1e3, q1=4e3)
-    for extrapolation, velocity, said in ((None, 0.02, False), ("clamp", 0.2, True)):
-        rubber = MasterCurve(**curve, extrapolation=extrapolation)
-        found = asperity.friction(spectrum, rubber, pressure=1e6, velocity=velocity)
-        assert (found.extrapolated_share > 0.05) == said
-        assert any("outside of the measured ones" in note for note in found.notes) == said
 
 
 def test_a_map_at_one_point_takes_shift_factors_of_any_shape():
