@@ -8,14 +8,6 @@
 
 using namespace asperity;
 
-TEST_CASE("Hertz penetration") {
-  for (const Row& row : reference("hertz")) {
-    CAPTURE(row.text("case"));
-    CHECK_NEAR(hertz_penetration(row.number("force"), row.number("effective_modulus"), row.number("radius")),
-               row.number("penetration"), row.number("rtol"), 0);
-  }
-}
-
 TEST_CASE("the integral of Eq. 16 from -400 to 40 rms heights") {
   for (const Row& row : reference("gaussian_moment")) {
     CAPTURE(row.text("case"));

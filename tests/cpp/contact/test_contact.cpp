@@ -4,21 +4,6 @@
 
 using namespace asperity;
 
-TEST_CASE("the pressure distribution solves Eq. 4") {
-  for (const Row& row : reference("pressure_distribution")) {
-    CAPTURE(row.text("case"));
-    // For elastic rubber I2 = 2 pi E^2, so that G = (E* h' / sigma0)^2 / 8: the modulus sets it.
-    const SelfAffineSpectrum surface{.rms_height = 1e-5, .hurst = 0.8, .q0 = 1e4, .q1 = 1e6};
-    // a power of two, so that their ratio is the table's to the last digit
-    const double pressure = 131072, velocity = 1, stress = row.number("stress_over_pressure") * pressure;
-    const PronySeries elastic(std::sqrt(8 * row.number("g")) * pressure / rms_slope(surface), {}, {});
-    const double found =
-        pressure_distribution(surface, elastic, {.poisson_ratio = 0, .rtol = 1e-12}, std::span(&stress, 1),
-                              std::span(&pressure, 1), std::span(&velocity, 1), surface.q1)[0];
-    CHECK_NEAR(found * pressure, row.number("density_times_pressure"), row.number("rtol"), 1e-300);
-  }
-}
-
 TEST_CASE("S inside G that knows the band: the area of its definition, under any unit of length") {
   for (const Row& row : reference("nayak_s_factor")) {
     CAPTURE(row.text("case"));
@@ -34,20 +19,6 @@ TEST_CASE("S inside G that knows the band: the area of its definition, under any
                                        std::span(&pressure, 1), std::span(&velocity, 1))[0];
       CHECK_NEAR(area, row.number("contact_area"), row.number("rtol"), 1e-300);
     }
-  }
-}
-
-TEST_CASE("the implicit S factor: the area of its definition, over all loads") {
-  const SelfAffineSpectrum surface{.rms_height = 1e-4, .hurst = 0.8, .q0 = 1024, .q1 = 32768};
-  const double velocity = 1;
-  for (const Row& row : reference("implicit_s_factor")) {
-    CAPTURE(row.text("case"));
-    const double pressure = 1e6 * rms_slope(surface) / std::sqrt(8 * row.number("g_uncorrected"));
-    const double area =
-        contact_area(surface, PronySeries(1e6, {}, {}),
-                     {.poisson_ratio = 0, .correction = ImplicitSFactor{row.number("gamma")}, .rtol = 1e-12},
-                     std::span(&pressure, 1), std::span(&velocity, 1))[0];
-    CHECK_NEAR(area, row.number("contact_area"), row.number("rtol"), 1e-300);
   }
 }
 

@@ -6,42 +6,6 @@
 
 using namespace asperity;
 
-namespace {
-
-Spectrum surface_of(const Row& row) {
-  if (row.text("rms_height").empty()) return TabulatedSpectrum(row.list("table_wavenumber"), row.list("table_density"));
-  return SelfAffineSpectrum{row.number("rms_height"), row.number("hurst"), row.number("q0"), row.number("q1"),
-                            row.maybe("rolloff")};
-}
-
-Rubber rubber_of(const Row& row) {
-  if (row.text("table_frequency").empty())
-    return PronySeries(row.number("equilibrium_modulus"), row.list("moduli"), row.list("relaxation_times"));
-  return MasterCurve(row.list("table_frequency"), row.list("table_storage"), row.list("table_loss"));
-}
-
-}  // namespace
-
-TEST_CASE("PartialContact meets its reference table") {
-  for (const Row& row : reference("partial_contact")) {
-    CAPTURE(row.text("case"));
-    const Spectrum surface = surface_of(row);
-    const Rubber rubber = rubber_of(row);
-    const double velocity = row.number("velocity");
-    for (const double rtol : {1e-3, 1e-6, 1e-9}) {
-      const Friction f = friction(surface, rubber,
-                                  {.pressure = row.number("pressure"),
-                                   .poisson_ratio = row.number("poisson_ratio"),
-                                   .correction = PartialContact{},
-                                   .rtol = rtol},
-                                  std::span(&velocity, 1));
-      const double exact = row.number("hysteresis");
-      CHECK(std::fabs(f.hysteresis[0] - exact) <= f.error_estimate[0] + row.number("rtol") * exact);
-      CHECK_NEAR(f.contact_area[0], row.number("contact_area"), rtol, 0);
-    }
-  }
-}
-
 TEST_CASE("contributions of PartialContact add up to the hysteresis, beyond the roughness too") {
   const SelfAffineSpectrum road{.rms_height = 100e-6, .hurst = 0.8, .q0 = 2000, .q1 = 1e5};
   const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});

@@ -1,5 +1,4 @@
-// Rings of a scan on levels of pieces: friction on random tables against GSL, and that what is kept with a table
-// changes nothing but the time.
+// Rings of a scan on levels of pieces: what is kept with a table changes nothing but the time.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include "asperity/friction.hpp"
-#include "numerics/libraries.hpp"
 
 using namespace asperity;
 
@@ -48,71 +46,12 @@ PronySeries random_rubber(std::mt19937_64& dice, double frequency) {
   return {power(5, 7), std::move(moduli), std::move(times)};
 }
 
-/// A measured rubber from `slowest` to `fastest`: rising E', with noise, plateaus, rows close to each other.
-MasterCurve random_curve(std::mt19937_64& dice, double slowest, double fastest) {
-  std::uniform_real_distribution<> uniform;
-  std::normal_distribution<> normal;
-  const auto rows = static_cast<std::size_t>(std::pow(10, 0.5 + 2.2 * uniform(dice)));
-  const double noise = uniform(dice) < 0.3 ? 0 : std::pow(10, -3 + 2 * uniform(dice));
-  const double step = std::log(fastest / slowest) / static_cast<double>(rows - 1), uneven = 0.95 * uniform(dice);
-  const double growth = 12 * uniform(dice) / static_cast<double>(rows), plateau = 0.5 * uniform(dice);
-  std::vector<double> w, storage, loss;
-  double level = 1e6, tangent = 0.05 + 0.5 * uniform(dice);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double shift = i == 0 || i + 1 == rows ? 0 : uneven * (uniform(dice) - 0.5);
-    w.push_back(slowest * std::exp(step * (static_cast<double>(i) + shift)));
-    storage.push_back(level * std::exp(noise * normal(dice)));
-    loss.push_back(level * tangent * std::exp(noise * normal(dice)));
-    if (uniform(dice) > plateau) {
-      level *= std::exp(-growth * std::log(uniform(dice)));
-      tangent *= std::exp(growth / 2 * normal(dice));
-    }
-  }
-  return {std::move(w), std::move(storage), std::move(loss)};
-}
-
 Friction at(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model, std::vector<double> velocity,
             double pressure) {
   return friction(spectrum, rubber, model, {}, std::vector<double>(velocity.size(), pressure), velocity);
 }
 
 }  // namespace
-
-TEST_CASE("the stated error on rings holds against GSL" * doctest::skip(!has_gsl_and_fftw)) {
-  std::uniform_real_distribution<> uniform;
-  for (std::uint64_t scene = 0; scene < 240; ++scene) {
-    CAPTURE(scene);
-    std::mt19937_64 dice(scene);
-    const TabulatedSpectrum table = random_rings(dice, 40 + static_cast<std::size_t>(60 * uniform(dice)));
-    const double velocity = std::pow(10, 7 * uniform(dice) - 6), pressure = std::pow(10, 3 + 5 * uniform(dice));
-    const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());
-    const Rubber rubber = scene % 2 == 0 ? Rubber(random_rubber(dice, velocity * middle))
-                                         : random_curve(dice, 0.99 * velocity * table.wavenumber().front(),
-                                                        1.01 * velocity * table.wavenumber().back());
-    ContactModel model;
-    constexpr double tolerances[] = {1e-3, 1e-4, 1e-6, 1e-7};
-    model.rtol = tolerances[scene / 2 % 4];
-    if (scene / 2 % 5 == 1) model.correction = SFactor{0.4, SFactor::AppliesTo::friction};
-    if (scene / 2 % 5 == 2) model.correction = SFactor{0.5};
-    if (scene / 2 % 5 == 3) model.correction = NayakSFactor{};
-    if (scene / 2 % 5 == 4) model.correction = AffineShift{1.7};
-    const Friction found = at(table, rubber, model, {velocity}, pressure);
-    ContactModel best = model;
-    best.rtol = scene % 2 == 0 ? 1e-11 : 1e-10;  // I1 and I2 of a curve are good to 1e-12
-    best.method = Method::cquad;
-    const Friction truth = at(table, rubber, best, {velocity}, pressure);
-    const double error = std::fabs(found.mu[0] - truth.mu[0]);
-    CHECK(error <= found.error_estimate[0] + truth.error_estimate[0]);
-    CHECK(found.error_estimate[0] <= model.rtol * found.mu[0]);
-    CHECK(found.contact_area[0] == doctest::Approx(truth.contact_area[0]).epsilon(model.rtol));
-    const double one[] = {velocity}, load[] = {pressure};
-    const double area = contact_area(table, rubber, model, load, one)[0];
-    if (scene % 2 == 0)
-      CHECK(area == found.contact_area[0]);
-    else  // row by row where no grid is fine enough
-      CHECK(area == doctest::Approx(truth.contact_area[0]).epsilon(model.rtol));
-  }
-}
 
 TEST_CASE("a point on rings has the same bits alone, in a sweep, after others and on several threads") {
   std::mt19937_64 dice(8);
@@ -135,32 +74,4 @@ TEST_CASE("a point on rings has the same bits alone, in a sweep, after others an
   for (const auto& mu : by_thread) CHECK(mu == sweep.mu);
   CHECK(fresh() == table);
   CHECK(fresh() != TabulatedSpectrum({1, 2}, {1, 1}));
-}
-
-TEST_CASE("the share from outside of the measured frequencies is that of GSL" * doctest::skip(!has_gsl_and_fftw)) {
-  std::mt19937_64 dice(2);
-  const TabulatedSpectrum table = random_rings(dice, 90);
-  const double middle = std::sqrt(table.wavenumber().front() * table.wavenumber().back());
-  const PronySeries series = random_rubber(dice, middle);
-  std::vector<double> w, storage, loss;
-  for (int i = 0; i <= 60; ++i) {
-    w.push_back(middle * std::pow(10, 0.1 * i - 3));
-    storage.push_back(series.modulus(w.back()).real());
-    loss.push_back(series.modulus(w.back()).imag());
-  }
-  const std::vector<Rubber> rubbers = {series.fitted_on({w.front(), w.back()}, true),
-                                       MasterCurve(w, storage, loss, Extrapolation::clamp)};
-  const std::vector<double> velocity = {0.2 * w.front() / table.wavenumber().front(), 0.02, 1, 50,
-                                        5 * w.back() / table.wavenumber().back()};
-  for (const Rubber& rubber : rubbers) {
-    ContactModel best;
-    best.rtol = 1e-9;
-    best.method = Method::cquad;
-    const Friction found = at(table, rubber, {}, velocity, 1e5), truth = at(table, rubber, best, velocity, 1e5);
-    CHECK(truth.extrapolated_share.front() > 0.01);
-    CHECK(truth.extrapolated_share.back() > 0.01);
-    for (std::size_t i = 0; i < velocity.size(); ++i)
-      CHECK(found.extrapolated_share[i] == doctest::Approx(truth.extrapolated_share[i]).epsilon(0.01).scale(1e-6));
-    CHECK(!found.notes.empty());
-  }
 }

@@ -46,24 +46,6 @@ ShiftTable table() {
 
 }  // namespace
 
-TEST_CASE("WLF and Arrhenius fits are those of least squares") {
-  for (const Row& row : reference("master_build")) {
-    CAPTURE(row.text("case"));
-    const ShiftTable shifts(row.number("reference_temperature"), row.list("temperature"), row.list("log10_a_t"));
-    const double rtol = row.number("rtol"), rough = 100 * rtol;
-    const WlfFit wlf = shifts.fit_wlf();
-    CHECK_NEAR(wlf.c1, row.number("c1"), rtol, 0);
-    CHECK_NEAR(wlf.c2, row.number("c2"), rtol, 0);
-    CHECK_NEAR(wlf.c1_error, row.number("c1_error"), rough, 0);
-    CHECK_NEAR(wlf.c2_error, row.number("c2_error"), rough, 0);
-    CHECK_NEAR(wlf.residual, row.number("wlf_residual"), rough, 0);
-    const ArrheniusFit arrhenius = shifts.fit_arrhenius();
-    CHECK_NEAR(arrhenius.activation_energy, row.number("activation_energy"), rtol, 0);
-    CHECK_NEAR(arrhenius.activation_energy_error, row.number("activation_energy_error"), rough, 0);
-    CHECK_NEAR(arrhenius.residual, row.number("arrhenius_residual"), rough, 0);
-  }
-}
-
 TEST_CASE("shift factors of a synthetic rubber, and its modulus from a Prony series") {
   const std::vector<Isotherm> isotherms = sweeps();
   const MasterCurveBuild build = build_master_curve(isotherms, {.reference_temperature = t_ref});

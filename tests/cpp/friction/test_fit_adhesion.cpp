@@ -37,30 +37,6 @@ Points exact(const Adhesion& truth, std::vector<double> velocity, double pressur
 
 }  // namespace
 
-TEST_CASE("the reference fits: parameters, errors, scatter and outliers") {
-  for (const Row& row : reference("adhesion_fit")) {
-    CAPTURE(row.text("case"));
-    const SelfAffineSpectrum surface{row.number("rms_height"), row.number("hurst"), row.number("q0"), row.number("q1")};
-    const PronySeries material(row.number("equilibrium_modulus"), row.list("moduli"), row.list("relaxation_times"));
-    const FixedAdhesion fixed{row.maybe("fixed_shear_stress"), row.maybe("fixed_reference_velocity"),
-                              row.maybe("fixed_width")};
-    const AdhesionFit fit = fit_adhesion(surface, material, {.correction = AffineShift{row.number("shift_factor")}},
-                                         row.list("pressures"), row.list("velocities"), row.list("measured"), fixed);
-    const double rtol = row.number("rtol"), residual = row.maybe("residual").value_or(0);
-    CHECK_NEAR(fit.adhesion.shear_stress, row.number("shear_stress"), rtol, 0);
-    CHECK_NEAR(fit.adhesion.reference_velocity, row.number("reference_velocity"), rtol, 0);
-    CHECK_NEAR(fit.adhesion.width, row.number("width"), rtol, 0);
-    CHECK_NEAR(fit.residual, residual, rtol, residual > 0 ? 0 : 1.01);  // exact: the tolerance of mu
-    const char* const names[] = {"shear_stress_error", "reference_velocity_error", "width_error"};
-    for (std::size_t k = 0; k < 3; ++k)
-      if (const auto error = row.maybe(names[k])) CHECK_NEAR(std::sqrt(fit.covariance[4 * k]), *error, 10 * rtol, 0);
-    std::vector<double> aside;
-    for (std::size_t i = 0; i < fit.outliers.size(); ++i)
-      if (fit.outliers[i]) aside.push_back(static_cast<double>(i));
-    CHECK(aside == row.list("outliers"));
-  }
-}
-
 TEST_CASE("noise of 5 % and a fifth of gross outliers: near the truth, by the errors that are stated") {
   constexpr int trials = 200;
   const Adhesion truth{8.3e6, 6e-3, 0.1};

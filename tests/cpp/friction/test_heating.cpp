@@ -1,4 +1,3 @@
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -9,7 +8,6 @@ using namespace asperity;
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 const WLF law{8.86, 101.6, 293.15};
 const Heating tread{.density = 1200, .heat_capacity = 1650, .conductivity = 0.23, .contact_diameter = 1e-3};
 
@@ -25,22 +23,6 @@ struct Point {
                     std::span(&temperature, 1));
   }
 };
-
-template <class Error = InvalidInput>
-void refused(const char* argument, auto spoil) {
-  const SelfAffineSpectrum road{.rms_height = 265.7e-6, .hurst = 0.87, .q0 = 2000, .q1 = 2e4};
-  const PronySeries rubber(3e6, {1e8, 1e9}, {1e-3, 1e-6});
-  Point point;
-  CHECK_NOTHROW((void)point.at(road, rubber));
-  spoil(point);
-  CAPTURE(argument);
-  try {
-    (void)point.at(road, rubber);
-    FAIL("not refused");
-  } catch (const Error& error) {
-    CHECK(error.argument() == argument);
-  }
-}
 
 }  // namespace
 
@@ -66,35 +48,4 @@ TEST_CASE("PartialContact with heat meets its reference table") {
     CHECK_NEAR(found.macro_area[0], row.number("macro_area"), 3e-6, 0);
     CHECK_NEAR(found.hot.temperature[0] - point.temperature, row.number("rise"), 3e-6, 1e-6);
   }
-}
-
-TEST_CASE("what heat cannot be computed with is refused by its argument") {
-  refused("density", [](Point& p) { p.heating.density = 1.2; });
-  refused("density", [](Point& p) { p.heating.density = unknown; });
-  refused("heat_capacity", [](Point& p) { p.heating.heat_capacity = 1e5; });
-  refused("conductivity", [](Point& p) { p.heating.conductivity = 230; });
-  refused("contact_diameter", [](Point& p) { p.heating.contact_diameter = -1e-3; });
-  refused("macro_wavenumber", [](Point& p) { p.heating.macro_wavenumber = 10; });
-  refused("macro_wavenumber", [](Point& p) { p.heating.macro_wavenumber = unknown; });
-  refused("macro_area", [](Point& p) { p.heating.macro_area = 1.5; });
-  refused("macro_area", [](Point& p) {
-    p.heating.macro_wavenumber = 6e3;
-    p.heating.macro_area = 0.1;
-  });
-  refused("interface_share", [](Point& p) { p.heating.interface_share = 0.5; });
-  refused("temperature", [](Point& p) { p.temperature = 20; });
-  refused("c1", [](Point& p) { p.shift = WLF{-1, 101.6, 293.15}; });
-  refused("reference_temperature", [](Point& p) { p.shift = WLF{8.86, 101.6, 20}; });
-  refused("method", [](Point& p) { p.model.method = Method::qag; });
-  refused<OutOfRange>("temperature", [](Point& p) {
-    p.shift = WLF{8.86, 51.6, 293.15};
-    p.temperature = 230;
-  });
-  refused<OutOfRange>("temperature", [](Point& p) {
-    p.shift = ShiftTable(293.15, {263.15, 293.15, 293.65}, {3.0, 0.0, -0.05});
-  });
-  refused<OutOfRange>("temperature", [](Point& p) {  // above what rubber stands
-    p.heating.macro_area = 1e-3;
-    p.shift = WLF{0.01, 101.6, 293.15};
-  });
 }

@@ -13,21 +13,6 @@ using std::numbers::pi;
 
 namespace {
 
-HeightMap waves(const Row& row) {
-  const auto n = static_cast<std::size_t>(row.number("points"));
-  const std::vector<double> kx = row.list("kx"), ky = row.list("ky"), a = row.list("amplitude"),
-                            phase = row.list("phase");
-  std::vector<double> h(n * n);
-  for (std::size_t y = 0; y < n; ++y)
-    for (std::size_t x = 0; x < n; ++x)
-      for (std::size_t i = 0; i < a.size(); ++i)
-        h[y * n + x] += a[i] * std::cos(2 * pi * (kx[i] * static_cast<double>(x) + ky[i] * static_cast<double>(y)) /
-                                            static_cast<double>(n) +
-                                        phase[i]);
-  const double pixel = row.number("length") / static_cast<double>(n);
-  return {std::move(h), {n, n}, {pixel, pixel}};
-}
-
 const PronySeries rubber(1e6, {9.9e7}, {1e-3});
 
 HeightMap rough(std::size_t n) {
@@ -36,24 +21,6 @@ HeightMap rough(std::size_t n) {
 }
 
 }  // namespace
-
-TEST_CASE("contacts of the reference table") {
-  for (const Row& row : reference("sliding")) {
-    CAPTURE(row.text("case"));
-    const PronySeries solid(row.number("equilibrium_modulus"), row.list("moduli"), row.list("relaxation_times"));
-    const SlidingContact c = slide(waves(row), solid, row.number("pressure"), row.number("velocity"),
-                                   {row.number("poisson_ratio"), Continuation::periodic, 1e-11});
-    const double rtol = row.number("rtol");
-    CHECK(c.error <= 1e-11);
-    CHECK(c.contact_area_raw == doctest::Approx(row.number("contact_area")).epsilon(1e-14));
-    CHECK_NEAR(c.hysteresis, row.number("hysteresis"), rtol, 0);
-    CHECK_NEAR(c.work_of_slopes, row.number("work_of_slopes"), rtol, 0);
-    CHECK_NEAR(c.elastic_energy, row.number("elastic_energy"), rtol, 0);
-    CHECK_NEAR(std::ranges::max(c.pressure), row.number("highest_pressure"), rtol, 0);
-    CHECK_NEAR(std::accumulate(c.gap.begin(), c.gap.end(), 0.0) / static_cast<double>(c.gap.size()),
-               row.number("mean_gap"), rtol, 0);
-  }
-}
 
 TEST_CASE("pressure and gap are complementary, and carry the load") {
   const SlidingContact c = slide(rough(64), rubber, 3e5, 0.1, {.continuation = Continuation::periodic, .rtol = 1e-9});

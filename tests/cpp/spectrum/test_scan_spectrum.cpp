@@ -24,33 +24,6 @@ std::vector<double> walk(std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("the spectrum of a profile is the integral of its definition") {
-  for (const Row& row : reference("line_density")) {
-    CAPTURE(row.text("case"));
-    const auto spectrum = [&]() -> Spectrum {
-      if (const auto rms = row.maybe("rms_height"))
-        return SelfAffineSpectrum{*rms, row.number("hurst"), row.number("q0"), row.number("q1"), row.maybe("rolloff")};
-      return TabulatedSpectrum(row.list("table_wavenumber"), row.list("table_density"));
-    }();
-    const double q = row.number("wavenumber");
-    CHECK_NEAR(line_density(spectrum, std::span(&q, 1))[0], row.number("line_density"), row.number("rtol"), 0);
-  }
-}
-
-TEST_CASE("a power law of profiles has its own surface behind it") {
-  for (const double hurst : {0.3, 0.8, 1.0}) {
-    CAPTURE(hurst);
-    const double factor = std::beta(0.5, hurst + 0.5);
-    std::vector<double> q, profile;
-    for (int i = 0; i <= 20; ++i) {
-      q.push_back(1e3 * std::pow(10, i / 10.0));
-      profile.push_back(factor * std::pow(q.back(), -2 * hurst - 1));
-    }
-    const TabulatedSpectrum found = isotropic(LineSpectrum(q, profile));
-    for (std::size_t i = 0; i < q.size(); ++i) CHECK_NEAR(found.density()[i], std::pow(q[i], -2 * hurst - 2), 1e-11, 0);
-  }
-}
-
 TEST_CASE("bins and merged spectra hold every mode once") {
   const auto first = power_spectrum(HeightMap(walk(64 * 64), {64, 64}, {1, 1}));
   const auto sum = [](const std::vector<double>& v) {
