@@ -112,10 +112,6 @@ def test_moduli_on_different_frequency_axes(factor):
         assert max(prony.storage_residual, prony.loss_residual) > 0.1
 
 
-def test_a_loss_modulus_in_other_units():
-    acausal(sweeps(change=lambda _, e: e.real + 2j * e.imag))
-
-
 def plateau(seed, noise=0.01):
     """Five isotherms between which there is nothing to see but noise."""
     rng = np.random.default_rng(seed)

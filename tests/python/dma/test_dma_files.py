@@ -43,18 +43,6 @@ def test_temperatures_go_with_their_files(files: list[Path]) -> None:
     np.testing.assert_allclose(build.log10_a_T, [1, 0, -1], atol=1e-3)
 
 
-@pytest.mark.parametrize("given", [None, CELSIUS])
-def test_a_column_or_temperatures_not_both_not_neither(
-    files: list[Path], given: list[float] | None
-) -> None:
-    columns = COLUMNS if given is None else {**COLUMNS, "temperature": "T"}
-    problem = "'temperature' is missing" if given is None else "'temperature' is unknown"
-    with pytest.raises(asperity.InvalidInput, match=f"^columns: {problem}"):
-        asperity.read_isotherms(
-            files, columns=columns, units=UNITS, modulus="E", temperatures=given
-        )
-
-
 SCENE = """
 [rubber]
 isotherms = ["30.txt", "10.txt", "20.txt"]

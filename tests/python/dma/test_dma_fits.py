@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from asperity import (
-    InvalidInput,
     MasterCurveBuild,
     OutOfRange,
     PronySeries,
@@ -71,12 +70,6 @@ def test_wlf_fit_of_noisy_isotherms_within_its_errors():
     assert fit.residual <= worst(build)
 
 
-def test_wlf_constants_of_another_reference_temperature():
-    one, other = built(sweeps()).fit_wlf(), built(sweeps(), 318.15).fit_wlf()
-    assert other.c2 == pytest.approx(one.c2 + 25, rel=1e-4)
-    assert other.c1 * other.c2 == pytest.approx(one.c1 * one.c2, rel=1e-4)
-
-
 def test_a_straight_line_has_a_large_c2_and_says_how_uncertain_it_is():
     t = np.arange(250.0, 350, 10)
     shifts = ShiftFactors(
@@ -129,24 +122,6 @@ def test_a_table_from_a_file_is_as_good_as_a_fit(tmp_path):
     build = built(sweeps(), shift_factors=shifts)
     assert build.residual < 1e-4
     assert build.master_curve.shift_factors == build.shift_factors
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("temperature_k,log10_a_t\n280,1\n280,0\n", r"temperature\[1\] = 280: must be above"),
-        ("temperature_k,log10_a_t\n280,1\n", "temperature has 1 entries: must be 2 or more"),
-        ("temperature_k,log10_a_t\n280,x\n", "line 2: log10_a_T = 'x' is not a number"),
-        ("temperature_k,log10_a_t\n280,nan\n", "line 2: log10_a_T = nan: must be finite"),
-        ("temperature,tan\n280,1\n", "no line names the columns 'temperature_k', 'log10_a_t'"),
-    ],
-)
-def test_bad_files_of_shift_factors(tmp_path, text, message):
-    file = tmp_path / "shift.csv"
-    file.write_text(text)
-    with pytest.raises(InvalidInput, match=message) as caught:
-        read_shift_factors(file, reference_temperature=T_REF)
-    assert str(caught.value).startswith(f"{file}: ")
 
 
 FIVE = np.linspace(273.15, 313.15, 5)

@@ -1,6 +1,5 @@
 """DMA files, made and measured: shift factors, their laws, strain, and friction on a scan."""
 
-import re
 from functools import partial
 
 import numpy as np
@@ -8,9 +7,7 @@ import pytest
 
 import asperity
 from asperity import fit_prony, read_strain_sweep
-from asperity.cli.main import main
 from asperity.scene.scene import load_scene
-from helpers import made_sweeps
 from helpers.made_sweeps import ALPHA, B2
 from helpers.measured import COLUMNS, UNITS, polyisoprene, present, published, shear
 
@@ -42,19 +39,6 @@ def test_polyisoprene_has_the_published_wlf_with_the_published_vertical_shift(ce
     assert build.residual < 0.008  # 0.011 without the density
 
 
-def test_without_a_vertical_shift_polyisoprene_says_what_it_would_change(source):
-    plain, ratio = polyisoprene(), polyisoprene(vertical_shift="T/T_ref")
-    (note,) = [note for note in plain.notes if note.startswith("vertical shift: none")]
-    differ = np.abs(plain.log10_a_T - ratio.log10_a_T).max()
-    assert differ > {"made": 0.1, "measured": 0.2}[source]
-    said = re.search(r"by up to ([\d.]+) decades, with a residual of ([\d.]+) instead of", note)
-    assert said is not None
-    # the comparison is made with the knots of the first fit
-    assert float(said[1]) == pytest.approx(differ, rel=0.1)
-    assert float(said[2]) == pytest.approx(ratio.residual, rel=0.2)
-    assert ratio.residual < plain.residual / 2
-
-
 def test_one_of_two_rubbers_follows_wlf():
     simple, other = shear("material_a"), shear("epdm_70")
     assert simple.fit_wlf().residual < 0.03
@@ -68,22 +52,6 @@ def test_one_of_two_rubbers_follows_wlf():
         assert build.standard_deviation.max() < 0.1
         assert not build.undetermined.any()
         assert build.fit_arrhenius().residual > build.fit_wlf().residual
-
-
-def test_moduli_that_ask_for_different_shifts_are_told(source):
-    """E' alone puts the coldest isotherm of the EPDM at 3.4, E'' alone at 1.9 decades; of the made
-    files the two are 0.4 apart."""
-    cold, moduli = made_sweeps.CELSIUS["epdm_70"], made_sweeps.shifts_of_epdm
-    made = [one[0] - moduli(cold)[0][4] for one in moduli(cold)]
-    coldest, first, second = {"made": ("263.15", *made), "measured": ("263.151", 3.4, 1.85)}[source]
-    (note,) = [note for note in shear("epdm_70").notes if "E' alone and E'' alone" in note]
-    assert f"most at {coldest} K" in note
-    said = re.search(r"would be ([\d.]+) and ([\d.]+), ([\d.]+) decades apart", note)
-    assert said is not None
-    storage, loss, apart = map(float, said.groups())
-    assert storage == pytest.approx(first, abs=0.1)
-    assert loss == pytest.approx(second, abs=0.1)
-    assert apart == pytest.approx(storage - loss, abs=0.06)
 
 
 def test_prony_series_of_a_measured_rubber():
@@ -188,26 +156,6 @@ def test_the_vertical_shift_too_is_that_of_the_temperature_of_the_scene(tmp_path
     there, elsewhere = with_ratio(313.15), with_ratio(313.15, 293.15)
     w = np.geomspace(1, 100, 9)
     np.testing.assert_allclose(elsewhere.modulus(w), there.modulus(w), rtol=3e-3)
-
-
-@pytest.mark.parametrize("velocity", [1e-8, 10.0])
-def test_velocities_outside_of_the_measured_frequencies(tmp_path, velocity, capsys):
-    path = scene(tmp_path, 293.15, velocity=[velocity])
-    assert main(["friction", str(path)]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    (line,) = err.splitlines()
-    assert line.startswith(f"asperity: {path}: [conditions] velocity_m_s = {velocity}: ")
-    assert "velocities from" in line
-    allowed = [float(word) for word in line.rpartition("velocities from ")[2].split()[:3:2]]
-    assert mu(scene(tmp_path, 293.15, velocity=[1.001 * allowed[0], 0.999 * allowed[1]])).all()
-
-
-def test_a_temperature_outside_of_the_isotherms(tmp_path, capsys):
-    path = scene(tmp_path, 330.0, 293.15)
-    assert main(["friction", str(path)]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"asperity: {path}: [rubber] temperature_k = 330.0: shift factors are")
 
 
 @pytest.mark.filterwarnings("ignore:E' and E'':UserWarning", "ignore:fatal:UserWarning")

@@ -59,11 +59,6 @@ def test_encodings_comments_and_lines_of_units(tmp_path, encoding, newline):
     check(read(tmp_path, f"{content}# end, 3 µm{newline}", encoding))
 
 
-def test_columns_may_stand_anywhere_and_others_beside_them(tmp_path):
-    rows = [(1.5, loss, f, "x", t, stor) for t, f, stor, loss in ROWS]
-    check(read(tmp_path, text(header="run,loss,f,note,T,stor", rows=rows).replace("'x'", "x")))
-
-
 def test_rows_of_several_temperatures_in_any_order(tmp_path):
     order = np.random.default_rng(1).permutation(len(ROWS))
     check(read(tmp_path, text(rows=[ROWS[i] for i in order])))
@@ -174,14 +169,6 @@ def test_bad_values_are_named_by_file_and_line(tmp_path, row, column, value, mes
 def test_bad_files(tmp_path, content, message):
     with pytest.raises(InvalidInput, match=message):
         read(tmp_path, content)
-
-
-def test_files_that_are_not_there(tmp_path):
-    arguments = {"columns": COLUMNS, "units": UNITS, "modulus": "E"}
-    with pytest.raises(InvalidInput, match=r"nowhere\.csv: cannot be read: No such file"):
-        read_isotherms(tmp_path / "nowhere.csv", **arguments)
-    with pytest.raises(InvalidInput, match="paths: is empty, must have 1 file or more"):
-        read_isotherms([], **arguments)
 
 
 def isotherm(**changed):

@@ -131,22 +131,3 @@ def test_strains_that_sweeps_do_not_tell_are_refused(argument, strain, given, er
 def test_a_curve_without_shift_factors_has_no_place_for_sweeps():
     with refused("shift_factors", "invalid-input"):
         small_strain(shifts=None).at_strain(0.5, strain_sweeps(linear))
-
-
-@pytest.mark.parametrize(
-    ("argument", "value"),
-    [
-        ("temperature", 20.0),
-        ("angular_frequency", 0.0),
-        ("strain", [1e-3, 1e-3, 1e-2]),
-        ("strain", [0.0, 1e-3, 1e-2]),
-        ("loss_modulus", [1e5, np.nan, 1e5]),
-        ("storage_modulus", [1e5, 1e5]),
-    ],
-)
-def test_bad_sweeps(argument, value):
-    values = {"temperature": 300.0, "angular_frequency": 1.0, "strain": [1e-3, 1e-2, 0.1]}
-    values |= {"storage_modulus": [1e6] * 3, "loss_modulus": [1e5] * 3}
-    with pytest.raises(InvalidInput) as caught:
-        StrainSweep(**{**values, argument: value})
-    assert caught.value.argument == argument
