@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.article import inputs, readings, sliding, statement, surfaces
+from asperity.article import inputs, readings, statement, surfaces
 from asperity.article.statement import Finding
-from asperity.draw.style import drawn_in
 
 H_RMS = 76.572e-6
 
@@ -92,32 +91,3 @@ def test_verdicts_follow_from_tests(
 ) -> None:
     found = {f"reading {k}": Finding(held) for k, held in enumerate(tuned)}
     assert statement.verdict(rule, {**found, "untuned": Finding(untuned)}) == verdict
-
-
-def test_a_statement_without_its_finding_is_an_error() -> None:
-    with pytest.raises(ValueError, match=r"statements\.csv and findings differ"):
-        statement.judge({"T3": {}})
-
-
-@pytest.mark.parametrize(("style", "width"), [("print", 8.4), ("single", 3.4)])
-def test_no_cell_of_table_1_reaches_into_the_next(style: str, width: float) -> None:
-    pytest.importorskip("matplotlib")
-    rows = [
-        ("friction at 0.001 m/s, modified, flash heat", r"$\mu$", 1.159, "-", "cut off at 500 q0"),
-        ("rise at 0.001 m/s, original", "$T(q_1) - T_0$", 8.729, "K", "cut off at rms slope 1.3"),
-        ("spectrum at q0, Eq. 12 as printed", "$C(q_0)$", 2.444e-15, "mm/s", "synthetic scans"),
-    ]
-    with drawn_in(style):
-        figure = sliding.draw_table(rows)
-    assert figure.get_size_inches()[0] == pytest.approx(width)
-    figure.draw_without_rendering()
-    (drawn,) = figure.axes[0].tables
-    texts = [cell.get_text() for cell in drawn.get_celld().values()]
-    for _, _, _, _, source in rows:
-        assert any(text.get_text().startswith(source) for text in texts)
-    for cell in drawn.get_celld().values():
-        box, text = cell.get_window_extent(), cell.get_text().get_window_extent()
-        heading = style == "single" and cell.get_text().get_text().endswith(":")
-        assert box.x0 <= text.x0
-        assert text.x1 <= (figure.bbox.x1 if heading else box.x1)
-        assert text.height < box.height
