@@ -47,17 +47,6 @@ def test_float_scans_are_shared_and_never_written_to(name):
         scan.heights[0] = 1
 
 
-def test_a_mapped_file_is_shared_and_outlives_its_name(tmp_path):
-    path = tmp_path / "scan.npy"
-    np.save(path, ROUGH)
-    mapped = np.load(path, mmap_mode="r")
-    scan = LineScan(mapped, spacing=SPACING)
-    assert np.shares_memory(scan.heights, mapped)
-    del mapped
-    path.unlink()
-    assert scan.rms_height == pytest.approx(ROUGH.std(), rel=1e-12, abs=0)
-
-
 @pytest.mark.parametrize("holes", [0, 0.3])
 def test_statistics_are_those_of_the_measured_points(holes):
     heights = np.where(RNG.random(ROUGH.size) < holes, np.nan, ROUGH)
@@ -143,20 +132,3 @@ def test_an_affine_shift_keeps_the_highest_point():
     shifted = scan.affine_shift(2.5)
     expected = (z - z.max()) / 2.5 + z.max()
     np.testing.assert_allclose(shifted.heights, expected, atol=1e-18)
-
-
-@pytest.mark.parametrize(
-    ("heights", "spacing", "message"),
-    [
-        (np.zeros((3, 4)), 1, r"^heights"),
-        ([], 1, r"^heights"),
-        ([np.nan, np.nan], 1, r"^heights"),
-        ([1.0, np.inf], 1, r"^heights.* = inf: must be finite"),
-        ([1.0, 2.0], 0, r"^spacing = 0\.0: must be positive"),
-        ([1.0, 2.0], -1, r"^spacing = -1\.0: must be positive"),
-        ([1.0, 2.0], np.nan, r"^spacing = nan"),
-    ],
-)
-def test_what_is_no_scan_is_refused(heights, spacing, message):
-    with pytest.raises(InvalidInput, match=message):
-        LineScan(heights, spacing=spacing)

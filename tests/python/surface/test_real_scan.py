@@ -1,9 +1,6 @@
 """Files of instruments, made and measured: as they are, damaged, and through the shell command."""
 
 import re
-import subprocess
-import sys
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,24 +8,8 @@ import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
-from asperity.cli.main import main
-from asperity.demo import scene_text
 from helpers import made_files
 from helpers.measured import SOURCES, scans_of
-
-SCENE = """
-[surface]
-file = "{file}"
-detrend = "quadratic"
-[rubber]
-equilibrium_modulus_pa = {equilibrium_modulus_pa}
-moduli_pa = {moduli_pa}
-relaxation_times_s = {relaxation_times_s}
-[conditions]
-pressure_pa = 81e3
-velocity_m_s = {{from = 1e-6, to = 1e-2, points = 9}}
-"""
-
 
 MEASURED = {  # shape, distance of the points [m], rms height without tilt [m], share of drop-outs
     "opd-1.opd": ((480, 640), (1.9673303e-7, 1.9673303e-7), 6.7112e-9, 116 / 307200),
@@ -37,20 +18,11 @@ MEASURED = {  # shape, distance of the points [m], rms height without tilt [m], 
     "dektak-1.csv": ((9600,), 1499.8e-6 / 9599, 9.4243e-8, 0.0),
 }
 SCANS = scans_of(MEASURED)
-MAPS = {"made": "opd-1.opd", "measured": "opd-1.opd"}
 LINES = {"made": "line-1.csv", "measured": "dektak-1.csv"}
 HOLES = {"made": ("holes.al3d", "30"), "measured": ("frt-2.frt", "27.36")}
 
 scans = pytest.mark.parametrize(("source", "name"), SCANS)
 sources = pytest.mark.parametrize("source", SOURCES)
-
-
-def scene(folder: Path, scan: Path) -> Path:
-    """A scene of a scan and the shipped rubber."""
-    path = folder / "scene.toml"
-    rubber = tomllib.loads(scene_text())["rubber"]
-    path.write_text(SCENE.format(file=scan.as_posix(), **rubber))
-    return path
 
 
 def untilted(heights: np.ndarray) -> float:
@@ -157,67 +129,3 @@ def test_corrupt_scan(
         refused += read_if_sound(path) is None
     assert refused
     assert capfd.readouterr() == ("", "")
-
-
-@sources
-def test_parsers_do_not_print(
-    source: str, file_of: Callable[[str, str], Path], tmp_path: Path
-) -> None:
-    path = tmp_path / "scan.opd"
-    path.write_bytes(file_of(source, MAPS[source]).read_bytes()[:500])
-    code = f"import asperity; asperity.read_surface({str(path)!r})"
-    run = [sys.executable, "-c", f"try:\n {code}\nexcept ValueError as error: print(error)"]
-    done = subprocess.run(run, capture_output=True, text=True, check=True)
-    assert done.stdout == f"{path}: of no known format, or damaged\n"
-    assert done.stderr == ""
-
-
-@sources
-def test_interferometer_map(
-    source: str,
-    file_of: Callable[[str, str], Path],
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    pytest.importorskip("matplotlib", reason="its picture needs asperity[plot]")
-    scan = file_of(source, MAPS[source])
-    path = scene(tmp_path, scan)
-    outputs = ["--output", str(tmp_path / "mu.csv"), "--plot", str(tmp_path / "mu.png")]
-    assert main(["friction", str(path), *outputs]) == 0
-    lines = (tmp_path / "mu.csv").read_text().splitlines()
-    header = [line for line in lines if line.startswith("#")]
-    read = read_surface(scan)
-    assert f"# derived.shape = {list(read.heights.shape)}" in header
-    assert f"# derived.dropout_fraction = {read.dropout_fraction!r}" in header
-    rows = np.array([line.split(",") for line in lines[len(header) + 1 :]], float)
-    assert rows.shape == (9, 8)
-    assert np.all(np.isfinite(rows))
-    mu, hysteresis, adhesion, area, _, error = rows.T[2:]
-    assert np.all(hysteresis > 0)
-    assert np.all(adhesion == 0)
-    np.testing.assert_array_equal(mu, hysteresis)
-    assert np.all((area > 0) & (area <= 1))
-    assert np.all(error <= 1e-6 * mu)
-    assert (tmp_path / "mu.png").stat().st_size > 10000
-    for line in capsys.readouterr().err.splitlines():
-        assert line.startswith(("note: ", "next: "))
-
-
-@sources
-def test_scan_with_too_many_dropouts(
-    source: str,
-    file_of: Callable[[str, str], Path],
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    name, share = HOLES[source]
-    path = scene(tmp_path, file_of(source, name))
-    before = sorted(tmp_path.iterdir())
-    assert main(["friction", str(path), "--output", str(tmp_path / "mu.csv")]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert len(err.splitlines()) == 1
-    assert err.startswith(f"asperity: {path}: ")
-    assert name in err
-    assert f"{share} % of the points are drop-outs: must be at most 10 %" in err
-    assert sorted(tmp_path.iterdir()) == before

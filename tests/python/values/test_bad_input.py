@@ -108,7 +108,10 @@ REFUSED = {  # several arguments that refuse the same stand in one key
         ],
         "pixel_size": [*POSITIVE, (1, 0), (-1, 1), (1, NAN)],
     },
-    "LineScan": {"heights": [[]]},
+    "LineScan": {
+        "heights": [[], np.zeros((3, 4)), [NAN, NAN], [1, INF]],
+        "spacing": POSITIVE,
+    },
     "HeightMap.fill_dropouts": {"max_fraction": [-0.1, 1, 1.5, NAN]},
     "HeightMap.detrend": {"order": NAME},
     "HeightMap.affine_shift": {"p": AT_LEAST_ONE},

@@ -4,18 +4,8 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import HeightMap, InvalidInput, TabulatedSpectrum
+from asperity import InvalidInput, TabulatedSpectrum
 from helpers.examples import FMAP
-
-
-@pytest.mark.parametrize("shape", [(4, 7), (7, 4), (6, 9), (8, 15)])
-def test_rings_do_not_depend_on_the_unit_of_length(shape):
-    z = np.random.default_rng(1).normal(size=shape)
-    first = asperity.power_spectrum(HeightMap(z, pixel_size=1.0))
-    for pixel in (3.0, 0.7, 1e-6, 1e6 / 3):
-        other = asperity.power_spectrum(HeightMap(z, pixel_size=pixel))
-        np.testing.assert_array_equal(other.count, first.count)
-        np.testing.assert_allclose(other.wavenumber * pixel, first.wavenumber, rtol=1e-14)
 
 
 @pytest.mark.parametrize("cut", [{"q1": 3.0}, {"q0": 2.5}])
