@@ -144,37 +144,6 @@ def test_damaged_resources_give_no_instance(files, tmp_path, capfd, fmi, file, c
 
 @on_linux
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
-def test_messages_can_be_switched_off(files, tmp_path, capfd, fmi):
-    host = Host(files[fmi, None], tmp_path / fmi)
-    both = ["logStatusWarning", "logStatusError"]
-
-    def told():
-        host.at(1e5, 0.1)  # inside: what comes next is told anew
-        host.at(1e9, 0.1)
-        with pytest.raises(Exception, match=r"(?i)status 3|error"):
-            host.set([999], [1.0])
-        out = capfd.readouterr().out
-        return [text in out for text in ("outside of the map", "value reference 999")]
-
-    assert told() == [True, True]
-    for on, categories, expected in (
-        (False, both[:1], [False, True]),
-        (True, both[:1], [True, True]),
-        (False, both[1:], [True, False]),
-        (True, both, [True, True]),
-        (False, [], [False, False]),
-        (True, [], [True, True]),
-    ):
-        host.unit.setDebugLogging(on, categories)
-        assert told() == expected
-    with pytest.raises(Exception, match=r"(?i)status 3|error"):
-        host.unit.setDebugLogging(True, ["logAll"])
-    assert 'log category "logAll" is unknown: must be logStatusW' in capfd.readouterr().out
-    host.end()
-
-
-@on_linux
-@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_no_step_goes_past_the_stop_time(files, tmp_path, capfd, fmi):
     host = Host(files[fmi, None], tmp_path / fmi, stop=1.0)
     time = 0.0

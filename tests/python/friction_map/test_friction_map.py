@@ -231,23 +231,6 @@ def test_another_temperature_shifts_the_velocity(road_map):
     np.testing.assert_array_equal(several, [road_map.mu(p, 1e-3), road_map.mu(p, 1e-3, a_T=10.0)])
 
 
-def test_arrays_hold_what_points_do(road_map):
-    p, v = random_points(1500)
-    whole = road_map.mu(p, v)
-    single = [road_map.mu(float(a), float(b)) for a, b in zip(p, v, strict=True)]
-    # each is a sum of two exponentials, rounded differently
-    np.testing.assert_allclose(whole, single, rtol=1e-14)
-    np.testing.assert_allclose(
-        whole, road_map.hysteresis(p, v) + road_map.adhesion(p, v), rtol=1e-14
-    )
-    assert road_map.mu(p[:5, None], v[None, :7]).shape == (5, 7)
-    np.testing.assert_allclose(
-        road_map.mu(p[:5, None], v[None, :7])[3, 6], road_map.mu(p[3], v[6]), rtol=1e-14
-    )
-    assert isinstance(road_map.mu(2e5, 0.1), float)
-    assert road_map.mu(np.empty(0), 0.1).shape == (0,)
-
-
 def test_traction_is_odd_and_nought_at_rest_and_without_load(road_map):
     p, v = random_points(20)
     np.testing.assert_allclose(road_map.traction(p, v), road_map.mu(p, v) * p, rtol=1e-14)
@@ -411,24 +394,6 @@ def test_what_no_map_is_made_of_is_refused(argument, given):
     with pytest.raises((InvalidInput, OutOfRange, NotConverged)) as refused:
         made(**given)
     assert refused.value.argument == argument
-
-
-@pytest.mark.parametrize("outside", ["error", "clamp"])
-@pytest.mark.parametrize(
-    ("argument", "at"),
-    [
-        ("pressure", {"pressure": np.nan}),
-        ("velocity", {"velocity": [0.1, np.nan]}),
-        ("a_T", {"a_T": np.nan}),
-        ("a_T", {"a_T": 0.0}),
-        ("a_T", {"a_T": -1.0}),
-    ],
-)
-def test_what_is_no_number_is_refused(road_map, outside, argument, at):
-    with pytest.raises(InvalidInput) as refused:
-        road_map.mu(**{"pressure": 2e5, "velocity": 0.1} | at, outside=outside)
-    assert refused.value.argument == argument
-    assert np.isnan(road_map.mu(np.nan, 0.1, outside="nan"))
 
 
 def test_an_elastic_rubber_has_area_and_adhesion_alone():

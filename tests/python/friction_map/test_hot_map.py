@@ -133,30 +133,6 @@ def test_hysteresis_is_as_good_where_adhesion_is_25_000_times_as_much():
     assert (np.abs(found.contact_area(p, v) / truth.contact_area - 1) <= found.max_error).all()
 
 
-def test_the_table_of_sliding_lengths_tells_its_progress_and_ends_where_that_raises():
-    """It is the second half of the work of a map without a check."""
-    told = []
-    made(adhesion=None, rtol=1e-2, progress=told.append)
-    assert told == sorted(told)
-    assert sum(share > 0.5 for share in told) > 50
-    assert told[-1] == 1
-
-    class Enough(Exception):
-        pass
-
-    heard = []
-
-    def tell(share):
-        heard.append(share)
-        if share > 0.6:
-            raise Enough
-
-    with pytest.raises(Enough):
-        made(adhesion=None, rtol=1e-2, progress=tell)
-    assert sum(share > 0.6 for share in heard) == 1
-    assert heard[-1] < 0.7
-
-
 def test_what_heat_hardly_changes_is_the_error_of_its_memory():
     told = []
     found = made(adhesion=None, box=BOX | {"velocity": (1e-6, 1e-5)}, progress=told.append)

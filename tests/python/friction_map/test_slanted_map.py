@@ -82,23 +82,6 @@ def test_it_is_as_good_as_it_says_to_the_corners_of_the_box(found):
         )
 
 
-def test_arrays_numbers_and_one_temperature_for_all_give_the_same(found):
-    at = points(found, 600, seed=2)
-    for distance in (None, 1e-4):
-        together = found.mu(**at, distance=distance)
-        alone = [
-            found.mu(float(p), float(v), temperature=float(t), distance=distance)
-            for p, v, t in zip(*at.values(), strict=True)
-        ]
-        np.testing.assert_allclose(together, alone, rtol=2e-13)
-        shared = at | {"temperature": 290.0}
-        alone = [
-            found.mu(float(p), float(v), temperature=290.0, distance=distance)
-            for p, v in zip(at["pressure"], at["velocity"], strict=True)
-        ]
-        np.testing.assert_allclose(found.mu(**shared, distance=distance), alone, rtol=2e-13)
-
-
 def test_slopes_are_those_of_mu_to_the_corners_of_the_box(found):
     at = points(found, 200, seed=3)
     slopes, h = found.derivatives(**at), 1e-5
