@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.scene.progress import with_contacts
 
 LENGTH = 0.01
 ROAD = asperity.SelfAffineSpectrum(
@@ -104,53 +103,6 @@ def wholly_solved() -> asperity.ScanContact:
         _whole.append(scan())
         friction(_whole[0])
     return _whole[0]
-
-
-class Bar:
-    """As tqdm's, on a terminal."""
-
-    start_t, delay = 0.0, 2
-
-    def __init__(self, chunks: Any) -> None:
-        self.chunks, self.lines, self.cleared = chunks, [], 0
-
-    def __enter__(self) -> "Bar":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
-
-    def __iter__(self) -> Any:
-        return iter(self.chunks)
-
-    def set_postfix_str(self, line: str) -> None:
-        self.lines.append(line)
-
-    def clear(self) -> None:
-        self.cleared += 1
-
-
-def test_a_bar_says_how_many_contacts_are_solved() -> None:
-    exact, bars = scan(), []
-
-    def progress(chunks: Any) -> Bar:
-        bars.append(Bar(chunks))
-        return bars[-1]
-
-    with with_contacts(progress, exact)([0]) as shown:
-        for _ in shown:
-            friction(exact)
-    (bar,) = bars
-    assert bar.lines[0].startswith("0 of ")
-    assert bar.lines[0].endswith(" contacts solved")
-    assert bar.cleared == 1
-    assert with_contacts(progress, asperity.PartialContact()) is progress
-    bar.start_t = np.inf  # before its delay is over
-    bar.lines.clear()
-    with with_contacts(lambda chunks: bar, exact)([0]):
-        friction(exact, pressure=3e5)
-    assert bar.lines == []
-    assert bar.cleared == 1
 
 
 def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> None:

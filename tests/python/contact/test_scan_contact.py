@@ -348,23 +348,3 @@ tolerance = 0.02
     lines = [line for line in out.read_text().splitlines() if not line.startswith("#")]
     mu = [float(line.split(",")[lines[0].split(",").index("mu")]) for line in lines[1:]]
     assert mu == pytest.approx(friction(np.array([1e-3, 0.1])).mu, rel=0.01)
-
-    scene = (tmp_path / "scene.toml").read_text()
-    (tmp_path / "scene.toml").write_text(scene + "[uncertainty]\nsamples = 20\n")
-    assert main(["friction", str(tmp_path / "scene.toml"), "--output", str(out)]) == 0
-    rows = [line.split(",") for line in out.read_text().splitlines() if not line.startswith("#")]
-    mu, low, high = (
-        np.array([float(row[rows[0].index(name)]) for row in rows[1:]])
-        for name in ("mu", "mu_low", "mu_high")
-    )
-    band = asperity.friction_band(
-        SPECTRUM, RUBBER, pressure=2e5, velocity=[1e-3, 0.1], correction=EXACT, samples=20
-    )
-    assert low == pytest.approx(band.lower, rel=0.01)
-    assert high == pytest.approx(band.upper, rel=0.01)
-    assert ((low < 0.97 * mu) & (mu * 1.03 < high)).all()
-
-    (tmp_path / "profile.csv").write_text("\n".join(map(str, SCAN.heights[0])))
-    text = (tmp_path / "scene.toml").read_text().replace("scan.npy", "profile.csv")
-    (tmp_path / "line.toml").write_text(text)
-    assert main(["friction", str(tmp_path / "line.toml"), "--output", str(out)]) == 2

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import AffineShift, HeightMap, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
+from asperity import HeightMap, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
@@ -14,7 +14,6 @@ RUBBER = PronySeries(
     equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
 )
 SCENE = {"velocity": 0.01, "pressure": 1e6}
-WAVENUMBERS = np.geomspace(2e3, 1e6, 9)[1:]
 
 
 def elastic(modulus):
@@ -30,15 +29,6 @@ def gauss(f, edges):
 
 def exact_area(g):
     return math.erf(0.5 / math.sqrt(g))
-
-
-def g_of_area(area):
-    """The largest G at which erf(1 / (2 sqrt G)) = area, by bisection."""
-    low, high = -40.0, 40.0
-    for _ in range(200):
-        middle = (low + high) / 2
-        low, high = (middle, high) if exact_area(math.exp(middle)) >= area else (low, middle)
-    return math.exp(low)
 
 
 @pytest.mark.parametrize("rolloff", [None, 2e4])
@@ -91,25 +81,6 @@ def test_a_spectrum_and_its_table_make_the_same_contact():
     for function in (asperity.contact_area, lambda *a, **k: asperity.friction(*a, **k).mu):
         expected = function(ROAD, RUBBER, **SCENE)
         assert function(table, RUBBER, **SCENE) == pytest.approx(expected, rel=1e-6)
-
-
-@pytest.mark.parametrize("pressure", [1e4, 1e6, 3e7])
-@pytest.mark.parametrize("correction", [None, AffineShift(2), asperity.SFactor(applies_to="area")])
-def test_pressure_distribution_integrates_to_area_and_load(pressure, correction):
-    options = {"pressure": pressure, "velocity": 0.01, "correction": correction, "rtol": 1e-10}
-    for q in WAVENUMBERS:
-        area = asperity.contact_area(ROAD, RUBBER, **options, wavenumber=q)
-        width = math.sqrt(2 * g_of_area(area)) * pressure
-        low, high = max(0, pressure - 12 * width), pressure + 12 * width
-        edges = np.linspace(low, high, 300)
-
-        def density(stress, q=q):
-            return asperity.pressure_distribution(stress, ROAD, RUBBER, **options, wavenumber=q)
-
-        assert gauss(density, edges) == pytest.approx(area, rel=1e-8)
-        load = gauss(lambda stress, density=density: stress * density(stress), edges)
-        assert load == pytest.approx(pressure, rel=1e-8)
-        assert density(np.float64(0)) == 0
 
 
 def test_full_contact_under_a_crushing_load_and_at_q0():

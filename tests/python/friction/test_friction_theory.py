@@ -60,38 +60,6 @@ ALL = [
 ]
 
 
-def in_micrometres_and_megapascals(correction):
-    if isinstance(correction, LocalPeaks):
-        return LocalPeaks(np.multiply(PEAKS, 1e6))
-    profile = {name: value * 1e6 for name, value in PROFILE.items()}
-    if isinstance(correction, GreenwoodWilliamson):
-        return GreenwoodWilliamson(**profile)
-    if isinstance(correction, PeaksThenGreenwoodWilliamson):
-        return PeaksThenGreenwoodWilliamson(np.multiply(PEAKS, 1e6), **profile)
-    return correction
-
-
-@pytest.mark.parametrize("correction", ALL, ids=lambda c: type(c).__name__)
-def test_no_result_depends_on_the_units(correction):
-    road = SelfAffineSpectrum(rms_height=265.7, hurst=0.87, q0=2e-3, q1=2e-2)
-    rubber = PronySeries(
-        equilibrium_modulus=3,
-        moduli=MODES["moduli"] * 1e-6,
-        relaxation_times=MODES["relaxation_times"],
-    )
-    first = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction, adhesion=ADHESION)
-    second = asperity.friction(
-        road,
-        rubber,
-        pressure=0.2,
-        velocity=0.005e6,
-        correction=in_micrometres_and_megapascals(correction),
-        adhesion=Adhesion(shear_stress=8.3, reference_velocity=6e3),
-    )
-    for name in ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor"):
-        assert getattr(second, name) == pytest.approx(getattr(first, name), rel=1e-12, abs=0), name
-
-
 def test_total_is_hysteresis_and_adhesion_of_the_real_area():
     velocity = np.geomspace(1e-5, 10, 7)
     found = asperity.friction(ROAD, RUBBER, pressure=2e6, velocity=velocity, adhesion=ADHESION)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 import asperity
@@ -108,20 +107,3 @@ def test_a_build_with_vertical_shifts_is_no_shift_of_frequencies_alone():
         asperity.friction(ROAD, RUBBER, shift=stiffer, **at)
     left_out = asperity.friction(ROAD, RUBBER, shift=stiffer.shift_factors, **at)
     assert left_out.mu == asperity.friction(ROAD, RUBBER, shift=BUILD, **at).mu
-
-
-def test_friction_over_temperature_is_drawn_over_temperature():
-    pytest.importorskip("matplotlib").use("agg")
-    t = np.linspace(273.0, 313.0, 5)
-    given = {"pressure": 1e5, "shift": LAW, "heating": asperity.Heating(**TREAD)}
-    over_t = asperity.friction(ROAD, RUBBER, velocity=1.0, temperature=t, **given)
-    axes = over_t.plot()
-    assert axes.get_xlabel() == "Temperature $T_0$ [K]"
-    hot, cold = axes.lines[:2]
-    np.testing.assert_array_equal(hot.get_xdata(), t)
-    np.testing.assert_array_equal(hot.get_ydata(), over_t.mu)
-    np.testing.assert_array_equal(cold.get_ydata(), over_t.cold.mu)
-    grid = asperity.friction(ROAD, RUBBER, velocity=[1e-2, 1.0], temperature=t[:, None], **given)
-    axes = grid.plot()
-    assert axes.get_xlabel() == "Sliding velocity $v$ [m/s]"
-    assert len(axes.lines) == 2 * 5 + 2  # a curve a temperature, hot and cold, and the legend's

@@ -107,20 +107,6 @@ def test_contributions_add_up_to_the_hysteresis():
     np.testing.assert_allclose(found.temperature_profile[:, -1], found.temperature, rtol=1e-12)
 
 
-def test_without_a_shift_in_the_modulus_heat_changes_nothing():
-    still = asperity.ArrheniusFit(
-        activation_energy=0.0,
-        reference_temperature=293.15,
-        standard_errors={"activation_energy": 0.0},
-        residual=0.0,
-    )
-    found = hot(velocity=np.geomspace(1e-4, 10, 6), shift=still, adhesion=STICKY)
-    np.testing.assert_allclose(found.mu, found.cold.mu, rtol=2e-9)
-    np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=2e-9)
-    assert (found.temperature > 293.15).all()
-    np.testing.assert_array_equal(found.gain, 0)
-
-
 def test_the_reference_of_the_law_does_not_matter():
     other = asperity.WLF(c1=8.86 * 101.6 / 121.6, c2=121.6, reference_temperature=313.15)
     warm = rubber().shifted(10 ** LAW.log10_a_T(313.15))
