@@ -14,8 +14,6 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from asperity.app import serve
-from asperity.base.extras import to_install
 from asperity.cli.main import main
 from helpers.served import served
 
@@ -82,15 +80,6 @@ def test_a_port_that_is_taken_or_none_is_refused(capsys: pytest.CaptureFixture[s
             assert out == ""
             assert problem in err
             assert err.count("\n") == 1
-
-
-def test_what_is_missing_is_named(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(serve.importlib.util, "find_spec", lambda name: None)
-    assert main(["app", "--no-browser"]) == 2
-    said = f"asperity: the app needs NiceGUI: {to_install('app')}\n"
-    assert capsys.readouterr().err == said
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="there is no SIGHUP here")

@@ -8,7 +8,6 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from helpers.known_surfaces import law, surface
-from helpers.shell import status_of
 
 PIXEL = 1e-6
 READ = ["--pixel-size", str(PIXEL), "--unit", "um"]
@@ -47,50 +46,3 @@ def test_a_file_and_an_array_give_what_python_does(
     assert len(rows) == 1 + spectrum.wavenumber.size
     assert float(rows[1].split(",")[1]) == pytest.approx(spectrum.density[0], rel=1e-6)
     assert Path("a.png").stat().st_size > 0
-
-
-BAD = [
-    (["none.npy", "--tiles", "512"], "none.npy: cannot be read"),
-    (["map.npy", "--tiles", "4096"], "--tiles = 4096: must be"),
-    (["map.npy", "--tiles", "x"], "'x': must be"),
-    (["map.npy", "--tiles", "512", "--overlap", "0.9"], "--overlap = 0.9: must be"),
-    (["map.npy", "--overlap", "0.25"], "--overlap 0.25: goes with --tiles"),
-    (["map.npy", "--threads", "2"], "--threads 2: goes with --tiles"),
-    (["map.npy", "--tiles", "512", "--channel", "1"], "--channel = 1: must be"),
-    (["map.npz", "--tiles", "512"], "must be a .npy file or a Zarr array"),
-    (["short.npy", "--tiles", "512"], "short.npy: not a sound .npy file"),
-    (["line.npy", "--tiles", "512"], "surface has shape (700,)"),
-    (["empty", "--tiles", "512"], "empty: not a Zarr array or group"),
-    (["empty"], "empty: is a folder"),
-    (["group.zarr", "--tiles", "512"], "it has c (2,"),
-]
-
-
-@pytest.fixture(scope="module")
-def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What cannot be read in tiles, and a map that can."""
-    zarr = pytest.importorskip("zarr")
-    folder = tmp_path_factory.mktemp("tiles")
-    np.save(folder / "map.npy", HEIGHTS)
-    np.savez(folder / "map.npz", HEIGHTS)
-    np.save(folder / "line.npy", HEIGHTS[0])
-    (folder / "short.npy").write_bytes((folder / "map.npy").read_bytes()[:900_000])
-    (folder / "empty").mkdir()
-    group = zarr.create_group(folder / "group.zarr")
-    group.create_array("c", data=np.ones((2, 3, 4)))
-    return folder
-
-
-@pytest.mark.parametrize(("arguments", "named"), BAD)
-def test_bad_input_is_one_line(
-    files: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    arguments: list[str],
-    named: str,
-) -> None:
-    monkeypatch.chdir(files)
-    assert status_of(["spectrum", *arguments, *READ]) == 2
-    said = capsys.readouterr().err
-    assert named in said
-    assert said.count("\n") == 1

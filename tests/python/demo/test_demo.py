@@ -11,7 +11,6 @@ import pytest
 import asperity
 from asperity import demo
 from asperity.cli.main import main
-from asperity.scene.model import SceneFriction
 
 
 @pytest.fixture(scope="module")
@@ -74,22 +73,6 @@ def test_demo_curve_is_a_friction_curve(finished: Path) -> None:
     assert table["mu"][-1] < 0.96 * table["mu_cold"][-1]  # at 10 m/s
     assert table["mu"][0] == pytest.approx(table["mu_cold"][0], rel=1e-3)
     assert "not modelled" not in text
-
-
-def test_demo_draws_the_band_of_its_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
-    drawn = []
-
-    def watch(_: object, results: list[SceneFriction], __: object) -> bytes:
-        drawn.extend(results)  # the band is narrower than the line: no pixel shows it
-        return b""
-
-    monkeypatch.setattr("asperity.plot.friction.friction_figure", watch)
-    assert main(["demo", "--output", str(tmp_path)]) == 0
-    (curves,) = drawn
-    assert curves.band is not None
-    lower, upper = curves.band
-    assert ((lower < curves.mu) & (curves.mu < upper)).all()
 
 
 def test_demo_overwrites_nothing_unless_told_to(

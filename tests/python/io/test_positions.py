@@ -5,21 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import asperity
 from asperity import HeightMap, InvalidInput, LineScan, read_surface
-from asperity.scene.scene import load_scene
-from helpers.scenes import CONDITIONS
 
 HEIGHTS = np.random.default_rng(3).normal(size=(5, 7))
 DY, DX = 3.0, 1 / 3  # um; the second is rounded in a file
 X, Y = np.meshgrid(np.arange(7) * DX + 40, np.arange(5) * DY - 6)
 ROWS = np.column_stack([X.ravel(), Y.ravel(), HEIGHTS.ravel()])
-RUBBER = """
-[rubber]
-equilibrium_modulus_pa = 3e6
-moduli_pa = [1e7, 1e8, 1e9]
-relaxation_times_s = [1e-2, 1e-4, 1e-6]
-"""
 
 
 def text(rows: np.ndarray, head: str = "", mark: str = "\t") -> str:
@@ -102,31 +93,3 @@ def test_what_is_no_scan_is_refused_by_its_name(
         read_surface(tmp_path / "map.txt", **given)  # type: ignore[arg-type]
     assert str(caught.value).startswith(f"{tmp_path / 'map.txt'}: ")
     assert message in str(caught.value)
-
-
-SCANS = """
-[surface]
-file = ["coarse.asc", "fine.asc"]
-detrend = "offset"
-window = "none"
-"""
-
-
-def test_a_scene_merges_scans_of_two_magnifications(tmp_path: Path) -> None:
-    pytest.importorskip("SurfaceTopography")
-    law = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=4.5e4, q1=3.2e7)
-    for name, pixel in (("coarse.asc", 1e-6), ("fine.asc", 1e-7)):
-        seen = law.truncated(q0=2 * np.pi / (128 * pixel), q1=np.pi / pixel)
-        made = asperity.synthesize(seen, shape=(128, 128), pixel_size=pixel, seed=1)
-        side = f"{128e6 * pixel:g} µm"
-        head = f"Channel: a\nWidth: {side}\nHeight: {side}\nValue units: m"
-        np.savetxt(tmp_path / name, made.heights, header=head, encoding="utf-8")
-    (tmp_path / "scene.toml").write_text(SCANS + RUBBER + CONDITIONS)
-    scene = load_scene(tmp_path / "scene.toml")
-    assert scene.spectrum.q0 < 6e4
-    assert scene.spectrum.q1 > 2.5e7
-    q = np.geomspace(1e5, 2e7, 40)  # two rings from the lower end
-    off = np.log(scene.spectrum.at(q) / law.at(q))
-    assert np.abs(off[(q < 3e5) | (q > 1e6)]).max() < 0.15  # a bin is a factor of 1.26 wide
-    assert scene.friction().mu.min() > 0
-    assert [path.name for path in scene.sources[1:]] == ["coarse.asc", "fine.asc"]

@@ -8,7 +8,6 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, read_isotherms
-from asperity.app.guess import guess_columns
 from asperity.io import plausible
 from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, SURFACE
@@ -206,14 +205,3 @@ def test_a_ramp_whose_shift_is_known_is_a_master_curve(
     np.testing.assert_allclose(shifted.modulus(1e2), RUBBER.modulus(1e2 * a_t), rtol=0.06)
     with pytest.raises(InvalidInput, match="'temperature' is unknown without shift"):
         asperity.read_master_curve(tmp_path / "a.csv", **how)
-
-
-def test_names_of_rheocompass_are_guessed_above_its_units(tmp_path: Path) -> None:
-    names = ["Interval data:", "Point No.", "Frequency", "Storage Modulus", "Loss Modulus"]
-    units = ["", "", "[Hz]", "[MPa]", "[MPa]", "[°C]"]
-    rows = [f"\t{n}\t{n}\t2\t1\t20" for n in range(1, 9)]
-    lines = ["\t".join([*names, "Temperature"]), "\t\t\tSinusoidal\t\t", "\t".join(units), *rows]
-    (tmp_path / "a.csv").write_bytes("\n".join(lines).encode("utf-16"))
-    guess = guess_columns(tmp_path / "a.csv")
-    assert guess.columns["storage"] == "Storage Modulus"
-    assert guess.units == {"frequency": "Hz", "modulus": "MPa", "temperature": "C"}

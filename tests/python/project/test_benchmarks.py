@@ -3,7 +3,6 @@
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -13,7 +12,6 @@ from curves import curves, measured_curves
 
 ROOT = Path(__file__).parents[3]
 CURVES = {name: curve.thinned() for name, curve in curves().items()}
-TERMS = [name for name in CURVES if name != "tabulated modulus"]
 NOTES = (ROOT / "docs/notes/speed.md").read_text(encoding="utf-8")
 TABLES = {
     path.name: path.read_text(encoding="utf-8") for path in (ROOT / "docs/benchmarks").glob("*.csv")
@@ -38,30 +36,6 @@ def test_panels_between_rings_reach_what_is_known(name):
     # a table's angular integrals have 12 points a row
     allowed = {"392 rings, 20 terms": 2e-13, "392 rings, master curve": 1e-12}
     assert curve.error(schemes.graded_panels(curve, 8, 2, 0.03, 1)) < allowed[name]
-
-
-@pytest.mark.parametrize("name", TERMS)
-def test_by_parts_converges(name):
-    errors = [CURVES[name].error(schemes.by_parts(CURVES[name], n)) for n in (12, 24, 64)]
-    assert errors[1] < errors[0] / 100
-    assert errors[2] < 1e-10
-
-
-@pytest.mark.parametrize("name", CURVES)
-def test_slopes_of_the_angular_integrals_are_those_of_differences(name):
-    modulus, w, step = CURVES[name].modulus, np.geomspace(1e-2, 1e7, 37), 1e-4
-    above, below = (modulus(w * np.exp(sign * step)) for sign in (1, -1))
-    for k, slope in enumerate(modulus.with_slopes(w)[2:]):
-        difference = (above[k] - below[k]) / (2 * step)
-        # second order in the step, and rounding over it
-        size = np.abs(modulus(w)[k])
-        assert np.all(np.abs(slope - difference) <= 1e-6 * size)
-
-
-def test_the_logarithmic_trapezoid_converges_with_the_square_of_its_step():
-    curve = CURVES["mild"]
-    coarse, fine = (curve.error(schemes.log_trapezoid(curve, n)) for n in (301, 601))
-    assert coarse / fine == pytest.approx(4, rel=0.02)
 
 
 def test_the_notes_on_speed_have_the_table_of_the_benchmarks():

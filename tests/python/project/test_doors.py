@@ -230,14 +230,6 @@ def test_a_report_has_them_before_all_else(swapped: Files) -> None:
     assert page.index("</nav>") < first < page.index("no Prony series") < page.index("<figure>")
 
 
-def test_the_picture_of_the_app_has_them(swapped: Files) -> None:
-    pytest.importorskip("matplotlib")
-    from asperity.app.downloads import picture
-
-    scene = asperity.read_scene(swapped.scene)
-    assert b"no Prony series follows" in picture([("this scene", scene)], [scene.friction()])
-
-
 def test_a_rank_of_a_sweep_counts_them(swapped: Files, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("xarray")
     sweep = swapped.folder / "sweep.toml"

@@ -8,7 +8,6 @@ import pytest
 
 import asperity
 from asperity import InvalidInput, OutOfRange
-from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
 from helpers.scenes import HEATING
@@ -96,31 +95,6 @@ def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
     assert most.startswith("fatal: ")
 
 
-def test_a_picture_is_grey_where_most_is_extrapolated(
-    dma: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pytest.importorskip("matplotlib")
-    figures: list[Any] = []
-    monkeypatch.setattr(
-        "asperity.plot.friction.picture", lambda figure, path: figures.append(figure) or b"picture"
-    )
-    _, fastest = known(dma)
-    beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
-    for text in (swept(beyond, 3 * fastest, 9.9 * fastest), swept(SCENE, 1e-5, 0.1 * fastest)):
-        loaded(dma, text)
-        drawn = [str(dma / name) for name in ("scene.toml", "mu.csv", "mu.png")]
-        assert main(["friction", drawn[0], "--output", drawn[1], "--plot", drawn[2]]) == 0
-    marked = [
-        [one for one in figure.axes[0].collections if one.get_label().startswith("most of the")]
-        for figure in figures
-    ]
-    (halo,) = marked[0]
-    grey = halo.get_datalim(figures[0].axes[0].transData)
-    assert fastest < grey.x0 < 9 * fastest
-    assert grey.x1 == pytest.approx(9.9 * fastest)
-    assert marked[1] == []
-
-
 @pytest.mark.parametrize(
     ("text", "argument"),
     [
@@ -144,30 +118,6 @@ def test_a_temperature_beyond_the_isotherms_is_out_of_range(
     assert "wlf_c1 and wlf_c2_k, which asperity rubber gives" in str(caught.value)
 
 
-def test_the_law_that_the_shell_gives_leads_beyond_the_isotherms(
-    dma: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    names = ["--columns", "frequency=f,temperature=T,storage=E1,loss=E2", "--modulus", "E"]
-    names += ["--units", "frequency=Hz,temperature=C,modulus=MPa"]
-    names += ["--reference-temperature", "293.15", "--output", str(dma / "curve.csv")]
-    files = [str(file) for file in sorted((dma / "dma").iterdir())]
-    assert main(["rubber", *files, *names]) == 0
-    told = capsys.readouterr().err.splitlines()
-    found = dict(line.split(" = ") for line in told if " = " in line)
-    curve = f"""
-[rubber]
-master_curve = "curve.csv"
-wlf_c1 = {found["wlf_c1"]}
-wlf_c2_k = {found["wlf_c2_k"]}
-reference_temperature_c = 20
-temperature_c = 80
-"""
-    rubber = loaded(dma, curve + SCENE[SCENE.index("[conditions]") :]).rubber
-    w = rubber.angular_frequency[10]
-    exact = RUBBER.modulus(w * 10 ** LAW.log10_a_T(353.15))
-    assert rubber.modulus(w).real == pytest.approx(exact.real, rel=0.2)
-
-
 def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
     """It may stand in [rubber], beside isotherms, or in [conditions]."""
     there = loaded(dma, SCENE + HEATING, for_friction=True)
@@ -175,22 +125,6 @@ def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
     here = loaded(dma, moved, for_friction=True)
     assert there.temperature == here.temperature == pytest.approx(293.15)
     np.testing.assert_array_equal(there.friction().mu, here.friction().mu)
-
-
-def test_what_is_said_of_one_temperature_names_it(
-    dma: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    _, fastest = known(dma)
-    text = SCENE.replace("temperature_c = 20", 'extrapolation = "power-law"')
-    loaded(dma, swept(text, fastest, 4 * fastest) + "temperature_c = [20, 30]\n", for_friction=True)
-    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 0
-    notes = capsys.readouterr().err
-    assert "note: 20 °C: more than 5 % of the hysteresis" in notes
-    assert "note: the measured spectrum" not in notes
-    assert "note: 30 °C: more than 5 %" not in notes  # warmer, so all of it was measured
-    loaded(dma, swept(text, fastest, 9 * fastest) + "temperature_c = [0, 20]\n", for_friction=True)
-    assert main(["friction", str(dma / "scene.toml"), "--output", str(dma / "mu.csv")]) == 2
-    assert capsys.readouterr().err.endswith("spectrum ends'); this is at 0 °C\n")
 
 
 def test_a_scan_too_small_for_its_spectrum_is_fatal(dma: Path) -> None:

@@ -190,15 +190,3 @@ def test_panels_are_two_axes_and_colours_the_third(swept, tmp_path, monkeypatch)
 def test_a_band_is_filled(tmp_path, monkeypatch):
     figure = drawn(table(MU, np.zeros((3, 2, 2)), band=0.1), tmp_path / "p.png", monkeypatch)
     assert [len(axes.collections) for axes in figure.axes] == [2, 2, 2]
-
-
-def test_more_values_than_a_picture_has_room_for_are_refused(tmp_path, monkeypatch):
-    many = asperity.sweep(
-        SCENE, {"surface.hurst": np.linspace(0.6, 0.9, 9), "conditions.pressure_pa": [1e5, 2e5]}
-    )
-    with pytest.raises(asperity.InvalidInput):
-        drawn(many, tmp_path / "p.png", monkeypatch)
-    turned = many.transpose("conditions.pressure_pa", "surface.hurst", ...)
-    figure = drawn(turned, tmp_path / "p.png", monkeypatch)
-    assert [len(axes.lines) for axes in figure.axes[:2]] == [9, 9]  # and a colour bar
-    assert len(figure.axes) == 3

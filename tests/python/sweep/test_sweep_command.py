@@ -181,42 +181,6 @@ def test_bad_options_are_refused(line, said, capsys):
     assert sorted(os.listdir()) == ["scene.toml", "sweep.toml"]
 
 
-def test_a_picture_does_not_take_the_place_of_an_input(folder, capsys):
-    os.rename("scene.toml", "scene.png")
-    (folder / "sweep.toml").write_text(SWEEP.replace("scene.toml", "scene.png"))
-    said = refused(capsys, "sweep.toml", "--output", "r.zarr", "--plot", "scene.png")
-    assert "scene.png: is an input" in said
-    assert sorted(os.listdir()) == ["scene.png", "sweep.toml"]
-
-
-class Silent:
-    """An executor that has no submit."""
-
-
-def test_python_is_refused_as_the_command_is():
-    def gone():
-        return None
-
-    for arguments, said in (
-        ({"executor": Silent()}, "executor = .*: must have the submit"),
-        ({"resume": True}, "resume = True: needs store="),
-        ({"scene": {**SCENE, "rubber": {"moduli_pa": gone}}}, "in the scene: must be what a scene"),
-        ({"scene": {"surface": {}}}, r"\[rubber\]: missing"),
-        ({"scene": {**SCENE, "roads": {}}}, r"\[roads\]: unknown table"),
-        ({"over": {"surface.file": [gone]}}, "must be the name of a file"),
-        ({"over": {"surface.hurst": "0.7"}}, "must be a list"),
-        ({"over": [1]}, "over = .*: must be a table"),
-        ({"over": {"conditions.pressure_pa": [1e5, None]}}, "= None: must be a number"),
-        ({"over": {"conditions.pressure_pa": (p for p in (1e5, -1))}}, "= -1.0: must be positive"),
-        ({"over": {"conditions.pressure_pa": np.ones((2, 2))}}, "must be a number"),
-        ({"progress": 3}, "progress = 3"),
-        ({"variables": "mu"}, "variables = 'mu'"),
-    ):
-        with case(said=said), pytest.raises(asperity.InvalidInput, match=said) as told:
-            asperity.sweep(**{"scene": SCENE, "over": {"surface.hurst": [0.7]}, **arguments})
-        assert "\n" not in str(told.value)
-
-
 def test_an_executor_that_ends_is_told(monkeypatch):
     from concurrent.futures import ThreadPoolExecutor
 

@@ -3,7 +3,6 @@
 import numpy as np
 
 import asperity
-from asperity.cli.main import main
 from helpers.cases import case
 from helpers.examples import TREAD
 
@@ -108,50 +107,3 @@ def test_temperatures_broadcast_and_threads_change_nothing():
     assert one.lower.shape == (2, 3)
     single = asperity.friction_band(measured_road(2), RUBBER, **given | {"temperature": 303.0})
     np.testing.assert_allclose(single.upper, one.upper[1], rtol=1e-3)
-
-
-SCENE = """
-[surface]
-file = "scan.npy"
-pixel_size_m = 5e-5
-unit = "m"
-q0_per_m = 3e3
-
-[rubber]
-equilibrium_modulus_pa = 3e6
-moduli_pa = [1e9, 1e8, 1e7]
-relaxation_times_s = [1e-8, 1e-6, 1e-4]
-wlf_c1 = 8.0
-wlf_c2_k = 110.0
-reference_temperature_k = 293.0
-
-[conditions]
-pressure_pa = 2e5
-velocity_m_s = { from = 1e-3, to = 10, points = 5 }
-temperature_k = [283, 303]
-
-[heating]
-density_kg_m3 = 1200
-heat_capacity_j_kg_k = 1650
-conductivity_w_m_k = 0.23
-contact_diameter_m = 1e-3
-
-[uncertainty]
-samples = 20
-"""
-
-
-def test_a_scene_with_heat_has_bands_too(folder, capsys):
-    asphalt = asperity.SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=4e4)
-    scan = asperity.synthesize(asphalt, shape=(200, 220), pixel_size=5e-5, seed=3)
-    np.save(folder / "scan.npy", scan.heights)
-    (folder / "hot.toml").write_text(SCENE)
-    assert main(["friction", "hot.toml", "--output", "hot.csv"]) == 0
-    lines = (folder / "hot.csv").read_text().splitlines()
-    names, *rows = [line.split(",") for line in lines if not line.startswith("#")]
-    table = dict(zip(names, np.array(rows, float).T, strict=True))
-    assert table["mu"].size == 10
-    assert (table["mu_low"] < table["mu"]).all()
-    assert (table["mu"] < table["mu_high"]).all()
-    cold = table["mu_cold"]
-    assert ((cold < table["mu_low"]) | (table["mu_high"] < cold)).any()  # about the hot one

@@ -353,22 +353,3 @@ def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_p
     lower, upper, notes = loaded.band(mu)
     assert notes == ()
     assert ((lower < mu) & (mu < upper)).all()  # the drawn laws go on as far
-
-
-@pytest.mark.parametrize(
-    ("given", "argument"),
-    [
-        ({"more": "[uncertainty]\nsamples = 5"}, "[uncertainty] samples"),
-        ({"more": "[uncertainty]\nlevel = 2"}, "[uncertainty] level"),
-        ({"more": "[uncertainty]\nsample = 50"}, "[uncertainty] sample"),
-        ({"fit": 'fit = "fractal"'}, "[surface] fit"),
-    ],
-)
-def test_bad_uncertainty_in_a_scene(scene, given, argument):
-    def band():
-        loaded = load_scene(scene(**given))
-        return loaded.band(loaded.friction().mu)
-
-    with pytest.raises(InvalidInput) as caught:
-        band()
-    assert caught.value.argument == argument

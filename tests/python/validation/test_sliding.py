@@ -1,6 +1,5 @@
 """Exact sliding contact against closed forms, other solvers, and its own symmetries."""
 
-import pickle
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -360,22 +359,6 @@ def test_a_direction_in_degrees_is_noted() -> None:
 def test_time_limit_says_what_was_reached() -> None:
     with pytest.raises(asperity.NotConverged, match=r"error of .* its contact area was .*time_lim"):
         pressed(rough(256, 32), rtol=1e-12, time_limit=1e-3)
-
-
-def test_result() -> None:
-    found = pressed(rough(48, 8))
-    assert repr(found).startswith("SlidingContact(contact_area=")
-    assert pickle.loads(pickle.dumps(found)) == found
-    assert not found.pressure.flags.writeable
-    table = pytest.importorskip("xarray") and found.to_xarray()
-    assert table.pressure.shape == (48, 48)
-    assert table.attrs["hysteresis"] == found.hysteresis
-    assert table.pressure.attrs["units"] == "Pa"
-    pytest.importorskip("matplotlib")
-    from matplotlib.figure import Figure
-
-    axes = found.plot(Figure().subplots())
-    assert axes.get_xlabel().endswith("along the way")
 
 
 def test_progress_is_told_every_step_coarse_grids_first() -> None:

@@ -66,22 +66,3 @@ def test_the_map_where_none_is_given_holds_its_waves():
     # 4 to 32 waves along a side of 256 points
     assert own_map().heights.shape == (256, 256)
     assert own_map().rms_height == pytest.approx(265.7e-6, rel=0.1)
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--rubber", "x.toml"], "--rubber: only goes with --sliding"),
-        (["--velocities", "1"], "--velocities: only goes with --sliding"),
-        (["--sliding", "--loads", "0.1"], "--loads: must be left out where --sliding is given"),
-        (["--sliding", "--rows", "x.csv"], "--rows: must be left out where --sliding is given"),
-        (["--sliding", "--unit", "m"], "--unit: only goes with --surface"),
-        (["--sliding", "--velocities", "-1"], "velocity = -1"),
-        (["--sliding", "--rubber", "none.toml"], "none.toml: "),
-    ],
-)
-def test_bad_options(options, message, undrawn, tmp_path, capsys):
-    assert main(["validate", *options, "--output", str(tmp_path / "worth")]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert message in line
-    assert not (tmp_path / "worth").exists()

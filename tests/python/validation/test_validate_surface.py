@@ -78,27 +78,3 @@ def test_patches_of_few_pixels_are_said(undrawn, tmp_path, capsys):
         main(["validate", "--surface", str(path), "--pixel-size", "1", "--unit", "m", *more]) == 0
     )
     assert "note: at p* up to 0.02 the points touch in patches" in capsys.readouterr().err
-
-
-BAD = {
-    "--q0: only goes with --surface": ["--q0", "2000"],
-    "--pixel-size: only goes with --surface": ["--pixel-size", "1e-6"],
-    "--periodic: only goes with --surface": ["--periodic"],
-    "--rows: must be left out where --surface is given": ["--surface", "x.npy", "--rows", "y.csv"],
-    "x.npy: cannot be read": ["--surface", "x.npy", "--pixel-size", "1", "--unit", "m"],
-}
-
-
-@pytest.mark.parametrize("message", BAD)
-def test_bad_options(message, tmp_path, capsys):
-    assert main(["validate", *BAD[message], "--output", str(tmp_path / "worth")]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert message in line
-
-
-@pytest.mark.parametrize(
-    ("loads", "message"), [("0", "--loads = 0: must be positive"), ("nan", "--loads")]
-)
-def test_bad_loads(loads, message, scan, tmp_path, capsys):
-    assert main(arguments(scan, "--loads", loads, "--output", str(tmp_path / "worth"))) == 2
-    assert message in capsys.readouterr().err
