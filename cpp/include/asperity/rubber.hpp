@@ -47,6 +47,8 @@ class ASPERITY_EXPORT PronySeries {
   [[nodiscard]] double equilibrium_modulus() const { return equilibrium_; }
   [[nodiscard]] const std::vector<double>& moduli() const { return moduli_; }
   [[nodiscard]] const std::vector<double>& relaxation_times() const { return times_; }
+  /// w_k = 2 E_k (E_inf + sum_l E_l tau_l / (tau_k + tau_l)) [Pa^2] of I2 = 2 pi (E_inf^2 + sum_k w_k s_k).
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
   /// At angular frequency w [rad/s], 0 or more.
   [[nodiscard]] std::complex<double> modulus(double w) const;
   [[nodiscard]] AngularIntegrals angular_integrals(double w) const;
@@ -80,8 +82,8 @@ class ASPERITY_EXPORT PronySeries {
 
   double equilibrium_;
   std::vector<double> moduli_, times_;
-  std::vector<double> weights_;  // w_k = 2 E_k (E_inf + sum_l E_l tau_l / (tau_k + tau_l))
-  double longest_;               // relaxation time, 0 where there is none
+  std::vector<double> weights_;
+  double longest_;  // relaxation time, 0 where there is none
   std::optional<Fit> fit_;
 };
 

@@ -16,16 +16,7 @@ void AngularColumns::resize(std::size_t n) {
 }
 
 AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors)
-    : rubber_(rubber), factors_(std::move(factors)) {
-  const auto* series = std::get_if<PronySeries>(&rubber);
-  if (!series) return;
-  const std::vector<double>&e = series->moduli(), &tau = series->relaxation_times();
-  for (std::size_t k = 0; k < e.size(); ++k) {
-    double sum = series->equilibrium_modulus();
-    for (std::size_t l = 0; l < e.size(); ++l) sum += e[l] / (1 + tau[k] / tau[l]);
-    weight_.push_back(2 * e[k] * sum);
-  }
-}
+    : rubber_(rubber), factors_(std::move(factors)) {}
 
 void AngularSlopes::operator()(std::span<const double> w, AngularColumns& result) {
   if (const auto* curve = std::get_if<MasterCurve>(&rubber_))
@@ -54,8 +45,8 @@ void AngularSlopes::of_series(std::span<const double> w, bool sloped, AngularCol
   held_.assign(w.begin(), w.end());
   held_.resize(padded, 1.0);
   result.resize(padded);
-  const PronyTerms terms{series.moduli().data(), weight_.data(), series.relaxation_times().data(), weight_.size(),
-                         series.equilibrium_modulus()};
+  const PronyTerms terms{series.moduli().data(), series.weights().data(), series.relaxation_times().data(),
+                         series.moduli().size(), series.equilibrium_modulus()};
   double *const i1 = result.i1.data(), *const i2 = result.i2.data();
   if (sloped)
     kernels().prony_slopes(terms, held_.data(), padded, i1, i2, result.slope1.data(), result.slope2.data());

@@ -30,7 +30,6 @@ class AngularSlopes {
 
   const Rubber& rubber_;
   std::vector<ModulusFactors> factors_;
-  std::vector<double> weight_;  // w_k of a series
   std::vector<double> around_[2], i1_[2], i2_[2], held_, of_loss_, loss_slope_;
 };
 

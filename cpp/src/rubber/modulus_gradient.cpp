@@ -252,14 +252,9 @@ SeriesGradient series_gradient(const PronySeries& series, std::span<const double
   const auto n = static_cast<Index>(e.size());
   const double e_inf = series.equilibrium_modulus();
   // of the number: over E_k as it stands in I1 and over w_k, and over ln t_k
-  VectorXd linear = VectorXd::Zero(n), weight = VectorXd::Zero(n), weights(n);
+  VectorXd linear = VectorXd::Zero(n), weight = VectorXd::Zero(n);
   SeriesGradient result{0, VectorXd::Zero(n), VectorXd::Zero(n)};
-  for (Index k = 0; k < n; ++k) {
-    double sum = e_inf;
-    for (Index l = 0; l < n; ++l)
-      sum += e[static_cast<std::size_t>(l)] / (1 + tau[static_cast<std::size_t>(k)] / tau[static_cast<std::size_t>(l)]);
-    weights[k] = 2 * e[static_cast<std::size_t>(k)] * sum;
-  }
+  const auto weights = VectorXd::Map(series.weights().data(), n);
   const auto size = static_cast<Index>(w.size());
   const auto of_w = Eigen::ArrayXd::Map(w.data(), size), of_i1 = Eigen::ArrayXd::Map(by_i1.data(), size),
              of_i2 = Eigen::ArrayXd::Map(by_i2.data(), size);
