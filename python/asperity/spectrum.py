@@ -11,25 +11,21 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
-    Array,
     Given,
     OptionalVector,
     Vector,
     broadcast,
-    frozen,
     number,
     number_or_none,
     over,
-    real_array,
     shaped,
-    vector,
-    vector_or_none,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
+from asperity.base.diagnostics import Argument, Must
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
+from asperity.spectrum_rows import Rows, two_axes
 from asperity.surface import around
 
 Flags = Given[ArrayLike | None, NDArray[np.uint8] | None]
@@ -202,138 +198,8 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
         axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
 
 
-class _Rows(Table):
-    """What spectra that are given row by row can do alike."""
-
-    _unit: str
-    _label: str
-    wavenumber: Any
-    density: Any
-    count: Any
-    standard_error: Any
-    flag: Any
-    correlation: Any
-    skewness: Any
-    kurtosis: Any
-    curvature_kurtosis: Any
-
-    def __post_init__(self) -> None:
-        for name in ("wavenumber", "density"):
-            self._set(**{name: vector(getattr(self, name), name)})
-        for name in ("count", "standard_error"):
-            self._set(**{name: vector_or_none(getattr(self, name), name)})
-        self._set(flag=_flags(self.flag))
-        self._set(correlation=_two_axes(self.correlation, "correlation", "lags"))
-        self._take_harmonics()
-        for name in ("count", "standard_error", "flag", "correlation"):
-            column = getattr(self, name)
-            if column is not None and column.size == 0:  # to the core, a column that is not given
-                raise InvalidInput(
-                    Argument(name),
-                    " has 0 entries",
-                    Must(": must have "),
-                    "one for each wavenumber",
-                )
-        for name in ("skewness", "kurtosis", "curvature_kurtosis"):
-            self._set(**{name: number_or_none(getattr(self, name), name)})
-        if (self.skewness is None) != (self.kurtosis is None):
-            missing = "kurtosis" if self.kurtosis is None else "skewness"
-            allowed = Must(": must be "), "given with the other"
-            raise InvalidInput(Argument(missing), " = None", *allowed)
-        if self.curvature_kurtosis is not None and self.kurtosis is None:
-            allowed = Must(": must be "), "given with curvature_kurtosis"
-            raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
-        self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
-
-    def _take_harmonics(self) -> None:
-        """Check and keep harmonics, where the class has them."""
-
-    @property
-    def reliable(self) -> NDArray[np.bool_]:
-        """Whether a row has no flag: bool, shape (n,)."""
-        trusted = np.ones(self.wavenumber.size, bool) if self.flag is None else self.flag == 0
-        return frozen(trusted)
-
-    def log_binned(self, *, per_decade: float = 10.0) -> Self:
-        """Return count-weighted means over bins of equal width in ln q, from the lowest row on.
-
-        Each row is brought to the bin's mean wavenumber along the local power law. Flagged rows
-        are left out of bins that have others. Errors of bins, and the correlation of neighbouring
-        ones, follow from the errors and the correlation of the rows.
-
-        Parameters
-        ----------
-        per_decade : float
-            Number of bins in a factor 10 of the wavenumber.
-        """
-        return around(type(self), self._core.log_binned(number(per_decade, "per_decade")))
-
-    def _summary(self) -> dict[str, Any]:
-        band = {"q0": float(self.wavenumber[0]), "q1": float(self.wavenumber[-1])}
-        return {"rows": self.wavenumber.size, **band, "reliable": int(self.reliable.sum())}
-
-    def _columns(self) -> Columns:
-        row = ("wavenumber",)
-        variables = {"density": Column(row, self.density, self._unit, self._label)}
-        if self.count is not None:
-            variables["count"] = Column(row, self.count, "1", "modes averaged")
-        if self.standard_error is not None:
-            variables["standard_error"] = Column(row, self.standard_error, self._unit)
-        if self.flag is not None:
-            variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
-        names = "skewness", "kurtosis", "curvature_kurtosis"
-        shape = {name: getattr(self, name) for name in names}
-        known = {name: number for name, number in shape.items() if number is not None}
-        return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables, known)
-
-    def _draw(self, axes: Any) -> None:
-        shown, good = self.density > 0, self.reliable
-        measured = self._draw_where(axes, shown & good, label="measured")
-        if np.any(shown & ~good):
-            self._draw_where(axes, shown & ~good, color="0.65", label="flagged: do not trust")
-        if self.standard_error is not None:
-            mean, error = self.density[shown], self.standard_error[shown]
-            lower = np.maximum(mean - error, mean / 10)
-            shade = {"color": measured.get_color(), "alpha": 0.2, "label": "± standard error"}
-            axes.fill_between(self.wavenumber[shown], lower, mean + error, **shade)
-        axes.set_xscale("log")
-        if shown.any():
-            axes.set_yscale("log")
-        axes.set_xlabel("Wavenumber $q$ [1/m]")
-        axes.set_ylabel(f"{self._label} [m$^{self._unit[-1]}$]")
-        if len(axes.get_legend_handles_labels()[1]) > 1:
-            axes.legend(fontsize="small")
-
-    def _draw_where(self, axes: Any, rows: NDArray[np.bool_], **style: Any) -> Any:
-        q, density = self.wavenumber[rows], self.density[rows]
-        return axes.plot(q, density, ".", markersize=3, **style)[0]
-
-
-def _flags(found: Any) -> NDArray[np.uint8] | None:
-    """Return the flags of rows, sums of 1, 2 and 4."""
-    if found is None:
-        return None
-    given = vector(found, "flag")
-    wrong = ~np.isin(given, range(8))
-    if wrong.any():
-        i = int(wrong.argmax())
-        raise InvalidInput(f"flag[{i}] = {given[i]}", MUST_BE, "a whole number from 0 to 7")
-    return frozen(given.astype(np.uint8))
-
-
-def _two_axes(found: Any, name: str, columns: str) -> Array | None:
-    """Return an array of two axes, rows of the spectrum and columns."""
-    if found is None:
-        return None
-    given = np.array(real_array(found, name), order="C")
-    if given.ndim != 2:
-        allowed = Must(": must have "), f"two axes, rows and {columns}"
-        raise InvalidInput(Argument(name), " = ", valued(given), *allowed)
-    return frozen(given)
-
-
 @value
-class TabulatedSpectrum(_Rows, _Spectrum):
+class TabulatedSpectrum(Rows, _Spectrum):
     """Spectrum of a surface, given at wavenumbers.
 
     It is log-log linear between rows, and linear in q where one of two rows is zero. Beyond the
@@ -399,7 +265,7 @@ class TabulatedSpectrum(_Rows, _Spectrum):
 
     def _take_harmonics(self) -> None:
         for name in ("cosine", "sine", "harmonic_error"):
-            self._set(**{name: _two_axes(getattr(self, name), name, "harmonics")})
+            self._set(**{name: two_axes(getattr(self, name), name, "harmonics")})
         if (self.cosine is None) != (self.sine is None):
             missing = "sine" if self.sine is None else "cosine"
             raise InvalidInput(
@@ -433,7 +299,7 @@ class TabulatedSpectrum(_Rows, _Spectrum):
 
 
 @value
-class LineSpectrum(_Rows):
+class LineSpectrum(Rows):
     """Two-sided spectrum C1D of profiles, at positive wavenumbers.
 
     Its integral over wavenumbers of both signs is h_rms^2.
