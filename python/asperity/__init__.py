@@ -24,15 +24,8 @@ from asperity.io.read_dma import read_isotherms, read_strain_sweep
 from asperity.io.read_master_curve import read_master_curve
 from asperity.io.read_shift_factors import read_shift_factors
 from asperity.io.read_surface import read_surface
-from asperity.measured_spectrum import (
-    Anisotropy,
-    SpectralDensity,
-    anisotropy,
-    line_spectrum,
-    merge_spectra,
-    power_spectrum,
-    spectral_density,
-)
+from asperity.measured_spectrum import line_spectrum, merge_spectra, power_spectrum
+from asperity.plane_spectrum import Anisotropy, SpectralDensity, anisotropy, spectral_density
 from asperity.prony_fit import PronyFit, fit_prony
 from asperity.report.report import report
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus

@@ -1,29 +1,14 @@
-"""From scans to spectra: of maps, along lines, by direction, and several merged into one."""
+"""From scans to spectra: of maps, along lines, and several merged into one."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any, Literal, get_args
 
-import numpy as np
-
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import (
-    Vector,
-    choice,
-    flag,
-    frozen,
-    number,
-    number_or_none,
-    of_kind,
-    real_array,
-    vector,
-    whole,
-)
+from asperity.base.arguments import choice, flag, number_or_none, of_kind, whole
 from asperity.base.diagnostics import MUST_BE, Argument, refusal
-from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
 from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
 from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize, around
@@ -41,12 +26,12 @@ WINDOWS, PARTS = map(get_args, (Window, Part))
 NO_DIRECTIONS = " = True: a line scan knows no directions"
 
 
-def _prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
+def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
     """Return the numbers of a window and of a trend in the core."""
     return choice(window, "window", WINDOWS), choice(detrend, "detrend", (*DETRENDS, None))
 
 
-def _map(surface: Any) -> Any:
+def core_map(surface: Any) -> Any:
     """Return the core's object of a map."""
     if isinstance(surface, LineScan):
         raise InvalidInput(
@@ -145,7 +130,7 @@ def power_spectrum(
         larger than the map or too small, all have too many drop-outs, or the file of a memory map
         is changed or cut short while it is read.
     """
-    how = _prepared(window, detrend)
+    how = prepared(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
     side = choice(part, "part", PARTS)
     if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
@@ -157,7 +142,9 @@ def power_spectrum(
             raise InvalidInput(
                 Argument("directional"), " = True", MUST_BE, "False by tiles and with a part"
             )
-        return around(TabulatedSpectrum, _core.directional_spectrum(_map(surface), *how, several))
+        return around(
+            TabulatedSpectrum, _core.directional_spectrum(core_map(surface), *how, several)
+        )
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
             raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')
@@ -181,7 +168,7 @@ def power_spectrum(
             raise InvalidInput(
                 Argument(name), ": goes with tiles, or with an array instead of a HeightMap"
             )
-    return around(TabulatedSpectrum, _core.power_spectrum(_map(surface), *how, several, side))
+    return around(TabulatedSpectrum, _core.power_spectrum(core_map(surface), *how, several, side))
 
 
 def power_spectrum_of(
@@ -196,7 +183,7 @@ def power_spectrum_of(
     executor: Any = None,
 ) -> TabulatedSpectrum:
     """The same by tiles, of an opened map."""
-    how = _prepared(window, detrend)
+    how = prepared(window, detrend)
     ny, nx = source.shape
     given = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
     sides = tile_shape(given, source.shape, source.pixel_size)
@@ -208,162 +195,6 @@ def power_spectrum_of(
         max_dropouts=max_dropouts,
         workers=Workers(threads, executor),
     )
-
-
-@value
-class SpectralDensity(Table):
-    """Spectrum over the plane of wavevectors (see `spectral_density`).
-
-    Attributes
-    ----------
-    wavenumber_y, wavenumber_x : ndarray, shapes (ny,) and (nx,)
-        Components of the wavevector [1/m], rising.
-    density : ndarray, shape (ny, nx)
-        C [m^4].
-    """
-
-    wavenumber_y: Vector
-    wavenumber_x: Vector
-    density: Vector
-
-    def __post_init__(self) -> None:
-        q_y, q_x = (
-            vector(self.wavenumber_y, "wavenumber_y"),
-            vector(self.wavenumber_x, "wavenumber_x"),
-        )
-        density = np.array(real_array(self.density, "density"), order="C")
-        if density.shape != (q_y.size, q_x.size):
-            allowed = f"must have {(q_y.size, q_x.size)}, as the wavenumbers have"
-            raise InvalidInput(Argument("density"), f" has shape {density.shape}: {allowed}")
-        self._set(wavenumber_y=q_y, wavenumber_x=q_x, density=frozen(density))
-
-    def _columns(self) -> Columns:
-        axes = ("wavenumber_y", "wavenumber_x")
-        density = Column(axes, self.density, "m^4", "roughness spectrum C")
-        places = {name: Column((name,), getattr(self, name), "1/m") for name in axes}
-        return Columns(places, {"density": density})
-
-    def _draw(self, axes: Any) -> None:
-        from matplotlib.colors import LogNorm
-
-        shown = np.ma.masked_less_equal(self.density, 0)
-        norm = LogNorm() if shown.count() else None  # no logarithm of a plane's zeros
-        image = axes.pcolormesh(self.wavenumber_x, self.wavenumber_y, shown, norm=norm)
-        axes.set_aspect("equal")
-        axes.set_xlabel("$q_x$ [1/m]")
-        axes.set_ylabel("$q_y$ [1/m]")
-        axes.figure.colorbar(image, ax=axes, label="Roughness spectrum $C$ [m$^4$]")
-
-
-def spectral_density(
-    surface: HeightMap,
-    *,
-    window: Window = "split-cosine-bell",
-    detrend: Detrend | None = "plane",
-) -> SpectralDensity:
-    """Return C over the whole plane of wavevectors [m^4], which `power_spectrum` averages.
-
-    Parameters
-    ----------
-    surface, window, detrend
-        As in `power_spectrum`.
-
-    Returns
-    -------
-    SpectralDensity
-        Its wavenumbers [1/m] rise, as numpy.fft.fftshift orders them.
-
-    Raises
-    ------
-    InvalidInput
-        The surface is a LineScan, has drop-outs or fewer than 2 x 2 points.
-    """
-    how = _prepared(window, detrend)
-    q_y, q_x, density = map(frozen, _core.spectral_density(_map(surface), *how))
-    return SpectralDensity._made(wavenumber_y=q_y, wavenumber_x=q_x, density=density)
-
-
-@value
-class Anisotropy(Table):
-    """Lay of a surface (see `anisotropy`).
-
-    Attributes
-    ----------
-    across, along : float
-        Rms slopes [-] along the two principal axes, across >= along; equal where the surface is
-        isotropic.
-    direction : float
-        Direction of the lay, along which the slope is least: the angle from x towards y (rising
-        row index), in radians [-].
-    """
-
-    across: float
-    along: float
-    direction: float
-
-    def __post_init__(self) -> None:
-        self._set(**{name: number(found, name) for name, found in self._arguments().items()})
-
-    @property
-    def ratio(self) -> float:
-        """Ratio across / along [-], 1 for an isotropic surface."""
-        return self.across / self.along
-
-    def _columns(self) -> Columns:
-        numbers = self._arguments() | {"ratio": self.ratio}
-        units = {name: "rad" if name == "direction" else "1" for name in numbers}
-        return Columns(
-            {}, {name: Column((), found, units[name]) for name, found in numbers.items()}
-        )
-
-    def _draw(self, axes: Any) -> None:
-        angle = np.linspace(-90, 90, 361)
-        from_lay = np.radians(angle) - self.direction
-        axes.plot(angle, np.hypot(self.along * np.cos(from_lay), self.across * np.sin(from_lay)))
-        axes.axvline(np.degrees(self.direction), color="0.4", linestyle="--", label="lay")
-        axes.set_xlim(-90, 90)
-        axes.set_ylim(0, 1.1 * self.across or None)
-        axes.set_xlabel("Direction from $x$ towards $y$ [°]")
-        axes.set_ylabel("Rms slope [-]")
-        axes.legend(fontsize="small")
-
-
-def anisotropy(
-    surface: HeightMap,
-    *,
-    window: Window = "split-cosine-bell",
-    detrend: Detrend | None = "plane",
-    q_min: float | None = None,
-    q_max: float | None = None,
-) -> Anisotropy:
-    """Return the principal axes of the mean square slopes <dh/dx_i dh/dx_j> = int q_i q_j C d^2q.
-
-    The method is that of M. S. Longuet-Higgins, Phil. Trans. R. Soc. Lond. A 249, 321 (1957). A
-    radial spectrum averages over directions: where the ratio of the slopes is far from 1, it
-    stands for no direction in particular.
-
-    Parameters
-    ----------
-    surface, window, detrend
-        As in `power_spectrum`.
-    q_min, q_max : float, optional
-        The band [1/m]; by default the band of the rows that `power_spectrum` flags neither for the
-        window nor for Nyquist.
-
-    Returns
-    -------
-    Anisotropy
-        The two rms slopes [-] and the direction of the lay.
-
-    Raises
-    ------
-    InvalidInput
-        The band has fewer than 16 modes.
-    """
-    how = _prepared(window, detrend)
-    band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
-    across, along, direction = _core.anisotropy(_map(surface), *how, *band)
-    return Anisotropy._made(across=across, along=along, direction=direction)
 
 
 def line_spectrum(
@@ -395,7 +226,7 @@ def line_spectrum(
     InvalidInput
         The surface has drop-outs or fewer than 4 points along x.
     """
-    how = _prepared(window, detrend)
+    how = prepared(window, detrend)
     scan = of_kind(surface, "surface", LineScan, HeightMap)
     return around(LineSpectrum, _core.line_spectrum(scan._core, *how))
 

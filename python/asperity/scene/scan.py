@@ -13,13 +13,8 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.io.read_surface import read_surface
-from asperity.measured_spectrum import (
-    NO_DIRECTIONS,
-    Window,
-    anisotropy,
-    line_spectrum,
-    power_spectrum,
-)
+from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
+from asperity.plane_spectrum import anisotropy
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import Detrend, HeightMap, LineScan
 
