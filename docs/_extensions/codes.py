@@ -1,6 +1,7 @@
 """The directive `codes`: the codes of notes or of errors, and what they mean."""
 
 from docutils import nodes
+from note_steps import steps_of_core
 from sphinx.util.docutils import SphinxDirective
 
 from asperity.base.codes import ERRORS, KINDS
@@ -14,7 +15,10 @@ class Codes(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         if self.arguments[0] == "notes":
             lines = ["| code | severity | meaning | what to do |", "| --- | --- | --- | --- |"]
-            lines += [f"| `{code}` | {' | '.join(kind[:3])} |" for code, kind in KINDS.items()]
+            steps = steps_of_core()
+            for code, kind in KINDS.items():
+                step = kind.next_step or steps.get(code, "")
+                lines.append(f"| `{code}` | {kind.severity} | {kind.meaning} | {step} |")
         else:
             lines = ["| code | meaning |", "| --- | --- |"]
             lines += [f"| `{code}` | {what} |" for code, what in ERRORS.items()]

@@ -13,10 +13,7 @@ NOTES = {
     "steep-spectrum": (WARNING, "the rms slope is above 1.3: mu rests on the choice of q1"),
     "near-nyquist": (WARNING, "roughness below the pixel is folded into the last rows"),
     "noise-in-spectrum": (WARNING, "noise of the instrument is half of the last rows or more"),
-    "heights-not-gaussian": (
-        WARNING,
-        "the spectrum does not know that tops are worn or peaked",
-    ),
+    "heights-not-gaussian": (WARNING, "the spectrum does not know that tops are worn or peaked"),
     "gathered-waves": (
         WARNING,
         "the spectrum does not know that short waves are gathered in places",
@@ -135,55 +132,20 @@ class Kind(NamedTuple):
 
     severity: str
     meaning: str
-    next_step: str  # where a note does not say it better
+    next_step: str  # where a note brings none of its own
     effect: float  # relative change of mu that it may stand for, where a note does not know it
 
 
-# Of every fatal one and every warning: without it there is no such code.
+# Of every fatal note and every warning of the package; those of the core bring theirs.
 _NEXT_STEPS = {
-    "slope-unmeasured": "measure a longer scan, or one with finer pixels",
     "slope-not-reached": "measure with finer pixels, or go on beyond the scan by fit",
-    "scan-length-as-q0": "give q0",
-    "steep-spectrum": "compare mu at a few q1, and state q1 with it",
-    "near-nyquist": "end the spectrum at half of pi / pixel, or measure with finer pixels",
     "noise-in-spectrum": "end the spectrum where the noise begins",
-    "heights-not-gaussian": "take ScanContact, the contact of the scan itself",
-    "gathered-waves": "take ScanContact, the contact of the scan itself",
-    "strain-beyond-sweeps": "measure strain sweeps up to that strain",
     "lay": "measure friction along and across the lay",
-    "few-long-waves": "measure a longer scan, or begin the spectrum at a higher q0",
-    "few-periods": "measure a longer scan, or merge several",
     "law-beyond-rows": "measure with finer pixels, or state it with mu",
-    "undetermined-shift": "measure at temperatures between, or give shift factors from outside",
-    "moduli-disagree": "measure the modulus at a smaller strain, or try a vertical shift",
-    "moduli-contradict": "check the columns and units of the moduli",
-    "modulus-extrapolated": "measure the modulus at other temperatures, or leave velocities out",
-    "modulus-unmeasured": "measure the modulus at other temperatures, or leave velocities out",
-    "beyond-prony-fit": "measure the modulus at more temperatures, or leave these velocities out",
-    "different-shifts": "give shift factors from another measurement, and compare",
-    "isotherms-off-curve": "try a vertical shift",
-    "points-off-curve": "try a vertical shift",
-    "small-overlap": "measure at a temperature between them",
     "law-beyond-fit": "measure the modulus at these temperatures",
-    "no-vertical-shift": "compute with a vertical shift too: mu lies between the two, or beyond",
     "lines-in-spectrum": "measure friction along and across the lines",
-    "no-correction": "take PartialContact, or ScanContact where there is a map",
-    "full-conformity": "take PartialContact",
-    "separation-too-large": "take PartialContact",
-    "no-contact": "take PartialContact, or check z_max and the load",
-    "area-further-off": "take PartialContact",
     "coarse-map": "take a finer map, or one without its shortest waves",
-    "large-angle": "give the angle in radians",
     "small-friction": "check the units of the heights, the modulus and the pressure",
-    "large-friction": "check where the spectrum ends, and the units",
-    "heat-left-out": "give heating, with a temperature and the shift of the rubber",
-    "hot-rubber": "hold these points against a measurement",
-    "several-states": "look at branches, and at branch = hot",
-    "macro-wavenumber-held": "give macro_wavenumber or macro_area",
-    "maximum-extrapolated": "measure friction at velocities about the maximum",
-    "systematic-misfit": "check spectrum, modulus and correction against the points",
-    "few-points": "measure friction at more points",
-    "large-scatter": "check the unit of the velocities",
     "failed-draws": "truncate the spectrum, or leave out velocities, at whose ends draws fail",
     "map-error-exceeded": "make the map anew with a smaller rtol",
     "absurd-value": "check the unit of the number",
@@ -211,7 +173,7 @@ KINDS = {
     code: Kind(
         severity,
         meaning,
-        "" if severity == NOTE else _NEXT_STEPS[code],
+        _NEXT_STEPS.get(code, ""),
         _EFFECTS.get(code, _OF_SEVERITY[severity]),
     )
     for code, (severity, meaning) in NOTES.items()

@@ -206,8 +206,7 @@ def _refuse(sentence: Sentence, code: str, path: object) -> None:
 
 
 def _note(sentence: Sentence, code: str, path: object) -> None:
-    step = "check the unit of the number"
-    _keep(Note(*sentence, code=code, next_step=step, where=path))
+    _keep(Note(*sentence, code=code, where=path))
 
 
 def _keep(note: Note) -> None:

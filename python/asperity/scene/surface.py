@@ -246,7 +246,7 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
         return []
     where = " and ".join(beyond)
     text = f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"
-    return [Note(text, code="law-beyond-rows", next_step="measure finer, or state it with mu")]
+    return [Note(text, code="law-beyond-rows")]
 
 
 def _height_notes(measured: TabulatedSpectrum) -> tuple[Note, ...]:

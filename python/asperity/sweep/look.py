@@ -48,9 +48,10 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
 
 
 def notes_of(dataset: Any) -> list[Note]:
-    """The notes of a sweep, of the texts and labels that its store has."""
-    texts, labels = (str(dataset.attrs[name]).splitlines() for name in ("notes", "note_labels"))
-    return [Note.of_label(label, text) for label, text in zip(labels, texts, strict=True)]
+    """The notes of a sweep, of the texts, labels and next steps that its store has."""
+    columns = (str(dataset.attrs[name]) for name in ("note_labels", "notes", "note_steps"))
+    rows = zip(*(column.split("\n") for column in columns), strict=True)
+    return [Note.of_label(*row) for row in rows if row[0]]
 
 
 def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:

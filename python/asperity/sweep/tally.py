@@ -1,6 +1,6 @@
 """What a sweep has so far, and results that are kept in memory."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -39,8 +39,12 @@ class Tally:
 
     def attributes(self) -> dict[str, Any]:
         notes = fatal_first(sorted(self.notes, key=lambda note: (self.notes[note], note)))
-        labels = "\n".join(note.label for note in notes)
-        return {"notes": "\n".join(notes), "note_labels": labels, "failed": self.failed}
+        texts: dict[str, Iterable[str]] = {
+            "notes": notes,
+            "note_labels": [note.label for note in notes],
+            "note_steps": [note.next_step for note in notes],
+        }
+        return {**{name: "\n".join(of) for name, of in texts.items()}, "failed": self.failed}
 
 
 class Memory:

@@ -317,8 +317,7 @@ def relative_band(
 
 def _left_out(failed: int, samples: int, problem: Exception) -> Note:
     text = f"the band leaves out {failed} of {samples} draws that failed, the last with: {problem}"
-    step = "truncate the spectrum, or leave out velocities, at whose ends draws fail"
-    return Note(text, code="failed-draws", next_step=step)
+    return Note(text, code="failed-draws")
 
 
 def swept_band(

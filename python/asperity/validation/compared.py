@@ -165,7 +165,7 @@ def compare(
             f"the work of the slopes and the dissipation differ by up to {100 * apart:.0f} %: the "
             "shortest waves are a few pixels long, or what dissipates are waves across the way"
         )
-        notes.append(Note(text, code="coarse-map", next_step="take a finer map"))
+        notes.append(Note(text, code="coarse-map"))
     return Comparison(
         *(loads, speeds, mu, slopes, area),
         predicted={name: theory(name, speeds) for name in CORRECTIONS},

@@ -65,6 +65,5 @@ def own_contacts(
             "is uncertain by some per cent, and so are the errors found; a map that holds no waves "
             "below 5 to 10 pixels has none of this"
         )
-        step = "take a map without waves below 5 to 10 pixels"
-        notes.append(Note(text, code="coarse-map", next_step=step))
+        notes.append(Note(text, code="coarse-map"))
     return contacts, notes

@@ -1,7 +1,6 @@
 """What the README and the pages of docs show works as it stands there."""
 
 import contextlib
-import importlib.util
 import io
 import re
 import shlex
@@ -18,6 +17,7 @@ from asperity.io.fields import without_unit
 from asperity.scene.known import KEYS, KEYS_OF_KIND
 from asperity.scene.scene import load_scene
 from helpers.examples import SWEEPS
+from helpers.extensions import extension
 from helpers.measured import present
 
 ROOT = Path(__file__).parents[3]
@@ -205,12 +205,7 @@ def test_commands_are_taken_by_the_parser(line: str) -> None:
 @pytest.fixture(scope="module")
 def page_of_scenes() -> str:
     """The page as it is read: with the tables that the directive `scene-keys` makes."""
-    code = ROOT / "docs/_extensions/scene_tables.py"
-    spec = importlib.util.spec_from_file_location("scene_tables", code)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = extension("scene_tables")
     page = PAGES["docs/reference/scene.md"]
     for name in module.TABLES:
         directive = f"```{{scene-keys}} {name}\n```"
