@@ -2,12 +2,11 @@
 
 import argparse
 from collections.abc import Callable
+from importlib import import_module
 
 from asperity.cli import design_command, fit_command, map_command, spectrum_command
 from asperity.cli import friction_commands as commands
-from asperity.cli import validate_command as validation
 from asperity.cli.app_command import app
-from asperity.cli.article_command import article
 from asperity.cli.fmu_command import fmu
 from asperity.cli.options import (
     Parser,
@@ -27,6 +26,16 @@ from asperity.cli.rubber_parser import add_rubber
 from asperity.cli.sweep_parser import add_sweep
 from asperity.draw.style import STYLES
 from asperity.measured_spectrum import WINDOWS
+
+
+def script(name: str) -> Callable[[argparse.Namespace], None]:
+    """What runs a verb that is a script beside the library."""
+
+    def run(args: argparse.Namespace) -> None:
+        command = import_module(f"asperity_scripts.{name}.command")
+        getattr(command, name)(args)
+
+    return run
 
 
 def parser() -> argparse.ArgumentParser:
@@ -308,7 +317,7 @@ def parser() -> argparse.ArgumentParser:
 
     validate = verb(
         "validate",
-        validation.validate,
+        script("validate"),
         "the measured error of every correction, against boundary-element contacts",
         "--output worth",
     )
@@ -362,7 +371,7 @@ def parser() -> argparse.ArgumentParser:
     )
     remade = verb(
         "article",
-        article,
+        script("article"),
         "the article remade: its figures and table, and its statements checked",
         "--output remade",
     )

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.article.inputs import Inputs, prepare
-from asperity.article.statement import VERDICTS
 from asperity.cli.main import main
+from asperity_scripts.article.inputs import Inputs, prepare
+from asperity_scripts.article.statement import VERDICTS
 from helpers.summaries import PUBLISHED, same, statements
 
 pytest.importorskip("matplotlib")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.article import inputs, readings, statement, surfaces
-from asperity.article.statement import Finding
+from asperity_scripts.article import inputs, readings, statement, surfaces
+from asperity_scripts.article.statement import Finding
 
 H_RMS = 76.572e-6
 

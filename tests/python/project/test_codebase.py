@@ -146,6 +146,13 @@ def test_python_imports_run_one_way():
         tuple(graphlib.TopologicalSorter(graph).static_order())  # or a CycleError that names them
 
 
+def test_the_library_needs_none_of_its_scripts():
+    """The verbs that run them import them when they are asked for."""
+    for path in PYTHON:
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"^\s*(from|import) asperity_scripts", text, re.MULTILINE), path.name
+
+
 def test_numpy_is_all_that_the_package_imports_at_once():
     code = "import sys, asperity; print(*{m.partition('.')[0] for m in sys.modules})"
     run = [sys.executable, "-c", code]

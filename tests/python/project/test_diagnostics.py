@@ -27,7 +27,7 @@ from helpers.extensions import extension
 
 ROOT = Path(__file__).parents[3]
 CORE = sorted((ROOT / "cpp/src").rglob("*.?pp"))
-PYTHON = sorted((ROOT / "python/asperity").rglob("*.py"))
+PYTHON = sorted((ROOT / "python").rglob("*.py"))
 TEXTS = {"error", "note", "problem", "message", "warning"}  # names of what has a text
 LOOKS = {"startswith", "endswith", "find", "replace", "removeprefix", "removesuffix", "split"}
 OF_RE = {"search", "match", "fullmatch", "sub", "findall", "finditer"}

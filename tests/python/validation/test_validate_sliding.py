@@ -7,9 +7,9 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.cli.sliding_command import own_map
 from asperity.validation import slide
-from asperity.validation.compared import compare
+from asperity_scripts.validate.compared import compare
+from asperity_scripts.validate.sliding import own_map
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2.5e3, q1=1.5e4)
 PIXEL = 4 * 2 * np.pi / SURFACE.q0 / 64

@@ -25,7 +25,7 @@ from asperity.scene.scene import load_scene
 from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 from asperity.surface import HeightMap
-from asperity.validation.compared import compare
+from asperity_scripts.validate.compared import compare
 
 FILES = ("sliding.md", "sliding.csv", "sliding.png")
 _MOST_VELOCITIES = 9  # of a scene; each takes seconds to minutes

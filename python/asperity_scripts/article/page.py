@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
 from asperity.base.diagnostics import Note
 from asperity.draw.figure import legend as legend_above
 from asperity.draw.figure import picture
 from asperity.draw.style import narrow
 from asperity.io.table import Table
 from asperity.spectrum import SelfAffineSpectrum
+from asperity_scripts.article.inputs import PIXELS, SEEDS, SIDE, SKEWNESS, VELOCITY, Inputs, Tuned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from asperity.article.inputs import LAMBDA0, PRESSURES, Q0, VELOCITY, Inputs
-from asperity.article.inputs import effective_modulus as modulus_of
-from asperity.article.separation import eq20, shifts
-from asperity.article.statement import Finding, Findings
 from asperity.asperities import hertz_penetration, separation
 from asperity.rubber import effective_modulus
+from asperity_scripts.article.inputs import LAMBDA0, PRESSURES, Q0, VELOCITY, Inputs
+from asperity_scripts.article.inputs import effective_modulus as modulus_of
+from asperity_scripts.article.separation import eq20, shifts
+from asperity_scripts.article.statement import Finding, Findings
 
 
 def findings(inputs: Inputs) -> Findings:

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.article.inputs import PRESSURES, Q0, Inputs, Model, effective_modulus
-from asperity.article.page import page, panel, sandpaper_inputs, stacked, tuned_inputs
-from asperity.article.readings import Array
-from asperity.article.statement import Finding, Findings
 from asperity.asperities import separation
 from asperity.contact import contact_area
 from asperity.draw.figure import new_figure
 from asperity.draw.style import grey, palette
+from asperity_scripts.article.inputs import PRESSURES, Q0, Inputs, Model, effective_modulus
+from asperity_scripts.article.page import page, panel, sandpaper_inputs, stacked, tuned_inputs
+from asperity_scripts.article.readings import Array
+from asperity_scripts.article.statement import Finding, Findings
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,7 +11,6 @@ from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.cli.friction_commands import progress, refuse_overwrite
 from asperity.cli.options import typed_options
-from asperity.cli.sliding_command import refuse_alone, validate_sliding
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
@@ -22,10 +21,11 @@ from asperity.io.table import Table
 from asperity.scene.scan import read_filled
 from asperity.surface import HeightMap
 from asperity.validation.contacts import Contact, read_contacts, shipped
-from asperity.validation.figures import error_figure, shift_figure
 from asperity.validation.own import own_contacts
 from asperity.validation.predictions import Prediction, models_for, predict
-from asperity.validation.summary import error_rows, summary
+from asperity_scripts.validate.figures import error_figure, shift_figure
+from asperity_scripts.validate.sliding import refuse_alone, validate_sliding
+from asperity_scripts.validate.summary import error_rows, summary
 
 LOADS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)  # those of the shipped rows
 _AREA, _ENERGY, _SHIFT = "area_error.png", "energy_error.png", "shift.png"

@@ -9,8 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.article.flash import cold, heated, hot_columns, rise
-from asperity.article.inputs import (
+from asperity.correction import Correction, GreenwoodWilliamson, SFactor
+from asperity.draw.figure import COLUMN, new_figure
+from asperity.draw.style import narrow, palette
+from asperity.friction import Friction, friction
+from asperity.spectrum import SelfAffineSpectrum
+from asperity_scripts.article.flash import cold, heated, hot_columns, rise
+from asperity_scripts.article.inputs import (
     ADHESION,
     ASPHALT_PRESSURE,
     MAGNIFICATION,
@@ -18,15 +23,10 @@ from asperity.article.inputs import (
     Inputs,
     heights_of,
 )
-from asperity.article.page import asphalt_inputs, page, panel, stacked
-from asperity.article.readings import READINGS, Array, Reading
-from asperity.article.statement import Finding, Findings
-from asperity.article.surfaces import printed_eq12
-from asperity.correction import Correction, GreenwoodWilliamson, SFactor
-from asperity.draw.figure import COLUMN, new_figure
-from asperity.draw.style import narrow, palette
-from asperity.friction import Friction, friction
-from asperity.spectrum import SelfAffineSpectrum
+from asperity_scripts.article.page import asphalt_inputs, page, panel, stacked
+from asperity_scripts.article.readings import READINGS, Array, Reading
+from asperity_scripts.article.statement import Finding, Findings
+from asperity_scripts.article.surfaces import printed_eq12
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

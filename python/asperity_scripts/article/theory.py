@@ -6,7 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.article.inputs import (
+from asperity.contact import contact_area, mean_pressure, pressure_distribution
+from asperity.draw.figure import new_figure
+from asperity.draw.style import grey, palette
+from asperity_scripts.article.inputs import (
     LAMBDA0,
     PIXEL_SIZE,
     PIXELS,
@@ -17,12 +20,16 @@ from asperity.article.inputs import (
     Inputs,
     magnifications,
 )
-from asperity.article.page import page, panel, sandpaper_inputs, scan_inputs, stacked, tuned_inputs
-from asperity.article.readings import Array
-from asperity.article.statement import Finding, Findings
-from asperity.contact import contact_area, mean_pressure, pressure_distribution
-from asperity.draw.figure import new_figure
-from asperity.draw.style import grey, palette
+from asperity_scripts.article.page import (
+    page,
+    panel,
+    sandpaper_inputs,
+    scan_inputs,
+    stacked,
+    tuned_inputs,
+)
+from asperity_scripts.article.readings import Array
+from asperity_scripts.article.statement import Finding, Findings
 
 _ZETA = (1.5, 5.0, 25.0)  # of Fig. 1
 _SLIDING: dict[str, Any] = {"pressure": 0.5e6, "velocity": 1e-3}  # of Fig. 1

@@ -4,11 +4,11 @@ from collections import defaultdict
 
 import numpy as np
 
-from asperity.article.inputs import LAMBDA0, PIXEL_SIZE, PIXELS, SIDE, SKEWNESS, Inputs
-from asperity.article.readings import Array
-from asperity.article.statement import Finding, Findings
 from asperity.correction import LocalPeaks
 from asperity.surface import HeightMap, LineScan
+from asperity_scripts.article.inputs import LAMBDA0, PIXEL_SIZE, PIXELS, SIDE, SKEWNESS, Inputs
+from asperity_scripts.article.readings import Array
+from asperity_scripts.article.statement import Finding, Findings
 
 _DISTANCES = (2.0, 1.0, 0.75, 0.5, 0.25)  # smallest between peaks [lambda0]
 _LINES = 64  # rows of a map that are taken as line scans

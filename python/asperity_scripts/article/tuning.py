@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from asperity.article import compounds
-from asperity.article.inputs import Inputs, effective_modulus
-from asperity.article.page import LOG, page, panel, stacked
-from asperity.article.statement import Finding, Findings
 from asperity.draw.figure import legend, new_figure
 from asperity.draw.style import grey, palette
+from asperity_scripts.article import compounds
+from asperity_scripts.article.inputs import Inputs, effective_modulus
+from asperity_scripts.article.page import LOG, page, panel, stacked
+from asperity_scripts.article.statement import Finding, Findings
 
 
 def findings(inputs: Inputs) -> Findings:

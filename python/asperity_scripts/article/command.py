@@ -3,7 +3,12 @@
 from argparse import Namespace
 from collections.abc import Callable
 
-from asperity.article import (
+from asperity.base.arguments import FilePath
+from asperity.cli.streams import print_stdout
+from asperity.draw.figure import check_plot
+from asperity.draw.style import drawn_in
+from asperity.io.files import check_directory, write_files
+from asperity_scripts.article import (
     asperities,
     factors,
     peaks,
@@ -13,14 +18,9 @@ from asperity.article import (
     theory,
     tuning,
 )
-from asperity.article.inputs import Inputs, prepare
-from asperity.article.statement import judge
-from asperity.article.summary import Rows, counted, markdown
-from asperity.base.arguments import FilePath
-from asperity.cli.streams import print_stdout
-from asperity.draw.figure import check_plot
-from asperity.draw.style import drawn_in
-from asperity.io.files import check_directory, write_files
+from asperity_scripts.article.inputs import Inputs, prepare
+from asperity_scripts.article.statement import judge
+from asperity_scripts.article.summary import Rows, counted, markdown
 
 # Fig. 4, the sketch of a Hertz contact, is left out.
 PAGES = (*(f"fig{n:02d}" for n in (*range(1, 4), *range(5, 16))), "table1")

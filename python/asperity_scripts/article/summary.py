@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 
 from asperity._core import __version__
-from asperity.article import compounds, inputs
-from asperity.article.flash import TREAD
-from asperity.article.inputs import Inputs
-from asperity.article.readings import PRINTED
-from asperity.article.statement import VERDICTS, Findings, fill
+from asperity_scripts.article import compounds, inputs
+from asperity_scripts.article.flash import TREAD
+from asperity_scripts.article.inputs import Inputs
+from asperity_scripts.article.readings import PRINTED
+from asperity_scripts.article.statement import VERDICTS, Findings, fill
 
 Rows = Sequence[Mapping[str, str]]
 OPENING = "# The article remade\n\nMade by `asperity "  # by which it is known as this verb's own
@@ -33,7 +33,7 @@ def counted(statements: Rows) -> str:
 
 def markdown(given: Inputs, found: Findings, statements: Rows) -> str:
     """The whole summary: its text with the numbers, then the tables."""
-    text = (files("asperity.article") / "summary.md").read_text(encoding="utf-8")
+    text = (files("asperity_scripts.article") / "summary.md").read_text(encoding="utf-8")
     heights = given.untuned["implicit"].correction
     micrometres = {"z_max": heights.z_max, "z_min": heights.z_min}
     micrometres |= {n: getattr(given, n).rms_height for n in ("sandpaper", "asphalt")}

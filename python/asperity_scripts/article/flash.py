@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from asperity.article.compounds import C1, C2, ROOM, T_G, compound
-from asperity.article.inputs import ADHESION, ASPHALT_PRESSURE
-from asperity.article.readings import Array
 from asperity.base.celsius import ZERO_CELSIUS
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
 from asperity.heating import Heating
 from asperity.shift_factors import WLF
 from asperity.spectrum import SelfAffineSpectrum
+from asperity_scripts.article.compounds import C1, C2, ROOM, T_G, compound
+from asperity_scripts.article.inputs import ADHESION, ASPHALT_PRESSURE
+from asperity_scripts.article.readings import Array
 
 # Our choice: a filled tread compound in contacts of 1 mm, on granite by their effusivities.
 TREAD = Heating(

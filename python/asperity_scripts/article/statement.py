@@ -35,7 +35,7 @@ Findings = Mapping[str, Mapping[str, Finding]]  # by id and by name; "" is of al
 
 def judge(findings: Findings) -> list[dict[str, str]]:
     """The rows of the table, each with its verdict and, where it is tested, what is found."""
-    text = (files("asperity.article") / "statements.csv").read_text(encoding="utf-8")
+    text = (files("asperity_scripts.article") / "statements.csv").read_text(encoding="utf-8")
     rows = list(csv.DictReader(text.splitlines()))
     tested = {row["id"] for row in rows if row["criterion"]}
     if tested != set(findings):

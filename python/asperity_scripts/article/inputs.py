@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from asperity.adhesion import Adhesion
-from asperity.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
-from asperity.article.readings import READINGS, Array, Implied, Reading, implied
-from asperity.article.statement import UNTUNED
 from asperity.contact import contact_area, correction_factor
 from asperity.correction import Correction, GreenwoodWilliamson
 from asperity.rubber import PronySeries
 from asperity.self_affine_fit import synthesize
 from asperity.spectrum import SelfAffineSpectrum
 from asperity.surface import HeightMap
+from asperity_scripts.article.compounds import POISSON_RATIO, T_G, compound, temperature_of
+from asperity_scripts.article.readings import READINGS, Array, Implied, Reading, implied
+from asperity_scripts.article.statement import UNTUNED
 
 Q0 = 2000.0  # 1/m, of both surfaces (Fig. 7, Table 1)
 LAMBDA0 = 2 * math.pi / Q0

@@ -5,7 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.article.inputs import (
+from asperity.correction import AffineShift, Correction, SFactor
+from asperity.draw.figure import legend, new_figure
+from asperity.draw.style import grey, palette, paper
+from asperity_scripts.article.inputs import (
     LAMBDA0,
     MAGNIFICATION,
     PIXELS,
@@ -16,7 +19,7 @@ from asperity.article.inputs import (
     Model,
     magnifications,
 )
-from asperity.article.page import (
+from asperity_scripts.article.page import (
     LOG,
     page,
     panel,
@@ -25,13 +28,10 @@ from asperity.article.page import (
     stacked,
     tuned_inputs,
 )
-from asperity.article.peaks import located
-from asperity.article.readings import Array
-from asperity.article.separation import shifts
-from asperity.article.statement import Finding, Findings
-from asperity.correction import AffineShift, Correction, SFactor
-from asperity.draw.figure import legend, new_figure
-from asperity.draw.style import grey, palette, paper
+from asperity_scripts.article.peaks import located
+from asperity_scripts.article.readings import Array
+from asperity_scripts.article.separation import shifts
+from asperity_scripts.article.statement import Finding, Findings
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,8 +4,22 @@ from typing import Any
 
 import numpy as np
 
-from asperity.article.inputs import LAMBDA0, MAGNIFICATION, PIXEL_SIZE, PIXELS, Q0, SIDE, Inputs
-from asperity.article.page import (
+from asperity.draw.figure import new_figure
+from asperity.draw.style import grey, narrow, palette
+from asperity.measured_spectrum import power_spectrum
+from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
+from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
+from asperity.surface import HeightMap, LineScan
+from asperity_scripts.article.inputs import (
+    LAMBDA0,
+    MAGNIFICATION,
+    PIXEL_SIZE,
+    PIXELS,
+    Q0,
+    SIDE,
+    Inputs,
+)
+from asperity_scripts.article.page import (
     LOG,
     asphalt_inputs,
     page,
@@ -14,15 +28,9 @@ from asperity.article.page import (
     scan_inputs,
     stacked,
 )
-from asperity.article.peaks import local_peaks
-from asperity.article.readings import Array
-from asperity.article.statement import Finding, Findings
-from asperity.draw.figure import new_figure
-from asperity.draw.style import grey, narrow, palette
-from asperity.measured_spectrum import power_spectrum
-from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
-from asperity.spectrum import SelfAffineSpectrum, TabulatedSpectrum
-from asperity.surface import HeightMap, LineScan
+from asperity_scripts.article.peaks import local_peaks
+from asperity_scripts.article.readings import Array
+from asperity_scripts.article.statement import Finding, Findings
 
 _SHORT, _LONG = 4, 12  # sides of scans that are cut out of the periodic maps [lambda0]
 _SHIFT = 2.0  # p_T of Fig. 2

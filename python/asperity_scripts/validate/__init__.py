@@ -1,0 +1,1 @@
+"""Corrections held against exact contact, elastic and sliding (`asperity validate`)."""
