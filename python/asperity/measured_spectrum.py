@@ -202,6 +202,7 @@ def line_spectrum(
     *,
     window: Window = "split-cosine-bell",
     detrend: Detrend | None = "plane",
+    part: Part = "all",
 ) -> LineSpectrum:
     """Return the one-dimensional spectrum C1D [m^3] of a line scan, or the mean over a map's rows.
 
@@ -213,6 +214,8 @@ def line_spectrum(
         A scan without drop-outs.
     window, detrend
         As in `power_spectrum`.
+    part : {"all", "top", "bottom"}
+        As in `power_spectrum`, over the share of points too; above and below the mean of each row.
 
     Returns
     -------
@@ -226,7 +229,7 @@ def line_spectrum(
     InvalidInput
         The surface has drop-outs or fewer than 4 points along x.
     """
-    how = prepared(window, detrend)
+    how = (*prepared(window, detrend), choice(part, "part", PARTS))
     scan = of_kind(surface, "surface", LineScan, HeightMap)
     return around(LineSpectrum, _core.line_spectrum(scan._core, *how))
 

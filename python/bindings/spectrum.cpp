@@ -148,8 +148,8 @@ void bind_measured(py::module_& m) {
   const auto line = [&m]<class S>(std::type_identity<S>) {
     m.def(
         "line_spectrum",
-        [](const S& surface, int window, int detrend) {
-          return line_spectrum(surface, static_cast<Window>(window), detrend_of(detrend));
+        [](const S& surface, int window, int detrend, int part) {
+          return line_spectrum(surface, static_cast<Window>(window), detrend_of(detrend), static_cast<Part>(part));
         },
         Guarded());
   };

@@ -194,10 +194,10 @@ class ASPERITY_EXPORT LineSpectrum {
   RowQuality quality_;
 };
 ASPERITY_EXPORT LineSpectrum line_spectrum(const LineScan& scan, Window window = Window::split_cosine_bell,
-                                           std::optional<Detrend> detrend = Detrend::plane);
-/// Averaged over the rows of a map, each detrended and windowed as a scan of its own.
+                                           std::optional<Detrend> detrend = Detrend::plane, Part part = Part::all);
+/// Averaged over the rows of a map, each detrended and windowed as a scan of its own, its parts about its own mean.
 ASPERITY_EXPORT LineSpectrum line_spectrum(const HeightMap& map, Window window = Window::split_cosine_bell,
-                                           std::optional<Detrend> detrend = Detrend::plane);
+                                           std::optional<Detrend> detrend = Detrend::plane, Part part = Part::all);
 /// C of the isotropic surface whose profiles have this spectrum, C(q) = -(1 / pi) int_q dC1D/dk dk / sqrt(k^2 - q^2),
 /// exact for the power laws between the rows; beyond the last one the slope of the last factor of 2 goes on.
 ASPERITY_EXPORT TabulatedSpectrum isotropic(const LineSpectrum& spectrum);

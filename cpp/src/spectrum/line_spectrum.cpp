@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "asperity/spectrum.hpp"
@@ -28,12 +30,27 @@ HeightMap row_of(const HeightMap& map, std::size_t y) {
   return {data, map.strides(), map.owner(), {1, map.shape()[1]}, map.pixel_size()};
 }
 
+/// Heights of one side of their mean about it, the others at 0, less the mean of all; how many are of that side.
+double keep_side(std::span<double> heights, Part part) {
+  const auto count = static_cast<double>(heights.size());
+  const double mean = std::accumulate(heights.begin(), heights.end(), 0.0) / count;
+  double points = 0, sum = 0;
+  for (double& z : heights) {
+    const bool mine = part == Part::top ? z > mean : z < mean;
+    z = mine ? z - mean : 0;
+    points += mine;
+    sum += z;
+  }
+  for (double& z : heights) z -= sum / count;
+  return points;
+}
+
 }  // namespace
 
 // C1D = L / (2 pi n^2) |sum w h exp(-i q x)|^2 over the window's mean square, so that its sum over the modes of both
 // signs, times 2 pi / L, is the mean square height. Rows nearer to each other than half a wavelength are not
 // independent: the error counts one for each half wavelength.
-LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend) {
+LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, Part part) {
   require_filled(map);
   const std::size_t rows = map.shape()[0], n = map.shape()[1];
   if (n < 4)
@@ -46,6 +63,7 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   const Scratch<std::complex<double>> modes(n / 2 + 1);
   std::vector<double> power(n / 2 + 1), square(n / 2 + 1);
   HeightMoments powers;
+  double kept = 0;
   const double anchor = detrend ? 0 : first_height(map);
   for (std::size_t y = 0; y < rows; ++y) {
     heed();
@@ -53,6 +71,7 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
     row.read_row(0, heights.data());
     if (detrend) Trend(row, *detrend).subtract(0, heights.data(), heights.data());
     powers.add({heights.data(), n}, anchor);
+    if (part != Part::all) kept += keep_side({heights.data(), n}, part);
     for (std::size_t x = 0; x < n; ++x) heights.data()[x] *= w[x];
     transform(heights.data(), modes.data());
     for (std::size_t k = 1; k < power.size(); ++k) {
@@ -63,11 +82,12 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   }
   const auto [dy, dx] = map.pixel_size();
   const auto count = static_cast<double>(rows), points = static_cast<double>(n);
-  const double scale = dx / (2 * pi * points * moments.mean_square * count);
+  const double share = kept > 0 ? kept / (points * count) : 1;  // a flat scan has no side
+  const double scale = dx / (2 * pi * points * moments.mean_square * count * share);
   const Reliability reliable(window, points * dx, dx, moments.variance_factor);
   std::vector<double> wavenumber, density;
   RowQuality quality;
-  quality.heights = powers.shape();
+  if (part == Part::all) quality.heights = powers.shape();
   for (std::size_t k = 1; k < power.size(); ++k) {
     const double q = 2 * pi / (points * dx) * static_cast<double>(k), both_signs = 2 * k == n ? 1 : 2;
     const double independent = rows == 1 ? 1 : std::min(1.0, dy * q / pi);  // of each row
@@ -80,8 +100,8 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
   return {std::move(wavenumber), std::move(density), std::move(quality)};
 }
 
-LineSpectrum line_spectrum(const LineScan& scan, Window window, std::optional<Detrend> detrend) {
-  return line_spectrum(scan.row(), window, detrend);
+LineSpectrum line_spectrum(const LineScan& scan, Window window, std::optional<Detrend> detrend, Part part) {
+  return line_spectrum(scan.row(), window, detrend, part);
 }
 
 }  // namespace asperity

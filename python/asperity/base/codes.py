@@ -18,6 +18,7 @@ NOTES = {
         WARNING,
         "the spectrum does not know that short waves are gathered in places",
     ),
+    "worn-line-scan": (WARNING, "a line does not tell what roughness rubber meets on worn tops"),
     "lines-in-spectrum": (WARNING, "a machined surface: its roughness is no random one"),
     "lay": (WARNING, "the surface is rougher in one direction"),
     "few-long-waves": (WARNING, "the scan holds few of its longest waves"),
@@ -140,6 +141,7 @@ class Kind(NamedTuple):
 _NEXT_STEPS = {
     "slope-not-reached": "measure with finer pixels, or go on beyond the scan by fit",
     "noise-in-spectrum": "end the spectrum where the noise begins",
+    "worn-line-scan": "measure a map, whose contact ScanContact takes",
     "lay": "measure friction along and across the lay",
     "law-beyond-rows": "measure with finer pixels, or state it with mu",
     "law-beyond-fit": "measure the modulus at these temperatures",
@@ -161,6 +163,7 @@ _NEXT_STEPS = {
 _EFFECTS = {
     "heights-not-gaussian": 1.0,
     "gathered-waves": 0.4,
+    "worn-line-scan": 1.0,
     "different-shifts": 0.5,
     "no-vertical-shift": 0.5,
     "steep-spectrum": 0.5,

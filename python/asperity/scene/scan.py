@@ -21,6 +21,7 @@ from asperity.surface import Detrend, HeightMap, LineScan
 Scan = HeightMap | LineScan
 
 _LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
+_WORN = -0.4  # skewness below which exact contacts differ from those of the spectrum by 20 %
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
 _FEW_PERIODS, _NEAR_NYQUIST = 1, 2  # bits of TabulatedSpectrum.flag
 # White noise of an instrument has a flat C(q), a surface one that falls as q^-2 or steeper. Heights
@@ -88,7 +89,7 @@ def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) ->
     notes = []
     if isinstance(scan, LineScan):
         text = "of a line scan: C(q) is that of the isotropic surface with such profiles"
-        notes.append(Note(text, code="line-scan"))
+        notes += [Note(text, code="line-scan"), *_worn_notes(scan)]
     if ratio is not None and ratio > _LAY and not directional:
         text = (
             f"the slope across the lay is {ratio:.3g} times that along it: the spectrum is an "
@@ -97,6 +98,26 @@ def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) ->
         step = "directional = true in [surface] keeps them, and direction_deg says which is slid"
         notes.append(Note(text, code="lay", next_step=step))
     return notes
+
+
+def _worn_notes(scan: LineScan) -> list[Note]:
+    """What the full spectrum of a profile with worn tops may be worth, in docs/sliding.md."""
+    level = scan.detrend("plane")
+    if not level.skewness < _WORN:
+        return []
+    heights = np.asarray(level.heights)
+    steep = np.square(np.diff(heights))
+    share = float(np.mean(steep[heights[1:] > heights.mean()]) / np.mean(steep))
+    text = (
+        f"the line scan has skewness {level.skewness:.2g}, and its heights above the mean have "
+        f"{share:.2g} of the mean square slope: on worn maps mu of the full spectrum was 1.1 to "
+        "4.7 times that of exact contacts, of the top one 0.4 to 2.7 times"
+    )
+    step = (
+        'measure a map, whose own contact kind = "scan-contact" takes; without one compute with '
+        'line_spectrum(part="top") too, and state both'
+    )
+    return [Note(text, code="worn-line-scan", next_step=step)]
 
 
 def line_notes(spectrum: TabulatedSpectrum) -> list[Note]:

@@ -147,6 +147,27 @@ def test_a_scene_notes_it(tmp_path: Path, fit: str, kind: str) -> None:
     assert sum(note.code in NOTES for note in found) == (kind == "partial-contact")
 
 
+@pytest.mark.parametrize("shape", ["worn", "Gaussian", "peaks"])
+def test_a_scene_says_of_a_worn_line_scan_what_its_tops_have(tmp_path: Path, shape: str) -> None:
+    heights = height_map(shape).heights.reshape(-1)
+    np.save(tmp_path / "line.npy", heights)
+    (tmp_path / "scene.toml").write_text(
+        f'[surface]\nfile = "line.npy"\npixel_size_m = {LENGTH / POINTS}\nunit = "m"\n'
+        "[rubber]\nequilibrium_modulus_pa = 1e6\nmoduli_pa = [9e6]\nrelaxation_times_s = [1e-3]\n"
+        "[conditions]\npressure_pa = 2e5\nvelocity_m_s = 0.1\n"
+    )
+    found = load_scene(tmp_path / "scene.toml").friction().notes
+    said = [note for note in found if note.code == "worn-line-scan"]
+    assert len(said) == (shape == "worn")
+    for note in said:
+        steep = np.diff(heights) ** 2
+        share = steep[heights[1:] > heights.mean()].mean() / steep.mean()
+        assert float(note.split(" of the mean square slope")[0].split()[-1]) == pytest.approx(
+            share, rel=0.03
+        )
+        assert share < 0.8  # half of the points have all of the slope in a Gaussian map: 1
+
+
 @pytest.mark.parametrize(
     ("argument", "given"),
     [

@@ -154,6 +154,27 @@ def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
         assert total == pytest.approx(np.mean(flat**2), rel=1e-9, abs=0)
 
 
+@pytest.mark.parametrize("part", ["top", "bottom"])
+@pytest.mark.parametrize("rows", [0, 3])
+@pytest.mark.parametrize("detrend", ["plane", None])
+def test_a_part_of_a_profile_is_its_clipped_heights_over_their_share(detrend, rows, part):
+    z = np.random.default_rng(rows).gumbel(size=(max(rows, 1), 210)) * 1e-6 + 2e-6
+    scan = HeightMap(z, pixel_size=1e-6) if rows else LineScan(z[0], spacing=1e-6)
+    found = line_spectrum(scan, detrend=detrend, part=part)
+    u = np.arange(210)
+    flat = z if detrend is None else z - [np.polyval(np.polyfit(u, row, 1), u) for row in z]
+    about = flat - flat.mean(axis=1, keepdims=True)
+    clipped = np.maximum(about, 0) if part == "top" else np.minimum(about, 0)
+    whole = line_spectrum(HeightMap(clipped, pixel_size=1e-6), detrend="offset")
+    np.testing.assert_allclose(found.density, whole.density / np.mean(clipped != 0), rtol=1e-9)
+    assert found.skewness is None
+    assert np.array_equal(found.count, whole.count)
+
+
+def test_a_flat_profile_has_no_top():
+    assert np.all(line_spectrum(LineScan(np.ones(64), spacing=1.0), part="top").density == 0)
+
+
 def test_line_spectrum_of_a_float32_scan_is_that_of_its_own_numbers():
     z = np.random.default_rng(2).normal(size=500).astype("f4")
     found = line_spectrum(LineScan(z, spacing=1e-6))
