@@ -1,0 +1,184 @@
+"""Elastic contacts of another group beside every correction, their gaps beside those of `slide`.
+
+    python tests/benchmarks/outside/elastic.py CLONE [docs/explanation/outside_elastic.png]
+
+CLONE is one of xylcsi/PerssonModelFudgeFactor: Green's function molecular dynamics of Y. Zhou,
+areas in the mean of maps (Data/Area_GFMD_Zhou.mat) and gaps of a set (GFMD_final_results_*.mat).
+The maps' law is that of its Fig_2_program.m: H 0.8, q0 1e4 and q1 1e6 1/m, h_rms 6e-6 m, E* 1.
+Their areas count whole pixels. What that adds is not in the files, nor how many pixels there are;
+here it is what it adds on a map of that law with 10 and with 5 pixels to the shortest wave.
+"""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import clone
+import numpy as np
+from scipy.io import loadmat
+
+import asperity
+from asperity.draw.figure import legend, new_figure, picture
+from asperity.draw.style import COLOURS
+from asperity.validation import slide
+from asperity.validation.boundary_elements import contact
+from asperity.validation.contacts import Contact
+from asperity.validation.predictions import Model, models_for, predict
+
+Array = np.ndarray
+LAW = asperity.SelfAffineSpectrum(rms_height=6e-6, hurst=0.8, q0=1e4, q1=1e6)
+LIGHT = (5e-3, 0.113)  # E*, where pixels are worth most and maps scatter little
+SEEDS, POINTS = (1, 2), (1024, 512)
+SOLID = asperity.PronySeries(equilibrium_modulus=1.0, moduli=[], relaxation_times=[])
+MORE = (
+    Model("S of A, 0.42", "", lambda _: asperity.ImplicitSFactor(gamma=0.42)),
+    Model("`PartialContact`", "", lambda _: asperity.PartialContact()),
+)
+
+
+def map_of(seed: int, points: int, longest: int = 1) -> asperity.HeightMap:
+    """With so many of the longest waves along a side."""
+    pixel = longest * 2 * np.pi / LAW.q0 / points
+    return asperity.synthesize(LAW, shape=(points, points), pixel_size=pixel, seed=seed)
+
+
+def excess(pressure: Array, points: int) -> Array:
+    """Whole pixels over the area without the perimeter's excess."""
+    loads = pressure / LAW.rms_slope
+    found = contact(map_of(SEEDS[0], points), p_over_Eh=loads, periodic=True)
+    return found.area_raw / found.area
+
+
+def contacts(pressure: Array, area: Array) -> list[Contact]:
+    """As `asperity validate` takes them, without heights: of peaks the files say nothing."""
+    unknown: dict[str, Any] = {"z_max": np.nan, "z_min": np.nan, "peaks": {}, "energy": np.nan}
+    return [
+        Contact(
+            case=f"{p:g}",
+            spectrum=LAW,
+            hurst=0.8,
+            q0=None,
+            rms_height=LAW.rms_height,
+            effective_modulus=1.0,
+            pressure=float(p),
+            area=float(a),
+            **unknown,
+        )
+        for p, a in zip(pressure, area, strict=True)
+    ]
+
+
+def errors(model: Model, of: Sequence[Contact]) -> Array:
+    return np.array([predict(one, model).area_error for one in of])
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """Shares of the surface beyond gaps [h_rms], and those of maps of ours."""
+
+    pressure: float
+    area: float
+    gap: Array
+    beyond: Array
+    own: Array  # (maps, gaps)
+
+    @property
+    def off(self) -> Array:
+        return self.own.mean(axis=0) - self.beyond
+
+    @property
+    def scatter(self) -> float:
+        return float(abs(self.own - self.own.mean(axis=0)).max())
+
+
+def gaps(root: Path) -> list[Gaps]:
+    """The distributions as counts up to the edges of bins: the first one, half as wide beside
+    contact, has contact too. Maps of ours have four of the longest waves to a side."""
+    found = []
+    maps = [map_of(seed, POINTS[0], longest=4) for seed in SEEDS]
+    for name in ("low", "high"):
+        data = loadmat(root / f"Data/GFMD_final_results_{name}_from_Zhou.mat")
+        columns = (data[f"{key}_{name}"].T for key in ("p_bar", "CR", "gap_GFMD", "PDF_GFMD"))
+        pressures, areas, gap, density = columns
+        for p, area, g, d in zip(pressures.ravel(), areas.ravel(), gap, density, strict=True):
+            width = g[2] - g[1]
+            edges = g + width / 2
+            own = []
+            for surface in maps:
+                at = {"pressure": float(p), "velocity": 0.0, "poisson_ratio": 0.0}
+                solved = np.sort(slide(surface, SOLID, **at, periodic=True, rtol=1e-4).gap.ravel())
+                own.append(1 - np.searchsorted(solved, edges * surface.rms_height) / solved.size)
+            found.append(
+                Gaps(float(p), float(area), edges, 1 - np.cumsum(d) * width, np.array(own))
+            )
+    return found
+
+
+def main() -> None:
+    root = clone.given("xylcsi/PerssonModelFudgeFactor", "Data/Area_GFMD_Zhou.mat")
+    data = loadmat(root / "Data/Area_GFMD_Zhou.mat")
+    pressure, printed = data["p_bar"].ravel(), data["area_mean"].ravel()
+    areas = {"as printed": printed}
+    for points in POINTS:
+        areas[f"for {points // 100} pixels a wave"] = printed / excess(pressure, points)
+    print(f"rms slope of the law {LAW.rms_slope:.4f}\n\n| p / E* | " + " | ".join(areas) + " |")
+    print("| --- " * (1 + len(areas)) + "|")
+    for row in zip(pressure, *areas.values(), strict=True):
+        print("| " + " | ".join(f"{cell:.4g}" for cell in row) + " |")
+    sets = {name: contacts(pressure, area) for name, area in areas.items()}
+    light = (pressure >= LIGHT[0]) & (pressure <= LIGHT[1])
+    print("\nrms (mean, worst) in %; mean of loads from 0.005 to 0.113:\n")
+    print("| correction | " + " | ".join(sets) + " |\n" + "| --- " * (1 + len(sets)) + "|")
+    left = {}
+    for model in (*models_for(sets["as printed"]), *MORE):
+        cells = []
+        for of in sets.values():
+            off = 100 * errors(model, of)
+            worst = off[np.argmax(abs(off))]
+            rms = np.sqrt(np.mean(off**2))
+            cells.append(f"{rms:.1f} ({off.mean():+.1f}, {worst:+.0f}); {off[light].mean():+.1f}")
+            left.setdefault(model.name, []).append(off)
+        print(f"| {model.name} | " + " | ".join(cells) + " |")
+    distributions = gaps(root)
+    print("\nshare of the surface beyond a gap, largest difference:\n")
+    print("| p / E* | A | to the mean of our maps | among these | mean gap over theirs |")
+    print("| --- " * 5 + "|")
+    for one in distributions:
+        ratio = np.trapezoid(one.own.mean(axis=0), one.gap) / np.trapezoid(one.beyond, one.gap)
+        row = (one.pressure, one.area, abs(one.off).max(), one.scatter, ratio)
+        print("| " + " | ".join(f"{cell:.3g}" for cell in row) + " |")
+    if len(sys.argv) > 2:
+        path = Path(sys.argv[2])
+        path.write_bytes(draw(pressure, left, distributions, path))
+
+
+def draw(
+    pressure: Array, left: dict[str, list[Array]], distributions: Sequence[Gaps], path: Path
+) -> bytes:
+    """What is left of the area, as printed (dashed) and corrected, and of the gaps."""
+    figure, (of_area, of_gaps) = new_figure(2)
+    shown = ("none", "S in G, 5/9", "S of A, 0.45", "Nayak S", "`PartialContact`")
+    for colour, name in zip(COLOURS, shown, strict=False):
+        printed, corrected, _ = left[name]
+        of_area.semilogx(pressure, corrected, color=colour, label=name.strip("`"))
+        of_area.semilogx(pressure, printed, "--", color=colour, linewidth=0.9)
+    of_area.plot([], [], "k--", linewidth=0.9, label="as printed")
+    of_area.set(xlabel="Pressure $p / E^*$ [-]", ylabel="Area over theirs, less 1 [%]")
+    for shade, one in zip(np.linspace(0, 0.9, len(distributions)), distributions, strict=True):
+        label = f"{one.pressure:g}" if one.pressure in (1e-4, 5e-3, 0.04, 0.191) else None
+        colour = (shade, 0.35, 1 - shade)
+        of_gaps.plot(one.gap / one.gap[-1], one.off, color=colour, linewidth=1, label=label)
+    of_gaps.set(
+        xlabel="Gap over the largest one [-]", ylabel="Share beyond it, ours less theirs [-]"
+    )
+    for axes in (of_area, of_gaps):
+        axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
+    legend(of_area)
+    legend(of_gaps, title="$p / E^*$")
+    return picture(figure, path)
+
+
+if __name__ == "__main__":
+    main()
