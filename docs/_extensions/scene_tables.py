@@ -5,34 +5,46 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from asperity.adhesion import Adhesion
+import asperity
 from asperity.base.parameters import KEY_UNITS
-from asperity.friction import friction
-from asperity.heating import Heating
-from asperity.io.fields import Field, fields_of
-from asperity.scene.keys import SOLVER, UNCERTAINTY
+from asperity.io.fields import Field, fields_of, without_unit
+from asperity.scene.keys import CONDITIONS, SOLVER, UNCERTAINTY
 from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING, KINDS
-from asperity.spectrum import SelfAffineSpectrum
-from asperity.uncertainty.band import friction_band
+from asperity.scene.rubber import RUBBER
+from asperity.scene.surface import ENDS, SCAN
 
 Rows = Iterator[list[str]]
 _UNITS = re.compile(rf",? \[(?:-|{'|'.join(map(re.escape, KEY_UNITS.values()))})\]")
 _PARAMETERS = re.compile(r"^Parameters\n-+\n(.*?)(?=^\w[\w ]*\n---|\Z)", re.M | re.S)
 _ENTRY = re.compile(r"^(\w.*)\n((?:(?:    .*)?\n)+)", re.M)
 _HEAD = ["key", "unit", "default", "meaning"]
-_OF: dict[str, tuple[Mapping[str, Field], Callable[..., Any]]] = {
-    "law": (fields_of(SelfAffineSpectrum), SelfAffineSpectrum),
-    "adhesion": (ADHESION, Adhesion),
-    "heating": (HEATING, Heating),
-    "solver": (SOLVER, friction),
-    "uncertainty": (UNCERTAINTY, friction_band),
+_LAW = asperity.SelfAffineSpectrum
+_MAP = asperity.HeightMap.fill_dropouts
+_RUBBERS = asperity.PronySeries, asperity.read_isotherms, asperity.build_master_curve, asperity.WLF
+_STRAIN = asperity.StrainFactors, asperity.strain_factors
+# keys, and what their arguments are of
+_OF: dict[str, tuple[Mapping[str, Field], tuple[Callable[..., Any], ...]]] = {
+    "scan": (SCAN, (asperity.read_surface, _MAP, asperity.power_spectrum)),
+    "law": (fields_of(_LAW), (_LAW,)),
+    "ends": (ENDS, (_LAW,)),
+    "rubber": (RUBBER, (*_RUBBERS, *_STRAIN)),
+    "conditions": (CONDITIONS, (asperity.friction,)),
+    "adhesion": (ADHESION, (asperity.Adhesion,)),
+    "heating": (HEATING, (asperity.Heating,)),
+    "solver": (SOLVER, (asperity.friction,)),
+    "uncertainty": (UNCERTAINTY, (asperity.friction_band,)),
 }
 TABLES = ("correction", *_OF)
+_SEVERAL = ("ends", "rubber")  # tables of several sources, of which each has keys that it needs
 
 
 def table(name: str) -> list[str]:
     """The lines of a table in Markdown."""
     rows = _corrections() if name == "correction" else _rows_of(*_OF[name])
+    if name in _SEVERAL:
+        rows = (
+            [key, unit, default.replace("required", ""), text] for key, unit, default, text in rows
+        )
     shown = [_HEAD, ["---"] * len(_HEAD), *([f"`{key}`", *rest] for key, *rest in rows)]
     return [f"| {' | '.join(row)} |" for row in shown]
 
@@ -43,7 +55,7 @@ def _corrections() -> Rows:
     kinds: dict[tuple[str, Any], list[str]] = {}
     for kind, fields in CORRECTIONS.items():
         named = {key: one for key, one in fields.items() if key != "kind"}
-        for row in _rows_of(named, KINDS[kind]):
+        for row in _rows_of(named, (KINDS[kind],)):
             if "z_max_m" in fields:
                 row[2] = row[2].replace("required", "from the scan")
             at = row[0], fields[row[0]].default
@@ -53,21 +65,18 @@ def _corrections() -> Rows:
         yield [*cells, f"{', '.join(kinds[at])}: {meaning}"]
 
 
-def _rows_of(fields: Mapping[str, Field], of: Callable[..., Any]) -> Rows:
-    meanings = _meanings(of)
+def _rows_of(fields: Mapping[str, Field], of: tuple[Callable[..., Any], ...]) -> Rows:
+    meanings: dict[str, str] = {}
+    for one in reversed(of):  # the first that knows an argument holds
+        meanings |= _meanings(one)
     for key, field in fields.items():
-        assert field.declared is not None
         default = "" if field.default is None else _shown(field.default)
-        default = "required" if field.required else default
-        meaning = _UNITS.sub("", meanings.get(field.argument, ""))
-        choices = ", ".join(map(_shown, field.declared.choices))
-        text = f"{choices}. {meaning}" if choices else meaning
-        yield [
-            key,
-            field.declared.si_unit,
-            "required" if field.required else default,
-            text.replace("|", r"\|"),
-        ]
+        meaning = field.meaning or _UNITS.sub("", meanings.get(field.argument, ""))
+        declared = () if field.declared is None else field.declared.choices
+        choices = ", ".join(_shown(one) for one in declared if one is not None)
+        text = f"{choices}. {meaning}" if choices and not field.meaning else meaning
+        required = "required" if field.required else default
+        yield [key, without_unit(key)[1], required, text.replace("|", r"\|")]
 
 
 def _shown(value: Any) -> str:

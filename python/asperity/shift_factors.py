@@ -92,9 +92,9 @@ class WLF(_Law, CoreValue):
     Parameters
     ----------
     c1 : float
-        [-], positive.
+        Constant of the law [-], positive.
     c2 : float
-        [K], positive.
+        Constant of the law [K], positive.
     reference_temperature : float
         T_ref [K], where a_T = 1.
 

@@ -20,6 +20,7 @@ from asperity.base.arguments import (
     of_kind,
 )
 from asperity.base.diagnostics import Note, refusal
+from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
 
@@ -216,9 +217,9 @@ class StrainFactors(Table):
     2.0
     """
 
-    strain: Vector
-    storage: Vector
-    loss: Vector
+    strain: Vector = parameter(key_name="strain_amplitudes")
+    storage: Vector = parameter(key_name="storage_factors")
+    loss: Vector = parameter(key_name="loss_factors")
     strain_per_slope: float = 0.5
     storage_error: OptionalVector = ABSENT
     loss_error: OptionalVector = ABSENT

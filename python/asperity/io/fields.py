@@ -2,7 +2,7 @@
 
 import datetime
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass
 from pathlib import Path
@@ -14,7 +14,7 @@ from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
 from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, valued
 from asperity.base.parameters import KEY_UNITS, Parameter, parameters
-from asperity.base.quantities import Quantity
+from asperity.base.quantities import TEMPERATURE, Quantity
 from asperity.io import plausible
 from asperity.io.typed import Typed, as_typed
 
@@ -32,6 +32,7 @@ class Field:
     quantity: Quantity | None = None
     unit: str = ""  # of `quantity`, the SI unit if empty
     declared: Parameter | None = None
+    meaning: str = ""  # for the page of scenes, where the argument's docstring does not say it
 
     @property
     def required(self) -> bool:
@@ -178,6 +179,9 @@ _READERS: dict[Any, Callable[[object], Any]] = {
     int: count,
     str: text,
     str | None: text,
+    Mapping[str, str]: texts,
+    Mapping[str, str | int]: columns,
+    Sequence[float] | None: numbers,
 }
 
 
@@ -191,11 +195,23 @@ def fields_of(of: Callable[..., Any], *names: str) -> dict[str, Field]:
         read = _READERS.get(one.type)
         if one.choices:
             read = text_or_true if True in one.choices else text
-        elif read is None and one.si_unit:
+        elif read is None and (one.si_unit or one.key_name):
             read = numbers
         if read is not None:
             fields[one.key] = Field(read, one.name, one.quantity, declared=one)
     return fields
+
+
+def kelvin_or_celsius(
+    read: Callable[[object], Any], argument: str, meaning: str
+) -> dict[str, Field]:
+    """The two keys of a temperature, of which a table has one."""
+    return {
+        f"{argument}_k": Field(read, argument, TEMPERATURE, meaning=meaning),
+        f"{argument}_c": Field(
+            read, "", TEMPERATURE, "C", meaning=f"the same, instead of `{argument}_k`"
+        ),
+    }
 
 
 def defaults_of(fields: Mapping[str, Field]) -> dict[str, Any]:

@@ -3,16 +3,18 @@
 from pathlib import Path
 from typing import Any
 
-from asperity.base import quantities
 from asperity.base.celsius import ZERO_CELSIUS
-from asperity.io.fields import Field, refuse, sweep
+from asperity.io.fields import kelvin_or_celsius, refuse, sweep
 from asperity.scene.rubber import BuiltRubber
 
 MOST_TEMPERATURES = 1000  # of a list
-TEMPERATURE = {
-    "temperature_k": Field(sweep, "temperature", quantities.TEMPERATURE),
-    "temperature_c": Field(sweep, "", quantities.TEMPERATURE, "C"),
-}
+TEMPERATURE = kelvin_or_celsius(
+    sweep,
+    "temperature",
+    "of the rubber, the place where a temperature goes; for `asperity friction` it may be a list. "
+    "A single number may stand in `[rubber]` instead; both are refused. A column at the end of the "
+    "table. [How to change the temperature](../howto/temperature.md) has examples",
+)
 
 
 def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:

@@ -7,14 +7,25 @@ from asperity.scene.heat import TEMPERATURE
 from asperity.uncertainty.band import friction_band
 
 POINTS = {
-    "pressure_pa": Field(sweep, "pressure", quantities.PRESSURE),
-    "velocity_m_s": Field(sweep, "velocity", quantities.VELOCITY),
+    "pressure_pa": Field(
+        sweep,
+        "pressure",
+        quantities.PRESSURE,
+        meaning="required: a number, a list, or `{ from = 1e4, to = 1e6, points = 5 }`, which is "
+        "logarithmic",
+    ),
+    "velocity_m_s": Field(sweep, "velocity", quantities.VELOCITY, meaning="the same"),
 }
 CONDITIONS = {
     **POINTS,
     **TEMPERATURE,
     **fields_of(friction, "poisson_ratio"),
-    "direction_deg": Field(number, "direction"),
+    "direction_deg": Field(
+        number,
+        "direction",
+        meaning="of sliding, from x (a scan's second axis) towards y, on a surface that knows "
+        "directions. A column `lateral` at the end of the table has the force across over the load",
+    ),
 }
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}

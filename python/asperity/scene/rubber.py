@@ -16,20 +16,16 @@ from asperity.io import plausible
 from asperity.io.fields import (
     Field,
     arguments,
-    columns,
     fields_of,
     file_name,
     file_names,
     in_keys,
     names_of,
-    number,
-    numbers,
     read_table,
     refuse,
     rename_in_errors,
     require,
     text,
-    texts,
     truth,
 )
 from asperity.io.read_dma import read_isotherms
@@ -61,25 +57,37 @@ Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
 _PRONY = fields_of(PronySeries)
-_TABLE = {
-    "columns": Field(columns, "columns"),
-    "units": Field(texts, "units"),
-    "modulus": Field(text, "modulus"),
-    "poisson_ratio": Field(number, "poisson_ratio"),
+_TABLE = fields_of(read_isotherms, "columns", "units", "modulus", "poisson_ratio")
+_DMA = {**_TABLE, **fields_of(read_isotherms, "temperatures")}
+_PRONY_FIT = {
+    "prony": Field(
+        truth,
+        meaning="true: the Prony series through the isotherms, known on the measured frequencies",
+    )
 }
-_DMA = {**_TABLE, "temperatures": Field(numbers, "temperatures")}
-_PRONY_FIT = {"prony": Field(truth)}
 _REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
 RUBBER = {
     **_PRONY,
-    "master_curve": Field(file_name),
-    "isotherms": Field(file_names),
+    "master_curve": Field(
+        file_name,
+        meaning="a table of text or a workbook (.xlsx, .xls): with [these columns](csv.md), or "
+        "with those that `columns`, `units` and `modulus` say; rows at temperatures of their own "
+        "(a ramp) where `columns` has one of `temperature`",
+    ),
+    "isotherms": Field(
+        file_names, meaning="list of files; `*` and `?` stand for parts of their names"
+    ),
     **_DMA,
     **BUILD,
     **TEMPERATURE,
     **WLF_KEYS,
     **_PRONY_FIT,
-    "extrapolation": Field(text, "extrapolation"),
+    "extrapolation": Field(
+        text,
+        "extrapolation",
+        meaning='of a master curve "power-law" or "clamp", a decade at each end; of '
+        '`prony = true` "prony"',
+    ),
     **STRAIN,
 }
 # which keys go with which source of the modulus

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.base import quantities
 from asperity.base.diagnostics import Argument, valued
 from asperity.dma import MasterCurveBuild
 from asperity.io.fields import (
@@ -12,6 +11,7 @@ from asperity.io.fields import (
     arguments,
     fields_of,
     file_name,
+    kelvin_or_celsius,
     names_of,
     number,
     one_temperature,
@@ -25,14 +25,26 @@ from asperity.shift_factors import WLF, ShiftFactors
 
 Values = dict[str, Any]
 BUILD = {
-    "reference_temperature_k": Field(number, "reference_temperature", quantities.TEMPERATURE),
-    "reference_temperature_c": Field(number, "", quantities.TEMPERATURE, "C"),
+    **kelvin_or_celsius(
+        number,
+        "reference_temperature",
+        "at which the master curve is built, with isotherms that at which the rubber is wanted "
+        "unless given; with `shift` and `wlf_c1` required: that of the modulus given",
+    ),
     "vertical_shift": Field(text, "vertical_shift"),
 }
 TEMPERATURE = {
-    "temperature_k": Field(one_temperature, "temperature", quantities.TEMPERATURE),
-    "temperature_c": Field(one_temperature, "", quantities.TEMPERATURE, "C"),
-    "shift": Field(file_name),
+    **kelvin_or_celsius(
+        one_temperature,
+        "temperature",
+        "at which the rubber is wanted: better given in `[conditions]`. Isotherms, `shift` and "
+        "`wlf_c1` need it in one of the two tables; in both it is refused",
+    ),
+    "shift": Field(
+        file_name,
+        meaning="file of shift factors, [as these](csv.md), with any source; needs "
+        "`reference_temperature_c` and a temperature in `[conditions]`",
+    ),
 }
 WLF_KEYS = fields_of(WLF, "c1", "c2")
 

@@ -7,16 +7,13 @@ from asperity.base.diagnostics import valued
 from asperity.io.fields import (
     Field,
     arguments,
-    columns,
+    fields_of,
     file_names,
     names_of,
-    number,
-    numbers,
     refuse,
     rename_in_errors,
     require,
     text,
-    texts,
 )
 from asperity.io.read_dma import read_strain_sweep
 from asperity.sweeps import StrainFactors, StrainSweep, strain_factors
@@ -25,21 +22,27 @@ BY_MAGNIFICATION = "by-magnification"
 # what the strain of a file is, and how often the amplitude it holds
 KINDS = {"shear": 1, "tension": 1, "peak-to-peak-shear": 2, "peak-to-peak-tension": 2}
 
-_ROWS = {
-    "strain_amplitudes": Field(numbers, "strain"),
-    "storage_factors": Field(numbers, "storage"),
-    "loss_factors": Field(numbers, "loss"),
-}
+_ROWS = fields_of(StrainFactors, "strain", "storage", "loss")
 _FILES = {
-    "strain_columns": Field(columns, "columns"),
-    "strain_units": Field(texts, "units"),
+    f"strain_{key}": one for key, one in fields_of(read_strain_sweep, "columns", "units").items()
 }
-_PER_SLOPE = {"strain_per_slope": Field(number, "strain_per_slope")}
-_REFERENCE = {"reference_strain": Field(number, "reference_strain")}
+_PER_SLOPE = fields_of(strain_factors, "strain_per_slope")
+_REFERENCE = fields_of(strain_factors, "reference_strain")
 STRAIN = {
-    "strain": Field(text),
-    "strain_kind": Field(text),
-    "strain_sweeps": Field(file_names),
+    "strain": Field(
+        text,
+        meaning='`"by-magnification"`: the modulus softens with the strain that the roughness of '
+        "each magnification brings, by the factors of the keys below "
+        "([when](../howto/strain.md))",
+    ),
+    "strain_kind": Field(
+        text,
+        meaning='with `strain_sweeps`, what their strain is: `"shear"` or `"tension"` for '
+        'amplitudes, `"peak-to-peak-shear"` or `"peak-to-peak-tension"`, which are halved',
+    ),
+    "strain_sweeps": Field(
+        file_names, meaning="files of strain sweeps, instead of rows of factors"
+    ),
     **_FILES,
     **_ROWS,
     **_REFERENCE,

@@ -51,8 +51,15 @@ Values = dict[str, Any]
 _SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff", "axis_ratio", "lay")
 _BAND = fields_of(SelfAffineSpectrum, "q0", "q1")
 _CUTOFFS = {
-    "contamination_size_m": Field(number, "size", quantities.PARTICLE),
-    "slope_cutoff": Field(number, "slope"),
+    "contamination_size_m": Field(
+        number,
+        "size",
+        quantities.PARTICLE,
+        meaning="ends it at 2 pi / size; the smaller of the two cut-offs holds",
+    ),
+    "slope_cutoff": Field(
+        number, "slope", meaning="ends it where the rms slope reaches this, 1.3 by the rule"
+    ),
 }
 _READ = {
     **fields_of(read_surface, "channel"),
@@ -64,18 +71,30 @@ _TRANSFORM = fields_of(power_spectrum, "window", "detrend")
 _MERGED = 10.0  # bins a decade of the spectrum of several scans
 _FINEST = 1e11  # [1/m], beyond the distance of atoms
 _NARROWEST = 1.05  # q1 / q0 that a cut-off may leave
-_FIT = {"fit": Field(text)}
-_DIRECTIONAL = {"directional": Field(truth, "directional")}
-SURFACE = {
-    "file": Field(file_or_files),
-    **_READ,
-    **_TRANSFORM,
-    **_FIT,
-    **_DIRECTIONAL,
-    **_SELF_AFFINE,
-    **_BAND,
-    **_CUTOFFS,
+_FIT = {
+    "fit": Field(
+        text,
+        meaning='"self-affine": the fitted law instead of the measured rows, on `q0_per_m` to '
+        "`q1_per_m`, which may go on beyond what the scan resolves",
+    )
 }
+_DIRECTIONAL = {
+    "directional": Field(
+        truth,
+        "directional",
+        meaning="true: the directions of its roughness are kept, for `direction_deg` and the force "
+        "across ([direction](../explanation/direction.md)); not of a line scan, nor with `fit`",
+    )
+}
+_FILE = {
+    "file": Field(
+        file_or_files,
+        meaning="the scan, or a list of scans whose spectra are merged in ten bins a decade",
+    )
+}
+SCAN = {**_FILE, **_READ, **_TRANSFORM, **_FIT, **_DIRECTIONAL}
+ENDS = {**_BAND, **_CUTOFFS}
+SURFACE = {**SCAN, **_SELF_AFFINE, **ENDS}
 
 
 @dataclass(frozen=True, eq=False)
