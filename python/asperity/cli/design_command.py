@@ -3,7 +3,6 @@
 from argparse import Namespace
 from typing import Any
 
-from asperity.base.diagnostics import fatal_first
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
 from asperity.io.table import Table
 from asperity.plot.design import design_figure
@@ -29,8 +28,7 @@ def design(args: Namespace) -> None:
         "dma_temperature_k": [_cell(row.temperature) for row in rows],
         "mu_change": [float(row.mu) for row in rows],
     }
-    notes = fatal_first([*scene.notes, *found.result.notes])
-    table = Table("design", [scene_inputs(scene)], notes, columns)
+    table = Table("design", [scene_inputs(scene)], found.result.notes, columns)
     write_outputs(args, table, lambda picture: design_figure(found, picture))
 
 

@@ -14,8 +14,9 @@ _BARS = 0.8  # of a decade
 
 def design_figure(design: Design, path: Path) -> bytes:
     """Bars by decade of frequency and of wavelength at the point with the largest mu."""
-    at = int(np.argmax(design.result.mu))
-    point = float(design.result.pressure[at]), float(design.result.velocity[at])
+    result = design.result
+    at = np.unravel_index(int(np.argmax(result.mu)), np.shape(result.mu))
+    point = float(result.pressure[at]), float(result.velocity[at])
     here = [one for one in design.worths if (one.pressure, one.velocity) == point]
     figure, (first, second) = new_figure(2)
     for place, (part, label, colour) in enumerate(
@@ -34,7 +35,7 @@ def design_figure(design: Design, path: Path) -> bytes:
     second.bar(ends + 0.1, [one.mu for one in waves], _BARS, align="edge", color=palette()[1])
     second.set_xticks(np.arange(ends.min(), ends.max() + 2))
     second.set_xlabel(r"decade of wavelength, $\log_{10}$ (µm)")
-    title = f"$\\mu$ = {design.result.mu[at]:.3g} at {point[0] / 1e3:.4g} kPa, {point[1]:.3g} m/s"
+    title = f"$\\mu$ = {result.mu[at]:.3g} at {point[0] / 1e3:.4g} kPa, {point[1]:.3g} m/s"
     second.set_title(title, fontsize="medium")
     for axes in (first, second):
         axes.axhline(0, color=grey(0.4), linewidth=0.8)

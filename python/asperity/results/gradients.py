@@ -108,6 +108,15 @@ class Gradients(Table):
         axes.legend(frameon=False)
 
 
+def reshaped(gradients: Gradients, shape: Shape) -> Gradients:
+    """Return the gradients of points that are flat in a shape of as many."""
+    made: dict[str, Any] = {}
+    for name, slope in gradients._arguments().items():
+        of_points = slope is not None and name not in ("wavenumber", "angular_frequency")
+        made[name] = slope.reshape(*shape, *slope.shape[1:]) if of_points else slope
+    return Gradients._made(made)
+
+
 def of_core(parts: tuple[Any, ...], shape: Shape) -> Gradients:
     """Return the gradients from the core's columns."""
     q, spectrum, w, storage, loss, p, v, temperature, arguments, error = parts

@@ -4,19 +4,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
-from asperity.base.diagnostics import MUST_BE, Argument
-from asperity.friction import friction
-from asperity.io.fields import names_of, rename_in_errors
 from asperity.results.friction import Friction
 from asperity.results.gradients import Gradients
-from asperity.scene.keys import CONDITIONS, SOLVER
 from asperity.scene.model import Scene
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 
@@ -66,41 +61,24 @@ class Design:
 
 def design(scene: Scene) -> Design:
     """Return what 10 % of each decade and number is worth at every point of a scene."""
-    built = scene.built_rubber
-    if scene.heating is not None:
-        raise InvalidInput(
-            Argument("[heating]"), MUST_BE, "left out: slopes know no heat yet", where=scene.path
-        )
-    pressure, velocity = scene.points
-    at: dict[str, Any] = {"pressure": pressure, "velocity": velocity}
-    rubber, shift = scene.rubber, built.shift
-    temperature = built.temperature if scene.temperature is None else scene.temperature
-    if shift is not None and built.at_reference is not None and temperature is not None:
-        rubber = built.at_reference
-        at |= {"temperature": temperature, "shift": shift}
-    else:
-        shift = None
-    with rename_in_errors(scene.path, names_of("conditions", {**CONDITIONS, **SOLVER})):
-        result = friction(
-            scene.spectrum,
-            rubber,
-            correction=scene.correction,
-            adhesion=scene.adhesion,
-            gradients=True,
-            **at,
-            **scene.options,
-        )
+    result = scene.friction(gradients=True)
     assert result.gradients is not None
+    shift, shape = scene.built_rubber.shift, np.shape(result.mu)
+    pressure, velocity = scene.points
     rows = [
         row
-        for i in range(pressure.size)
-        for row in _at_point(result.gradients, i, pressure[i], velocity[i], shift)
+        for at, p, v in zip(np.ndindex(shape), pressure, velocity, strict=True)
+        for row in _at_point(result.gradients, at, p, v, shift)
     ]
     return Design(result, tuple(rows))
 
 
 def _at_point(
-    of: Gradients, i: int, pressure: float, velocity: float, shift: TemperatureShift | None
+    of: Gradients,
+    i: tuple[int, ...],
+    pressure: float,
+    velocity: float,
+    shift: TemperatureShift | None,
 ) -> Iterator[Worth]:
     point = float(pressure), float(velocity)
     for part in ("storage", "loss"):
@@ -109,7 +87,7 @@ def _at_point(
             middle = float(np.sqrt(edges[k] * edges[k + 1]))
             seen = None if shift is None else temperature_of_dma(shift, middle)
             yield Worth(*point, part, "10 %", edges[k], edges[k + 1], seen, MORE * worth)
-    edges, sums = by_decade(2 * np.pi / of.wavenumber[::-1], of.spectrum[i, ::-1])
+    edges, sums = by_decade(2 * np.pi / of.wavenumber[::-1], of.spectrum[i][::-1])
     for k, worth in enumerate(sums):
         yield Worth(*point, "spectrum", "10 %", edges[k], edges[k + 1], None, MORE * worth)
     for part in ("pressure", "velocity"):

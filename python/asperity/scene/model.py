@@ -26,6 +26,7 @@ from asperity.io.fields import (
     rename_in_errors,
 )
 from asperity.results.friction import joined, small_friction_notes
+from asperity.results.gradients import reshaped
 from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
@@ -156,9 +157,15 @@ class Scene:
         pressure, velocity = np.meshgrid(self.pressure, self.velocity, indexing="ij")
         return pressure.ravel(), velocity.ravel()
 
-    def friction(self, progress: Progress = nullcontext) -> SceneFriction:
-        """Friction at every pressure and velocity; `progress` sees the chunks of points."""
-        parts: list[Friction] = self._at_points(self._friction, progress)
+    def friction(
+        self, progress: Progress = nullcontext, *, gradients: bool = False
+    ) -> SceneFriction:
+        """Friction at every pressure and velocity, perhaps with its slopes; `progress` sees the
+        chunks of points, which slopes do not have: they share their rows."""
+        if gradients:
+            parts = [self.friction_at(*self.points, gradients=True)]
+        else:
+            parts = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         share = np.concatenate([part.extrapolated_share for part in parts])
         found = [note for part in parts for note in part.notes if note.code not in _OF_ALL]
@@ -169,7 +176,9 @@ class Scene:
         found += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
         named = partial(in_keys, names=NOTED)
         notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in found)])
-        return SceneFriction._made(vars(joined(parts, shape)), notes=tuple(notes))
+        slopes = reshaped(_known(parts[0].gradients), shape) if gradients else None
+        whole = {**vars(joined(parts, shape)), "gradients": slopes}
+        return SceneFriction._made(whole, notes=tuple(notes))
 
     @property
     def _friction(self) -> Callable[..., Friction]:
@@ -177,32 +186,50 @@ class Scene:
         compute = partial(friction, adhesion=self.adhesion, **self.options)
         if self.heating is None:
             return compute
-        shift = self.built_rubber.shift
-        return partial(compute, temperature=self.temperature, shift=shift, heating=self.heating)
+        return partial(compute, heating=self.heating, **self._law)
 
-    def friction_at(self, pressure: NDArray[np.float64], velocity: NDArray[np.float64]) -> Friction:
-        """Friction at points of one's own, in one call; errors name the scene's keys."""
-        with rename_in_errors(self.path, self._names, self.typed):
-            result: Friction = self._at(self._friction, pressure, velocity)
+    @property
+    def _law(self) -> dict[str, Any]:
+        """The temperature and the shift that takes the rubber there from its reference; empty
+        where a_T is not known."""
+        built = self.built_rubber
+        if built.shift is None or built.at_reference is None or built.temperature is None:
+            return {}
+        return {"temperature": built.temperature, "shift": built.shift}
+
+    def friction_at(
+        self,
+        pressure: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+        *,
+        gradients: bool = False,
+    ) -> Friction:
+        """Friction at points of one's own, in one call; errors name the scene's keys. With slopes
+        the rubber is that of the reference, shifted, which tells the slope over T."""
+        compute = self._friction
+        if gradients:
+            compute = partial(compute, gradients=True, **self._law)
+        named = {**self._names, **NOTED}
+        shifted = bool(gradients and self._law)
+        renamed = rename_in_errors(self.path, named, self.typed)
+        with self._explaining_range(), celsius_in_errors(self.typed), renamed:
+            result: Friction = self._at(compute, pressure, velocity, shifted)
             return result
 
     def _with_size_of_heat(self, notes: Sequence[Note]) -> Sequence[Note]:
         """Let the note on heat that is left out say how much that is, where a_T is known."""
-        built = self.built_rubber
-        shift, rubber, temperature = built.shift, built.at_reference, built.temperature
-        if shift is None or rubber is None or temperature is None:
+        if not self._law:
             return notes
         pressure, velocity = self.points
 
         def heated_at(i: int, heating: Heating) -> Friction:
             return friction(
                 self.spectrum,
-                rubber,
+                _known(self.built_rubber.at_reference),
                 pressure=pressure[i],
                 velocity=velocity[i],
-                temperature=temperature,
-                shift=shift,
                 heating=heating,
+                **self._law,
                 correction=self.correction,
                 adhesion=self.adhesion,
                 **{**self.options, "rtol": ROUGHLY},
@@ -324,15 +351,19 @@ class Scene:
 
     @property
     def _names(self) -> Mapping[str, str]:
-        return NAMES | (HEATING_NAMES if self.heating else {})
+        table = "rubber" if self.temperature is None else "conditions"
+        names = {**NAMES, "temperature": f"[{table}] temperature_k"}
+        return names | (HEATING_NAMES if self.heating else {})
 
     def _at(
         self,
         compute: Callable[..., Any],
         pressure: NDArray[np.float64],
         velocity: NDArray[np.float64],
+        shifted: bool = False,
     ) -> Any:
-        rubber = self.built_rubber.at_reference if self.heating else self.rubber
+        shifted |= self.heating is not None
+        rubber = self.built_rubber.at_reference if shifted else self.rubber
         return compute(
             self.spectrum,
             rubber,

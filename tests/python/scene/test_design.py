@@ -46,9 +46,9 @@ def test_decades_sum_to_the_slope_over_a_factor(scene):
         here = [one for one in found.worths if one.pressure == pressure]
         worth = {part: sum(one.mu for one in here if one.part == part) for part in PARTS}
         of = found.gradients
-        assert worth["spectrum"] == pytest.approx(MORE * of.rms_height[i] / 2, rel=1e-2)
+        assert worth["spectrum"] == pytest.approx(MORE * of.rms_height[i, 0] / 2, rel=1e-2)
         whole = worth["storage"] + worth["loss"]
-        assert whole == pytest.approx(-MORE * of.pressure[i], abs=1e-3 * found.result.mu[i])
+        assert whole == pytest.approx(-MORE * of.pressure[i, 0], abs=1e-3 * found.result.mu[i, 0])
 
 
 PARTS = ("storage", "loss", "spectrum")
@@ -88,3 +88,32 @@ def test_heat_is_refused(scene, capsys):
     scene.write_text(SCENE + "[heating]\n" + heating + "contact_diameter_m = 1e-3\n")
     assert main(["design", str(scene)]) == 2
     assert "[heating]" in capsys.readouterr().err
+
+
+def test_an_error_names_the_key_that_the_scene_has(scene, capsys):
+    """Friction, which knows a T only as a temperature, refuses one below 150 K."""
+    cold = SCENE.replace("temperature_c = 30\n", "")
+    scene.write_text(cold.replace("wlf_c2_k = 93.3", "wlf_c2_k = 300\ntemperature_c = -130"))
+    assert main(["design", str(scene)]) == 2
+    assert "[rubber] temperature_c = -130" in capsys.readouterr().err
+
+
+def test_a_scene_has_slopes_in_the_shape_of_its_friction(scene):
+    scene.write_text(SCENE.replace("velocity_m_s = 0.1", "velocity_m_s = [0.01, 0.1, 1]"))
+    read = asperity.read_scene(scene)
+    found, plain = read.friction(gradients=True), read.friction()
+    np.testing.assert_allclose(found.mu, plain.mu, rtol=1e-6)
+    of = found.gradients
+    assert of.temperature.shape == of.rms_height.shape == (2, 3)
+    assert of.spectrum.shape == (2, 3, of.wavenumber.size)
+    assert of.moduli.shape == (2, 3, 2)
+    one = asperity.friction(
+        read.spectrum,
+        read.rubber,
+        pressure=2e5,
+        velocity=1.0,
+        correction=read.correction,
+        gradients=True,
+    ).gradients
+    assert of.pressure[1, 2] == pytest.approx(one.pressure, abs=1e-4 * found.mu[1, 2])
+    assert of.moduli[1, 2] == pytest.approx(one.moduli, abs=1e-4 * found.mu[1, 2])
