@@ -29,7 +29,9 @@ from asperity.plane_spectrum import Anisotropy, SpectralDensity, anisotropy, spe
 from asperity.prony_fit import PronyFit, fit_prony
 from asperity.report.report import report
 from asperity.rubber import MasterCurve, PronySeries, effective_modulus
+from asperity.scene.fit import fit_scene
 from asperity.scene.scene import read_scene
+from asperity.scene.scene_fit import SceneFit
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine, synthesize
 from asperity.shift_factors import WLF, ArrheniusFit, ShiftFactors, WlfFit
 from asperity.spectrum import LineSpectrum, SelfAffineSpectrum, TabulatedSpectrum
@@ -65,6 +67,7 @@ __all__ = [
     "OutOfRange",
     "PronyFit",
     "PronySeries",
+    "SceneFit",
     "SelfAffineFit",
     "SelfAffineSpectrum",
     "Separation",
@@ -84,6 +87,7 @@ __all__ = [
     "export_fmu",
     "fit_adhesion",
     "fit_prony",
+    "fit_scene",
     "fit_self_affine",
     "friction",
     "friction_band",

@@ -1,4 +1,4 @@
-"""The verb `fit`: the adhesion of Eq. 23 from measured friction."""
+"""The verb `fit`: the adhesion of Eq. 23 from measured friction, or any numbers of a scene."""
 
 from argparse import Namespace
 from collections.abc import Mapping
@@ -11,7 +11,8 @@ import numpy as np
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Argument, Note, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
+from asperity.cli.fit_scene_command import fit_of_scene
 from asperity.cli.friction_commands import (
     band_progress,
     check_outputs,
@@ -35,6 +36,7 @@ from asperity.scene.experiment import (
 from asperity.scene.scene import load_scene
 
 _APART = 0.2  # of ln pressure
+_WARMER = 2.0  # [K] between points of one temperature
 _COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
 _HELD = {
     "shear_stress_pa": quantities.SHEAR_STRESS,
@@ -43,12 +45,35 @@ _HELD = {
 
 
 def fit(args: Namespace) -> None:
+    """Fit the adhesion, or the numbers that are named; or hold the scene against the points."""
+    if args.free and args.compare:
+        raise InvalidInput(Argument("--compare"), ": is without --free")
+    if args.free or args.compare:
+        if args.hold:
+            raise InvalidInput(Argument("--hold"), ": is for the fit of the adhesion alone")
+        fit_of_scene(args)
+        return
+    for option in ("prior", "scatter"):
+        if getattr(args, option) is not None:
+            raise InvalidInput(Argument(f"--{option}"), ": goes with --free or --compare")
+    _fit_adhesion(args)
+
+
+def _fit_adhesion(args: Namespace) -> None:
     """Fit the adhesion; beside a scene's correction also with the original theory, without it."""
     path = FilePath(args.measured)
     outputs = check_outputs(args)
     with plausible.collected(typed_options(args)) as unusual:
         held = _held(args.hold or {})
         measured = read_friction(path)
+    if measured.temperature is not None and np.ptp(measured.temperature) > _WARMER:
+        low, high = measured.temperature.min(), measured.temperature.max()
+        raise InvalidInput(
+            f"has temperatures from {low:.5g} to {high:.5g} K",
+            MUST_BE,
+            "of one temperature, unless --free is given",
+            where=path,
+        )
     scene = load_scene(args.scene)
     refuse_overwrite(outputs, [*scene.sources, path])
     experiment = Experiment(path, measured, pressures(scene, measured, path), held)

@@ -43,6 +43,11 @@ def numbers(text: str) -> list[float]:
         raise ArgumentTypeError(f"{brief(text)}: must be numbers, parted by commas") from None
 
 
+def keys(text: str) -> list[str]:
+    """Keys, parted by commas."""
+    return [entry.strip() for entry in text.split(",")]
+
+
 def pairs(text: str) -> dict[str, str]:
     """Names with their values."""
     pairs = [entry.partition("=") for entry in text.split(",")]
@@ -52,6 +57,19 @@ def pairs(text: str) -> dict[str, str]:
     if len(result) < len(pairs):
         raise ArgumentTypeError(f"{brief(text)}: must have each NAME once")
     return result
+
+
+def prior(text: str) -> tuple[str, tuple[float | str, ...]]:
+    """A key with what is known of it before."""
+    key, _, given = text.partition("=")
+    value, *more = given.split(",")
+    try:
+        if len(more) not in (1, 2) or more[1:] not in ([], ["ln"]):
+            raise ValueError
+        return key.strip(), (Typed(value), Typed(more[0]), *more[1:])
+    except ValueError:
+        form = "KEY=VALUE,DEVIATION or KEY=VALUE,DEVIATION,ln"
+        raise ArgumentTypeError(f"{brief(text)}: must be {form}") from None
 
 
 def number(text: str) -> float:

@@ -11,11 +11,13 @@ from asperity.cli.fmu_command import fmu
 from asperity.cli.options import (
     Parser,
     Version,
+    keys,
     number,
     numbers,
     pairs,
     pixel_size,
     points,
+    prior,
     share,
     sides,
     tile,
@@ -206,21 +208,45 @@ def parser() -> argparse.ArgumentParser:
     fit = verb(
         "fit",
         fit_command.fit,
-        "adhesion from measured friction, beside the scene's hysteresis",
-        "scene.toml measured.csv --hold width=0.1 --output fit.csv --plot fit.png",
+        "adhesion from measured friction, or any numbers of a scene; or the scene beside it",
+        "scene.toml measured.csv --hold width=0.1 --output fit.csv --plot fit.png\n"
+        "  asperity fit scene.toml measured.csv --free surface.q1_per_m,adhesion.shear_stress_pa",
     )
     fit.add_argument("scene", metavar="SCENE.toml")
     fit.add_argument(
         "measured",
         metavar="MEASURED.csv",
         help="columns mu, velocity_m_s (or velocity_mm_s, velocity_km_h) and, where pressures "
-        "differ, pressure_pa (pressure_kpa, pressure_mpa)",
+        "differ, pressure_pa (pressure_kpa, pressure_mpa), where temperatures do, temperature_k or "
+        "temperature_c",
     )
     fit.add_argument(
         "--hold",
         type=pairs,
         metavar="NAME=VALUE,...",
         help="keep shear_stress_pa, reference_velocity_m_s or width",
+    )
+    fit.add_argument(
+        "--free",
+        type=keys,
+        metavar="KEY,...",
+        help="fit these numbers of the scene instead, as surface.q1_per_m, rubber.moduli_pa[2]",
+    )
+    fit.add_argument(
+        "--prior",
+        type=prior,
+        action="append",
+        metavar="KEY=VALUE,DEVIATION[,ln]",
+        help="what is known of one of them, with a standard deviation of it or of its logarithm",
+    )
+    fit.add_argument(
+        "--compare", action="store_true", help="fit nothing: hold the scene against the points"
+    )
+    fit.add_argument(
+        "--scatter",
+        type=number,
+        metavar="SHARE",
+        help="relative standard deviation of the points, with --free or --compare",
     )
     outputs(fit)
 

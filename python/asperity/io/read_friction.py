@@ -5,14 +5,15 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
-from asperity.base.arguments import path_of
-from asperity.base.diagnostics import MUST_BE, Must
+from asperity.base.arguments import choice, path_of, real_array
+from asperity.base.diagnostics import MUST_BE, Argument, Must
 from asperity.io import plausible
 from asperity.io.instrument import brief
 from asperity.io.read_surface import cell, filled_lines
@@ -22,8 +23,14 @@ _COLUMNS = {
     "velocity": {"velocity_m_s": "m/s", "velocity_mm_s": "mm/s", "velocity_km_h": "km/h"},
     "mu": {"mu": ""},
     "pressure": {"pressure_pa": "Pa", "pressure_kpa": "kPa", "pressure_mpa": "MPa"},
+    "temperature": {"temperature_k": "K", "temperature_c": "C"},
 }
-_QUANTITIES = {"velocity": quantities.VELOCITY, "pressure": quantities.PRESSURE}
+_QUANTITIES = {
+    "velocity": quantities.VELOCITY,
+    "pressure": quantities.PRESSURE,
+    "temperature": quantities.TEMPERATURE,
+}
+_OPTIONAL = ("pressure", "temperature")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +40,47 @@ class MeasuredFriction:
     velocity: NDArray[np.float64]  # [m/s]
     mu: NDArray[np.float64]  # [-]
     pressure: NDArray[np.float64] | None  # [Pa], None where the file has none
+    temperature: NDArray[np.float64] | None = None  # [K], so too
+
+
+def measured_friction(measured: Any) -> tuple[MeasuredFriction, Path]:
+    """The points of a file, or of a mapping of their columns, and what errors on them name."""
+    if not isinstance(measured, Mapping):
+        path = path_of(measured, "measured")
+        return read_friction(path), path
+    for name in measured:
+        choice(name, "measured", tuple(_COLUMNS))
+    for name in ("velocity", "mu"):
+        if name not in measured:
+            raise InvalidInput(Argument("measured"), MUST_BE, f"a mapping that has {name}")
+    given = {name: real_array(one, f"measured: {name}") for name, one in measured.items()}
+    shape = given["mu"].shape
+    for name, column in given.items():
+        if column.ndim > 1 or column.shape not in ((), shape):
+            found = f" has shape {column.shape}"
+            raise InvalidInput(Argument(f"measured: {name}"), found, MUST_BE, f"{shape}, as mu")
+        if not ((column > 0) & (column < math.inf)).all():
+            raise InvalidInput(Argument(f"measured: {name}"), MUST_BE, "positive and finite")
+    flat = {name: np.array(np.broadcast_to(one, shape)).ravel() for name, one in given.items()}
+    points = MeasuredFriction(
+        flat["velocity"], flat["mu"], flat.get("pressure"), flat.get("temperature")
+    )
+    return points, Path("measured")
 
 
 def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
     """Measured mu(v) from a text file: a header line, a row a point, repeats as further rows.
 
     Columns, in any order and among others: ``mu``; ``velocity_m_s``, ``velocity_mm_s`` or
-    ``velocity_km_h``; and, where pressures differ, ``pressure_pa``, ``pressure_kpa`` or
-    ``pressure_mpa``. Lines beginning with ``#`` are passed over. Cells are parted by semicolons,
-    tabs, commas or blanks; where they are not parted by commas, a comma is a decimal one.
+    ``velocity_km_h``; where pressures differ, ``pressure_pa``, ``pressure_kpa`` or
+    ``pressure_mpa``; where temperatures do, ``temperature_k`` or ``temperature_c``. Lines beginning
+    with ``#`` are passed over. Cells are parted by semicolons, tabs, commas or blanks; where they
+    are not parted by commas, a comma is a decimal one.
 
     Returns
     -------
     MeasuredFriction
-        velocity [m/s], mu [-], pressure [Pa] or None.
+        velocity [m/s], mu [-], pressure [Pa] or None, temperature [K] or None.
 
     Raises
     ------
@@ -67,16 +101,18 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
     found = {}
     for kind, (place, unit) in ((k, c) for k, c in columns.items() if c is not None):
         values = [_value(path, number, cells, header, place) for number, cells in table[1:]]
-        factor = 1.0
+        factor, offset = 1.0, 0.0
         if kind in _QUANTITIES:
             plausible.check(header[place], values, _QUANTITIES[kind], unit, path=path)
-            factor = _QUANTITIES[kind].units[unit][0]
-        found[kind] = np.array([value * factor for value in values])
-    return MeasuredFriction(found["velocity"], found["mu"], found.get("pressure"))
+            factor, offset = _QUANTITIES[kind].units[unit]
+        found[kind] = np.array([value * factor + offset for value in values])
+    return MeasuredFriction(
+        found["velocity"], found["mu"], found.get("pressure"), found.get("temperature")
+    )
 
 
 def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
-    """Place and unit of a column; None of pressure where there is none."""
+    """Place and unit of a column; None of what a file may leave out, where it does."""
     known: Mapping[str, str] = _COLUMNS[kind]
     places = [(i, known[name]) for i, name in enumerate(header) if name in known]
     if len(places) > 1:
@@ -86,7 +122,7 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
     if places:
         return places[0]
     bare = [name for name in header if name.lower().startswith(kind)]
-    if kind == "pressure" and not bare:
+    if kind in _OPTIONAL and not bare:
         return None
     allowed = " or ".join(known) if len(known) == 1 else f"one of {', '.join(known)}"
     problem = (
@@ -107,9 +143,11 @@ def _value(path: Path, number: int, cells: list[str], header: list[str], place: 
         value = cell(cells[place])
     except ValueError as error:
         raise InvalidInput(f"line {number}: {header[place]}: {error}", where=path) from error
-    if not 0 < value < math.inf:
+    lowest = -math.inf if header[place] == "temperature_c" else 0
+    if not lowest < value < math.inf:
         shown = cells[place].strip() or "nothing"
+        allowed = "positive and finite" if lowest == 0 else "finite"
         raise InvalidInput(
-            f"line {number}: {header[place]} = {shown}", MUST_BE, "positive and finite", where=path
+            f"line {number}: {header[place]} = {shown}", MUST_BE, allowed, where=path
         )
     return value

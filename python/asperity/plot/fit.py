@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.adhesion import AdhesionFit
+from asperity.base.celsius import ZERO_CELSIUS
 from asperity.draw.figure import MOST_ENTRIES, new_figure, picture, pressure_text, shaded
 from asperity.draw.friction import band_text
 from asperity.draw.style import colours, grey, narrow
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
+from asperity.scene.scene_fit import SceneFit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,6 +46,49 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
             entries.setdefault(label, handle)
     where: Any = "outside lower center" if narrow() else "outside right upper"
     figure.legend(list(entries.values()), list(entries), loc=where, fontsize="small")
+    return picture(figure, path)
+
+
+def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
+    """Measured and predicted mu over the velocity, and one over the other."""
+    figure, (first, second) = new_figure(2)
+    nowhere = np.zeros_like(fit.mu)
+    kelvin = nowhere if fit.temperature is None else fit.temperature
+    groups = sorted({*zip(fit.pressure.tolist(), kelvin.tolist(), strict=True)})
+    many = len(groups) > MOST_ENTRIES
+    for (load, hot), colour in zip(groups, colours(len(groups)), strict=True):
+        here = np.flatnonzero((fit.pressure == load) & (kelvin == hot))
+        here = here[np.argsort(fit.velocity[here], kind="stable")]
+        v, mu, low, high = (x[here] for x in (fit.velocity, fit.mu, fit.band_lower, fit.band_upper))
+        label = pressure_text(load) + (f", {hot - ZERO_CELSIUS:.3g} °C" if hot else "")
+        first.fill_between(v, low, high, color=colour, alpha=0.2, linewidth=0)
+        first.plot(v, mu, "-", color=colour, linewidth=1.5)
+        first.plot(v, fit.measured[here], "o", color=colour, ms=3.5, label=None if many else label)
+        ends = np.array([mu - low, high - mu])
+        second.errorbar(fit.measured[here], mu, ends, fmt="o", color=colour, ms=3.5, lw=0.8)
+        if fit.left_out is not None:
+            second.plot(fit.measured[here], fit.left_out[here], "x", color=colour, ms=4.5)
+    interval = "95 % interval of stated errors" + ", scatter" * (fit.scatter is not None)
+    fitted = " with fitted numbers" if fit.free else ""
+    first.plot([], [], "-", color=grey(0.3), label=f"scene{fitted}")
+    first.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=interval)
+    if fit.left_out is not None:
+        first.plot([], [], "x", color=grey(0.3), ms=4.5, label="point left out of the fit")
+    first.set_xscale("log")
+    first.set_xlabel("Sliding velocity $v$ [m/s]")
+    first.set_ylabel("Friction coefficient $\\mu$ [-]")
+    first.set_ylim(0, 1.1 * max(float(fit.measured.max()), float(fit.mu.max())))
+    sides = min(fit.measured.min(), fit.mu.min()), max(fit.measured.max(), fit.mu.max())
+    second.plot(sides, sides, color=grey(0.5), linewidth=0.8, zorder=0)
+    second.set_xlabel("$\\mu$ as measured [-]")
+    second.set_ylabel("$\\mu$ of the scene [-]")
+    second.set_title(
+        f"rms off {100 * fit.rms_left_out:.2g} %; the same $\\mu$ everywhere "
+        f"{100 * fit.rms_same_mu:.2g} %",
+        fontsize="small",
+    )
+    where: Any = "outside lower center" if narrow() else "outside right upper"
+    figure.legend(*first.get_legend_handles_labels(), loc=where, fontsize="small")
     return picture(figure, path)
 
 

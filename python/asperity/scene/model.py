@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -40,7 +40,7 @@ from asperity.scene.progress import with_contacts
 from asperity.scene.rubber import BuiltRubber
 from asperity.scene.surface import Surface
 from asperity.spectrum import Spectrum
-from asperity.uncertainty.band import Bounds, DrawAdhesion, swept_band
+from asperity.uncertainty.band import Bounds, DrawAdhesion, relative_band, swept_band
 from asperity.uncertainty.draws import Drawn, ShiftedRubber
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
@@ -89,6 +89,7 @@ class Scene:
     temperature: float | None = None  # of [conditions] [K]
     heating: Heating | None = None
     others: Sequence["Scene"] = ()  # the same at the further temperatures of a list
+    tables: Mapping[str, Any] = field(default_factory=dict)  # that it was built of
 
     @property
     def spectrum(self) -> Spectrum:
@@ -280,18 +281,11 @@ class Scene:
         refit: DrawAdhesion | None = None,
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        held = ("poisson_ratio", "form", "strain_factors")
-        options = {name: self.options[name] for name in held if name in self.options}
-        options["correction"] = self.correction
-        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
-        if self.heating is not None:
-            options |= {"temperature": self.temperature, "heating": self.heating}
-            rubber = _known(self.built_rubber.drawn_at_reference)
-        with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
+        with self._inputs() as (surface, rubber, adhesion, options):
             band = swept_band(
-                self.surface.drawn,
+                surface,
                 rubber,
-                self.adhesion,
+                adhesion,
                 self.pressure,
                 self.velocity,
                 options,
@@ -300,6 +294,25 @@ class Scene:
                 **self.sampling,
             )
         return Bounds(mu * band.lower, mu * band.upper, band.notes)
+
+    def band_at(self, pressure: NDArray[np.float64], velocity: NDArray[np.float64]) -> Bounds:
+        """The band at points of one's own, over their mu."""
+        with self._inputs() as (surface, rubber, adhesion, options):
+            options |= {"pressure": pressure, "velocity": velocity}
+            return relative_band(surface, rubber, adhesion, options, **self.sampling)
+
+    @contextmanager
+    def _inputs(self) -> Iterator[tuple[Any, Any, Adhesion | None, dict[str, Any]]]:
+        """Surface, rubber and adhesion as they are drawn, and the options of `friction`."""
+        held = ("poisson_ratio", "form", "strain_factors")
+        options = {name: self.options[name] for name in held if name in self.options}
+        options["correction"] = self.correction
+        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
+        if self.heating is not None:
+            options |= {"temperature": self.temperature, "heating": self.heating}
+            rubber = _known(self.built_rubber.drawn_at_reference)
+        with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
+            yield self.surface.drawn, rubber, self.adhesion, options
 
     def contact_area(
         self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext

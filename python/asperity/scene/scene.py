@@ -206,6 +206,7 @@ def build_scene(
         typed=typed_in(tables),
         temperature=temperatures[0],
         heating=heating,
+        tables=tables,
     )
     further = zip(rubbers[1:], temperatures[1:], strict=True)
     others = [replace(first, built_rubber=one, temperature=t) for one, t in further]

@@ -7,7 +7,7 @@ from typing import Any
 from helpers.examples import ALL, AT, CALLS, FMAP, FUNCTIONS, SLOW, SWEEPS
 
 # What functions return holds what they computed, and nothing is checked again.
-RESULTS = {"Friction", "FrictionBand", "FrictionSlopes", "Gradients", "Separation"}
+RESULTS = {"Friction", "FrictionBand", "FrictionSlopes", "Gradients", "SceneFit", "Separation"}
 METHODS: dict[str, dict[str, Any]] = {  # by name: classes that have the method take the same
     "adhesion": AT,
     "affine_shift": {"p": 2.0},

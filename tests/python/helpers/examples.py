@@ -12,6 +12,17 @@ RUBBER = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_
 TABLE = {"wavenumber": [1e3, 1e4, 1e5], "density": [1e-12, 1e-16, 1e-20]}
 HEIGHTS = np.arange(12.0).reshape(3, 4)
 PEAKS = [1e-4, 2e-4, 3e-4]
+TABLES = {
+    "surface": {"rms_height_m": 1e-4, "hurst": 0.8, "q0_per_m": 1e3, "q1_per_m": 1e5},
+    "rubber": {
+        "equilibrium_modulus_pa": 1e6,
+        "moduli_pa": [1e8],
+        "relaxation_times_s": [1e-4],
+    },
+    "conditions": {"pressure_pa": 1e5, "velocity_m_s": 0.1},
+    "adhesion": {"shear_stress_pa": 1e6},
+}
+MEASURED = {"mu": [0.4, 0.3, 0.4, 0.5], "velocity": [1e-3, 1e-2, 0.1, 1.0]}
 FIT = {
     "spectrum": ROAD,
     "covariance": np.array([[1e-12, 2e-9, 1e-6], [2e-9, 1e-4, 0.02], [1e-6, 0.02, 100.0]]),
@@ -175,6 +186,7 @@ RESULTS = {
     "MasterPoints": BUILD.points,
     "PronyFit of a build": asperity.fit_prony(BUILD, extrapolation="prony"),
     "FrictionSlopes": FMAP.derivatives([1.5e5, 1.8e5], 0.1),
+    "SceneFit": asperity.fit_scene(TABLES, MEASURED, free=["adhesion.shear_stress_pa"]),
     "FrictionBand": asperity.friction_band(FITTED_ROAD, RUBBER, **SLIDING, samples=20),
     "LocalPeaks of a map": asperity.LocalPeaks(
         asperity.synthesize(ROAD, shape=(40, 40), pixel_size=3e-4, seed=1), min_distance=1e-3

@@ -148,7 +148,7 @@ def used(value):
 
 
 RESULTS = {"Friction", "Separation", "Anisotropy", "SpectralDensity", "HeightStatistics"}
-RESULTS |= {"Gradients", "MasterPoints", "FrictionBand", "FrictionSlopes"}
+RESULTS |= {"Gradients", "MasterPoints", "FrictionBand", "FrictionSlopes", "SceneFit"}
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -114,7 +114,7 @@ QUICK |= {"read_surface", "friction_band", "export_fmu", "sweep", "report"}
 QUICK |= {"read_master_curve", "prony_input"}
 QUICK |= {"strain_factors"}
 QUICK |= {"height_statistics"}  # computed by NumPy
-QUICK |= {"read_scene"}
+QUICK |= {"read_scene", "fit_scene"}
 
 
 def another_runs_during(call, seconds):

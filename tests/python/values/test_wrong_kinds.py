@@ -10,7 +10,7 @@ import pytest
 import asperity
 from asperity import InvalidInput
 from helpers.calls import EVERY_CALL
-from helpers.examples import FMAP, ROAD, ROUGH, RUBBER
+from helpers.examples import FMAP, MEASURED, ROAD, ROUGH, RUBBER
 from helpers.scenes import SCENE as TOML
 from helpers.sweeps import SCENE
 
@@ -67,6 +67,7 @@ def readers(tmp_path_factory):
         "ScanContact.save": {"path": solved},
         "export_fmu": {"map": FMAP, "path": tmp_path / "m.fmu"},
         "sweep": {"scene": SCENE, "over": {"surface.hurst": [0.7, 0.8]}},
+        "fit_scene": {"scene": SCENE, "measured": MEASURED},
         "report": {"scenes": scene, "path": tmp_path / "report.html"},
         "read_scene": {"path": scene},
     }
@@ -103,7 +104,7 @@ def right(argument, value):
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
         or (
             isinstance(value, str)
-            and argument in {"text", "path", "paths", "scene", "scenes", "title"}
+            and argument in {"text", "path", "paths", "measured", "scene", "scenes", "title"}
         )
         or (callable(value) and argument in {"progress", "tell"})
     )
