@@ -289,15 +289,27 @@ def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
     has the extrapolation of the build's, or a power law, and reaches further at both ends: drawn
     shifts move what was measured, and a draw is to answer wherever the build's curve does.
     """
+    parts = _core.draw_master_curve(*_parts(build), seed)
+    return _built(parts, build.master_curve.extrapolation or "power-law")
+
+
+def master_curve_modes(
+    build: MasterCurveBuild, angular_frequency: Array
+) -> tuple[Array, Array, Array]:
+    """Return what the independent unit normals behind a draw change to first order, a row each: ln
+    E' and ln E'' at these frequencies [rad/s], and log10 a_T of the isotherms."""
+    found: tuple[Array, Array, Array] = _core.master_curve_modes(*_parts(build), angular_frequency)
+    return found
+
+
+def _parts(build: MasterCurveBuild) -> tuple[Any, ...]:
     if build.covariance is None:
         raise InvalidInput(Argument("build"), ": has no covariance to draw from")
-    parts = _core.draw_master_curve(
+    return (
         build.master_curve._core,
         build.shift_factors._core,
         build.b_T,
         *build.points._arguments().values(),
         build.residual,
         build.covariance,
-        seed,
     )
-    return _built(parts, build.master_curve.extrapolation or "power-law")

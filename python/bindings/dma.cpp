@@ -115,13 +115,33 @@ py::tuple built(const std::vector<Isotherm>& isotherms, double reference_tempera
   return parts_of(released([&] { return build_master_curve(isotherms, options); }));
 }
 
-py::tuple drawn(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
-                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
-                const Array& covariance, std::uint64_t seed) {
+MasterCurveBuild build_of(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
+                          const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm,
+                          double residual, const Array& covariance) {
   MasterCurveBuild build{curve, shifts, vector_of(b_T), {}, residual, vector_of(covariance), {}};
   for (py::ssize_t i = 0; i < w.size(); ++i)
     build.points.push_back({w.at(i), storage.at(i), loss.at(i), static_cast<std::size_t>(isotherm.at(i))});
+  return build;
+}
+
+py::tuple drawn(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
+                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
+                const Array& covariance, std::uint64_t seed) {
+  const MasterCurveBuild build = build_of(curve, shifts, b_T, w, storage, loss, isotherm, residual, covariance);
   return parts_of(released([&] { return draw_master_curve(build, seed); }));
+}
+
+/// (ln E', ln E'', log10 a_T), a row a mode
+py::tuple modes(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
+                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
+                const Array& covariance, const Array& angular_frequency) {
+  const MasterCurveBuild build = build_of(curve, shifts, b_T, w, storage, loss, isotherm, residual, covariance);
+  const std::vector<double> rows = vector_of(angular_frequency);
+  MasterCurveModes found = released([&] { return master_curve_modes(build, rows); });
+  const auto count = static_cast<py::ssize_t>(found.count);
+  return py::make_tuple(array_of(std::move(found.storage), {count, angular_frequency.size()}),
+                        array_of(std::move(found.loss), {count, angular_frequency.size()}),
+                        array_of(std::move(found.log10_a_T), {count, b_T.size()}));
 }
 
 /// (series, residual of E', residual of E'', causal, notes)
@@ -159,6 +179,7 @@ void bind_dma(py::module_& m) {
   bind_sweeps(m);
   m.def("build_master_curve", &built);
   m.def("draw_master_curve", &drawn);
+  m.def("master_curve_modes", &modes);
   m.def("fit_prony", &fitted);
   m.def("at_strain", &large_strain);
   m.def("strain_factors", &ratios_of);

@@ -18,12 +18,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from coverage_isotherms import SCENE, T_REF, measured, rubber_of
+from coverage_isotherms import SCENE, T_REF, Found, compare, measured, rubber_of
 from coverage_isotherms import trial as isotherms_trial
 
 import asperity
-
-Found = tuple[Any, Any, Any]
 
 
 def road_of(rng: Any, side: float, pixel: float) -> Any:
@@ -45,16 +43,6 @@ def scanned(road: Any, points: int, pixel: float, window: str, rng: Any) -> Any:
     crop = np.asarray(whole.heights)[:points, :points]
     surface = asperity.HeightMap(heights=crop, pixel_size=pixel)
     return asperity.power_spectrum(surface, window=window)
-
-
-def compare(spectrum: Any, rubber: Any, truth: Any, number: int, samples: int) -> Found:
-    one, two = (
-        asperity.friction_band(spectrum, rubber, **SCENE, samples=samples, seed=2 * number + k)
-        for k in (0, 1)
-    )
-    width = one.upper - one.lower
-    moved = np.maximum(np.abs(one.lower - two.lower), np.abs(one.upper - two.upper)) / width
-    return (one.lower <= truth) & (truth <= one.upper), width / truth, moved
 
 
 def surface_trial(

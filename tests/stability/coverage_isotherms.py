@@ -53,9 +53,23 @@ def measured(rubber: Any, noise: float, rng: Any) -> list[Any]:
     return isotherms
 
 
-def trial(seed: int, number: int, samples: int) -> tuple[Any, Any, Any]:
+Found = tuple[Any, Any, Any]
+
+
+def compare(spectrum: Any, rubber: Any, truth: Any, number: int, samples: int) -> Found:
     """Whether the band holds the true mu, its width over mu, and how far a second seed moves its
     ends, in widths."""
+    one, two = (
+        asperity.friction_band(spectrum, rubber, **SCENE, samples=samples, seed=2 * number + k)
+        for k in (0, 1)
+    )
+    width = one.upper - one.lower
+    moved = np.maximum(np.abs(one.lower - two.lower), np.abs(one.upper - two.upper)) / width
+    return (one.lower <= truth) & (truth <= one.upper), width / truth, moved
+
+
+def trial(seed: int, number: int, samples: int) -> Found:
+    """A band from isotherms of a rubber with noise."""
     rng = np.random.default_rng([seed, number])
     rubber = rubber_of(rng)
     noise = 10 ** rng.uniform(np.log10(0.003), np.log10(0.05))
@@ -66,13 +80,7 @@ def trial(seed: int, number: int, samples: int) -> tuple[Any, Any, Any]:
         extrapolation="power-law",
     )
     truth = asperity.friction(ROAD, rubber, **SCENE).mu
-    one, two = (
-        asperity.friction_band(ROAD, build, **SCENE, samples=samples, seed=2 * number + k)
-        for k in (0, 1)
-    )
-    width = one.upper - one.lower
-    moved = np.maximum(np.abs(one.lower - two.lower), np.abs(one.upper - two.upper)) / width
-    return (one.lower <= truth) & (truth <= one.upper), width / truth, moved
+    return compare(ROAD, build, truth, number, samples)
 
 
 def main() -> int:

@@ -80,8 +80,8 @@ properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovid
 isotherms() { "$python" tests/stability/random_isotherms.py; }
 
 coverage() {
-  "$python" tests/stability/band_coverage.py && "$python" tests/stability/standard_errors.py &&
-    "$python" tests/stability/fit_coverage.py
+  "$python" tests/stability/band_coverage.py && "$python" tests/stability/linear_bands.py &&
+    "$python" tests/stability/standard_errors.py && "$python" tests/stability/fit_coverage.py
 }
 
 catalogue() { "$python" tests/stability/catalogue.py; }

@@ -148,6 +148,15 @@ ASPERITY_EXPORT MasterCurveBuild build_master_curve(std::span<const Isotherm> is
 /// them with coefficients drawn from their own; smooth, extrapolated by power laws. The same for the same seed.
 ASPERITY_EXPORT MasterCurveBuild draw_master_curve(const MasterCurveBuild& build, std::uint64_t seed);
 
+/// What independent unit normals behind `draw_master_curve` change, to first order, a row each: ln E' and ln E'' at
+/// given frequencies, and log10 a_T of the isotherms. The sum of squares of what they do to a number is its variance.
+struct MasterCurveModes {
+  std::size_t count = 0;
+  std::vector<double> storage, loss, log10_a_T;
+};
+ASPERITY_EXPORT MasterCurveModes master_curve_modes(const MasterCurveBuild& build,
+                                                    std::span<const double> angular_frequency);
+
 struct PronyFitOptions {
   std::optional<double> modes_per_decade = std::nullopt;  // default: the fewest modes that reach the noise
   std::optional<double> residual = std::nullopt;          // ... or that reach this relative rms residual

@@ -20,7 +20,7 @@ def design_figure(design: Design, path: Path) -> bytes:
     here = [one for one in design.worths if (one.pressure, one.velocity) == point]
     figure, (first, second) = new_figure(2)
     for place, (part, label, colour) in enumerate(
-        (("storage", "$E'$", palette()[0]), ("loss", "$E''$", palette()[3]))
+        (("storage", "$E$′", palette()[0]), ("loss", "$E$″", palette()[3]))
     ):
         rows = [one for one in here if one.part == part]
         left = np.log10([_known(one.lower) for one in rows]) + 0.1 + place * _BARS / 2
@@ -50,8 +50,8 @@ def _name_temperatures(axes: object, rows: list[Worth]) -> None:
         return
     top = axes.secondary_xaxis("top")  # type: ignore[attr-defined]
     places = [float(np.log10(_known(one.lower))) + 0.5 for one in known]
-    names = [f"{round(_known(one.temperature) - ZERO_CELSIUS)}" for one in known]
-    top.set_xticks(places, names)
+    celsius = [round(_known(one.temperature) - ZERO_CELSIUS) for one in known]
+    top.set_xticks(places, [f"{one}".replace("-", "−") for one in celsius])
     top.set_xlabel("temperature in a DMA at 10 Hz [°C]")
 
 

@@ -8,8 +8,10 @@ from typing import Any
 from asperity.draw.style import drawn_in
 from asperity.plot import friction as plot_friction
 from asperity.plot import scene as plot_scene
+from asperity.plot.design import design_figure
 from asperity.report.inline import inline_svg
 from asperity.report.texts import printable
+from asperity.scene.design import design_at_largest, worth_text
 from asperity.scene.model import Scene, SceneFriction
 from asperity.spectrum import SelfAffineSpectrum
 
@@ -89,6 +91,22 @@ class Drawings:
             f"Rubber of {name}. {caption}",
             caption,
             1 if built.build is None else 3,
+        )
+
+    def design(self, scene: Scene, result: SceneFriction, name: str) -> Figure | None:
+        """What 10 % more of each part is worth where mu is largest; None where nothing tells."""
+        found = design_at_largest(scene, result.mu)
+        if found is None:
+            return None
+        known = any(one.temperature is not None for one in found.worths)
+        of_dma = ", with the temperature that it has in a DMA at 10 Hz" if known else ""
+        caption = (
+            "What 10 % more is worth in mu where it is largest: of the modulus by decade of the "
+            f"reduced frequency{of_dma}, and of C(q) by decade of wavelength. More of the others: "
+            f"{worth_text(found)}."
+        )
+        return self._figure(
+            lambda: design_figure(found, _SVG), f"Design of {name}. {caption}", caption, 2
         )
 
     def _figure(self, draw: Callable[[], bytes], text: str, caption: str, panels: int) -> Figure:

@@ -2,12 +2,13 @@
 
 import base64
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
@@ -87,9 +88,10 @@ def report_page(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
     )
     date, drawn = _now(), Drawings(environment)
-    draw = [partial(drawn.friction, scenes, curves)]
-    for name, file in zip(names, loaded, strict=True):
+    draw: list[Callable[[], Any]] = [partial(drawn.friction, scenes, curves)]
+    for name, file, of_file in zip(names, loaded, results, strict=True):
         draw += [partial(drawn.surface, file, name), partial(drawn.rubber, file, name)]
+        draw.append(partial(drawn.design, file, of_file[0], name))
     with bar("pictures")([slice(i, i + 1) for i in range(len(draw))]) as each:
         overview, *pictures = [draw[one.start]() for one in each]
     page = environment.from_string(_shipped("page.html")).render(
@@ -107,13 +109,20 @@ def report_page(
                 "results": results_of(with_temperatures(file), of_file),
                 "surface": surface,
                 "rubber": rubber,
+                "design": design,
                 "sources": source_rows(of_one, folder),
                 "inputs": input_rows(file),
                 "text": text,
                 "link": _link(text, "application/toml"),
             }
-            for name, file, of_file, of_one, text, surface, rubber in zip(
-                names, loaded, results, sources, texts, pictures[::2], pictures[1::2], strict=True
+            for name, file, of_file, of_one, text, surface, rubber, design in zip(
+                names,
+                loaded,
+                results,
+                sources,
+                texts,
+                *(pictures[k::3] for k in range(3)),
+                strict=True,
             )
         ],
         file_names=names,

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +13,7 @@ from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.results.friction import Friction
 from asperity.results.gradients import Gradients
+from asperity.scan_contact import ScanContact
 from asperity.scene.model import Scene
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 
@@ -71,6 +73,31 @@ def design(scene: Scene) -> Design:
         for row in _at_point(result.gradients, at, p, v, shift)
     ]
     return Design(result, tuple(rows))
+
+
+def design_at_largest(scene: Scene, mu: NDArray[np.float64]) -> Design | None:
+    """Return the design at the point of the largest mu; None where a scene has no slopes, or none
+    but by contacts of its scan that nobody has solved."""
+    if isinstance(scene.correction, ScanContact):
+        return None
+    i, k = np.unravel_index(int(mu.argmax()), mu.shape)
+    one = replace(scene, pressure=scene.pressure[[i]], velocity=scene.velocity[[k]])
+    with suppress(InvalidInput):
+        return design(one)
+    return None
+
+
+def worth_text(found: Design) -> str:
+    """What more of each condition and number is worth at the first point, the most first."""
+    first = found.worths[0]
+    here = [
+        one
+        for one in found.worths
+        if one.lower is None and (one.pressure, one.velocity) == (first.pressure, first.velocity)
+    ]
+    here.sort(key=lambda one: -abs(one.mu))
+    said = [f"{one.change} of {one.part.replace('_', ' ')} {one.mu:+.2g}" for one in here]
+    return ", ".join(said)
 
 
 def _at_point(

@@ -57,8 +57,8 @@ def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
     return Drawn[Spectrum](source)
 
 
-def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
-    """Lognormal: positive, with the mean and the deviation of each row, and their correlation."""
+def row_covariance(table: TabulatedSpectrum) -> NDArray[np.float64]:
+    """Of ln C of the rows, by their standard errors and correlation."""
     density, error = np.array(table.density), np.asarray(table.standard_error)
     relative = np.divide(error, density, out=np.zeros_like(density), where=density > 0)
     covariance = np.diag(relative**2)
@@ -67,21 +67,32 @@ def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
             first = np.arange(density.size - lag)
             pair = column[first] * relative[first] * relative[first + lag]
             covariance[first, first + lag] = covariance[first + lag, first] = pair
-    logarithm = np.log1p(covariance)
+    logarithm: NDArray[np.float64] = np.log1p(covariance)
+    return logarithm
+
+
+def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
+    """Lognormal: positive, with the mean and the deviation of each row, and their correlation."""
+    logarithm = row_covariance(table)
     mean = -np.diag(logarithm) / 2
-    factor = np.exp(rng.multivariate_normal(mean, logarithm, method="eigh"))
-    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density * factor, q1=table.q1)
+    density = table.density * np.exp(rng.multivariate_normal(mean, logarithm, method="eigh"))
+    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density, q1=table.q1)
+
+
+def fit_covariance(fit: SelfAffineFit) -> NDArray[np.float64]:
+    """Of ln of the rms height, of H and, where there is one, of ln of the roll-off."""
+    scale = np.array([fit.rms_height, 1, fit.rolloff or 1])[: 2 if fit.rolloff is None else 3]
+    covariance: NDArray[np.float64] = fit.covariance[: scale.size, : scale.size]
+    scaled: NDArray[np.float64] = covariance / np.outer(scale, scale)
+    return scaled
 
 
 def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> SelfAffineSpectrum:
     """Rms height and roll-off in the logarithm, where they stay positive; H until it is one."""
-    has_rolloff = fit.rolloff is not None
-    count = 3 if has_rolloff else 2
-    scale = np.array([fit.rms_height, 1, fit.rolloff or 1])[:count]
-    covariance = fit.covariance[:count, :count] / np.outer(scale, scale)
+    covariance = fit_covariance(fit)
     end = fit.q1 if q1 is None else min(q1, fit.q1)  # the band is to keep a self-affine part
     while True:
-        drawn = rng.multivariate_normal(np.zeros(count), covariance, method="eigh")
+        drawn = rng.multivariate_normal(np.zeros(len(covariance)), covariance, method="eigh")
         hurst = fit.hurst + drawn[1]
         rolloff = None if fit.rolloff is None else fit.rolloff * float(np.exp(drawn[2]))
         if 0 < hurst <= 1 and (rolloff is None or fit.q0 < rolloff < end):
@@ -125,13 +136,18 @@ def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:
     return draw_master_curve(build, int(rng.integers(2**63)))
 
 
+def adhesion_covariance(fit: AdhesionFit) -> NDArray[np.float64]:
+    """Of ln tau_f0, ln v0 and c."""
+    scale = np.array([fit.shear_stress, fit.reference_velocity, 1])
+    return fit.covariance / np.outer(scale, scale)
+
+
 def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:
     """A fitted adhesion as its errors would have it, tau_f0 and v0 in the logarithm; c until it is
     one."""
     if not isinstance(source, AdhesionFit):
         return source
-    scale = np.array([source.shear_stress, source.reference_velocity, 1])
-    covariance = source.covariance / np.outer(scale, scale)
+    covariance = adhesion_covariance(source)
     while True:
         drawn = rng.multivariate_normal(np.zeros(3), covariance, method="eigh")
         if source.width + drawn[2] >= 0:

@@ -1,0 +1,240 @@
+"""A band on mu from slopes of mu and covariances of the inputs, to first order, and whether that is
+good enough."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity._core import InvalidInput
+from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.arguments import number
+from asperity.base.diagnostics import Argument, Note, refusal
+from asperity.dma import AnyRubber, MasterCurveBuild, master_curve_modes, rubber_of
+from asperity.friction import Friction, friction
+from asperity.results.gradients import Gradients
+from asperity.rubber import MasterCurve, Rubber
+from asperity.scan_contact import ScanContact
+from asperity.self_affine_fit import AnySpectrum, SelfAffineFit
+from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
+from asperity.uncertainty.draws import (
+    adhesion_covariance,
+    drawn_spectrum,
+    fit_covariance,
+    row_covariance,
+)
+
+Array = NDArray[np.float64]
+MOST_CURVED = 0.5  # standard deviations by which signs of all modes may be off the slopes
+_LEAST = 1e-4  # of ln mu: rtol of bands
+
+
+@dataclass(frozen=True)
+class _Input:
+    """An input: what unit normals change in it, how mu goes with that, and the input so changed."""
+
+    modes: Array  # (modes, coordinates)
+    slopes: Callable[[Friction], Array]  # (points, coordinates)
+    moved: Callable[[Array], Any]
+
+    def parts(self, found: Friction) -> Array:
+        """Return what each mode does to mu, of shape (points, modes)."""
+        parts: Array = self.slopes(found) @ self.modes.T
+        return parts
+
+
+def linear_band(
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
+    adhesion: Adhesion | None,
+    at: dict[str, Array],
+    options: dict[str, Any],
+    level: float,
+) -> tuple[Array, Array, tuple[Note, ...]]:
+    """Return both ends of a band over mu at flat points, one temperature after another, and where
+    slopes are not good enough."""
+    if not 0 < number(level, "level") < 1:
+        raise refusal("level", level, "in (0, 1)", text=f"{level}")
+    of_scan = isinstance(options["correction"], ScanContact)
+    for name in ("correction" * of_scan, "heating", "strain_factors"):
+        if name and (one := options[name]) is not None:
+            text = f': {type(one).__name__} has no linear band, take method="draws"'
+            raise InvalidInput(Argument(name), text)
+    names = ("poisson_ratio", "correction", "form", "shift")
+    options = {name: options[name] for name in names} | {"rtol": 1e-4}
+    of_build = isinstance(rubber, MasterCurveBuild) and options["shift"] is None
+    if of_build and "temperature" in at:
+        options["shift"] = rubber
+    size = at["pressure"].size
+    kelvin = np.broadcast_to(at.get("temperature", 0.0), size)
+    deviation, curved = np.empty(size), np.empty(size)
+    for t in np.unique(kelvin):
+        here = np.flatnonzero(kelvin == t)
+        points = {name: column[here] for name, column in at.items()}
+        own = float(t) if of_build and "temperature" in at else None
+        deviation[here], curved[here] = _deviation(
+            spectrum, rubber, adhesion, own, {**options, **points}
+        )
+    away = np.exp(NormalDist().inv_cdf((1 + level) / 2) * deviation)
+    return 1 / away, away, _curvature_notes(curved)
+
+
+def _deviation(
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
+    adhesion: Adhesion | None,
+    temperature: float | None,
+    options: dict[str, Any],
+) -> tuple[Array, Array]:
+    """Return the standard deviation of ln mu at the points of `options`, and by how many of it mu
+    leaves the slopes where every mode is at one of its own, with signs at random and opposite."""
+    plain = drawn_spectrum(spectrum).plain
+    inputs: dict[str, _Input] = {}
+    found = friction(plain, rubber_of(rubber), adhesion=adhesion, gradients=True, **options)
+    if (surface := _surface(spectrum, plain)) is not None:
+        inputs["spectrum"] = surface
+    if isinstance(rubber, MasterCurveBuild):
+        inputs["rubber"] = _rubber(rubber, found, adhesion, temperature)
+    if isinstance(adhesion, AdhesionFit):
+        inputs["adhesion"] = _adhesion(adhesion)
+    mu = np.where(found.mu > 0, found.mu, 1.0)[:, None]
+    parts = {name: one.parts(found) / mu for name, one in inputs.items()}
+    deviation = np.sqrt(sum((of**2).sum(axis=1) for of in parts.values()))
+    rng = np.random.default_rng(0)
+    signs = {name: rng.choice([-1.0, 1.0], len(one.modes)) for name, one in inputs.items()}
+    toward = sum(of @ signs[name] for name, of in parts.items())
+    off = []
+    for way in (1, -1):
+        moved = {name: one.moved(way * signs[name] @ one.modes) for name, one in inputs.items()}
+        given = {"spectrum": plain, "rubber": rubber_of(rubber), "adhesion": adhesion, **moved}
+        with np.errstate(divide="ignore", invalid="ignore"):
+            change = np.log(friction(**given, **options).mu / found.mu)
+        off.append(change - way * toward)
+    curved = np.abs(off).max(axis=0) / (deviation + _LEAST)
+    return deviation, np.where(found.mu > 0, curved, 0.0)
+
+
+def _curvature_notes(curved: Array) -> tuple[Note, ...]:
+    """Return what there is to say where slopes are not good enough."""
+    wrong = np.flatnonzero(curved > MOST_CURVED)
+    if not wrong.size:
+        return ()
+    text = (
+        f"mu is no linear function of the inputs within their errors at {wrong.size} of "
+        f"{curved.size} points: up to {curved.max():.2g} standard deviations off its slopes"
+    )
+    return (Note(text, code="linear-band-off"),)
+
+
+def _surface(source: AnySpectrum, plain: Spectrum) -> _Input | None:
+    if isinstance(source, SelfAffineFit):
+        return _law(source)
+    if not isinstance(plain, TabulatedSpectrum) or plain.standard_error is None:
+        return None
+    table, weight = plain, _weights(plain.wavenumber)
+
+    def moved(by: Array) -> TabulatedSpectrum:
+        density = table.density * np.exp(by)
+        return TabulatedSpectrum(wavenumber=table.wavenumber, density=density, q1=table.q1)
+
+    covariance = row_covariance(table)
+    return _Input(_root(covariance), lambda found: _of(found).spectrum * weight, moved)
+
+
+def _law(fit: SelfAffineFit) -> _Input:
+    def slopes(found: Friction) -> Array:
+        of = _of(found)
+        columns = [of.rms_height, of.hurst / fit.hurst]
+        return np.stack([*columns, *([of.rolloff] if fit.rolloff else [])], axis=-1)
+
+    def moved(by: Array) -> SelfAffineSpectrum:
+        return SelfAffineSpectrum(
+            rms_height=fit.rms_height * float(np.exp(by[0])),
+            hurst=min(fit.hurst + float(by[1]), 1.0),
+            q0=fit.q0,
+            q1=fit.q1,
+            rolloff=None if fit.rolloff is None else fit.rolloff * float(np.exp(by[2])),
+        )
+
+    return _Input(_root(fit_covariance(fit)), slopes, moved)
+
+
+def _rubber(
+    build: MasterCurveBuild,
+    found: Friction,
+    adhesion: Adhesion | None,
+    temperature: float | None,
+) -> _Input:
+    """ln E' and ln E'' at the rows of the slopes, and ln a_T at the temperature."""
+    curve, w = build.master_curve, _of(found).angular_frequency
+    storage, loss, decades = master_curve_modes(build, w)
+    shift = np.zeros((len(storage), 1))
+    if temperature is not None:  # between isotherms about as their neighbours
+        shift[:, 0] = [np.interp(temperature, build.temperature, row) for row in decades]
+        shift *= np.log(10)
+    weight = _weights(w)
+
+    def slopes(found: Friction) -> Array:
+        of = _of(found)
+        by_shift = of.velocity - _adhesion_over_velocity(found, adhesion)
+        return np.hstack([of.storage * weight, of.loss * weight, by_shift[:, None]])
+
+    def moved(by: Array) -> Rubber:
+        rows = np.log(curve.angular_frequency)
+        of_storage, of_loss = (np.interp(rows, np.log(w), one) for one in np.split(by[:-1], 2))
+        made = MasterCurve(
+            angular_frequency=curve.angular_frequency,
+            storage_modulus=curve.storage_modulus * np.exp(of_storage),
+            loss_modulus=curve.loss_modulus * np.exp(of_loss),
+            extrapolation=curve.extrapolation or "power-law",
+            shift_factors=build.shift_factors,
+        )
+        return made.shifted(float(np.exp(by[-1])))
+
+    return _Input(np.hstack([storage, loss, shift]), slopes, moved)
+
+
+def _adhesion_over_velocity(found: Friction, adhesion: Adhesion | None) -> Any:
+    """Return d mu / d ln v by Eq. 23's own velocity, which no a_T moves."""
+    if adhesion is None:
+        return 0.0
+    decades = np.log10(found.velocity / adhesion.reference_velocity)
+    return found.adhesion * (-2 * adhesion.width * decades / np.log(10))
+
+
+def _adhesion(fit: AdhesionFit) -> _Input:
+    def slopes(found: Friction) -> Array:
+        of = _of(found)
+        width = of.width / fit.width if fit.width else np.zeros_like(of.width)
+        return np.stack([of.shear_stress, of.reference_velocity, width], axis=-1)
+
+    def moved(by: Array) -> Adhesion:
+        return Adhesion(
+            shear_stress=fit.shear_stress * float(np.exp(by[0])),
+            reference_velocity=fit.reference_velocity * float(np.exp(by[1])),
+            width=max(fit.width + float(by[2]), 0.0),
+        )
+
+    return _Input(_root(adhesion_covariance(fit)), slopes, moved)
+
+
+def _of(found: Friction) -> Gradients:
+    assert found.gradients is not None
+    return found.gradients
+
+
+def _weights(rows: Array) -> Array:
+    """Return the weights of the trapezoid rule over the logarithm of rows."""
+    half = np.diff(np.log(rows)) / 2
+    weights: Array = np.append(half, 0) + np.append(0, half)
+    return weights
+
+
+def _root(covariance: Array) -> Array:
+    """Return rows that unit normals times them have this covariance, which may be singular."""
+    values, vectors = np.linalg.eigh(covariance)
+    root: Array = (vectors * np.sqrt(np.maximum(values, 0))).T
+    return root
