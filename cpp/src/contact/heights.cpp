@@ -44,18 +44,17 @@ std::string exact_contacts_had(const Ratio& seen) {
 }  // namespace
 
 std::optional<Diagnostic> note_on_heights(const HeightShape& heights) {
-  const Sentence step{"take ScanContact, the contact of the scan itself"};
   if (const std::optional<Ratio> seen = ratio(heights))
     return warning("heights-not-gaussian",
                    "the heights have skewness " + value(heights.skewness, 2) + " and kurtosis " +
                        value(heights.kurtosis, 2) + " (Gaussian: 0 and 3)" + exact_contacts_had(*seen),
-                   step);
+                   {"take ScanContact, the contact of the scan itself"});
   const std::optional<double> kurtosis = heights.curvature_kurtosis;
   if (!kurtosis || *kurtosis <= highest_curvature_kurtosis) return {};
   return warning("gathered-waves",
                  "short waves are gathered in places, where their curvature has kurtosis " + value(*kurtosis, 2) +
                      " (spread evenly: 3)" + exact_contacts_had(gathered),
-                 step);
+                 {"take ScanContact, the contact of the scan itself"});
 }
 
 std::optional<Diagnostic> note_on_heights(const Spectrum& spectrum) {

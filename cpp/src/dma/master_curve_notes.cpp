@@ -19,12 +19,6 @@ bool shifted(const std::vector<double>& b_T) {
   return std::ranges::any_of(b_T, [](double b) { return b != 1; });
 }
 
-/// Of isotherms that do not superpose.
-Sentence next_step(const std::vector<double>& b_T) {
-  return {shifted(b_T) ? "leave out the isotherms that lie off, or measure at a smaller strain"
-                       : "try a vertical shift"};
-}
-
 }  // namespace
 
 std::vector<double> temperature_ratios(const std::vector<Isotherm>& isotherms, double reference) {
@@ -113,7 +107,7 @@ void note_outliers(const std::vector<Isotherm>& isotherms, const std::vector<dou
          " points lie off the master curve by more than " + show(100 * std::expm1(limit), 2) +
          " %: these isotherms do not superpose (" + (shifted(b_T) ? "the" : "a vertical shift may be needed, or the") +
          " rubber is not thermorheologically simple)"},
-        next_step(b_T)));
+        {shifted(b_T) ? "leave out the isotherms that lie off" : "try a vertical shift"}));
     return;
   }
   for (const Miss& m : misses)
@@ -163,7 +157,7 @@ void note_misfit(const SweepPoints& points, const Shifted& fit, const std::vecto
                  " (root mean square): " + (shifted(b_T) ? "an" : "a vertical shift or an") +
                  " error of the instrument between them, or a rubber that is not thermorheologically simple; the "
                  "standard deviations of a_T take it for chance"},
-                next_step(b_T)));
+                {shifted(b_T) ? "leave out the isotherms that lie off" : "try a vertical shift"}));
 }
 
 void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& first, std::size_t fixed,

@@ -23,7 +23,7 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
-/// they did. On panels that end at knots one point in 50,000 was off by a third.
+/// they did.
 constexpr double least_error = 0.75;
 
 /// On panels the finer of two levels is off by two fifths of their difference at most, with PartialContact
@@ -304,7 +304,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     if (!(error <= 0.85 * model_.rtol)) continue;
     sums_ = now;
     g_ = level.theory->unit_g() * scale_;
-    error_ = std::fmax(error, (by_pieces || knots ? least_error : least_on_panels) * model_.rtol);
+    error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
     hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside};
     solved_ = &level;
     return true;
