@@ -109,10 +109,10 @@ class ImplicitSFactor(CoreValue):
     -----
     On the contacts of SFactor, mean error of the area and the worst: 4.4 %, +14 % with gamma =
     0.45, 6.1 %, +18 % with 0.42, 2.5 %, -12 % with 0.50; elastic energy as without correction. Its
-    source fitted areas whose edges count as whole pixels, which makes them larger: on 12 of them
-    (github.com/xylcsi/PerssonModelFudgeFactor, H = 0.8, q1/q0 = 100, p / E* from 1e-4 to 0.5, with
-    the rms slope of 0.279 that they imply) 0.45 is off by 2.7 % rms and 4 % at worst, no correction
-    by 22 % rms. It does not know the bandwidth: `NayakSFactor` is nearer.
+    source fitted areas whose edges count as whole pixels, which makes them larger: on 17 of them
+    (github.com/xylcsi/PerssonModelFudgeFactor, H = 0.8, q1/q0 = 100, p / E* from 1e-4 to 0.5) 0.45
+    is off by 2.8 % rms and 5 % at worst, no correction by 18 % rms. It does not know the
+    bandwidth: `NayakSFactor` is nearer.
     """
 
     _title = "implicit S-factor"

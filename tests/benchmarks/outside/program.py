@@ -69,10 +69,12 @@ def inputs(presets: clone.Presets, scene: Scene, velocity: Any) -> dict[str, Any
         "rubber": presets.rubber(scene.compound),
         "pressure": scene.pressure,
         "velocity": velocity,
-        "temperature": clone.TEMPERATURE,
-        "shift": presets.shift(scene.compound),
         "strain_factors": factors,
     }
+
+
+def cold(given: dict[str, Any], shift: asperity.ShiftFactors) -> dict[str, Any]:
+    return given | {"rubber": given["rubber"].shifted(shift.shift_factor(clone.TEMPERATURE))}
 
 
 def scheme(given: dict[str, Any], gamma: float) -> tuple[Array, Array]:
@@ -80,12 +82,9 @@ def scheme(given: dict[str, Any], gamma: float) -> tuple[Array, Array]:
     plain = asperity.friction(**given, contributions=True, rtol=1e-4)
     q = plain.wavenumber
     assert q is not None
-    areas = {k: v for k, v in given.items() if k not in ("temperature", "shift")}
-    a_t = given["shift"].shift_factor(given["temperature"])
-    areas["rubber"] = given["rubber"].shifted(a_t)
     inside = asperity.SFactor(gamma=gamma, applies_to="area")
     bare, area = (
-        asperity.contact_area(**areas, correction=correction, wavenumber=q)
+        asperity.contact_area(**given, correction=correction, wavenumber=q)
         for correction in (None, inside)
     )
     s = gamma + (1 - gamma) * area**2
@@ -111,7 +110,7 @@ def compare(presets: clone.Presets) -> dict[str, dict[str, tuple[Array, Array, A
     found: dict[str, dict[str, tuple[Array, Array, Array, Array]]] = {}
     for scene in SCENES:
         velocity, mu, area = (x[::EVERY] for x in presets.program(scene.dataset))
-        given = inputs(presets, scene, velocity)
+        given = cold(inputs(presets, scene, velocity), presets.shift(scene.compound))
         models = {f"S twice, {gamma:.2f}": scheme(given, gamma) for gamma in GAMMA}
         for name, correction in OWN.items():
             own = asperity.friction(**given, correction=correction, rtol=1e-4)
@@ -129,8 +128,12 @@ def heat(presets: clone.Presets) -> dict[str, Any]:
     v, mu, area = (x[::EVERY] for x in (v, mu, area))
     shared = v <= FASTEST
     v, mu, area = v[shared], mu[shared], area[shared]
-    cold = [np.interp(np.log(v), np.log(v_cold), y) for y in (mu_cold, area_cold)]
-    given = inputs(presets, SCENES[0], v) | {"correction": asperity.PartialContact()}
+    still = [np.interp(np.log(v), np.log(v_cold), y) for y in (mu_cold, area_cold)]
+    given = inputs(presets, SCENES[0], v) | {
+        "temperature": clone.TEMPERATURE,
+        "shift": presets.shift("S100"),
+        "correction": asperity.PartialContact(),
+    }
     own = asperity.friction(**given, heating=HEATING, rtol=1e-3)
     speed, zeta, rise = profile(presets)
     at = asperity.friction(
@@ -138,7 +141,7 @@ def heat(presets: clone.Presets) -> dict[str, Any]:
     )
     return {
         "velocity": v,
-        "program": (mu / cold[0], area / cold[1]),
+        "program": (mu / still[0], area / still[1]),
         "own": (own.mu / own.cold.mu, own.contact_area / own.cold.contact_area),
         "profile": (given["spectrum"].q0 * zeta, rise),
         "own_profile": (at.wavenumber, at.temperature_profile),
