@@ -23,61 +23,9 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The first `count` reflections of Q^T on c. This and what follows is Eigen's own solve(), spelt out: that takes twice
-/// as long to compile.
-template <class Decomposition>
-void reflect(const Decomposition& qr, const MatrixXd& reflections, Index count, VectorXd& c) {
-  double room = 0;
-  for (Index k = 0; k < count; ++k)
-    c.tail(c.size() - k).applyHouseholderOnTheLeft(reflections.col(k).tail(c.size() - k - 1), qr.hCoeffs()[k], &room);
-}
-
-/// R^-1 on the first `count` entries of c, R the upper triangle.
-void divide(const MatrixXd& r, Index count, VectorXd& c) {
-  auto head = c.head(count);
-  r.topLeftCorner(count, count).triangularView<Eigen::Upper>().solveInPlace(head);
-}
-
-/// The same for a few columns, by the inverse of the diagonal.
-void multiply_by_inverse(const MatrixXd& r, Index count, VectorXd& c) {
-  for (Index k = count; k-- > 0;) {
-    c[k] *= 1 / r(k, k);
-    for (Index i = 0; i < k; ++i) c[i] -= c[k] * r(i, k);
-  }
-}
-
 /// min |A_P z - b| over the columns P alone, by a rank revealing QR: of dependent columns some get 0.
 VectorXd solve_passive(const MatrixXd& a, const VectorXd& b, const std::vector<Index>& passive) {
-  MatrixXd columns(a.rows(), static_cast<Index>(passive.size()));
-  for (Index k = 0; k < columns.cols(); ++k) columns.col(k) = a.col(passive[static_cast<std::size_t>(k)]);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  const Index rank = qr.nonzeroPivots();
-  VectorXd c = b, x = VectorXd::Zero(columns.cols());
-  reflect(qr, qr.matrixQR(), rank, c);
-  divide(qr.matrixQR(), rank, c);
-  for (Index k = 0; k < rank; ++k) x[qr.colsPermutation().indices()[k]] = c[k];
-  return x;
-}
-
-/// The shortest of all x for which |A x - b| is least: A P = Q T Z with T of A's rank.
-template <class SolveTriangle>
-VectorXd solve_shortest(const Eigen::CompleteOrthogonalDecomposition<MatrixXd>& qtz, const VectorXd& b,
-                        SolveTriangle solve_triangle) {
-  const MatrixXd& reflections = qtz.matrixQTZ();
-  const Index rank = qtz.rank(), n = qtz.cols();
-  VectorXd c = b, y = VectorXd::Zero(n), x(n);
-  reflect(qtz, reflections, rank, c);
-  solve_triangle(reflections, rank, c);
-  y.head(rank) = c.head(rank);
-  double room = 0;
-  for (Index k = 0; rank < n && k < rank; ++k) {  // Z^T, the reflections of the rows
-    std::swap(y[k], y[rank - 1]);
-    y.tail(n - rank + 1)
-        .applyHouseholderOnTheLeft(reflections.row(k).tail(n - rank).transpose(), qtz.zCoeffs()[k], &room);
-    std::swap(y[k], y[rank - 1]);
-  }
-  for (Index k = 0; k < n; ++k) x[qtz.colsPermutation().indices()[k]] = y[k];
-  return x;
+  return Eigen::ColPivHouseholderQR<MatrixXd>(a(Eigen::all, passive)).solve(b);
 }
 
 /// From x towards z, its new values of the passive columns, until the first unknown is zero.
@@ -109,19 +57,16 @@ std::vector<double> columns(const Matrix& matrix) {
 }  // namespace
 
 std::vector<double> shortest_solution(std::span<const double> a, std::span<const double> b) {
-  const VectorXd right = vector(b);
-  const MatrixXd matrix = Map<const MatrixXd>(a.data(), right.size(), right.size());
-  return columns(solve_shortest(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(matrix), right, divide));
+  const auto size = static_cast<Index>(b.size());
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qtz(Map<const MatrixXd>(a.data(), size, size));
+  return columns(VectorXd(qtz.solve(vector(b))));
 }
 
 std::vector<double> inverse_normal(std::span<const double> jacobian, std::span<const double> weight) {
   const VectorXd w = vector(weight);
   const MatrixXd j = Map<const MatrixXd>(jacobian.data(), w.size(), static_cast<Index>(jacobian.size()) / w.size());
-  MatrixXd normal = j.transpose() * w.asDiagonal() * j;
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qtz(normal);
-  for (Index k = 0; k < normal.cols(); ++k)
-    normal.col(k) = solve_shortest(qtz, VectorXd::Unit(normal.cols(), k), multiply_by_inverse);
-  return columns(normal);
+  const MatrixXd normal = j.transpose() * w.asDiagonal() * j;
+  return columns(MatrixXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(normal).pseudoInverse()));
 }
 
 std::array<double, 9> inverse(std::span<const double, 9> a) {
