@@ -25,16 +25,17 @@ std::mutex& planner() {
 
 /// FFTW's functions of one precision, whose names differ in how they begin.
 template <class T>
-struct Functions;
+struct Fftw;
 
 #define ASPERITY_FUNCTIONS_OF_FFTW(T, fftw)                      \
   template <>                                                    \
-  struct Functions<T> {                                          \
+  struct Fftw<T> {                                               \
     using Complex = fftw##_complex;                              \
     using Plan = fftw##_plan;                                    \
+    static constexpr auto complex = fftw##_plan_dft_1d;          \
+    static constexpr auto many = fftw##_plan_many_dft;           \
     static constexpr auto real = fftw##_plan_dft_r2c_1d;         \
     static constexpr auto real_inverse = fftw##_plan_dft_c2r_1d; \
-    static constexpr auto many = fftw##_plan_many_dft;           \
     static constexpr auto run = fftw##_execute_dft;              \
     static constexpr auto run_real = fftw##_execute_dft_r2c;     \
     static constexpr auto run_inverse = fftw##_execute_dft_c2r;  \
@@ -43,26 +44,6 @@ struct Functions;
 ASPERITY_FUNCTIONS_OF_FFTW(double, fftw)
 ASPERITY_FUNCTIONS_OF_FFTW(float, fftwf)
 #undef ASPERITY_FUNCTIONS_OF_FFTW
-
-/// Both precisions under one name.
-template <class T>
-struct Fftw {
-  using Of = Functions<T>;
-  using Complex = typename Of::Complex;
-  using Plan = typename Of::Plan;
-  static Plan real(int n, T* in, Complex* out, unsigned flags) { return Of::real(n, in, out, flags); }
-  static Plan many(int n, int count, int distance, Complex* in, Complex* out, int sign, unsigned flags) {
-    return Of::many(1, &n, count, in, nullptr, 1, distance, out, nullptr, 1, distance, sign, flags);
-  }
-  static Plan real_inverse(int n, Complex* in, T* out, unsigned flags) { return Of::real_inverse(n, in, out, flags); }
-  static Plan columns(int n, int width, Complex* columns, int sign, unsigned flags) {
-    return Of::many(1, &n, width, columns, nullptr, width, 1, columns, nullptr, width, 1, sign, flags);
-  }
-  static void run(Plan p, T* in, Complex* out) { Of::run_real(p, in, out); }
-  static void run(Plan p, Complex* in, T* out) { Of::run_inverse(p, in, out); }
-  static void run(Plan p, Complex* in, Complex* out) { Of::run(p, in, out); }
-  static void destroy(Plan p) { Of::destroy(p); }
-};
 
 int side(std::size_t n) {
   if (n > 1U << 30)
@@ -106,10 +87,8 @@ RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
       twiddles_.emplace_back(
           std::polar(0.5, -std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
     auto* const pairs = reinterpret_cast<std::complex<T>*>(in.data());
-    plan_ = planned<Fftw<T>>([&] {
-      const int half = side(n / 2);
-      return Fftw<T>::many(half, 1, half, raw(pairs), raw(out.data()), FFTW_FORWARD, flags);
-    });
+    plan_ = planned<Fftw<T>>(
+        [&] { return Fftw<T>::complex(side(n / 2), raw(pairs), raw(out.data()), FFTW_FORWARD, flags); });
   } else {
     plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real(side(n), in.data(), raw(out.data()), flags); });
   }
@@ -169,7 +148,7 @@ void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
       Fftw<T>::run(plan, raw(reinterpret_cast<std::complex<T>*>(in)), raw(out));
       return untangle(out, n_ / 2, twiddles_.data());
     }
-  Fftw<T>::run(plan, in, raw(out));
+  Fftw<T>::run_real(plan, in, raw(out));
 }
 
 template <class T>
@@ -188,10 +167,8 @@ RealInverse<T>::RealInverse(std::size_t n) : n_(n) {
       twiddles_.emplace_back(
           std::polar(1.0, std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
     auto* const pairs = reinterpret_cast<std::complex<T>*>(out.data());
-    plan_ = planned<Fftw<T>>([&] {
-      const int half = side(n / 2);
-      return Fftw<T>::many(half, 1, half, raw(in.data()), raw(pairs), FFTW_BACKWARD, flags);
-    });
+    plan_ = planned<Fftw<T>>(
+        [&] { return Fftw<T>::complex(side(n / 2), raw(in.data()), raw(pairs), FFTW_BACKWARD, flags); });
   } else {
     plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real_inverse(side(n), raw(in.data()), out.data(), flags); });
   }
@@ -205,15 +182,16 @@ void RealInverse<T>::operator()(std::complex<T>* in, T* out) const {
       tangle(in, n_ / 2, twiddles_.data());
       return Fftw<T>::run(plan, raw(in), raw(reinterpret_cast<std::complex<T>*>(out)));
     }
-  Fftw<T>::run(plan, raw(in), out);
+  Fftw<T>::run_inverse(plan, raw(in), out);
 }
 
 template <class T>
 ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction) : direction_(direction) {
   const Scratch<std::complex<T>> columns(n * width);
   plan_ = planned<Fftw<T>>([&] {
-    return Fftw<T>::columns(side(n), static_cast<int>(width), raw(columns.data()),
-                            direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
+    const int length = side(n), together = static_cast<int>(width);
+    return Fftw<T>::many(1, &length, together, raw(columns.data()), nullptr, together, 1, raw(columns.data()), nullptr,
+                         together, 1, direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
   });
 }
 
@@ -227,7 +205,8 @@ ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::siz
     : count_(count), distance_(distance), direction_(direction) {
   const Scratch<std::complex<T>> in(distance * count), out(distance * count);
   plan_ = planned<Fftw<T>>([&] {
-    return Fftw<T>::many(side(n), side(count), side(distance), raw(in.data()), raw(out.data()),
+    const int length = side(n), apart = side(distance);
+    return Fftw<T>::many(1, &length, side(count), raw(in.data()), nullptr, 1, apart, raw(out.data()), nullptr, 1, apart,
                          direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD,
                          FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   });
