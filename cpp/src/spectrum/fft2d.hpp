@@ -43,9 +43,9 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
     RowReader<T> read(map);
     const std::size_t last = std::min(end * rows, ny);
     for (std::size_t first = begin * rows; first < last; first += rows) {
-      heed();
       const std::size_t behind = std::min(first + rows, last);
       for (std::size_t y = first; y < behind; ++y) {
+        heed();
         const T* const heights = read(y);
         const T wy = static_cast<T>(prepared.wy[y]);
         T* const weighed = row.data() + (y - first) * length_of_row;
