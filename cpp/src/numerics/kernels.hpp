@@ -32,11 +32,6 @@ struct PanelSums {
   double value, tail[LegendreRule::kept];
 };
 
-/// A column of a matrix of 24 rows.
-struct RowsOf24 {
-  double data[24];
-};
-
 struct Kernels {
   /// I1 and I2 of a Prony series at n frequencies, n a multiple of `lanes`; no (w tau)^2 may overflow.
   void (*prony)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2);
@@ -69,8 +64,6 @@ struct Kernels {
   /// falls out of all sums, and takes its rounding along.
   void (*error_projection)(const LegendreRule& rule, const double* slope, const double* g, double f_lower, double* f,
                            double* by_g, double* by_r);
-  /// The sum of n columns times their factors.
-  void (*combine)(const RowsOf24* columns, std::size_t n, const double* factor, double* result);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

@@ -16,16 +16,16 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t order = AngularSums::together;
+constexpr std::size_t order = AngularPolynomials::order;
 using Values = Eigen::Matrix<double, order, 1>;
 using Matrix = Eigen::Matrix<double, order, order>;
 
 /// Integrals of the polynomial through values at Chebyshev's zeros, from -1 to each zero and to 1.
 struct Integrals {
-  ChebyshevZeros<order> zeros;
   Matrix to_node;
   Values to_end;
   Integrals() {
+    const ChebyshevZeros<order>& zeros = AngularPolynomials::zeros();
     for (std::size_t j = 0; j < order; ++j) {
       std::array<double, order> unit{};
       unit[j] = 1;
@@ -56,7 +56,7 @@ struct Chain {
   /// F_n+1 and so on at the nodes of a cell, from F_n-1 there and dln w/du.
   template <class Store>
   void step(Values f, const Values& rise, Store store) {
-    const auto& [zeros, to_node, to_end] = integrals();
+    const auto& [to_node, to_end] = integrals();
     for (std::size_t k = 0; k < before.size(); ++k) {
       const double n = first + 2 * static_cast<double>(k);
       const Matrix system = Matrix::Identity() + (n + 1) * to_node * rise.asDiagonal();
@@ -79,7 +79,7 @@ void require_harmonics(std::span<const double> w, std::size_t count, std::span<c
 HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count) : count_(count) {
   const AngularSums& sums = table.sums();
   const std::span<const double> edges = sums.edges();
-  const ChebyshevZeros<order>& zeros = integrals().zeros;
+  const ChebyshevZeros<order>& zeros = AngularPolynomials::zeros();
   const double lowest = tail.high;
   const std::complex<double> e = tail(lowest);
   Chain odd{std::vector<double>(count), 2}, even{std::vector<double>(count), 1};
@@ -116,8 +116,7 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
         return [&, which](std::size_t k, const Values& f) {
           std::array<double, order> value;
           std::ranges::copy(f, value.begin());
-          const std::array<double, order> power = powers_of(zeros.series(value));
-          for (std::size_t i = 0; i < order; ++i) of_[place + k].coefficient[i][which] = power[i];
+          of_[place + k].fit(value, which);
         };
       };
       odd.step(first, rise, keep(0));
@@ -139,9 +138,7 @@ void HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
     const double share = std::fmax(0, (at - cell.panel_low) / cell.panel_length);
     const double u = ((cell.root ? std::sqrt(share) : share) - cell.from) / cell.step - 1;
     for (std::size_t k = 0; k < count; ++k) {
-      const Pair(&coefficient)[order] = of_[c * count_ + k].coefficient;
-      Pair sum = coefficient[order - 1];
-      for (std::size_t j = order - 1; j-- > 0;) sum = sum * u + coefficient[j];
+      const Pair sum = of_[c * count_ + k](u);
       loss[k * n + i] = sum[0];
       square[k * n + i] = sum[1];
     }
@@ -149,13 +146,9 @@ void HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
 }
 
 const HarmonicTable& HarmonicTables::of(const AngularTable& table, const ModulusPiece& tail, std::size_t count) const {
-  const HarmonicTable* largest = largest_.load(std::memory_order_acquire);
-  if (largest && largest->count() >= count) return *largest;
   const std::scoped_lock lock(making_);
-  largest = largest_.load(std::memory_order_acquire);
-  if (largest && largest->count() >= count) return *largest;
-  made_.push_back(std::make_unique<const HarmonicTable>(table, tail, std::bit_ceil(count)));
-  largest_.store(made_.back().get(), std::memory_order_release);
+  if (made_.empty() || made_.back()->count() < count)
+    made_.push_back(std::make_unique<const HarmonicTable>(table, tail, std::bit_ceil(count)));
   return *made_.back();
 }
 

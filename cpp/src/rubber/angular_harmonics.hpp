@@ -1,7 +1,6 @@
 // L_k and K_k of a modulus known piece by piece, from I1 and I2.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -28,19 +27,15 @@ class HarmonicTable {
   void operator()(std::span<const double> w, std::size_t count, double* loss, double* square) const;
 
  private:
-  static constexpr std::size_t order = AngularSums::together;
   struct Cell {
     double low, high;   // [rad/s]
     double from, step;  // a polynomial's variable is (t - from) / step - 1 with t the share of the panel or its root
     double panel_low, panel_length;
     bool root;
   };
-  struct Polynomials {
-    Pair coefficient[order];
-  };
   std::size_t count_;
   std::vector<Cell> cells_;
-  std::vector<Polynomials> of_;  // count_ a cell
+  std::vector<AngularPolynomials> of_;  // count_ a cell
 };
 
 /// Tables made when first asked for, each of twice as many harmonics as the one before.
@@ -51,7 +46,6 @@ class HarmonicTables {
  private:
   mutable std::mutex making_;
   mutable std::vector<std::unique_ptr<const HarmonicTable>> made_;
-  mutable std::atomic<const HarmonicTable*> largest_{nullptr};
 };
 
 }  // namespace asperity

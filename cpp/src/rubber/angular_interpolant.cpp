@@ -5,66 +5,30 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "numerics/arguments.hpp"
-#include "numerics/kernels.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t order = AngularSums::together;
-
-/// From values at the Chebyshev nodes of [-1, 1] to the polynomial through them.
-struct Basis {
-  double node[order];
-  RowsOf24 of_node[order] = {};    // what the value at each adds to Chebyshev coefficients
-  RowsOf24 of_degree[order] = {};  // powers of each Chebyshev polynomial
-  Basis() {
-    for (std::size_t i = 0; i < order; ++i) {
-      const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / order;
-      node[i] = std::cos(angle);
-      for (std::size_t j = 0; j < order; ++j)
-        of_node[i].data[j] = (j == 0 ? 1.0 : 2.0) / order * std::cos(static_cast<double>(j) * angle);
-    }
-    of_degree[0].data[0] = of_degree[1].data[1] = 1;
-    for (std::size_t j = 2; j < order; ++j)
-      for (std::size_t k = 0; k < order; ++k)
-        of_degree[j].data[k] = (k > 0 ? 2 * of_degree[j - 1].data[k - 1] : 0) - of_degree[j - 2].data[k];
-  }
-};
-const Basis& basis() {
-  static const Basis result;
-  return result;
-}
-
-/// Two polynomials side by side.
-struct Polynomials {
-  Pair coefficient[order] = {};
-
-  /// Through the values at the nodes. Returns the last two Chebyshev coefficients in units of `tolerance`.
-  double fit(const AngularSums::Values& value, Pair tolerance) {
-    return fit(value.i1, 0, tolerance[0]) + fit(value.i2, 1, tolerance[1]);
-  }
-  double fit(const double (&value)[order], std::size_t which, double tolerance) {
-    RowsOf24 chebyshev, power;  // one by one: a matrix straight to the powers would lose digits
-    kernels().combine(basis().of_node, order, value, chebyshev.data);
-    kernels().combine(basis().of_degree, order, chebyshev.data, power.data);
-    for (std::size_t k = 0; k < order; ++k) coefficient[k][which] = power.data[k];
-    return (std::fabs(chebyshev.data[order - 1]) + std::fabs(chebyshev.data[order - 2])) / tolerance;
-  }
-  Pair operator()(double u) const {
-    Pair sum = coefficient[order - 1];
-    for (std::size_t k = order - 1; k-- > 0;) sum = sum * u + coefficient[k];
-    return sum;
-  }
-};
+constexpr std::size_t order = AngularPolynomials::order;
 
 /// Frequencies of the same exponent and first six binary digits.
 std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
 
 }  // namespace
+
+const ChebyshevZeros<order>& AngularPolynomials::zeros() {
+  static const ChebyshevZeros<order> result;
+  return result;
+}
+
+double AngularPolynomials::fit(const std::array<double, order>& value, std::size_t which) {
+  const std::array<double, order> series = zeros().series(value), power = powers_of(series);
+  for (std::size_t k = 0; k < order; ++k) coefficient[k][which] = power[k];
+  return std::fabs(series[order - 1]) + std::fabs(series[order - 2]);
+}
 
 /// I1 and I2 are analytic in t = (w - low) / (high - low), or its root where the panel begins at a branch point. A part
 /// covers t up to `upper`.
@@ -72,7 +36,7 @@ struct AngularTable::Part {
   bool root;
   double upper, scale, shift;  // the polynomials' variable is scale t + shift
   bool has_outside;            // whether more than 1e-7 of I1 comes from outside the measured range
-  Polynomials all, outside;
+  AngularPolynomials all, outside;
 };
 
 AngularTable::AngularTable(std::span<const ModulusPiece> pieces)
@@ -104,13 +68,16 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   Part part{sums_.at_branch(panel), t1, 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), false, {}, {}};
   double w[order];
   for (std::size_t i = 0; i < order; ++i) {
-    const double t = (t0 + t1 + basis().node[i] * (t1 - t0)) / 2;
+    const double t = (t0 + t1 + AngularPolynomials::zeros().point[i] * (t1 - t0)) / 2;
     w[i] = low + (high - low) * (part.root ? t * t : t);
   }
   const AngularSums::WithOutside at = sums_.at(w, panel);
   for (std::size_t i = 0; i < order; ++i) part.has_outside |= at.outside.i1[i] > least_outside * at.all.i1[i];
-  const Pair size{at.all.i1[order - 1], at.all.i2[order - 1]};
-  const double tail = part.all.fit(at.all, tolerance * size) + part.outside.fit(at.outside, of_outside * size);
+  const auto fit = [&](AngularPolynomials& to, const AngularSums::Values& value, double allowed) {
+    return to.fit(std::to_array(value.i1), 0) / (allowed * at.all.i1[order - 1]) +
+           to.fit(std::to_array(value.i2), 1) / (allowed * at.all.i2[order - 1]);
+  };
+  const double tail = fit(part.all, at.all, tolerance) + fit(part.outside, at.outside, of_outside);
   constexpr std::size_t most = 64;
   constexpr double shortest = 1e-12, rounding = 100;  // of the tail, which shorter parts no longer mend
   if (tail <= 1 || ((parts.size() >= most || t1 - t0 < shortest) && tail <= rounding)) {

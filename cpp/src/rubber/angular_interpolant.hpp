@@ -1,6 +1,7 @@
 // The sums of angular_quadrature.hpp as polynomials, a panel's when first asked for.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +9,24 @@
 #include <span>
 #include <vector>
 
+#include "numerics/chebyshev.hpp"
 #include "rubber/angular_quadrature.hpp"
 
 namespace asperity {
+
+/// Two polynomials side by side, on [-1, 1].
+struct AngularPolynomials {
+  static constexpr std::size_t order = AngularSums::together;
+  static const ChebyshevZeros<order>& zeros();
+  Pair coefficient[order] = {};
+  /// One of them through values at the zeros; gives the sum of the sizes of its last two Chebyshev coefficients.
+  double fit(const std::array<double, order>& value, std::size_t which);
+  Pair operator()(double u) const {
+    Pair sum = coefficient[order - 1];
+    for (std::size_t k = order - 1; k-- > 0;) sum = sum * u + coefficient[k];
+    return sum;
+  }
+};
 
 /// I1 and I2 to 1e-12, the parts that come from outside to 1e-10 of them. Where rows stand so near to each other that
 /// the rounding of w shows, to 1e-10; NotConverged beyond.
