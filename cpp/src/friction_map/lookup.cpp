@@ -54,59 +54,48 @@ struct Cells {
   std::size_t size;
 };
 
-struct MapLoops {
-  bool (*prepare)(const FrictionMapInfo& box, const double* pressure, const double* velocity, const double* a_T,
-                  std::size_t n, double* speed, double* shifted);
-  void (*logarithms)(const double* x, double* ln, std::size_t n);
-  void (*logarithms_of_both)(const double* x, const double* y, double* ln_x, double* ln_y, std::size_t n);
-  bool (*entries)(const map_detail::Grid* grids, const double* ends, std::size_t bands, const std::int32_t* all,
-                  const double* x, const double* z, std::size_t n, std::int32_t* entry);
-  void (*polynomials)(const Cells& of, const std::int32_t* cell, const double* x, const double* z, std::size_t n,
-                      double* h, double* a);
-  bool (*all_within)(const double* x, double lowest, double highest, std::size_t n);
-  void (*steps)(const double* temperature, double first, double per_kelvin, double last, std::size_t n,
-                std::int32_t* step, double* t);
-  void (*slant)(const SlantedBox& box, const double* x, const double* temperature, std::size_t n, double* slanted_x,
-                std::int32_t* step, double* t);
-  void (*warm_polynomials)(const Cells& of, const std::int32_t* cell, const std::int32_t* step, const double* x,
-                           const double* z, const double* t, std::size_t n, double* h, double* a);
-  void (*at_temperature)(const Cells& of, std::size_t step, double t, std::size_t n, double* result);
-  void (*sliding_lengths)(const SlidingTable& table, const double* x, const double* temperature, std::size_t n,
-                          double* ln_s0, double* share, std::int32_t* place);
-  void (*sliding_lengths_of_row)(const SlidingTable& table, const double* x, std::size_t n, double* ln_s0,
-                                 std::int32_t* place);
-  void (*cold_velocities)(const ColdVelocities& table, const std::int32_t* step, const double* t, const double* x,
-                          std::size_t n, double* shifted);
-  void (*held_sums)(const double* x, double more, double lowest, double highest, std::size_t n, double* sum);
-  void (*blend)(const double* ln_s0, const double* distance, const double* cold, std::size_t n, double* hot);
-  void (*blend_both_parts)(const LogarithmsOfBoth& hot, const LogarithmsOfBoth& cold, const double* ln_s0,
-                           const double* distance, const double* ln_p, const double* ln_v, const MapAdhesion& law,
-                           std::size_t n, double* mu);
-  void (*exponentials)(const double* x, double* e, std::size_t n);
-  void (*adhesions)(const double* ln_area, const double* ln_p, const double* ln_v, const MapAdhesion& law,
-                    std::size_t n, double* mu);
-  void (*both_parts)(const double* ln_hysteresis, const double* ln_area, const double* ln_p, const double* ln_v,
-                     const MapAdhesion& law, std::size_t n, double* mu);
-  void (*slopes)(const Cells& of, const std::int32_t* cell, const std::int32_t* step, const double* x, const double* z,
-                 const double* t, std::size_t n, const MapSlopes& to);
-  void (*chain_rule)(const double* hysteresis, const double* adhesion, const MapSlopes& of, const double* offset_slope,
-                     const double* ln_v, double ln_reference, double fall, std::size_t n, double* by_p, double* by_v);
-};
-
 #define ASPERITY_LOOPS "friction_map/lookup_loops.inc"
 #define ASPERITY_AVX512
 #include "numerics/vector_units.inc"
 
-MapLoops choose() {
 #ifdef __x86_64__
-  if (vector_unit() == VectorUnit::avx512) return avx512::loops();
-  if (vector_unit() == VectorUnit::avx2) return avx2::loops();
+#define ASPERITY_LOOP(loop)                                                  \
+  decltype(&baseline::loop) loop = unit == VectorUnit::avx512 ? avx512::loop \
+                                   : unit == VectorUnit::avx2 ? avx2::loop   \
+                                                              : baseline::loop
+#else
+#define ASPERITY_LOOP(loop) decltype(&baseline::loop) loop = baseline::loop
 #endif
-  return baseline::loops();
-}
+
+/// The loops of lookup_loops.inc for this machine's vector unit.
+struct MapLoops {
+  VectorUnit unit = vector_unit();
+  ASPERITY_LOOP(prepare);
+  ASPERITY_LOOP(logarithms);
+  ASPERITY_LOOP(logarithms_of_both);
+  ASPERITY_LOOP(entries);
+  ASPERITY_LOOP(polynomials);
+  ASPERITY_LOOP(all_within);
+  ASPERITY_LOOP(steps);
+  ASPERITY_LOOP(slant);
+  ASPERITY_LOOP(warm_polynomials);
+  ASPERITY_LOOP(at_temperature);
+  ASPERITY_LOOP(sliding_lengths);
+  ASPERITY_LOOP(sliding_lengths_of_row);
+  ASPERITY_LOOP(cold_velocities);
+  ASPERITY_LOOP(held_sums);
+  ASPERITY_LOOP(blend);
+  ASPERITY_LOOP(blend_both_parts);
+  ASPERITY_LOOP(exponentials);
+  ASPERITY_LOOP(adhesions);
+  ASPERITY_LOOP(both_parts);
+  ASPERITY_LOOP(slopes);
+  ASPERITY_LOOP(chain_rule);
+};
+#undef ASPERITY_LOOP
 
 const MapLoops& map_loops() {
-  static const MapLoops chosen = choose();
+  static const MapLoops chosen;
   return chosen;
 }
 
