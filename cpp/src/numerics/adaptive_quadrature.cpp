@@ -11,7 +11,7 @@
 #include "numerics/gauss_legendre.hpp"
 #include "numerics/libraries.hpp"
 
-namespace asperity::detail {
+namespace asperity {
 
 namespace {
 
@@ -22,25 +22,9 @@ struct Part {
   Integral of;
 };
 
-}  // namespace
-
-/// The last two Legendre coefficients c_k of f bound its error amply: a Gauss rule integrates twice as high degrees.
-Integral one_rule(const Callback& f, double lower, double upper) {
-  static const LegendreRule& rule = legendre_rule(nodes);
-  const double half = (upper - lower) / 2, middle = lower + half;
-  double sum = 0, last = 0, before = 0;
-  for (std::size_t i = 0; i < rule.n; ++i) {
-    const double value = f.call(middle + half * rule.node[i], f.self);
-    sum += rule.weight[i] * value;
-    last += rule.tail[i][0] * value;
-    before += rule.tail[i][1] * value;
-  }
-  return {half * sum, std::fabs(half) * (std::fabs(last) + std::fabs(before))};
-}
-
 /// Halves the part with the largest error until the sum of errors is small enough.
-Integral by_bisection(const Callback& f, double lower, double upper, double atol, double rtol) {
-  std::vector<Part> parts{{lower, upper, one_rule(f, lower, upper)}};
+Integral by_bisection(const Integrand& f, double lower, double upper, double rtol, double atol) {
+  std::vector<Part> parts{{lower, upper, integrate_smooth(f, lower, upper)}};
   const auto smaller = [](const Part& a, const Part& b) { return a.of.error < b.of.error; };
   for (;;) {
     Integral sum{0, 0};
@@ -53,18 +37,34 @@ Integral by_bisection(const Callback& f, double lower, double upper, double atol
     if (parts.size() == most_parts || !std::isfinite(sum.value) || middle == worst.lower || middle == worst.upper)
       throw NotConverged("integral over [" + show(lower) + ", " + show(upper) + "] = " + show(sum.value) +
                          " with error " + show(sum.error) + " where " + show(allowed) + " was asked for");
-    parts.back() = {worst.lower, middle, one_rule(f, worst.lower, middle)};
+    parts.back() = {worst.lower, middle, integrate_smooth(f, worst.lower, middle)};
     std::ranges::push_heap(parts, smaller);
-    parts.push_back({middle, worst.upper, one_rule(f, middle, worst.upper)});
+    parts.push_back({middle, worst.upper, integrate_smooth(f, middle, worst.upper)});
     std::ranges::push_heap(parts, smaller);
   }
 }
 
-Integral adaptive(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule) {
+}  // namespace
+
+/// The last two Legendre coefficients c_k of f bound its error amply: a Gauss rule integrates twice as high degrees.
+Integral integrate_smooth(const Integrand& f, double lower, double upper) {
+  static const LegendreRule& rule = legendre_rule(nodes);
+  const double half = (upper - lower) / 2, middle = lower + half;
+  double sum = 0, last = 0, before = 0;
+  for (std::size_t i = 0; i < rule.n; ++i) {
+    const double value = f(middle + half * rule.node[i]);
+    sum += rule.weight[i] * value;
+    last += rule.tail[i][0] * value;
+    before += rule.tail[i][1] * value;
+  }
+  return {half * sum, std::fabs(half) * (std::fabs(last) + std::fabs(before))};
+}
+
+Integral integrate(const Integrand& f, double lower, double upper, double rtol, double atol, Adaptive rule) {
   heed();
-  if (rule == Adaptive::bisection) return by_bisection(f, lower, upper, atol, rtol);
-  if constexpr (has_gsl_and_fftw) return by_gsl(f, lower, upper, atol, rtol, rule);
+  if (rule == Adaptive::bisection) return by_bisection(f, lower, upper, rtol, atol);
+  if constexpr (has_gsl_and_fftw) return integrate_by_gsl(f, lower, upper, rtol, atol, rule);
   throw Error("GSL's integration was called in a build without it");  // its methods are refused before
 }
 
-}  // namespace asperity::detail
+}  // namespace asperity

@@ -5,18 +5,16 @@
 
 #include <cfenv>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <string>
-#include <vector>
 
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
-
-namespace detail {
 
 namespace {
 
@@ -29,34 +27,29 @@ void silence_private_gsl() {
   std::call_once(once, [] { gsl_set_error_handler_off(); });
 }
 
-/// A workspace for the time of one integral. An integrand may itself integrate: each depth has a workspace of its
-/// own, kept by the thread for the next call.
-template <class Workspace, Workspace* allocate(std::size_t), void release(Workspace*)>
-class Borrowed {
- public:
-  Borrowed() {
-    if (depth_ == pool_.size()) pool_.emplace_back(allocate(most_intervals), release);
-    if (!pool_[depth_]) {
-      pool_.pop_back();
-      throw std::bad_alloc();
-    }
-    mine_ = pool_[depth_++].get();
-  }
-  ~Borrowed() { --depth_; }
-  Borrowed(const Borrowed&) = delete;
-  Borrowed& operator=(const Borrowed&) = delete;
-  Borrowed(Borrowed&&) = delete;
-  Borrowed& operator=(Borrowed&&) = delete;
-  [[nodiscard]] Workspace* get() const { return mine_; }
+/// A workspace for the time of one integral: an integrand may itself integrate.
+template <class Workspace>
+std::unique_ptr<Workspace, void (*)(Workspace*)> made(Workspace* allocate(std::size_t), void release(Workspace*)) {
+  std::unique_ptr<Workspace, void (*)(Workspace*)> result(allocate(most_intervals), release);
+  if (!result) throw std::bad_alloc();
+  return result;
+}
 
- private:
-  static inline thread_local std::vector<std::unique_ptr<Workspace, void (*)(Workspace*)>> pool_;
-  static inline thread_local std::size_t depth_ = 0;
-  Workspace* mine_;
+/// What C calls: an exception waits until GSL has returned.
+struct Guarded {
+  const Integrand& f;
+  std::exception_ptr failure = nullptr;
+  static double call(double x, void* self) noexcept {
+    auto& guarded = *static_cast<Guarded*>(self);
+    if (guarded.failure) return 0;
+    try {
+      return guarded.f(x);
+    } catch (...) {
+      guarded.failure = std::current_exception();
+      return 0;
+    }
+  }
 };
-using Intervals = Borrowed<gsl_integration_workspace, gsl_integration_workspace_alloc, gsl_integration_workspace_free>;
-using Polynomials = Borrowed<gsl_integration_cquad_workspace, gsl_integration_cquad_workspace_alloc,
-                             gsl_integration_cquad_workspace_free>;
 
 /// GSL divides by zero on its way (CQUAD), which ends a process whose host has floating-point traps on: off meanwhile.
 /// The flags are left as they were found too.
@@ -73,30 +66,29 @@ class Untrapped {
   std::fenv_t host_;
 };
 
-int call(Adaptive rule, const gsl_function& f, double lower, double upper, double atol, double rtol, Integral& result) {
-  switch (rule) {
-    case Adaptive::qag:
-      return gsl_integration_qag(&f, lower, upper, atol, rtol, most_intervals, GSL_INTEG_GAUSS21, Intervals().get(),
-                                 &result.value, &result.error);
-    case Adaptive::qags:
-      return gsl_integration_qags(&f, lower, upper, atol, rtol, most_intervals, Intervals().get(), &result.value,
-                                  &result.error);
-    case Adaptive::cquad:
-      return gsl_integration_cquad(&f, lower, upper, atol, rtol, Polynomials().get(), &result.value, &result.error,
-                                   nullptr);
-    case Adaptive::bisection:
-      break;
-  }
-  return GSL_EINVAL;
+int call(Adaptive rule, const gsl_function& f, double lower, double upper, double rtol, double atol, Integral& result) {
+  if (rule == Adaptive::cquad)
+    return gsl_integration_cquad(
+        &f, lower, upper, atol, rtol,
+        made(&gsl_integration_cquad_workspace_alloc, &gsl_integration_cquad_workspace_free).get(), &result.value,
+        &result.error, nullptr);
+  const auto intervals = made(&gsl_integration_workspace_alloc, &gsl_integration_workspace_free);
+  if (rule == Adaptive::qags)
+    return gsl_integration_qags(&f, lower, upper, atol, rtol, most_intervals, intervals.get(), &result.value,
+                                &result.error);
+  return gsl_integration_qag(&f, lower, upper, atol, rtol, most_intervals, GSL_INTEG_GAUSS21, intervals.get(),
+                             &result.value, &result.error);
 }
 
 }  // namespace
 
-Integral by_gsl(const Callback& f, double lower, double upper, double atol, double rtol, Adaptive rule) {
+Integral integrate_by_gsl(const Integrand& f, double lower, double upper, double rtol, double atol, Adaptive rule) {
   silence_private_gsl();
   const Untrapped here;
   Integral result{};
-  const int status = call(rule, gsl_function{f.call, f.self}, lower, upper, atol, rtol, result);
+  Guarded guarded{f};
+  const int status = call(rule, gsl_function{&Guarded::call, &guarded}, lower, upper, rtol, atol, result);
+  if (guarded.failure) std::rethrow_exception(guarded.failure);
   const double allowed = std::fmax(atol, rtol * std::fabs(result.value));
   // CQUAD may miss the tolerance and report success, and says of what diverges that it is infinite
   if (!(result.error <= allowed && std::isfinite(result.value)))
@@ -105,7 +97,5 @@ Integral by_gsl(const Callback& f, double lower, double upper, double atol, doub
                        (status == GSL_SUCCESS ? "" : std::string(": ") + gsl_strerror(status)));
   return result;
 }
-
-}  // namespace detail
 
 }  // namespace asperity
