@@ -84,11 +84,7 @@ std::array<double, moduli> fit_factors(ShiftLikelihood& likelihood, std::span<co
   std::array<double, moduli> factor{0, 0};
   for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
     const auto cost = [&](double log_factor) { return likelihood.alone(modulus, shift, log_factor); };
-    double best = 0;
-    constexpr double step = 2;
-    for (double log_factor = -8; log_factor <= 8; log_factor += step)
-      if (cost(log_factor) < cost(best)) best = log_factor;
-    factor[modulus] = golden_section(cost, best - step, best + step, 0.01);
+    factor[modulus] = least_of(cost, -8, 8, 8, 0.01);
   }
   likelihood.data(shift, factor, nullptr);
   return factor;

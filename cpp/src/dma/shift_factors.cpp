@@ -2,7 +2,6 @@
 // Chem. Soc. 77, 3701 (1955)) and Arrhenius.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -16,10 +15,6 @@
 namespace asperity {
 
 namespace {
-
-struct Sums {
-  double uu = 0, uy = 0;
-};
 
 /// log10 a_T against the reference from log10 a_T against an isotherm: less the value there, which is interpolated.
 Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftTable& shifts) {
@@ -70,9 +65,7 @@ ShiftTable::ShiftTable(double reference, std::vector<double> temperature, std::v
       deviation_(std::move(standard_deviation)) {
   require_positive("reference_temperature", reference_);
   require_same_size("log10_a_T", log10_a_T_.size(), "temperature", temperature_.size());
-  if (temperature_.size() < 2)
-    throw InvalidInput(argument("temperature") + " has " + count(temperature_.size()) + " entries" + must_be() +
-                       "2 or more for shift factors");
+  require_size("temperature", temperature_.size(), 2, " for shift factors");
   require_each_positive("temperature", temperature_);
   require_rising("temperature", temperature_);
   require_each_finite("log10_a_T", log10_a_T_);
@@ -105,50 +98,22 @@ ShiftValue ShiftTable::shift_at(double temperature) const {
 // ln(c2 + lowest d), from where c2 + T - T_ref vanishes at the lowest temperature to where the law is a straight line.
 WlfFit ShiftTable::fit_wlf(std::span<const double> covariance) const {
   const std::size_t n = temperature_.size();
-  if (n < 4)
-    throw InvalidInput(argument("temperature") + " has " + count(n) + " entries" + must_be() +
-                       "4 or more for a WLF fit");
-  const double lowest = temperature_.front() - reference_;
-  const auto sums = [&](double c2) {
-    Sums s;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double d = temperature_[i] - reference_, u = -d / (c2 + d);
-      s.uu += u * u;
-      s.uy += u * log10_a_T_[i];
-    }
-    return s;
-  };
+  require_size("temperature", n, 4, " for a WLF fit");
+  const auto rows = static_cast<Eigen::Index>(n);
+  const Eigen::ArrayXd d = Eigen::Map<const Eigen::ArrayXd>(temperature_.data(), rows) - reference_;
+  const Eigen::ArrayXd shift = Eigen::Map<const Eigen::ArrayXd>(log10_a_T_.data(), rows);
+  const auto best_c1 = [&](const Eigen::ArrayXd& u) { return (u * shift).sum() / u.square().sum(); };
   const auto left = [&](double x) {
-    const double c2 = std::exp(x) - lowest;
-    const Sums s = sums(c2);
-    const double c1 = s.uy / s.uu;
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double d = temperature_[i] - reference_;
-      sum += std::pow(log10_a_T_[i] + c1 * d / (c2 + d), 2);
-    }
-    return sum;
+    const Eigen::ArrayXd u = -d / (std::exp(x) - d[0] + d);
+    return (shift - best_c1(u) * u).square().sum();
   };
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  constexpr double step = 0.1;
-  for (double x = 0; x <= std::log(1e5); x += step)  // c2 + lowest d from 1 K to 1e5 K
-    if (const double found = left(x); found < least) {
-      least = found;
-      best = x;
-    }
-  const double x = golden_section(left, best - step, best + step, 1e-10);
-  const double c2 = std::exp(x) - lowest;
-  const Sums s = sums(c2);
-  const double c1 = s.uy / s.uu;
-
+  const double c2 = std::exp(least_of(left, 0, std::log(1e5), 115, 1e-10)) - d[0];  // from 1 K to 1e5 K
+  const Eigen::ArrayXd u = -d / (c2 + d);
+  const double c1 = best_c1(u);
   Eigen::MatrixXd slopes(n, 2);
-  Eigen::VectorXd residual(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const double d = temperature_[i] - reference_;
-    slopes.row(at) << -d / (c2 + d), c1 * d / std::pow(c2 + d, 2);
-    residual[at] = log10_a_T_[i] + c1 * d / (c2 + d);
-  }
+  slopes.col(0) = u;
+  slopes.col(1) = c1 * d / (c2 + d).square();
+  const Eigen::VectorXd residual = shift - c1 * u;
   const Eigen::MatrixXd variance = parameter_covariance(slopes, residual, covariance, *this);
   return {c1,
           c2,

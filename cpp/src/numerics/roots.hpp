@@ -37,9 +37,19 @@ double bracketed_root(F&& f, double a, double b, double tolerance = 0) {
   return b;
 }
 
-/// Where f, which has one minimum between `a` and `b`, is least, to `tolerance`: golden section, one new value a step.
+/// Where f is least between `a` and `b`, to `tolerance`: the best of so many equal steps, then golden section between
+/// its neighbours.
 template <class F>
-double golden_section(F&& f, double a, double b, double tolerance) {
+double least_of(F&& f, double a, double b, int steps, double tolerance) {
+  const double step = (b - a) / steps;
+  double best = a, least = f(a);
+  for (int i = 1; i <= steps; ++i)
+    if (const double at = a + step * i, value = f(at); value < least) {
+      best = at;
+      least = value;
+    }
+  a = std::fmax(a, best - step);
+  b = std::fmin(b, best + step);
   constexpr double golden = std::numbers::phi - 1;
   double left = b - golden * (b - a), right = a + golden * (b - a), at_left = f(left), at_right = f(right);
   while (b - a > tolerance) {

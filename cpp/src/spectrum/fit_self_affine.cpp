@@ -108,17 +108,10 @@ struct Broken {
   }
 };
 
-/// The break in [lower, upper] that leaves least: among 64 places first, then between the neighbours of the best of
-/// them.
+/// The break in [lower, upper] that leaves least.
 Broken best_break(const Rows& rows, double lower, double upper) {
   constexpr int places = 64;
-  const double step = (upper - lower) / places;
-  Broken best(rows, lower);
-  if (!(step > 0)) return best;
-  for (int i = 1; i <= places; ++i)
-    if (const Broken next(rows, lower + step * i); next.sum_of_squares < best.sum_of_squares) best = next;
-  const auto left = [&](double at) { return Broken(rows, at).sum_of_squares; };
-  return {rows, golden_section(left, std::max(lower, best.x_r - step), std::min(upper, best.x_r + step), 1e-9)};
+  return {rows, least_of([&](double at) { return Broken(rows, at).sum_of_squares; }, lower, upper, places, 1e-9)};
 }
 
 /// The slope of the rows below x_r by themselves, and the weighted sum of squares of their distances to their middle.

@@ -86,7 +86,7 @@ def test_too_few_temperatures_for_wlf():
     shifts = ShiftFactors(
         reference_temperature=300, temperature=[290, 300, 310], log10_a_T=[1, 0, -1]
     )
-    with refused("temperature", "invalid-input"):
+    with refused("temperature", "too-few-entries"):
         shifts.fit_wlf()
 
 
