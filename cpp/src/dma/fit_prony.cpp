@@ -193,14 +193,8 @@ std::string percent(double value) { return show(100 * value, 2) + " %"; }
 
 void check(std::span<const double> w, std::span<const double> storage, std::span<const double> loss,
            const PronyFitOptions& options) {
-  require_same_size("storage_modulus", storage.size(), "angular_frequency", w.size());
-  require_same_size("loss_modulus", loss.size(), "angular_frequency", w.size());
-  if (w.size() < 4)
-    throw InvalidInput(argument("angular_frequency") + " has " + count(w.size()) + " entries" + must_be() +
-                       "4 or more for a fit");
-  require_each_positive("angular_frequency", w);
-  require_each_positive("storage_modulus", storage);
-  require_each_positive("loss_modulus", loss);
+  require_positive_columns({{"angular_frequency", w}, {"storage_modulus", storage}, {"loss_modulus", loss}});
+  require_size("angular_frequency", w.size(), 4, " for a fit");
   require_rising("angular_frequency", w);
   if (const double decades = std::log10(w.back()) - std::log10(w.front()); decades > 100)
     throw InvalidInput(argument("angular_frequency") + " spans " + value(decades, 4) + " decades" + must_be() +

@@ -25,11 +25,8 @@ void require_kelvin(double temperature) {
 void require_rows(double temperature, const std::vector<double>& angular_frequency,
                   const std::vector<double>& storage_modulus, const std::vector<double>& loss_modulus) {
   require_kelvin(temperature);
-  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", angular_frequency.size());
-  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", angular_frequency.size());
-  require_each_positive("angular_frequency", angular_frequency);
-  require_each_positive("storage_modulus", storage_modulus);
-  require_each_positive("loss_modulus", loss_modulus);
+  require_positive_columns(
+      {{"angular_frequency", angular_frequency}, {"storage_modulus", storage_modulus}, {"loss_modulus", loss_modulus}});
 }
 
 void require_enough(std::size_t different, double temperature) {
@@ -96,14 +93,9 @@ StrainSweep::StrainSweep(double temperature, double angular_frequency, std::vect
       loss_(std::move(loss_modulus)) {
   require_kelvin(temperature);
   require_positive("angular_frequency", angular_frequency);
-  require_same_size("storage_modulus", storage_.size(), "strain", strain_.size());
-  require_same_size("loss_modulus", loss_.size(), "strain", strain_.size());
-  if (strain_.size() < 2)
-    throw InvalidInput(argument("strain") + " has " + count(strain_.size()) + " entries" + must_be() + "2 or more");
-  require_each_positive("strain", strain_);
+  require_positive_columns({{"strain", strain_}, {"storage_modulus", storage_}, {"loss_modulus", loss_}});
+  require_size("strain", strain_.size(), 2);
   require_rising("strain", strain_);
-  require_each_positive("storage_modulus", storage_);
-  require_each_positive("loss_modulus", loss_);
 }
 
 }  // namespace asperity

@@ -29,12 +29,6 @@ Ratio ratio_of(const StrainSweep& sweep, double strain, double a_T, std::size_t 
   if (!(small >= e.front() && small <= e.back()))
     throw OutOfRange(name + ": was measured in strains " + range + must(", must hold ") +
                      "0.005, the small strain of reference");
-  const auto logarithms = [](const std::vector<double>& values) {
-    std::vector<double> result;
-    result.reserve(values.size());
-    for (const double v : values) result.push_back(std::log(v));
-    return result;
-  };
   const std::vector<double> x = logarithms(e);
   const Steffen storage(x, logarithms(sweep.storage_modulus())), loss(x, logarithms(sweep.loss_modulus()));
   const double at = std::log(strain), reference = std::log(small);
@@ -46,7 +40,7 @@ Ratio ratio_of(const StrainSweep& sweep, double strain, double a_T, std::size_t 
 LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts, double strain,
                       std::span<const StrainSweep> sweeps) {
   require_positive("strain", strain);
-  if (sweeps.empty()) throw InvalidInput(argument("sweeps") + " has 0 entries" + must(": must have ") + "1 or more");
+  require_size("sweeps", sweeps.size(), 1);
   std::vector<Ratio> ratios;
   ratios.reserve(sweeps.size());
   for (std::size_t i = 0; i < sweeps.size(); ++i)

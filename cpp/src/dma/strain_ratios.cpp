@@ -38,7 +38,7 @@ struct Spread {
 
 StrainRatios strain_factors(std::span<const StrainSweep> sweeps, std::optional<double> reference_strain,
                             double strain_per_slope) {
-  if (sweeps.empty()) throw InvalidInput(argument("sweeps") + " has 0 entries" + must(": must have ") + "1 or more");
+  require_size("sweeps", sweeps.size(), 1);
   double lowest = 0, highest = HUGE_VAL;  // that all have
   for (const StrainSweep& sweep : sweeps) {
     lowest = std::fmax(lowest, sweep.strain().front());

@@ -129,10 +129,8 @@ void MapFrame::cut_bands() {
     std::size_t node = 0;  // one where z is in the box, or nearly
     while (node < last && (z + offset_[2 * node] < y_lo_ || z + offset_[2 * node] > y_hi_)) ++node;
     const double y = std::clamp(z + offset_[2 * node], y_lo_, y_hi_);
-    throw InvalidInput(argument("pressure") + " = " +
-                       Phrase(Phrase::Kind::value, "(" + show(std::exp(y_lo_)) + ", " + show(std::exp(y_hi_)) + ")",
-                              {std::exp(y_lo_), std::exp(y_hi_)}) +
-                       ": at " + show(std::exp(y), 6) + " Pa and " +
+    throw InvalidInput(argument("pressure") + " = " + pair(std::exp(y_lo_), std::exp(y_hi_)) + ": at " +
+                       show(std::exp(y), 6) + " Pa and " +
                        show(std::exp(x_lo_ + static_cast<double>(node) * apart), 6) +
                        " m/s the Greenwood-Williamson correction finds no contact (d~ >= z_max)" + must_be() +
                        "such that there is contact everywhere");

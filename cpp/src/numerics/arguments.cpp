@@ -13,6 +13,10 @@ std::string show(double value, int digits) {
   return {text, end};
 }
 
+Phrase pair(double first, double second) {
+  return {Phrase::Kind::value, "(" + show(first) + ", " + show(second) + ")", {first, second}};
+}
+
 namespace {
 
 [[noreturn]] void refuse(const Sentence& what, double found, const Sentence& allowed) {
@@ -51,6 +55,12 @@ void require_rising(std::string_view name, std::span<const double> values) {
   for (std::size_t i = 1; i < values.size(); ++i)
     if (!(values[i] > values[i - 1]))
       refuse(name, i, values[i], "above the entry before it, " + show(values[i - 1]) + " (strictly rising)");
+}
+
+void require_positive_columns(std::initializer_list<Column> columns) {
+  const Column& first = *columns.begin();
+  for (const auto& [name, values] : columns) require_same_size(name, values.size(), first.name, first.values.size());
+  for (const auto& [name, values] : columns) require_each_positive(name, values);
 }
 
 void require_size(std::string_view name, std::size_t size, std::size_t least, const std::string& what) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ inline Phrase value(std::string text, double number, std::string unit = {}) {
 inline Phrase value(double number, int digits = 12, std::string unit = {}) {
   return value(show(number, digits), number, std::move(unit));
 }
+/// "(first, second)"
+Phrase pair(double first, double second);
 inline Phrase word(std::string text) { return {Phrase::Kind::value, std::move(text)}; }
 inline Phrase count(std::size_t number) { return value(std::to_string(number), static_cast<double>(number)); }
 /// The unit behind a value.
@@ -88,6 +91,12 @@ inline void require_band(std::string_view name, double lowest, double highest) {
 /// At least so many entries; `what` they are for goes on behind it.
 void require_size(std::string_view name, std::size_t size, std::size_t least, const std::string& what = "");
 void require_same_size(std::string_view name, std::size_t size, std::string_view other, std::size_t other_size);
+struct Column {
+  std::string_view name;
+  std::span<const double> values;
+};
+/// As many entries in each as in the first, all of them positive.
+void require_positive_columns(std::initializer_list<Column> columns);
 /// Spans that results are written to must be as long as their argument.
 inline void require_room(std::span<const double> w, std::span<const double> i1, std::span<const double> i2) {
   require_same_size("i1", i1.size(), "angular_frequency", w.size());

@@ -10,9 +10,22 @@
 
 namespace asperity {
 
+inline std::vector<double> logarithms(const std::vector<double>& values) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), [](double v) { return std::log(v); });
+  return result;
+}
+
 struct ValueAndSlope {
   double value, slope;
 };
+
+/// Coefficients of the powers of x - x_a, from the constant up, of the cubic through a and b, h apart, with the slopes
+/// da and db there.
+inline std::array<double, 4> hermite_powers(double a, double da, double b, double db, double h) {
+  const double secant = (b - a) / h;
+  return {a, da, (3 * secant - 2 * da - db) / h, (da + db - 2 * secant) / (h * h)};
+}
 
 /// At `t` in [0, 1] of an interval `h` long: the cubic through a and b with the slopes da and db there.
 inline ValueAndSlope hermite(double a, double da, double b, double db, double h, double t) {
@@ -52,21 +65,13 @@ class Steffen {
   }
   /// Coefficients of the powers of x - x_i between x_i and x_(i + 1), from the constant up.
   [[nodiscard]] std::array<double, 4> cubic(std::size_t i) const {
-    const double h = x_[i + 1] - x_[i], secant = (y_[i + 1] - y_[i]) / h;
-    return {y_[i], slope_[i], (3 * secant - 2 * slope_[i] - slope_[i + 1]) / h,
-            (slope_[i] + slope_[i + 1] - 2 * secant) / (h * h)};
+    return hermite_powers(y_[i], slope_[i], y_[i + 1], slope_[i + 1], x_[i + 1] - x_[i]);
   }
   double operator()(double at) const {
     const std::size_t i = interval(at);
     const auto [y, slope, square, cube] = cubic(i);
     const double t = at - x_[i];
     return y + t * (slope + t * (square + t * cube));
-  }
-  [[nodiscard]] std::array<double, 2> value_and_slope(double at) const {
-    const std::size_t i = interval(at);
-    const auto [y, slope, square, cube] = cubic(i);
-    const double t = at - x_[i];
-    return {y + t * (slope + t * (square + t * cube)), slope + t * (2 * square + t * 3 * cube)};
   }
   [[nodiscard]] double slope(std::size_t i) const { return slope_[i]; }
 

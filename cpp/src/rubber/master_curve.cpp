@@ -20,12 +20,6 @@ bool tellable_square(double modulus) { return modulus >= 1e-140 && modulus <= 1e
 
 constexpr double rounding = 1e-12;  // how far v q0 may miss the end of a table by its own rounding
 
-std::vector<double> logarithms(const std::vector<double>& values) {
-  std::vector<double> result(values.size());
-  std::ranges::transform(values, result.begin(), [](double v) { return std::log(v); });
-  return result;
-}
-
 /// E(w) from `far` times its lowest frequency up: the end of the tail, the table, and where asked for a decade before
 /// and after it.
 std::vector<ModulusPiece> pieces_of(const std::vector<double>& w, const std::vector<double>& storage,
@@ -110,14 +104,9 @@ struct MasterCurve::Table {
 
 MasterCurve::MasterCurve(std::vector<double> angular_frequency, std::vector<double> storage_modulus,
                          std::vector<double> loss_modulus, std::optional<Extrapolation> extrapolation) {
-  require_same_size("storage_modulus", storage_modulus.size(), "angular_frequency", angular_frequency.size());
-  require_same_size("loss_modulus", loss_modulus.size(), "angular_frequency", angular_frequency.size());
-  if (angular_frequency.size() < 2)
-    throw InvalidInput(argument("angular_frequency") + " has " + count(angular_frequency.size()) + " entries" +
-                       must_be() + "2 or more");
-  require_each_positive("angular_frequency", angular_frequency);
-  require_each_positive("storage_modulus", storage_modulus);
-  require_each_positive("loss_modulus", loss_modulus);
+  require_positive_columns(
+      {{"angular_frequency", angular_frequency}, {"storage_modulus", storage_modulus}, {"loss_modulus", loss_modulus}});
+  require_size("angular_frequency", angular_frequency.size(), 2);
   require_rising("angular_frequency", angular_frequency);
   for (const auto& [name, moduli] :
        {std::pair{"storage_modulus", &storage_modulus}, std::pair{"loss_modulus", &loss_modulus}})

@@ -34,6 +34,8 @@ class HeightMoments {
     }
   }
 
+  [[nodiscard]] double mean(double anchor) const { return anchor + first_ / count_; }
+  [[nodiscard]] double rms() const { return std::sqrt(second_ / count_ - first_ / count_ * (first_ / count_)); }
   /// None where all heights are alike.
   [[nodiscard]] std::optional<HeightShape> shape() const {
     const double m = first_ / count_, raw2 = second_ / count_, raw3 = third_ / count_, raw4 = fourth_ / count_;

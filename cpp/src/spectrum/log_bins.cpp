@@ -205,7 +205,7 @@ TabulatedSpectrum log_binned(const TabulatedSpectrum& spectrum, double per_decad
 LineSpectrum log_binned(const LineSpectrum& spectrum, double per_decade) { return binned(spectrum, per_decade); }
 
 TabulatedSpectrum merge_spectra(std::span<const TabulatedSpectrum> spectra, std::optional<double> per_decade) {
-  if (spectra.empty()) throw InvalidInput(argument("spectra") + " has 0 entries" + must(": must have ") + "1 or more");
+  require_size("spectra", spectra.size(), 1);
   const bool counted = std::ranges::none_of(spectra, [](const auto& s) { return s.quality().count.empty(); });
   if (!counted && std::ranges::any_of(spectra, [](const auto& s) { return !s.quality().count.empty(); }))
     throw InvalidInput(argument("spectra") +

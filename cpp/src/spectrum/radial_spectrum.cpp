@@ -71,12 +71,10 @@ class Rings {
     const std::size_t columns = shape[1] / 2 + 1;
     const double modes = static_cast<double>(shape[0]) * static_cast<double>(columns);
     if (!(corner <= most_rings || corner <= modes))  // of more rings than modes most are empty
-      throw InvalidInput(
-          argument("pixel_size") + " = " +
-          Phrase(Phrase::Kind::value, "(" + show(pixel[0]) + ", " + show(pixel[1]) + ")", {pixel[0], pixel[1]}) +
-          ": its aspect of " + show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " +
-          show(corner, 3) + " rings of wavenumbers for the " + show(modes) + " modes of this map" + must_be() +
-          "at most " + show(most_rings));
+      throw InvalidInput(argument("pixel_size") + " = " + pair(pixel[0], pixel[1]) + ": its aspect of " +
+                         show(std::fmax(pixel[0] / pixel[1], pixel[1] / pixel[0]), 3) + " makes " + show(corner, 3) +
+                         " rings of wavenumbers for the " + show(modes) + " modes of this map" + must_be() +
+                         "at most " + show(most_rings));
     count_ = static_cast<std::size_t>(std::lround(corner)) + 1;
   }
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -254,41 +252,9 @@ std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detren
   return {std::move(side), points / (static_cast<double>(ny) * static_cast<double>(nx))};
 }
 
-}  // namespace
-
-namespace {
-
-TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
-                                std::size_t most);
-
-}  // namespace
-
-TabulatedSpectrum directional_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
-                                       unsigned threads) {
-  constexpr std::size_t most = 16;
-  return ring_spectrum(map, window, detrend, threads, most);
-}
-
 // |h|^2 of a mode is spread like its own mean (exponentially, for a Gaussian surface), so that its square, whose mean
 // is twice the variance, tells the error of the ring's mean even where the ring's modes are not alike. Rings are as
 // many rows apart as rings, but for empty ones near the corner.
-TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
-                                 Part part) {
-  if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
-  if (part != Part::all) {
-    require_plane(map);
-    const auto [side, share] = one_side(map, detrend, part);
-    const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
-    RowQuality quality = spectrum.quality();
-    quality.heights.reset();  // they are those of the side, not of the map
-    const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality), {}, spectrum.q1());
-    return share > 0 ? scaled_table(table, 1 / share) : table;  // a constant map has no side
-  }
-  return ring_spectrum(map, window, detrend, threads, 0);
-}
-
-namespace {
-
 TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
                                 std::size_t most) {
   if (threads == 0 || threads > 1024) refuse("threads", threads, "from 1 to 1024");
@@ -336,5 +302,25 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
 }
 
 }  // namespace
+
+TabulatedSpectrum directional_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
+                                       unsigned threads) {
+  constexpr std::size_t most = 16;
+  return ring_spectrum(map, window, detrend, threads, most);
+}
+
+TabulatedSpectrum power_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads,
+                                 Part part) {
+  if (part != Part::all) {
+    require_plane(map);
+    const auto [side, share] = one_side(map, detrend, part);
+    const TabulatedSpectrum spectrum = power_spectrum(side, window, Detrend::offset, threads);
+    RowQuality quality = spectrum.quality();
+    quality.heights.reset();  // they are those of the side, not of the map
+    const TabulatedSpectrum table(spectrum.wavenumber(), spectrum.density(), std::move(quality), {}, spectrum.q1());
+    return share > 0 ? scaled_table(table, 1 / share) : table;  // a constant map has no side
+  }
+  return ring_spectrum(map, window, detrend, threads, 0);
+}
 
 }  // namespace asperity

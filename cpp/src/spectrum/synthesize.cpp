@@ -10,6 +10,7 @@
 #include "numerics/fft.hpp"
 #include "numerics/random.hpp"
 #include "spectrum/harmonics.hpp"
+#include "spectrum/height_moments.hpp"
 
 namespace asperity {
 
@@ -78,31 +79,24 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
   return result;
 }
 
-struct Moments {
-  double mean, rms, skewness;
-};
-
-Moments moments(const std::vector<double>& z) {
-  double sum = 0, square = 0, cube = 0;
-  for (const double h : z) sum += h;
-  const double n = static_cast<double>(z.size()), mean = sum / n;
-  for (const double h : z) {
-    square += (h - mean) * (h - mean);
-    cube += (h - mean) * (h - mean) * (h - mean);
-  }
-  const double rms = std::sqrt(square / n);
-  return {mean, rms, cube / n / (rms * rms * rms)};
+HeightMoments moments(const std::vector<double>& z) {
+  HeightMoments result;
+  result.add(z, 0);
+  return result;
 }
+
+double skewness_of(const std::vector<double>& z) { return moments(z).shape().value_or(HeightShape{}).skewness; }
 
 /// Heights z of skewness 0 or so, bent to a gamma distribution of skewness s (E. B. Wilson and M. M. Hilferty, Proc.
 /// Natl. Acad. Sci. USA 17, 684 (1931)); then each mode gets its own modulus back and keeps the phase that the bend
 /// gave it.
-std::vector<double> bent(const std::vector<double>& z, const Moments& of_z, double s,
-                         const std::vector<double>& amplitude, HeightMap::Shape shape) {
+std::vector<double> bent(const std::vector<double>& z, double s, const std::vector<double>& amplitude,
+                         HeightMap::Shape shape) {
   std::vector<double> heights(z.size());
+  const HeightMoments of_z = moments(z);
   for (std::size_t i = 0; i < z.size(); ++i) {
     heed_at(i);
-    const double t = 1 + s / 6 * ((z[i] - of_z.mean) / of_z.rms - s / 6);
+    const double t = 1 + s / 6 * ((z[i] - of_z.mean(0)) / of_z.rms() - s / 6);
     heights[i] = (s < 0 ? -1 : 1) * std::pow(std::fmax(t, 0), 3);
   }
   Modes modes{shape, forward_transform(heights, {shape[0], shape[1]})};
@@ -119,13 +113,12 @@ std::vector<double> bent(const std::vector<double>& z, const Moments& of_z, doub
 std::vector<double> skewed(const std::vector<double>& z, double skewness, const std::vector<double>& amplitude,
                            HeightMap::Shape shape) {
   constexpr double tolerance = 1e-3, strongest = 8;
-  const Moments start = moments(z);
   std::vector<double> found;
   const auto miss = [&](double s) {
-    found = bent(z, start, s, amplitude, shape);
-    return moments(found).skewness - skewness;
+    found = bent(z, s, amplitude, shape);
+    return skewness_of(found) - skewness;
   };
-  double a = 0, at_a = start.skewness - skewness, b = at_a < 0 ? 0.5 : -0.5, at_b = miss(b);
+  double a = 0, at_a = skewness_of(z) - skewness, b = at_a < 0 ? 0.5 : -0.5, at_b = miss(b);
   while (at_a * at_b > 0 && std::fabs(b) < strongest) {
     a = b;
     at_a = at_b;
@@ -153,10 +146,8 @@ HeightMap synthesize(const Spectrum& spectrum, HeightMap::Shape shape, HeightMap
                      std::uint64_t seed, double skewness) {
   const auto [ny, nx] = shape;
   if (ny < 2 || nx < 2)
-    throw InvalidInput(argument("shape") + " = " +
-                       Phrase(Phrase::Kind::value, "(" + std::to_string(ny) + ", " + std::to_string(nx) + ")",
-                              {static_cast<double>(ny), static_cast<double>(nx)}) +
-                       must_be() + "2 x 2 or more");
+    throw InvalidInput(argument("shape") + " = " + pair(static_cast<double>(ny), static_cast<double>(nx)) + must_be() +
+                       "2 x 2 or more");
   require_positive("pixel_size", pixel_size[0]);
   require_positive("pixel_size", pixel_size[1]);
   if (!(std::fabs(skewness) <= 2)) refuse("skewness", skewness, "in [-2, 2]");

@@ -24,9 +24,7 @@ void require_each_not_negative(std::string_view name, const std::vector<double>&
 void validate_rows(const std::vector<double>& wavenumber, const std::vector<double>& density,
                    const RowQuality& quality) {
   require_same_size("density", density.size(), "wavenumber", wavenumber.size());
-  if (wavenumber.size() < 2)
-    throw InvalidInput(argument("wavenumber") + " has " + count(wavenumber.size()) + " entries" + must_be() +
-                       "2 or more");
+  require_size("wavenumber", wavenumber.size(), 2);
   require_each_positive("wavenumber", wavenumber);
   require_rising("wavenumber", wavenumber);
   require_band("wavenumber: its last entry", wavenumber.front(), wavenumber.back());
