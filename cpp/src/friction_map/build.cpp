@@ -29,8 +29,7 @@ void check_request(const MapRequest& request, const std::optional<Adhesion>& adh
       if (side < smallest || side > largest) refuse(name, side, "in [1e-300, 1e300]");
     }
     if (!(box[0] * (1 + 1e-6) < box[1]))
-      throw InvalidInput(argument(name) + " = " +
-                         Phrase(Phrase::Kind::value, "(" + show(box[0]) + ", " + show(box[1]) + ")", {box[0], box[1]}) +
+      throw InvalidInput(argument(name) + " = " + pair(box[0], box[1]) +
                          ": must be (lo, hi) with lo < hi, a millionth apart or more");
   }
   require_rtol(request.rtol);
@@ -46,44 +45,20 @@ void check_temperature(const std::array<double, 2>& temperature) {
   for (const double one : temperature) require_temperature(one);
   const auto [lowest, highest] = temperature;
   if (lowest != highest && !(lowest + least_range <= highest))
-    throw InvalidInput(argument("temperature") + " = " +
-                       Phrase(Phrase::Kind::value, "(" + show(lowest) + ", " + show(highest) + ")", {lowest, highest}) +
-                       must_be() + "one, or (lo, hi) with lo < hi, " + show(least_range) + " K apart or more");
+    throw InvalidInput(argument("temperature") + " = " + pair(lowest, highest) + must_be() +
+                       "one, or (lo, hi) with lo < hi, " + show(least_range) + " K apart or more");
 }
 
-struct Places {
-  std::vector<double> pressure, velocity, temperature;
-};
-
-/// 81 points of the box, evenly in the logarithms, edges and corners too.
-Places places_of(const MapRequest& request) {
+/// 81 points of the box at each temperature, evenly in the logarithms, edges and corners too.
+MapPoints points_of(const MapRequest& request, const std::vector<double>& temperatures) {
   constexpr int steps = 8;
-  const auto between = [](const std::array<double, 2>& box, int i) {
-    const double share = static_cast<double>(i) / steps;
-    return i == 0 ? box[0] : i == steps ? box[1] : std::exp((1 - share) * std::log(box[0]) + share * std::log(box[1]));
-  };
-  Places places;
-  for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
-    for (int j = 0; j <= steps; ++j) {
-      places.velocity.push_back(between(request.velocity, i));
-      places.pressure.push_back(between(request.pressure, j));
-    }
-  return places;
-}
-
-/// The same at both ends of the temperatures and in their middle.
-Places places_of(const MapRequest& request, const std::array<double, 2>& temperature) {
-  const auto [lowest, highest] = temperature;
-  const Places at_one = places_of(request);
-  Places places;
-  const std::vector<double> ends =
-      lowest == highest ? std::vector{lowest} : std::vector{lowest, highest, (lowest + highest) / 2};
-  for (const double one : ends) {
-    places.pressure.insert(places.pressure.end(), at_one.pressure.begin(), at_one.pressure.end());
-    places.velocity.insert(places.velocity.end(), at_one.velocity.begin(), at_one.velocity.end());
-    places.temperature.insert(places.temperature.end(), at_one.velocity.size(), one);
-  }
-  return places;
+  MapPoints points;
+  for (const double one : temperatures)
+    for (const int i : {0, steps, 1, 2, 3, 4, 5, 6, 7})  // the ends first: errors name the sides of the box
+      for (int j = 0; j <= steps; ++j)
+        points.add(between(request.pressure, static_cast<double>(j) / steps),
+                   between(request.velocity, static_cast<double>(i) / steps), one);
+  return points;
 }
 
 std::string text_of(const std::vector<Diagnostic>& notes, const MapRequest& request) {
@@ -170,7 +145,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   ContactModel model = given;
   if (const auto* const scan = std::get_if<ScanContact>(&given.correction))
     model.correction = scan->with_pressure_lattice();  // a map asks at many pressures, a few at a time
-  const Places at = places_of(request);
+  const MapPoints at = points_of(request, {0});
   const std::string text =
       text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);
   MapRequest whole = request;
@@ -193,7 +168,9 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   if (std::holds_alternative<ScanContact>(model.correction))
     throw InvalidInput(argument("correction") + " = " + word("ScanContact") + must_be() +
                        "another one in a map with heat, of which every point is a contact");
-  const Places at = places_of(request, temperature);
+  const auto [lowest, highest] = temperature;
+  const MapPoints at = points_of(
+      request, lowest == highest ? std::vector{lowest} : std::vector{lowest, highest, (lowest + highest) / 2});
   const FlashFriction found =
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);
   refuse_folds(found);

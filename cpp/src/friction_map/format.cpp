@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asperity/friction_map.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
@@ -112,11 +113,8 @@ std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std:
     const std::array<double, 32>* const p = &leaf.polynomial[2 * i];
     std::array<std::array<double, 32>, 4> power;
     for (std::size_t c = 0; c < 32; ++c) {
-      const double rise = p[2][c] - p[0][c], first = p[1][c], last = p[3][c];
-      power[0][c] = p[0][c];
-      power[1][c] = first;
-      power[2][c] = (3 * rise / h - 2 * first - last) / h;
-      power[3][c] = (first + last - 2 * rise / h) / (h * h);
+      const std::array<double, 4> cubic = hermite_powers(p[0][c], p[1][c], p[2][c], p[3][c], h);
+      for (std::size_t k = 0; k < 4; ++k) power[k][c] = cubic[k];
     }
     result.insert(result.end(), power.begin(), power.end());
   }

@@ -66,18 +66,10 @@ ValueAndSlope LoadShift::Piece::operator()(double z) const {
   return {value, slope / half};
 }
 
-ValueAndSlope LoadShift::operator()(double z) const {
-  if (pieces_.empty()) return {0, 0};
-  const auto above = std::ranges::lower_bound(pieces_, z, {}, &Piece::lower);
-  return above == pieces_.begin() ? pieces_.front()(z) : (*(above - 1))(z);
-}
-
-ValueAndSlope LoadShift::operator()(double z, std::size_t band) const {
-  if (pieces_.empty()) return {0, 0};
-  const auto first = pieces_.begin() + static_cast<std::ptrdiff_t>(bands_[band]);
-  const auto last = pieces_.begin() + static_cast<std::ptrdiff_t>(bands_[band + 1]);
-  const auto above = std::ranges::lower_bound(first, last, z, {}, &Piece::lower);
-  return above == first ? (*first)(z) : (*(above - 1))(z);
+ValueAndSlope LoadShift::on(std::span<const Piece> pieces, double z) {
+  if (pieces.empty()) return {0, 0};
+  const auto above = std::ranges::lower_bound(pieces, z, {}, &Piece::lower);
+  return above == pieces.begin() ? pieces.front()(z) : (*(above - 1))(z);
 }
 
 }  // namespace asperity

@@ -25,9 +25,11 @@ class LoadShift {
 
   [[nodiscard]] bool any() const { return !pieces_.empty(); }
   /// The last interval that begins below z, or the one that ends there.
-  [[nodiscard]] ValueAndSlope operator()(double z) const;
+  [[nodiscard]] ValueAndSlope operator()(double z) const { return on(pieces_, z); }
   /// On the side of a cut that a band (from 0) is on.
-  [[nodiscard]] ValueAndSlope operator()(double z, std::size_t band) const;
+  [[nodiscard]] ValueAndSlope operator()(double z, std::size_t band) const {
+    return any() ? on(std::span(pieces_).subspan(bands_[band], bands_[band + 1] - bands_[band]), z) : on(pieces_, z);
+  }
   /// The largest error that was found.
   [[nodiscard]] double error() const { return error_; }
   /// Of z + ln p_T.
@@ -40,6 +42,7 @@ class LoadShift {
     std::array<double, n> power;  // of -1 to 1 over the interval
     [[nodiscard]] ValueAndSlope operator()(double z) const;
   };
+  static ValueAndSlope on(std::span<const Piece> pieces, double z);
   void add(const std::function<Sample(double z)>& exact, double lower, double upper, double tolerance, int depth);
 
   std::vector<Piece> pieces_;       // in order

@@ -111,21 +111,15 @@ void MapPatches::interpolate(std::span<const std::size_t> wanted) {
         places.push_back({patch.middle.x + patch.half.x * x, patch.middle.z + patch.half.z * z});
   }
   const std::vector<MapSample> found = frame_.sample_unshifted(places, threads_);
+  const Eigen::Map<const Matrix> transform(points.transform[0].data());
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     Patch& patch = patches_[wanted[w]];
     const MapSample* const sample = &found[w * n * n];
     patch.error = std::ranges::max_element(sample, sample + n * n, {}, &MapSample::error)->error;
     for (std::size_t f = 0; f < 2; ++f) {
-      std::array<Row, n> in_z{};  // at each x
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t m = 0; m < n; ++m)
-          for (std::size_t k = 0; k < n; ++k) in_z[i][m] += points.transform[m][k] * sample[i * n + k].f[f];
-      for (std::size_t m = 0; m < n; ++m) {
-        Row& row = patch.coefficient[f][m];
-        row = {};
-        for (std::size_t k = 0; k < n; ++k)
-          for (std::size_t j = 0; j < n; ++j) row[j] += points.transform[m][k] * in_z[k][j];
-      }
+      Matrix value;
+      for (std::size_t i = 0; i < n * n; ++i) value.data()[i] = sample[i].f[f];
+      patch.coefficient[f] = transform * value * transform.transpose();
     }
   }
 }
@@ -172,14 +166,9 @@ void MapPatches::halve(std::size_t index, bool in_x) {
 
 /// The largest of the last two coefficients in x, and in z.
 std::array<double, 2> MapPatches::last_coefficients(const Patch& patch) {
-  std::array<double, 2> last{};
-  for (const auto& c : patch.coefficient)
-    for (std::size_t i = 0; i < n; ++i)
-      for (const std::size_t k : {n - 2, n - 1}) {
-        last[0] = std::fmax(last[0], std::fabs(c[k][i]));
-        last[1] = std::fmax(last[1], std::fabs(c[i][k]));
-      }
-  return last;
+  const auto& [f, g] = patch.coefficient;
+  return {std::max(f.bottomRows<2>().cwiseAbs().maxCoeff(), g.bottomRows<2>().cwiseAbs().maxCoeff()),
+          std::max(f.rightCols<2>().cwiseAbs().maxCoeff(), g.rightCols<2>().cwiseAbs().maxCoeff())};
 }
 
 /// The patch of a strip's first ones that holds a place.
@@ -202,29 +191,11 @@ const MapPatches::Patch& MapPatches::find(std::uint32_t band, const MapPlace& pl
   return patches_[at];
 }
 
-namespace {
-
-template <std::size_t n>
-double dot(const std::array<double, n>& a, const std::array<double, n>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-template <std::size_t n>
-std::array<double, n> combine(const std::array<std::array<double, n>, n>& c, const std::array<double, n>& weight) {
-  std::array<double, n> result{};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) result[j] += weight[i] * c[i][j];
-  return result;
-}
-
-}  // namespace
-
 std::array<double, 2> MapPatches::value(const Patch& patch, const MapPlace& place) {
-  const Row x = chebyshev<n>((place.x - patch.middle.x) / patch.half.x);
-  const Row z = chebyshev<n>((place.z - patch.middle.z) / patch.half.z);
-  return {dot(combine(patch.coefficient[0], x), z), dot(combine(patch.coefficient[1], x), z)};
+  const Vector x = vector(chebyshev<n>((place.x - patch.middle.x) / patch.half.x));
+  const Vector z = vector(chebyshev<n>((place.z - patch.middle.z) / patch.half.z));
+  return {z.dot(patch.coefficient[0].transpose().lazyProduct(x)),
+          z.dot(patch.coefficient[1].transpose().lazyProduct(x))};
 }
 
 // With y = ln p, f = m(x, y + tau) less tau for mu_H, tau = ln p_T at z = y - ln E*.
@@ -244,20 +215,20 @@ MapSlopes MapPatches::slopes(std::uint32_t band, const MapPlace& place) {
   const MapPlace load{place.x, place.z + offset.value + tau.value};
   const Patch& patch = find(band, load);
   const double x = (place.x - patch.middle.x) / patch.half.x, z = (load.z - patch.middle.z) / patch.half.z;
-  const Row in_x = chebyshev<n>(x), in_z = chebyshev<n>(z);
-  const auto [slope_x, bend_x] = chebyshev_slopes<n>(x);
-  const auto [slope_z, bend_z] = chebyshev_slopes<n>(z);
+  const auto [slopes_x, bends_x] = chebyshev_slopes<n>(x);
+  const auto [slopes_z, bends_z] = chebyshev_slopes<n>(z);
+  const Vector in_x = vector(chebyshev<n>(x)), slope_x = vector(slopes_x) / patch.half.x;
+  const Vector in_z = vector(chebyshev<n>(z)), slope_z = vector(slopes_z) / patch.half.z;
   MapSlopes at{};
   for (std::size_t f = 0; f < 2; ++f) {
-    const Row row = combine(patch.coefficient[f], in_x), slope = combine(patch.coefficient[f], slope_x);
-    const double by_x = dot(slope, in_z) / patch.half.x, by_load = dot(row, slope_z) / patch.half.z;
-    const double by_both = dot(slope, slope_z) / (patch.half.x * patch.half.z);
-    const double by_load_twice = dot(row, bend_z) / (patch.half.z * patch.half.z);
+    const Matrix& c = patch.coefficient[f];
+    const Vector row = c.transpose().lazyProduct(in_x), slope = c.transpose().lazyProduct(slope_x);
+    const double by_load = row.dot(slope_z), by_load_twice = row.dot(vector(bends_z)) / std::pow(patch.half.z, 2);
     const double divided = f == 0 && frame_.hysteresis() ? 1 : 0;  // by p_T
-    at.f[f] = dot(row, in_z) - divided * tau.value;
-    at.x[f] = by_x + by_load * offset.slope;
+    at.f[f] = row.dot(in_z) - divided * tau.value;
+    at.x[f] = slope.dot(in_z) + by_load * offset.slope;
     at.z[f] = by_load * (1 + tau.slope) - divided * tau.slope;
-    at.xz[f] = (by_both + by_load_twice * offset.slope) * (1 + tau.slope);
+    at.xz[f] = (slope.dot(slope_z) + by_load_twice * offset.slope) * (1 + tau.slope);
   }
   return at;
 }

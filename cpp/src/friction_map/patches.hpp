@@ -1,6 +1,7 @@
 // The solver's numbers over the rectangle of a map as polynomials of high degree, from which cells are made.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,14 +42,15 @@ class MapPatches {
 
  private:
   static constexpr std::size_t n = 12;
-  using Row = std::array<double, n>;
+  using Vector = Eigen::Matrix<double, n, 1>;
+  using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
   struct Patch {
     MapPlace middle, half;  // half its size
     bool made = false;
     std::int32_t child = -1;  // the first of two; -1: not halved
     bool in_x = false;        // which way it was halved
     double error = 0;
-    std::array<std::array<Row, n>, 2> coefficient{};  // of T_i(x) T_j(z), of each function
+    std::array<Matrix, 2> coefficient{};  // of T_i(x) T_j(z), of each function
   };
   struct Strip {  // patches that all begins with, by columns; one a band of slanted coordinates, else one in all
     std::size_t first, columns, rows;
@@ -64,6 +66,9 @@ class MapPatches {
   [[nodiscard]] std::vector<std::size_t> in_box() const;
   [[nodiscard]] static std::size_t first_at(const Strip& strip, const MapPlace& place);
   [[nodiscard]] const Patch& find(std::uint32_t band, const MapPlace& place);
+  [[nodiscard]] static Vector vector(const std::array<double, n>& values) {
+    return Eigen::Map<const Vector>(values.data());
+  }
   [[nodiscard]] static std::array<double, 2> value(const Patch& patch, const MapPlace& place);
 
   const MapFrame& frame_;

@@ -2,7 +2,9 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +19,21 @@ namespace asperity {
 struct MapPlace {
   double x, z;
 };
+
+/// Points of the box: [Pa], [m/s], [K].
+struct MapPoints {
+  std::vector<double> pressure, velocity, temperature;
+  void add(double p, double v, double T) {
+    pressure.push_back(p);
+    velocity.push_back(v);
+    temperature.push_back(T);
+  }
+};
+
+/// A number at a share of the way between the logarithms of two sides.
+inline double between(const std::array<double, 2>& sides, double share) {
+  return std::clamp(std::exp((1 - share) * std::log(sides[0]) + share * std::log(sides[1])), sides[0], sides[1]);
+}
 
 struct MapSample {
   std::array<double, 2> f;  // ln mu_H (0 without hysteresis), ln A/A0

@@ -28,14 +28,6 @@ std::size_t points(double range, double step, double most) {
   return static_cast<std::size_t>(std::clamp(std::ceil(range / step) + 1, 2.0, most));
 }
 
-double between(const std::array<double, 2>& sides, double share) {
-  return std::clamp(std::exp((1 - share) * std::log(sides[0]) + share * std::log(sides[1])), sides[0], sides[1]);
-}
-
-struct Points {
-  std::vector<double> pressure, velocity, temperature;
-};
-
 /// How far the table is: halvings of the grid, which nobody foresees, share what is left with the test that is to come.
 class Progress {
  public:
@@ -69,7 +61,7 @@ double temperature_at(const std::array<double, 2>& range, double share) {
   return std::fmin(range[1], range[0] + share * (range[1] - range[0]));
 }
 
-std::vector<double> lengths(const Scene& scene, const Points& at, std::size_t others) {
+std::vector<double> lengths(const Scene& scene, const MapPoints& at, std::size_t others) {
   constexpr std::size_t together = 4;  // a tenth of a second and more on a scan
   std::vector<double> result(at.velocity.size());
   scene.progress.begin(result.size(), others);
@@ -85,7 +77,7 @@ std::vector<double> lengths(const Scene& scene, const Points& at, std::size_t ot
   return result;
 }
 
-FlashFriction heated(const Scene& scene, const Points& at) {
+FlashFriction heated(const Scene& scene, const MapPoints& at) {
   return friction(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model,
                   scene.heat.adhesion, at.pressure, at.velocity, at.temperature, Branch::coldest, false, scene.threads);
 }
@@ -123,20 +115,19 @@ double error_of(const SlidingTable& table, const Scene& scene) {
   const MapRequest& request = scene.request;
   Random random(20261124);
   const double range_x = std::log(request.velocity[1] / request.velocity[0]);
-  Points at;
+  MapPoints at;
   std::vector<double> ln_length, slid;
   for (std::size_t i = 0; i < tested; ++i) {
     const double share_x = random(), share_T = random();
-    at.pressure.push_back(between(request.pressure, random()));
-    at.velocity.push_back(between(request.velocity, share_x));
-    at.temperature.push_back(temperature_at(scene.heat.range, share_T));
+    at.add(between(request.pressure, random()), between(request.velocity, share_x),
+           temperature_at(scene.heat.range, share_T));
     ln_length.push_back(found_at(table, share_x, share_T, range_x));
     slid.push_back(longest * random());
   }
   const FlashFriction f = heated(scene, at);
   double largest = 0;
   std::vector<std::size_t> wanted;
-  Points of_wanted;
+  MapPoints of_wanted;
   for (std::size_t i = 0; i < tested; ++i) {
     const double change = changed(f, i);
     if (change <= negligible * request.rtol) {
@@ -144,9 +135,7 @@ double error_of(const SlidingTable& table, const Scene& scene) {
       continue;
     }
     wanted.push_back(i);
-    of_wanted.pressure.push_back(at.pressure[i]);
-    of_wanted.velocity.push_back(at.velocity[i]);
-    of_wanted.temperature.push_back(at.temperature[i]);
+    of_wanted.add(at.pressure[i], at.velocity[i], at.temperature[i]);
   }
   const std::vector<double> length = lengths(scene, of_wanted, 0);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -264,12 +253,10 @@ class Grid {
 
   void compute(const std::vector<std::size_t>& wanted) {
     const MapRequest& request = scene_.request;
-    Points at;
-    for (const std::size_t k : wanted) {
-      at.pressure.push_back(between(request.pressure, 0.5));
-      at.velocity.push_back(between(request.velocity, share(k % columns_, columns_)));
-      at.temperature.push_back(temperature_at(scene_.heat.range, share(k / columns_, rows_)));
-    }
+    MapPoints at;
+    for (const std::size_t k : wanted)
+      at.add(between(request.pressure, 0.5), between(request.velocity, share(k % columns_, columns_)),
+             temperature_at(scene_.heat.range, share(k / columns_, rows_)));
     const std::vector<double> length = lengths(scene_, at, tested);
     const FlashFriction f = heated(scene_, at);
     for (std::size_t k = 0; k < wanted.size(); ++k) nodes_[wanted[k]] = {std::log(length[k]), changed(f, k), 0};
