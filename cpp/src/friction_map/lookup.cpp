@@ -78,17 +78,13 @@ struct MapLoops {
   ASPERITY_LOOP(all_within);
   ASPERITY_LOOP(steps);
   ASPERITY_LOOP(slant);
-  ASPERITY_LOOP(warm_polynomials);
   ASPERITY_LOOP(at_temperature);
   ASPERITY_LOOP(sliding_lengths);
-  ASPERITY_LOOP(sliding_lengths_of_row);
   ASPERITY_LOOP(cold_velocities);
   ASPERITY_LOOP(held_sums);
   ASPERITY_LOOP(blend);
-  ASPERITY_LOOP(blend_both_parts);
   ASPERITY_LOOP(exponentials);
-  ASPERITY_LOOP(adhesions);
-  ASPERITY_LOOP(both_parts);
+  ASPERITY_LOOP(parts);
   ASPERITY_LOOP(slopes);
   ASPERITY_LOOP(chain_rule);
 };
@@ -108,29 +104,15 @@ class FrictionMapBatch {
   FrictionMapBatch(const FrictionMap& map, FrictionMap::Outside outside, bool shifts_adhesion)
       : map_(map), outside_(outside), shifts_adhesion_(shifts_adhesion), loops_(map_loops()) {}
 
-  /// Before n points: where they share T0, sums over it once for all the cubics of ln s0 and, if the points are more
-  /// than the cells, the cells' polynomials.
+  /// Before n points, more than the cells: where they share T0, sums over it once for the cells' polynomials.
   void share_temperature(const MapColumns& points, std::size_t n) {
-    if (!map_.info_.heat || points.background.size() > 1) return;
+    if (map_.steps_ == 0 || map_.is_slanted_ || points.background.size() > 1 || n < map_.info_.cells) return;
+    const auto [lowest, highest] = map_.info_.temperature;
+    const double background = points.background.empty() ? 0 : points.background[0];
+    if (!(background >= lowest && background <= highest)) return;
     FrictionMap::Where at;
-    if (map_.is_slanted_) {
-      at.background = points.background.empty() ? 0 : points.background[0];
-      const auto [lowest, highest] = map_.info_.temperature;
-      if (!(at.background >= lowest && at.background <= highest)) return;
-    } else if (map_.steps_ > 0) {
-      const auto [lowest, highest] = map_.info_.temperature;
-      const double background = points.background.empty() ? 0 : points.background[0];
-      if (!(background >= lowest && background <= highest)) return;
-      map_.set_step(background, at);
-      shared_log_a_T_ = map_.log_a_T(at);
-    }
-    if (!points.distance.empty()) {
-      const FrictionMap::SlidingRows rows = map_.sliding_rows(at);
-      for (std::int64_t i = 0; i < map_.row_size_; i += 8)
-        for (std::int64_t k = i; k < i + 4; ++k)
-          sliding_at_shared_T0_.push_back(rows.cubics[k] + rows.cubics[k + 4] * rows.share);
-    }
-    if (map_.steps_ == 0 || map_.is_slanted_ || n < map_.info_.cells) return;
+    map_.set_step(background, at);
+    shared_log_a_T_ = map_.log_a_T(at);
     const Cells of = cells_of(map_);
     at_shared_T0_.resize(map_.info_.cells * map_detail::block_size / std::size(map_detail::Line{}.number));
     loops_.at_temperature(of, static_cast<std::size_t>(at.step), at.dT, map_.info_.cells,
@@ -171,8 +153,7 @@ class FrictionMapBatch {
     if (map_.offset_.empty()) std::fill_n(offset_slope_, n, 0.0);
     const double* const z = find_cells(map_, x_, n);
     const MapSlopes found{hot_.h, hot_.a, h_x_, a_x_, h_z_, a_z_};
-    const bool has_steps = map_.steps_ > 0 && at_shared_T0_.empty();
-    loops_.slopes(cells_of(map_), cell_, has_steps ? step_ : nullptr, x_, z, dT_, n, found);
+    loops_.slopes(cells_of(map_), cell_, steps_of(map_), x_, z, dT_, n, found);
     exponentials(MapQuantity::hysteresis, map_, hot_, at.ln_v, n, hot_.h);
     exponentials(MapQuantity::adhesion, map_, hot_, at.ln_v, n, hot_.a);
     loops_.chain_rule(hot_.h, hot_.a, found, offset_slope_, at.ln_v, map_.ln_reference_, map_.width_, n, by_p, by_v);
@@ -244,10 +225,7 @@ class FrictionMapBatch {
   /// Of a map at ln p and these ln v.
   void find_logarithms(const FrictionMap& map, const double* x, std::size_t n, const LogarithmsOfBoth& to) {
     const double* const z = find_cells(map, x, n);
-    if (map.steps_ == 0 || !at_shared_T0_.empty())
-      loops_.polynomials(cells_of(map), cell_, x, z, n, to.h, to.a);
-    else
-      loops_.warm_polynomials(cells_of(map), cell_, step_, x, z, dT_, n, to.h, to.a);
+    loops_.polynomials(cells_of(map), cell_, steps_of(map), x, z, dT_, n, to.h, to.a);
   }
 
   /// Of a slanted map; leaves ln v a_T in slanted_x_.
@@ -257,7 +235,7 @@ class FrictionMapBatch {
                          map_.log_a_T_[1], map_.steps_ - 1.0, map_.step_of_share_};
     loops_.slant(box, x_, at.background, n, slanted_x_, step_, dT_);
     find_cells_at(map_, ln_p_, slanted_x_, n);
-    loops_.warm_polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, hot_.h, hot_.a);
+    loops_.polynomials(cells_of(map_), cell_, step_, ln_p_, slanted_x_, dT_, n, hot_.h, hot_.a);
   }
 
   static MapAdhesion adhesion_of(const FrictionMap& map) {
@@ -270,14 +248,9 @@ class FrictionMapBatch {
     if (quantity == MapQuantity::contact_area) return loops_.exponentials(of.a, result, n);
     const bool has_hysteresis = quantity != MapQuantity::adhesion && map.info_.hysteresis;
     const bool has_adhesion = quantity != MapQuantity::hysteresis && map.info_.shear_stress > 0;
-    if (has_hysteresis && has_adhesion)
-      loops_.both_parts(of.h, of.a, ln_p_, ln_v, adhesion_of(map), n, result);
-    else if (has_hysteresis)
-      loops_.exponentials(of.h, result, n);
-    else if (has_adhesion)
-      loops_.adhesions(of.a, ln_p_, ln_v, adhesion_of(map), n, result);
-    else
-      std::fill_n(result, n, 0.0);
+    if (!has_hysteresis && !has_adhesion) return std::fill_n(result, n, 0.0), void();
+    loops_.parts(has_hysteresis ? of.h : nullptr, has_adhesion ? of.a : nullptr, ln_p_, ln_v, adhesion_of(map), n,
+                 result);
   }
 
   /// z of x and ln_p_; the cells there in cell_, and the slope of s over x in offset_slope_ where the map has s.
@@ -304,10 +277,14 @@ class FrictionMapBatch {
             shared ? map_detail::block_size : map.cell_size_};
   }
 
+  /// Of the temperature, where a map has them and its points do not share one.
+  [[nodiscard]] const std::int32_t* steps_of(const FrictionMap& map) const {
+    return map.steps_ > 0 && at_shared_T0_.empty() ? step_ : nullptr;
+  }
+
   /// A number at x_ between that of hot_ and the cold one, of which a share is left after a distance.
   void blend_cold(MapQuantity quantity, const Block& place, std::size_t n, double* result) {
-    const bool has_row = !sliding_at_shared_T0_.empty();
-    const SlidingTable lengths{has_row ? sliding_at_shared_T0_.data() : map_detail::numbers(map_.sliding_),
+    const SlidingTable lengths{map_detail::numbers(map_.sliding_),
                                map_.offset_x_,
                                map_.sliding_per_x_,
                                static_cast<double>(map_.last_column_),
@@ -315,10 +292,7 @@ class FrictionMapBatch {
                                map_.rows_per_T_,
                                static_cast<double>(std::max<std::int64_t>(map_.last_row_, 0)),
                                static_cast<std::int32_t>(map_.row_size_)};
-    if (has_row)
-      loops_.sliding_lengths_of_row(lengths, x_, n, ln_s0_, cell_);
-    else
-      loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
+    loops_.sliding_lengths(lengths, x_, place.background, n, ln_s0_, speed_, cell_);
     const double* x = x_;
     if (map_.is_slanted_) {
       x = speed_;
@@ -332,9 +306,6 @@ class FrictionMapBatch {
         loops_.held_sums(x_, shared_log_a_T_, shift.lowest, shift.highest, n, speed_);
     }
     find_logarithms(*map_.cold_, x, n, cold_);
-    const bool is_mu = quantity == MapQuantity::mu || quantity == MapQuantity::traction;
-    if (is_mu && map_.info_.hysteresis && map_.info_.shear_stress > 0)
-      return loops_.blend_both_parts(hot_, cold_, ln_s0_, place.distance, ln_p_, x_, adhesion_of(map_), n, result);
     exponentials(quantity, map_, hot_, x_, n, result);
     exponentials(quantity, *map_.cold_, cold_, x_, n, cold_.h);
     loops_.blend(ln_s0_, place.distance, cold_.h, n, result);
@@ -356,7 +327,6 @@ class FrictionMapBatch {
   bool shifts_adhesion_;
   const MapLoops& loops_;
   std::vector<map_detail::Line> at_shared_T0_;  // the cells' polynomials of a map of this T0, or none
-  std::vector<double> sliding_at_shared_T0_;    // the cubics of ln s0 over x at it, or none
   double shared_log_a_T_ = 0;
   double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block];
