@@ -122,8 +122,7 @@ def contact_area(
     strain_factors : StrainFactors, optional
         The modulus at the strain of each magnification; by default that of small strain.
     direction : float
-        Of sliding [rad], as in `friction`; of a spectrum that knows directions the area is known at
-        q1 alone.
+        Of sliding [rad], as in `friction`, over a spectrum that knows directions.
 
     Returns
     -------
@@ -156,13 +155,14 @@ def mean_pressure(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> Any:
     """Return the mean contact pressure <sigma> = sigma0 A0 / A [Pa] (Eq. 1) at a magnification.
 
     It is infinite where there is no contact. Arguments, shape and errors are those of
     `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     return _over_wavenumber(
         _core.mean_pressure, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -181,6 +181,7 @@ def correction_factor(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> Any:
     """Return the correction factor CF of Section 6.1 [-].
 
@@ -188,7 +189,7 @@ def correction_factor(
     friction PF-CF = S A / A0 with the uncorrected A. It is what the integrand of Eq. 22 is weighted
     with, 1 in full contact. Arguments, shape and errors are those of `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     return _over_wavenumber(
         _core.correction_factor, spectrum, rubber, pressure, velocity, model, wavenumber
     )
@@ -234,6 +235,7 @@ def pressure_distribution(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
+    direction: float = 0.0,
 ) -> Any:
     """Return the probability density P(sigma) of the contact pressure [1/Pa] (Eq. 4 solved).
 
@@ -256,7 +258,9 @@ def pressure_distribution(
         In the broadcast shape of stress, pressure and velocity.
     """
     shape, (sigma, p, v) = broadcast(stress=stress, pressure=pressure, velocity=velocity)
-    model = contact_model(poisson_ratio, correction, "exact", rtol, method, strain_factors)
+    model = contact_model(
+        poisson_ratio, correction, "exact", rtol, method, strain_factors, direction
+    )
     parts = surface_and_rubber(spectrum, rubber)
     q = number_or_none(wavenumber, "wavenumber")
     q = spectrum_of(spectrum).q1 if q is None else q

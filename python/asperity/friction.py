@@ -118,7 +118,7 @@ def friction(
         that know directions alone (`SelfAffineSpectrum(axis_ratio=, lay=)`,
         `power_spectrum(map, directional=True)`): sums over the plane of wavevectors then stand for
         I1 and I2, by as many harmonics as rtol asks for, and `lateral` is the force across. Not
-        with heating, contributions, GSL's methods and ScanContact.
+        with GSL's methods and ScanContact.
 
     Returns
     -------

@@ -135,7 +135,8 @@ def closed(w, _wavenumber):
 
 
 def solve(scene, between, last, integrals, kernel, root, count, growth, longest, in_power):
-    """Return hysteresis, area, P_m and the rise at q_e and q1.
+    """Return hysteresis, area, P_m and the rise at q_e and q1, then sums as the hysteresis of what
+    `integrals` has beside I1 and I2.
 
     Panels end at the scene's `stops` too [1/m], in rising order.
     """
@@ -183,7 +184,7 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     theta, part, missed = np.zeros(wavenumber.size), 0.6, np.inf
     cold = below_one(integrals_at(theta)[1])
     for _ in range(400):
-        i1, i2 = integrals_at(theta)
+        i1, i2, *others = integrals_at(theta)
         stiffness = i2[:of_band].reshape(y.shape)
         rate = rough * stiffness
         before = np.cumsum([0.0, *(rate * weights).sum(axis=1)])
@@ -213,7 +214,8 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
         waves = OBSTACLE * nodes[5] ** 0.2 * kappa**0.25 * rest**0.125 * (1 + LIGHT * tenth**3)
         at_edges = EDGES * (1 - rest) * fourth * max(1.0, 0.1 * (1 - excess))
         stress = nodes[1] * share / (1 + waves * share**2 * nodes[2]) ** 2
-        carried = np.concatenate([(stress * nodes[3]).ravel(), at_edges * edge * i1[on_edges]])
+        per_i2 = np.concatenate([(stress / stiffness).ravel(), at_edges * edge])
+        carried = per_i2 * i1[: per_i2.size]
         tables.agree(
             "hot_partial_contact", carried.sum() / hysteresis * 4 * pressure * 0.75, 1, 1e-11
         )
@@ -222,8 +224,10 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
         flux = 4 * pressure * (1 - scene["poisson_ratio"] ** 2) * carried
         unit = 2 * velocity * pressure / (DENSITY * scene["heat_capacity"] * macro_area)
         rise = unit * (g @ flux)
-        if np.abs(rise - theta).max() < 1e-12 * rise.max():
-            return hysteresis, 1 - rest, macro_area, rise[-2], rise[-1]
+        if np.abs(rise - theta).max() <= 1e-12 * rise.max():
+            force = 4 * pressure * (1 - scene["poisson_ratio"] ** 2)
+            beside = (force * (per_i2 @ other[: per_i2.size]) for other in others)
+            return hysteresis, 1 - rest, macro_area, rise[-2], rise[-1], *beside
         if np.abs(rise - theta).max() > 0.9 * missed:
             part = max(0.1, part / 1.5)
         missed = np.abs(rise - theta).max()

@@ -109,7 +109,7 @@ class ASPERITY_EXPORT MasterCurve {
   /// comes from outside.
   [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
                                        std::span<double> i1_outside = {}) const;
-  /// int (Im E(w cos phi))^2 dphi at each of `w`, the part of I2 that E'' has [Pa^2].
+  /// int (Im E(w cos phi))^2 cos(2 m phi) dphi, what E'' has of K_m [Pa^2], in rows of m = 0, 1 ... as many as fit.
   void loss_part(std::span<const double> w, std::span<double> part) const;
   /// L_1 to L_count and K_1 to K_count into rows of w.size(), to 1e-9 of L_0 and K_0.
   void angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,

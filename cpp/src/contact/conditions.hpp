@@ -44,17 +44,25 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   for (const double v : velocity) require_positive("velocity", v);
 }
 
-/// What is known of directional spectra, beside the checks of all.
-inline void check_directional(const ContactModel& model) {
-  constexpr double least_rtol = 1e-7;
-  check_gauss(model.method, "with a directional spectrum, whose sums GSL's methods do not know");
-  if (model.rtol < least_rtol) refuse("rtol", model.rtol, "1e-7 or more with a directional spectrum");
-  if (model.strain_factors)
-    throw InvalidInput(argument("strain_factors") + ": are not known with a directional spectrum" + must_be() + "none");
-  if (std::holds_alternative<ScanContact>(model.correction))
-    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + ": takes the mean over directions" +
-                       must(", must have ") + "a spectrum without harmonics");
-}
+/// A spectrum as it is solved: rows with harmonics where it knows directions.
+class AsSolved {
+ public:
+  AsSolved(const Spectrum& spectrum, const ContactModel& model) : spectrum_(spectrum) {
+    if (!is_directional(spectrum)) return;
+    constexpr double least_rtol = 1e-7;  // of the rows of a law (directional_table)
+    check_gauss(model.method, "with a directional spectrum, whose force across GSL's methods do not know");
+    if (model.rtol < least_rtol) refuse("rtol", model.rtol, "1e-7 or more with a directional spectrum");
+    if (std::holds_alternative<ScanContact>(model.correction))
+      throw InvalidInput(argument("correction") + " = " + word("ScanContact") + ": takes the mean over directions" +
+                         must(", must have ") + "a spectrum without harmonics");
+    if (std::holds_alternative<SelfAffineSpectrum>(spectrum)) table_.emplace(directional_table(spectrum));
+  }
+  [[nodiscard]] const Spectrum& get() const { return table_ ? *table_ : spectrum_; }
+
+ private:
+  const Spectrum& spectrum_;
+  std::optional<Spectrum> table_;
+};
 
 /// Of an angle in radians.
 inline std::optional<Diagnostic> note_on_angle(double direction) {

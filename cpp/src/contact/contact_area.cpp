@@ -147,29 +147,18 @@ void refuse_scan(const ContactModel& model, const char* what) {
                        ", must be another one; validation.slide gives the pressure at every point");
 }
 
-/// Of a directional spectrum the contact is known at its end.
-void check_directions(const Spectrum& spectrum, const ContactModel& model, std::span<const double> wavenumber) {
-  if (!is_directional(spectrum)) return;
-  check_directional(model);
-  for (const double q : wavenumber)
-    if (const double q1 = band(spectrum)[1]; q != q1)
-      throw InvalidInput(argument("wavenumber") + " = " + value(q) + must_be() + show(q1) +
-                         ", the end of the spectrum, where it knows directions; truncate it there");
-}
-
 bool by_partial_contact(const ContactModel& model) { return std::holds_alternative<PartialContact>(model.correction); }
 
 }  // namespace
 
-std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+std::vector<double> contact_area(const Spectrum& given, const Rubber& rubber, const ContactModel& model,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> wavenumber) {
-  if (std::holds_alternative<SelfAffineSpectrum>(spectrum) && is_directional(spectrum))
-    return contact_area(directional_table(spectrum), rubber, model, pressure, velocity, wavenumber);
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   if (const auto* const scan = scan_of(model)) return scan_area(*scan, spectrum, rubber, model, pressure, velocity, q);
   std::vector<double> result(pressure.size() * q.size());
-  check_directions(spectrum, model, q);
   if (by_partial_contact(model)) {
     visit_partial(spectrum, rubber, model, pressure, velocity, q,
                   [&](std::size_t i, std::size_t j, double, double area) { result[i * q.size() + j] = area; });
@@ -184,10 +173,10 @@ std::vector<double> contact_area(const Spectrum& spectrum, const Rubber& rubber,
   return result;
 }
 
-std::vector<Diagnostic> contact_notes(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+std::vector<Diagnostic> contact_notes(const Spectrum& given, const Rubber& rubber, const ContactModel& model,
                                       std::span<const double> pressure, std::span<const double> velocity) {
-  if (std::holds_alternative<SelfAffineSpectrum>(spectrum) && is_directional(spectrum))
-    return contact_notes(directional_table(spectrum), rubber, model, pressure, velocity);
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   check_contact(model, pressure, velocity);
   Notes notes(spectrum, rubber, model.correction);
   if (std::holds_alternative<NoCorrection>(model.correction) || scan_of(model)) {
@@ -221,11 +210,12 @@ std::vector<double> mean_pressure(const Spectrum& spectrum, const Rubber& rubber
   return result;
 }
 
-std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+std::vector<double> correction_factor(const Spectrum& given, const Rubber& rubber, const ContactModel& model,
                                       std::span<const double> pressure, std::span<const double> velocity,
                                       std::span<const double> wavenumber) {
   refuse_scan(model, "correction factor");
-  refuse_directions(spectrum, "correction factor");
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
@@ -260,12 +250,13 @@ std::vector<double> correction_factor(const Spectrum& spectrum, const Rubber& ru
   return result;
 }
 
-std::vector<double> pressure_distribution(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+std::vector<double> pressure_distribution(const Spectrum& given, const Rubber& rubber, const ContactModel& model,
                                           std::span<const double> stress, std::span<const double> pressure,
                                           std::span<const double> velocity, double wavenumber) {
   require_same_size("stress", stress.size(), "pressure", pressure.size());
   refuse_scan(model, "distribution of pressure");
-  refuse_directions(spectrum, "distribution of pressure");
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   if (model.form != Form::exact)
     throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
                        "exact, Eq. 7 has no distribution");

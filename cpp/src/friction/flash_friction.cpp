@@ -154,13 +154,14 @@ bool begins(std::span<const std::size_t> order, std::size_t k, std::span<const d
 
 }  // namespace
 
-FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+FlashFriction friction(const Spectrum& given, const Rubber& rubber, const TemperatureShift& shift,
                        const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,
                        std::span<const double> pressure, std::span<const double> velocity,
                        std::span<const double> temperature, Branch branch, bool contributions, unsigned threads) {
   check_heating(heating, shift, adhesion);
   check_gauss(model.method, "where heating is given, as GSL's methods have one temperature for all waves");
-  refuse_directions(spectrum, "heat");
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   const double q_m = macro_wavenumber(heating, spectrum);
   const std::size_t n = velocity.size();
   FlashFriction f = cleared(friction_before_heating(spectrum, rubber, shift, model, adhesion, pressure, velocity,
@@ -197,6 +198,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
       if (scan.of_scan()) f.hot.model_error[i] = f.cold.model_error[i];
       f.hot.mu[i] = at.hysteresis + at.adhesion;
       f.hot.hysteresis[i] = at.hysteresis;
+      f.hot.lateral[i] = at.lateral;
       f.hot.adhesion[i] = at.adhesion;
       f.hot.contact_area[i] = at.contact_area;
       f.hot.shift_factor[i] = at.shift.p;
@@ -218,7 +220,7 @@ FlashFriction friction(const Spectrum& spectrum, const Rubber& rubber, const Tem
   return f;
 }
 
-std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+std::vector<double> sliding_length(const Spectrum& given, const Rubber& rubber, const TemperatureShift& shift,
                                    const Heating& heating, const ContactModel& model,
                                    const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                                    std::span<const double> velocity, std::span<const double> temperature) {
@@ -226,8 +228,9 @@ std::vector<double> sliding_length(const Spectrum& spectrum, const Rubber& rubbe
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   if (adhesion) validate(*adhesion);
   check_heating(heating, shift, adhesion);
-  refuse_directions(spectrum, "heat");
   check_gauss(model.method, "for sliding_length, as GSL's methods know nothing of the history of the heat");
+  const AsSolved as_solved(given, model);
+  const Spectrum& spectrum = as_solved.get();
   const SurfaceSegments kept(spectrum);
   const HeatScene scene{spectrum, kept.get(), rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
   std::vector<double> result;

@@ -277,24 +277,6 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   return f;
 }
 
-/// The spectrum as it is solved: rows with harmonics where it knows directions.
-class AsSolved {
- public:
-  AsSolved(const Spectrum& spectrum, const ContactModel& model, bool contributions) : spectrum_(spectrum) {
-    if (!is_directional(spectrum)) return;
-    check_directional(model);
-    if (contributions)
-      throw InvalidInput(argument("contributions") + " = " + word("true") + must_be() +
-                         "false with a directional spectrum");
-    table_.emplace(directional_table(spectrum));
-  }
-  [[nodiscard]] const Spectrum& get() const { return table_ ? *table_ : spectrum_; }
-
- private:
-  const Spectrum& spectrum_;
-  std::optional<Spectrum> table_;
-};
-
 void check_points(const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                   std::span<const double> velocity, unsigned threads) {
   check_contact(model, pressure, velocity);
@@ -329,7 +311,7 @@ Friction friction(const Spectrum& spectrum, const Rubber& rubber, const ContactM
   check_points(model, adhesion, pressure, velocity, threads);
   check_frequencies(spectrum, rubber, velocity);
   const RubberPoints all{rubber, by_velocity(velocity)};
-  const AsSolved as_solved(spectrum, model, contributions);
+  const AsSolved as_solved(spectrum, model);
   ScanFriction scan(as_solved.get(), rubber, model);
   Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, {&all, 1}, pressure, velocity,
                             contributions, threads);
@@ -363,7 +345,7 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
     at_temperature(at, [&] { check_frequencies(spectrum, rubbers.back(), ends); });
     groups.push_back({rubbers.back(), std::move(order)});
   }
-  const AsSolved as_solved(spectrum, model, contributions);
+  const AsSolved as_solved(spectrum, model);
   ScanFriction scan(as_solved.get(), rubber, model);
   Friction f = solve_groups(scan.spectrum(), scan.model(), model.correction, adhesion, groups, pressure, velocity,
                             contributions, threads, heated);

@@ -1,6 +1,7 @@
 // With x_k = (w tau_k)^2 and r_k = sqrt(1 + x_k), the integrals of a Prony series are I1 = 2 pi sum_k E_k s_k / (w
 // tau_k) and I2 = 2 pi (E_inf^2 + sum_k w_k s_k), s_k = 1 - 1 / r_k, and ds_k/dln w = x_k / r_k^3. Those of a master
-// curve are differentiated by central differences.
+// curve are differentiated by central differences. Of harmonics F_n = int cos(n phi) f(w cos phi) dphi slopes follow
+// from those before: dF_n+2/dln w = dF_n/dln w - n F_n - (n + 2) F_n+2.
 #include "heat/angular_slopes.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "numerics/kernels.hpp"
 #include "rubber/loss_part.hpp"
+#include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
 
@@ -15,27 +17,60 @@ void AngularColumns::resize(std::size_t n) {
   for (auto* column : {&i1, &i2, &slope1, &slope2}) column->resize(n);
 }
 
-AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors)
-    : rubber_(rubber), factors_(std::move(factors)) {}
+AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors, Rings rings)
+    : rubber_(rubber), unlimited_(unlimited(rubber)), factors_(std::move(factors)), rings_(std::move(rings)) {}
 
-void AngularSlopes::operator()(std::span<const double> w, AngularColumns& result) {
-  if (const auto* curve = std::get_if<MasterCurve>(&rubber_))
-    of_curve(*curve, w, result);
+void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result) {
+  const std::size_t n = w.size();
+  if (!factors_.empty()) {
+    of_loss_.resize((harmonics_ + 1) * n);
+    loss_slope_.resize(n);
+  }
+  if (const auto* const curve = std::get_if<MasterCurve>(&rubber_))
+    of_curve(*curve, w, sloped, result);
   else
-    of_series(w, true, result);
+    of_series(w, sloped, result);
+  result.across.assign(rings_.count > 0 ? n : 0, 0.0);
+  if (harmonics_ > 0) add_rings(w, sloped, result);
+  if (factors_.empty()) return;
+  const auto of_loss = std::span(of_loss_).first(n);
+  if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2, {});
+  soften(factors_, of_loss, result.i1, result.i2, {});
+  for (std::size_t i = 0; i < result.across.size(); ++i) result.across[i] *= factors_[i].loss;
 }
 
-void AngularSlopes::values(std::span<const double> w, AngularColumns& result) {
-  const auto* const curve = std::get_if<MasterCurve>(&rubber_);
-  if (!curve) return of_series(w, false, result);
-  result.resize(w.size());
-  held_.assign(w.begin(), w.end());
-  for (double& one : held_) one = std::clamp(one, curve->lowest_frequency(), curve->highest_frequency());
-  (void)curve->angular_integrals(held_, result.i1, result.i2);
-  if (factors_.empty()) return;
-  of_loss_.resize(w.size());
-  curve->loss_part(held_, of_loss_);
-  soften(factors_, of_loss_, result.i1, result.i2, {});
+/// `held_` has the frequencies as the rubber knows them; where they are not those of `w`, nothing changes with these.
+void AngularSlopes::add_rings(std::span<const double> w, bool sloped, AngularColumns& result) {
+  const std::size_t n = w.size(), rows = harmonics_;
+  for (auto* const row : {&loss_, &square_, &slopes_}) row->resize(rows * n);
+  const std::span<const double> at(held_.data(), n);
+  std::visit([&](const auto& r) { r.angular_harmonics(at, rows, loss_, square_); }, unlimited_ ? *unlimited_ : rubber_);
+  // `order`: n of the row before the first
+  const auto take_slopes = [&](std::span<const double> first, std::span<const double> slope,
+                               std::span<const double> others, std::size_t order) {
+    for (std::size_t m = 0; m < rows; ++m) {
+      const double before = static_cast<double>(order + 2 * m);
+      const double *const value = m == 0 ? first.data() : &others[(m - 1) * n], *const rise =
+                                                                                    m == 0 ? slope.data()
+                                                                                           : &slopes_[(m - 1) * n];
+      for (std::size_t i = 0; i < n; ++i)
+        slopes_[m * n + i] = at[i] == w[i] ? rise[i] - before * value[i] - (before + 2) * others[m * n + i] : 0;
+    }
+  };
+  const auto of_loss = std::span(of_loss_), of_loss_rows = of_loss.subspan(of_loss.empty() ? 0 : n);
+  if (sloped) {
+    take_slopes(result.i1, result.slope1, loss_, 1);
+    add_directions(rings_, {rows, n, slopes_, {}}, result.slope1, {});
+    take_slopes(result.i2, result.slope2, square_, 0);
+    add_directions(rings_, {rows, n, {}, slopes_}, result.slope2);
+    if (!of_loss.empty()) {
+      take_slopes(of_loss.first(n), loss_slope_, of_loss_rows, 0);
+      add_directions(rings_, {rows, n, {}, slopes_}, loss_slope_);
+    }
+  }
+  add_directions(rings_, {rows, n, loss_, {}}, result.i1, result.across);
+  add_directions(rings_, {rows, n, {}, square_}, result.i2);
+  if (!of_loss.empty()) add_directions(rings_, {rows, n, {}, of_loss_rows}, of_loss.first(n));
 }
 
 /// The loops take a multiple of `lanes`.
@@ -53,45 +88,35 @@ void AngularSlopes::of_series(std::span<const double> w, bool sloped, AngularCol
   else
     kernels().prony(terms, held_.data(), padded, i1, i2);
   result.resize(n);
-  if (factors_.empty()) return;
-  for (auto* const row : {&of_loss_, &loss_slope_}) row->resize(n);
-  loss_part(series, w, of_loss_, sloped ? std::span<double>(loss_slope_) : std::span<double>());
-  if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2, {});
-  soften(factors_, of_loss_, result.i1, result.i2, {});
+  if (!factors_.empty()) loss_part(series, w, of_loss_, sloped ? std::span<double>(loss_slope_) : std::span<double>());
 }
 
-void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, AngularColumns& result) {
+void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, AngularColumns& result) {
   constexpr double step = 1e-4;  // in ln w: errors of 1e-9 by the step and 1e-8 by the table's 1e-12
   const std::size_t n = w.size();
   result.resize(n);
   const double lowest = curve.lowest_frequency(), highest = curve.highest_frequency();
   const auto inside = [&](double at) { return std::clamp(at, lowest, highest); };
+  held_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) held_[i] = inside(w[i]);
+  (void)curve.angular_integrals(held_, result.i1, result.i2);
+  if (!factors_.empty()) curve.loss_part(held_, of_loss_);
+  if (!sloped) return;
   for (const std::size_t side : {0, 1}) {
     for (auto* column : {&around_[side], &i1_[side], &i2_[side]}) column->resize(n);
     const double factor = side == 0 ? 1 - step : 1 + step;
     for (std::size_t i = 0; i < n; ++i) around_[side][i] = inside(w[i] * factor);
     (void)curve.angular_integrals(around_[side], i1_[side], i2_[side]);
   }
-  std::vector<double> held(n);
-  for (std::size_t i = 0; i < n; ++i) held[i] = inside(w[i]);
-  (void)curve.angular_integrals(held, result.i1, result.i2);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double apart = std::log(around_[1][i] / around_[0][i]);
-    const bool known = w[i] >= lowest && w[i] <= highest;
-    result.slope1[i] = known ? (i1_[1][i] - i1_[0][i]) / apart : 0;
-    result.slope2[i] = known ? (i2_[1][i] - i2_[0][i]) / apart : 0;
-  }
+  const auto difference = [&](const std::vector<double>(&values)[2], std::vector<double>& slope) {
+    for (std::size_t i = 0; i < n; ++i)
+      slope[i] = held_[i] == w[i] ? (values[1][i] - values[0][i]) / std::log(around_[1][i] / around_[0][i]) : 0;
+  };
+  difference(i1_, result.slope1);
+  difference(i2_, result.slope2);
   if (factors_.empty()) return;
   for (const std::size_t side : {0, 1}) curve.loss_part(around_[side], i2_[side]);
-  loss_slope_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool known = w[i] >= lowest && w[i] <= highest;
-    loss_slope_[i] = known ? (i2_[1][i] - i2_[0][i]) / std::log(around_[1][i] / around_[0][i]) : 0;
-  }
-  of_loss_.resize(n);
-  curve.loss_part(held, of_loss_);
-  soften(factors_, loss_slope_, result.slope1, result.slope2, {});
-  soften(factors_, of_loss_, result.i1, result.i2, {});
+  difference(i2_, loss_slope_);
 }
 
 }  // namespace asperity

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "rubber/unlimited_rubber.hpp"
+
 namespace asperity {
 
 using Eigen::Index;
@@ -19,9 +21,11 @@ using Eigen::VectorXd;
 FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
     : scene_(scene),
       grid_(grid),
-      waves_(scene.rubber, scene.model, scene.surface),
-      angular_(scene.rubber, waves_.factors(grid)),
+      waves_(scene.rubber, scene.model, scene.surface, harmonics_of(scene.spectrum)),
+      angular_(scene.rubber, waves_.factors(grid), waves_.rings(grid)),
       contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid)),
+      unlimited_(unlimited(scene.rubber)),
+      unlimited_waves_(unlimited_ ? *unlimited_ : scene.rubber, waves_),
       known_(known_range(scene.rubber)),
       table_(grid.temperature_points(), grid.wavenumber()),
       at_macro_(grid.row_at(scene.macro_wavenumber)) {
@@ -33,12 +37,31 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
 void FlashMap::start(const HeatPoint& point) {
   const bool moved = point.velocity != point_.velocity;
   point_ = point;
+  if (waves_.directions()) take_harmonics();
   contact_->start([this] { return cold_i2(); });
   const double stiffening = 1 / (1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio);
   mu_factor_ = 4 * point.pressure / stiffening;
   per_flux_ = point.velocity * point.pressure / (scene_.heating.density * scene_.heating.heat_capacity);
   if (!moved) return;
   table_.fill(scene_.heating, point.velocity, kernel_, surface_);
+}
+
+/// Those that matter at T0 and where the rubber is as warm as it may become: the slower waves are, the fewer they need.
+void FlashMap::take_harmonics() {
+  constexpr double least = 0.02, slowest = 1e-10;  // of the tolerance; a_T over that at T0
+  const double cold = std::exp(grid_.highest()) * reduced_frequency(1, point_.temperature),
+               hot = std::exp(grid_.lowest()) * reduced_frequency(1, point_.temperature) * slowest;
+  const auto held = [&](double w) { return known_ ? std::clamp(w, known_->lowest, known_->highest) : w; };
+  const auto [count, rest] = unlimited_waves_.needed({held(hot), held(cold)}, least * scene_.model.rtol);
+  angular_.take_harmonics(count);
+  rest_of_harmonics_ = rest;
+}
+
+double FlashMap::lateral() const {
+  double sum = 0;
+  for (std::size_t j = 0; touches() && j < columns_.across.size(); ++j)
+    if (columns_.i1[j] != 0) sum += contact_->part()[static_cast<Index>(j)] * (columns_.across[j] / columns_.i1[j]);
+  return mu_factor_ * sum;
 }
 
 double FlashMap::reduced_frequency(double wavenumber, double temperature) const {
@@ -245,9 +268,10 @@ double FlashMap::hysteresis_density(double wavenumber, double temperature) const
   if (!touches()) return 0;
   double w = reduced_frequency(wavenumber, temperature);
   if (known_) w = std::clamp(w, known_->lowest, known_->highest);
-  const AngularIntegrals at = waves_(w, wavenumber);
-  const double edges = mu_factor_ * contact_->density_of_edges(wavenumber, at.i1, at.i2);
+  const AngularIntegrals of_edges = waves_(w, wavenumber, Waves::of_edges);
+  const double edges = mu_factor_ * contact_->density_of_edges(wavenumber, of_edges.i1, of_edges.i2);
   if (wavenumber > scene_.surface.back().b) return edges;
+  const AngularIntegrals at = waves_(w, wavenumber);
   const ContactGrid::Place place = grid_.place_of(wavenumber);
   const double root = 1 / (point_.pressure * shift_.shift.p);
   return edges +

@@ -80,6 +80,10 @@ class FlashMap {
   /// How many temperature points there are.
   [[nodiscard]] Eigen::Index rise_size() const { return grid_.to_nodes().cols(); }
   [[nodiscard]] double hysteresis() const { return hysteresis_; }
+  /// The force across over the load, and what harmonics that are left out may have of mu_H, relative; 0 without
+  /// directions.
+  [[nodiscard]] double lateral() const;
+  [[nodiscard]] double rest_of_harmonics() const { return rest_of_harmonics_; }
   [[nodiscard]] double contact_area() const { return touches() ? contact_->area() : 0; }
   [[nodiscard]] double adhesion() const { return contact_area() * point_.adhesion_per_area; }
   [[nodiscard]] double macro_area() const { return macro_area_; }
@@ -99,6 +103,7 @@ class FlashMap {
   [[nodiscard]] double hysteresis_density(double wavenumber, double temperature) const;
 
  private:
+  void take_harmonics();
   void take_frequency(std::size_t node, const ShiftValue& shift);
   [[nodiscard]] Eigen::VectorXd cold_i2();
   void pass(const Eigen::VectorXd& theta, std::optional<double> log_kappa);
@@ -117,6 +122,8 @@ class FlashMap {
   Excitation waves_;
   AngularSlopes angular_;
   std::unique_ptr<Theory> contact_;
+  std::optional<Rubber> unlimited_;  // a series without the range that it was fitted on
+  Excitation unlimited_waves_;
   std::optional<FrequencyRange> known_;
   HeatPoint point_{};
   double mu_factor_ = 0, per_flux_ = 0;  // per_flux_: v sigma0 / (rho c_v) [K/s m]
@@ -130,7 +137,7 @@ class FlashMap {
   AngularColumns columns_;
   HotShift shift_;
   Eigen::VectorXd rise_;
-  double hysteresis_ = 0, macro_area_ = 1;
+  double hysteresis_ = 0, macro_area_ = 1, rest_of_harmonics_ = 0;
   bool differentiated_ = false, sloped_ = false;
   Eigen::VectorXd log_i2_, log_ratio_;  // slopes over the temperature
   Eigen::MatrixXd jacobian_;

@@ -151,7 +151,8 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                            scene_.model.rtol >= (kinks_.empty() ? pieces_rtol : pieces_rtol_with_strain) &&
                            table->wavenumber().size() >= pieces_rows;
     if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels)) {
-      if (!kinks_.empty()) made.cut = std::make_unique<RoughnessPieces>(scene_.surface, level - 1, kinks_);
+      if (!kinks_.empty())
+        made.cut = std::make_unique<RoughnessPieces>(scene_.surface, level - 1, kinks_, harmonics_of(scene_.spectrum));
       options.pieces = made.cut ? made.cut.get() : &roughness_pieces(*table, level - 1);
     } else if (has_rows()) {
       options.halvings = level - (by_pieces ? 3 : 1);  // of some twice as many nodes as the last pieces
@@ -248,7 +249,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
                          " nodes, changes by more than rtol = " + show(rtol) + " from grid to grid");
     }
     const double coarse = map->hysteresis() + map->adhesion(), coarse_hysteresis = map->hysteresis(),
-                 coarse_area = map->contact_area();
+                 coarse_area = map->contact_area(), coarse_lateral = map->lateral();
     const FixedPoint on_coarse = found;
     FlashMap& finer = map_of(level);
     finer.start(point);
@@ -262,7 +263,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
-    apart = std::fmax(apart, std::fabs(mu - coarse));
+    apart = std::max({apart, std::fabs(mu - coarse), std::fabs(map->lateral() - coarse_lateral)});
     // Where one row's kink counts for most, two grids may have it alike between their nodes and tell nothing of it;
     // seldom have three. Of what the two before were apart these keep a part; two alone must agree so much better.
     if (const double now = apart; has_rows()) {
@@ -272,7 +273,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
     // the residual's effect is taken to first order
     const double times = has_rows() ? differences_with_rows : differences;
     const double least = std::fmax(least_error * rtol, 1e-13) + 4 * map->shift().relative_error;
-    const double error = times * apart + 2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
+    const double error = times * apart + map->rest_of_harmonics() * map->hysteresis() +
+                         2 * std::fmax(found.mu_error, on_coarse.mu_error) + least * mu;
     // an elastic rubber has an area alone
     const double area = map->contact_area(), of_area = std::fabs(area - coarse_area);
     if (!(error <= rtol * mu && of_area <= rtol * area)) {
@@ -295,6 +297,7 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
             map->adhesion(),
             map->contact_area(),
             has_rows() ? rtol * mu : error,
+            map->lateral(),
             parts_error,
             map->outside_share(),
             point.temperature + map->grid().row_at(band(scene_.spectrum)[1]).dot(found.theta),

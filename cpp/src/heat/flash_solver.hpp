@@ -13,7 +13,8 @@ namespace asperity {
 struct HotPoint {
   double hysteresis = 0, adhesion = 0, contact_area = 0;
   double error_estimate = 0;  // of mu
-  double parts_error = 0;     // relative, of mu_H and of A / A0, the larger
+  double lateral = 0;
+  double parts_error = 0;  // relative, of mu_H and of A / A0, the larger
   double extrapolated_share = 0;
   double temperature = 0;  // T(q1) [K]
   double macro_area = 0, gain = 0;

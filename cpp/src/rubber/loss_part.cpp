@@ -2,8 +2,11 @@
 //   2 pi sum_kl E_k E_l x_k x_l / (r_k r_l (r_k + r_l)).
 // With s_k = 1 - 1 / r_k a pair is also x_k x_l (s_k - s_l) / (x_k^2 - x_l^2), in which w falls out of the factor: all
 // pairs whose times differ are one sum over s_k. The others, and k = l, keep the form that does not cancel.
+// With u_k = -(r_k - 1) / (r_k + 1) the mean of cos(2 m phi) / (1 + x_k^2 cos^2 phi) is u_k^m / r_k, so that K_m'' has
+// u_k^m / r_k in the place of 1 / r_k = 1 - s_k, and a pair has its divided difference over x^2.
 #include "rubber/loss_part.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -38,7 +41,9 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
       weight[l] -= both;
     }
   }
-  for (std::size_t i = 0; i < w.size(); ++i) {
+  const std::size_t n = w.size(), rows = n > 0 ? part.size() / n : 0;
+  std::vector<double> u(terms), power(terms), between(pairs.size());
+  for (std::size_t i = 0; i < n; ++i) {
     double sum = 0, rise = 0;
     for (std::size_t k = 0; k < terms; ++k) {
       x[k] = std::fmin(w[i] * tau[k], 1e100);
@@ -54,6 +59,27 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
     }
     part[i] = 2 * std::numbers::pi * sum;
     if (!slope.empty()) slope[i] = 2 * std::numbers::pi * rise;
+    if (rows < 2) continue;
+    for (std::size_t k = 0; k < terms; ++k) {
+      const double y = x[k] / (r[k] + 1);
+      u[k] = -y * y;
+      power[k] = 1 / r[k];
+    }
+    std::ranges::fill(between, 0.0);
+    for (std::size_t m = 1; m < rows; ++m) {
+      double whole = 0;
+      for (std::size_t j = 0; j < pairs.size(); ++j) {
+        const auto& [k, l, of] = pairs[j];
+        between[j] = u[k] * between[j] + power[l] * r[l];
+        const double x_x = (x[k] / r[k]) * (x[l] / r[l]) / (r[k] + r[l]);
+        whole += of * x_x * (2 * between[j] * (r[l] / (r[k] + 1)) / (r[l] + 1) + u[l] * power[l] * r[l]);
+      }
+      for (std::size_t k = 0; k < terms; ++k) {
+        power[k] *= u[k];
+        whole -= weight[k] * power[k];
+      }
+      part[m * n + i] = 2 * std::numbers::pi * whole;
+    }
   }
 }
 

@@ -7,7 +7,8 @@
 
 namespace asperity {
 
-/// int (Im E(w cos phi))^2 dphi [Pa^2] at each of `w`, and its slope over ln w where there is room for it.
+/// int (Im E(w cos phi))^2 cos(2 m phi) dphi [Pa^2] at each of `w`, in as many rows of m = 0, 1 and so on as there is
+/// room for, and the slope of the first over ln w where there is room for it.
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part,
                std::span<double> slope = {});
 void loss_part(const Rubber& rubber, std::span<const double> w, std::span<double> part);

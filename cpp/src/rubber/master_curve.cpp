@@ -65,6 +65,7 @@ struct MasterCurve::Table {
   struct LossAlone {
     std::vector<ModulusPiece> pieces;
     AngularTable angular;
+    HarmonicTables harmonics;
     explicit LossAlone(std::vector<ModulusPiece> of) : pieces(std::move(of)), angular(pieces) {}
   };
   mutable std::once_flag loss_made;
@@ -81,13 +82,13 @@ struct MasterCurve::Table {
     for (const ModulusPiece& piece : pieces) knots.push_back(piece.high);
   }
 
-  const AngularTable& of_loss() const {
+  const LossAlone& of_loss() const {
     std::call_once(loss_made, [&] {
       std::vector<ModulusPiece> of = pieces;
       for (ModulusPiece& piece : of) piece.storage = {0, 0};
       loss_alone = std::make_unique<const LossAlone>(std::move(of));
     });
-    return loss_alone->angular;
+    return *loss_alone;
   }
 
   void check(double w) const {
@@ -154,10 +155,14 @@ bool MasterCurve::angular_integrals(std::span<const double> w, std::span<double>
 }
 
 void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) const {
-  require_same_size("part", part.size(), "angular_frequency", w.size());
   for (const double one : w) table_->check(one);
-  std::vector<double> i1(w.size());
-  (void)table_->of_loss()(w, i1.data(), part.data(), nullptr);
+  if (w.empty()) return;
+  const std::size_t n = w.size(), rows = part.size() / n;
+  require_same_size("part", part.size(), "rows times angular_frequency", std::max<std::size_t>(rows, 1) * n);
+  std::vector<double> beside(rows * n);
+  const Table::LossAlone& of = table_->of_loss();
+  (void)of.angular(w, beside.data(), part.data(), nullptr);
+  if (rows > 1) of.harmonics.of(of.angular, of.pieces.front(), rows - 1)(w, rows - 1, beside.data(), part.data() + n);
 }
 
 void MasterCurve::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,

@@ -58,7 +58,7 @@ class Friction(Table):
     pressure, velocity : float or ndarray
         As given, broadcast [Pa], [m/s].
     error_estimate : float or ndarray
-        Absolute error of mu [-].
+        Absolute error of mu [-]; that of `lateral` is not above it.
     extrapolated_share : float or ndarray
         Share of the hysteresis, as it is weighted, whose modulus lies outside of the measured
         frequencies [-], to 1e-4.

@@ -5,98 +5,140 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/grid/grid.hpp"
+#include "rubber/loss_part.hpp"
+#include "spectrum/harmonics.hpp"
+#include "spectrum/roughness_window.hpp"
+
 namespace asperity {
 
-Directions::Directions(const RingHarmonics& harmonics, double direction) : harmonics_(harmonics) {
-  for (std::size_t m = 1; m <= harmonics.count; ++m) {
-    cosine_.push_back(std::cos(2 * static_cast<double>(m) * direction));
-    sine_.push_back(std::sin(2 * static_cast<double>(m) * direction));
+void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across) {
+  for (std::size_t i = 0; i < i1.size(); ++i) {
+    const double *const a = rings.along.data() + rings.row(i), *const b = rings.across.data() + rings.row(i);
+    const double* now = rows.loss.data() + i;
+    double before = i1[i], first = 0, second = 0;
+    for (std::size_t m = 0; m < rows.count; ++m, now += rows.stride) {
+      first += a[m] * (before + *now);
+      second += b[m] * (before - *now);
+      before = *now;
+    }
+    i1[i] += first;
+    if (!across.empty()) across[i] = second;
   }
 }
 
-Directions::Rings Directions::turned(std::span<const double> cosine, std::span<const double> sine) const {
-  Rings result;
-  for (std::size_t i = 0; i < cosine.size(); ++i) {
-    const std::size_t m = i % count();
-    result.along.push_back(cosine[i] * cosine_[m] + sine[i] * sine_[m]);
-    result.across.push_back(sine[i] * cosine_[m] - cosine[i] * sine_[m]);
+void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2) {
+  for (std::size_t i = 0; i < i2.size(); ++i) {
+    const double *const a = rings.along.data() + rings.row(i), *now = rows.square.data() + i;
+    double sum = 0;
+    for (std::size_t m = 0; m < rows.count; ++m, now += rows.stride) sum += a[m] * *now;
+    i2[i] += 2 * sum;
   }
+}
+
+const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  return table && table->harmonics().count > 0 ? table : nullptr;
+}
+
+Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction)
+    : table_(table), size_(table.harmonics().count), end_{table.harmonics().count, {}, {}} {
+  const RingHarmonics& harmonics = table.harmonics();
+  for (std::size_t m = 0; m < count(); ++m) {
+    const double angle = 2 * static_cast<double>(m + 1) * direction;
+    cosine_.push_back(std::cos(angle));
+    sine_.push_back(std::sin(angle));
+  }
+  for (std::size_t i = 0; i < harmonics.cosine.size(); ++i)
+    size_[i % count()] = std::fmax(size_[i % count()], std::hypot(harmonics.cosine[i], harmonics.sine[i]));
+  // between rows harmonics are straight lines of ln q
+  const double from = RoughnessWindow(surface).last_from();
+  std::vector<double> cosine(count()), sine(count());
+  double whole = 0;
+  for (const Segment& segment : surface) {
+    const double length = segment.length(), begin = std::clamp(segment.offset(std::fmax(from, segment.a)), 0.0, length);
+    if (segment.b <= from || !(length > begin)) continue;
+    const auto [zeroth, first] = roughness_moments(segment, begin, length);
+    if (!(zeroth > 0)) continue;
+    const HarmonicsAt at(table, segment.a * std::exp(begin + first / zeroth));
+    whole += zeroth;
+    for (std::size_t m = 0; m < count(); ++m) {
+      cosine[m] += zeroth * at.cosine(m);
+      sine[m] += zeroth * at.sine(m);
+    }
+  }
+  for (auto* const row : {&cosine, &sine})
+    for (double& one : *row) one /= whole > 0 ? whole : 1;
+  add_turned(cosine.data(), sine.data(), end_);
+}
+
+void Directions::add_turned(const double* cosine, const double* sine, Rings& to) const {
+  for (std::size_t m = 0; m < count(); ++m) {
+    to.along.push_back(cosine[m] * cosine_[m] + sine[m] * sine_[m]);
+    to.across.push_back(sine[m] * cosine_[m] - cosine[m] * sine_[m]);
+  }
+}
+
+Rings Directions::at(double wavenumber) const {
+  const HarmonicsAt at(table_, wavenumber);
+  std::vector<double> cosine, sine;
+  for (std::size_t m = 0; m < count(); ++m) {
+    cosine.push_back(at.cosine(m));
+    sine.push_back(at.sine(m));
+  }
+  Rings result{count(), {}, {}};
+  add_turned(cosine.data(), sine.data(), result);
   return result;
 }
 
-Directions::Rings Directions::at_nodes(const RoughnessPieces& pieces) const {
-  return turned(pieces.nodes().cosine, pieces.nodes().sine);
+Rings Directions::at_nodes(const ContactGrid& grid) const {
+  Rings result{count(), {}, {}};
+  const auto add = [&](const Rings& ring) {
+    result.along.insert(result.along.end(), ring.along.begin(), ring.along.end());
+    result.across.insert(result.across.end(), ring.across.begin(), ring.across.end());
+  };
+  for (std::size_t i = 0; i < grid.band_size(); ++i)
+    if (grid.pieces())
+      add_turned(&grid.pieces()->nodes().cosine[i * count()], &grid.pieces()->nodes().sine[i * count()], result);
+    else
+      add(at(grid.wavenumber()[i]));
+  const std::size_t macro = grid.macro_harmonics().cosine.size() / std::max<std::size_t>(count(), 1);
+  for (std::size_t i = grid.band_size(); i + macro < grid.size(); ++i) add(end_);
+  for (std::size_t i = 0; i < macro; ++i)
+    add_turned(&grid.macro_harmonics().cosine[i * count()], &grid.macro_harmonics().sine[i * count()], result);
+  return result;
 }
 
-Directions::Rings Directions::at_end(const RoughnessPieces& pieces) const {
-  constexpr double last = 0.1;
-  const RoughnessPieces::Nodes& nodes = pieces.nodes();
-  double left = 0;
-  for (const double weight : nodes.weight) left += last * weight;
-  const double whole = left;
-  std::vector<double> cosine(count()), sine(count());
-  for (std::size_t i = nodes.weight.size(); i-- > 0 && left > 0;) {
-    const double part = std::fmin(left, nodes.weight[i]);
-    left -= part;
-    for (std::size_t m = 0; m < count(); ++m) {
-      cosine[m] += part / whole * nodes.cosine[i * count() + m];
-      sine[m] += part / whole * nodes.sine[i * count() + m];
-    }
+Directions::Needed Directions::needed(const Rubber& rubber, const FrequencyRange& range, double least,
+                                      bool parted) const {
+  constexpr double longest = 0.5;  // in ln w, over which shares of harmonics change little
+  const double length = std::log(range.highest / range.lowest);
+  const auto steps = static_cast<std::size_t>(std::ceil(length / longest)) + 1, n = (steps + 4) / 4 * 4;
+  std::vector<double> w;
+  for (std::size_t i = 0; i < n; ++i)
+    w.push_back(std::clamp(range.lowest * std::exp(length * static_cast<double>(i) / static_cast<double>(n - 1)),
+                           range.lowest, range.highest));
+  const AngularHarmonics of = angular_harmonics(rubber, w, count());
+  std::vector<std::vector<double>> squares{of.square};
+  if (parted) {
+    squares.emplace_back(of.square.size());
+    loss_part(rubber, w, squares[1]);
+    for (std::size_t i = 0; i < squares[0].size(); ++i) squares[0][i] -= squares[1][i];
   }
-  return turned(cosine, sine);
-}
-
-std::size_t Directions::needed(const Rings& rings, std::size_t count, const AngularHarmonics& of, double least,
-                               double& rest) {
-  const std::size_t n = of.loss.size() / (count + 1);
-  std::vector<double> size(count);
-  for (std::size_t i = 0; i < rings.along.size(); ++i)
-    size[i % count] = std::fmax(size[i % count], std::hypot(rings.along[i], rings.across[i]));
-  double left = 0;
-  for (std::size_t m = count; m > 0; --m) {
+  const auto share = [n](const std::vector<double>& row, std::size_t m, std::size_t i) {
+    return row[i] > 0 ? std::fabs(row[m * n + i] / row[i]) : 0;
+  };
+  double rest = 0;
+  for (std::size_t m = count(); m > 0; --m) {
     double most = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const auto share = [&](const std::vector<double>& row, std::size_t k) {
-        return row[i] > 0 ? std::fabs(row[k * n + i] / row[i]) : 0;
-      };
-      most = std::max({most, 2 * share(of.square, m), share(of.loss, m - 1) + share(of.loss, m)});
+      most = std::fmax(most, share(of.loss, m - 1, i) + share(of.loss, m, i));
+      for (const std::vector<double>& square : squares) most = std::fmax(most, 2 * share(square, m, i));
     }
-    if (left + size[m - 1] * most > least) {
-      rest += left;
-      return m;
-    }
-    left += size[m - 1] * most;
+    if (rest + size_[m - 1] * most > least) return {m, rest};
+    rest += size_[m - 1] * most;
   }
-  rest += left;
-  return 0;
-}
-
-void Directions::add(const Rings& rings, std::size_t count, std::size_t used, std::span<const double> loss,
-                     std::span<const double> square, std::size_t stride, std::span<double> i1, std::span<double> i2,
-                     std::span<double> across) {
-  const bool one = rings.along.size() == count;
-  for (std::size_t i = 0; i < i1.size(); ++i) {
-    const double *const a = rings.along.data() + (one ? 0 : i * count), *const b = rings.across.data() +
-                                                                                   (a - rings.along.data());
-    double before = i1[i], first = 0, second = 0, third = 0;
-    for (std::size_t m = 0; m < used; ++m) {
-      const double now = loss[m * stride + i];
-      first += a[m] * (before + now);
-      second += b[m] * (before - now);
-      third += 2 * a[m] * square[m * stride + i];
-      before = now;
-    }
-    i1[i] += first;
-    across[i] = second;
-    i2[i] += third;
-  }
-}
-
-void DirectedRubber::add(const Rubber& rubber, std::span<const double> w, std::span<double> i1, std::span<double> i2,
-                         std::span<double> across) const {
-  std::vector<double> loss(used_ * w.size()), square(loss.size());
-  std::visit([&](const auto& r) { r.angular_harmonics(w, used_, loss, square); }, rubber);
-  Directions::add(ring_, ring_.along.size(), used_, loss, square, w.size(), i1, i2, across);
+  return {0, rest};
 }
 
 }  // namespace asperity

@@ -1,55 +1,69 @@
-// A rubber and the harmonics of a directional spectrum, seen from the velocity.
+// The harmonics of a directional spectrum, seen from the velocity, and what they add to the integrals of a rubber.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "asperity/rubber.hpp"
-#include "contact/grid/roughness_pieces.hpp"
+#include "asperity/spectrum.hpp"
+#include "spectrum/segments.hpp"
 
 namespace asperity {
 
-/// With harmonics a_m and b_m of the ring about the velocity, the sums over its plane are
-///   I1 + sum a_m (L_m-1 + L_m) along, sum b_m (L_m-1 - L_m) across, and I2 + 2 sum a_m K_m.
+class ContactGrid;
+
+/// Harmonics a_m and b_m of waves about the velocity: `count` of each for every wave, or one wave's for all.
+struct Rings {
+  std::size_t count = 0;
+  std::vector<double> along, across;
+  [[nodiscard]] std::size_t row(std::size_t wave) const { return along.size() == count ? 0 : wave * count; }
+};
+
+/// L_m and K_m of a rubber at frequencies, in rows of m from 1 on, each `stride` after the one before.
+struct HarmonicRows {
+  std::size_t count = 0, stride = 0;
+  std::span<const double> loss, square;
+};
+
+/// I1 + sum a_m (L_m-1 + L_m), sum b_m (L_m-1 - L_m), the force across, and I2 + 2 sum a_m K_m take the places of I1,
+/// of nothing and of I2.
+void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across);
+void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2);
+
+/// A spectrum whose rings are slid over in one direction.
 class Directions {
  public:
-  /// a_m and b_m, a row of m for each entry.
-  struct Rings {
-    std::vector<double> along, across;
-  };
-  Directions(const RingHarmonics& harmonics, double direction);
-  [[nodiscard]] std::size_t count() const { return harmonics_.count; }
-  [[nodiscard]] Rings at_nodes(const RoughnessPieces& pieces) const;
+  /// The harmonics of the table are kept where the surface is, of which the table must not live less long.
+  Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction);
+
+  [[nodiscard]] std::size_t count() const { return table_.harmonics().count; }
+  /// Of a wave of the band [1/m].
+  [[nodiscard]] Rings at(double wavenumber) const;
   /// Of the last tenth of the roughness, which the edges of contacts have.
-  [[nodiscard]] Rings at_end(const RoughnessPieces& pieces) const;
+  [[nodiscard]] const Rings& end() const { return end_; }
+  /// Of all nodes of a grid.
+  [[nodiscard]] Rings at_nodes(const ContactGrid& grid) const;
 
-  /// How many harmonics matter for an error of `least` in I1, I2 or the force across; what the others may have is added
-  /// to `rest`. `of` is of some frequencies, count() rows of each.
-  [[nodiscard]] static std::size_t needed(const Rings& rings, std::size_t count, const AngularHarmonics& of,
-                                          double least, double& rest);
-  /// The sums of as many entries as i1 has. `loss` and `square` have L_m and K_m from m = 1 on, `used` rows of
-  /// `stride`.
-  static void add(const Rings& rings, std::size_t count, std::size_t used, std::span<const double> loss,
-                  std::span<const double> square, std::size_t stride, std::span<double> i1, std::span<double> i2,
-                  std::span<double> across);
+  /// How many harmonics matter for an error of `least` in I1, I2 or the force across of frequencies in a range [rad/s],
+  /// and what the others may have, relative. `parted`: the parts of I2 that E' and E'' have count by themselves.
+  struct Needed {
+    std::size_t count;
+    double rest;
+  };
+  [[nodiscard]] Needed needed(const Rubber& rubber, const FrequencyRange& range, double least, bool parted) const;
 
  private:
-  [[nodiscard]] Rings turned(std::span<const double> cosine, std::span<const double> sine) const;
-  const RingHarmonics& harmonics_;
+  void add_turned(const double* cosine, const double* sine, Rings& to) const;
+
+  const TabulatedSpectrum& table_;
   std::vector<double> cosine_, sine_;  // of 2 m times the direction
+  std::vector<double> size_;           // of each harmonic at most
+  Rings end_;
 };
 
-/// One ring and its rubber, at any frequency: what stands in the place of I1 and I2.
-class DirectedRubber {
- public:
-  DirectedRubber(Directions::Rings ring, std::size_t used) : ring_(std::move(ring)), used_(used) {}
-  void add(const Rubber& rubber, std::span<const double> w, std::span<double> i1, std::span<double> i2,
-           std::span<double> across) const;
-
- private:
-  Directions::Rings ring_;
-  std::size_t used_;
-};
+/// The table whose harmonics a spectrum has; none where it is a mean over directions.
+const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum);
 
 }  // namespace asperity

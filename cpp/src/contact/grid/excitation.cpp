@@ -1,5 +1,5 @@
 // I1 -> g I1 and I2 -> f^2 I2' + g^2 I2'' = f^2 I2 + (g^2 - f^2) I2'', where E' and E'' of each wave are f and g times
-// those of small strain: I2' and I2'' are the integrals of (Re E)^2 and (Im E)^2.
+// those of small strain: I2' and I2'' are the integrals of (Re E)^2 and (Im E)^2, over the directions of each ring.
 #include "contact/grid/excitation.hpp"
 
 #include <algorithm>
@@ -79,10 +79,19 @@ std::vector<ModulusFactors> Softening::at_nodes(const ContactGrid& grid) const {
   return result;
 }
 
-Excitation::Excitation(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface)
+Excitation::Excitation(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface,
+                       const TabulatedSpectrum* directions)
     : rubber_(rubber) {
   if (model.strain_factors) softening_.emplace(*model.strain_factors, surface);
   if (softening_ && softening_->idle()) softening_.reset();
+  if (directions) directions_.emplace(*directions, surface, model.direction);
+}
+
+Rings Excitation::rings(const ContactGrid& grid) const { return directions_ ? directions_->at_nodes(grid) : Rings{}; }
+
+Directions::Needed Excitation::needed(const FrequencyRange& range, double least) const {
+  if (!directions_) return {0, 0};
+  return directions_->needed(rubber_, range, least, softening_.has_value());
 }
 
 std::vector<double> Excitation::stops() const {
@@ -107,24 +116,50 @@ void soften(std::span<const ModulusFactors> factors, std::span<const double> los
 }
 
 bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
-                            std::span<double> i2, std::span<double> i1_outside) const {
+                            std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const {
   const bool any_outside = angular_integrals(rubber_, w, i1, i2, i1_outside);
+  const std::size_t n = w.size(), rows = directed.rings ? directed.harmonics : 0;
+  std::vector<double> of_loss;
+  if (!factors.empty()) {
+    of_loss.resize((rows + 1) * n);
+    loss_part(rubber_, w, of_loss);
+  }
+  if (rows > 0) {
+    std::vector<double> loss(rows * n), square(rows * n);
+    std::visit([&](const auto& r) { r.angular_harmonics(w, rows, loss, square); }, rubber_);
+    const std::vector<double> whole(i1.begin(), i1.end());
+    add_directions(*directed.rings, {rows, n, loss, square}, i1, directed.across);
+    add_directions(*directed.rings, {rows, n, loss, square}, i2);
+    if (!factors.empty())
+      add_directions(*directed.rings, {rows, n, {}, std::span(of_loss).subspan(n)}, std::span(of_loss).first(n));
+    if (any_outside && !i1_outside.empty())  // as if it had the directions of all
+      for (std::size_t i = 0; i < n; ++i) i1_outside[i] *= whole[i] > 0 ? i1[i] / whole[i] : 1;
+  }
   if (factors.empty()) return any_outside;
-  std::vector<double> of_loss(w.size());
-  loss_part(rubber_, w, of_loss);
-  soften(factors, of_loss, i1, i2, any_outside ? i1_outside : std::span<double>());
+  soften(factors, std::span(of_loss).first(n), i1, i2, any_outside ? i1_outside : std::span<double>());
+  for (std::size_t i = 0; rows > 0 && i < directed.across.size(); ++i) directed.across[i] *= factors[i].loss;
   return any_outside;
 }
 
 bool Excitation::of_waves(std::span<const double> w, std::span<const double> wavenumber, std::span<double> i1,
-                          std::span<double> i2, std::span<double> i1_outside) const {
+                          std::span<double> i2, std::span<double> i1_outside, std::size_t harmonics,
+                          std::span<double> across) const {
   std::vector<ModulusFactors> factors;
   if (softening_)
     for (const double q : wavenumber) factors.push_back((*softening_)(q));
-  return (*this)(w, factors, i1, i2, i1_outside);
+  if (harmonics == 0) return (*this)(w, factors, i1, i2, i1_outside);
+  return (*this)(w, factors, i1, i2, i1_outside, {&directions_->end(), harmonics, across});
 }
 
-AngularIntegrals Excitation::operator()(double w, double wavenumber) const {
+AngularIntegrals Excitation::operator()(double w, double wavenumber, Waves waves) const {
+  if (directions_) {
+    const Rings rings = waves == Waves::of_edges ? directions_->end() : directions_->at(wavenumber);
+    std::vector<ModulusFactors> factors;
+    if (softening_) factors.push_back((*softening_)(wavenumber));
+    AngularIntegrals at{};
+    (void)(*this)({&w, 1}, factors, {&at.i1, 1}, {&at.i2, 1}, {&at.i1_outside, 1}, {&rings, rings.count, {}});
+    return at;
+  }
   AngularIntegrals at = angular_integrals(rubber_, w);
   if (!softening_) return at;
   const auto [f, g] = (*softening_)(wavenumber);

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "asperity/contact.hpp"
+#include "contact/grid/directions.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
-
-class ContactGrid;
 
 /// eps(q) = strain_per_slope h'(q), h'(q)^2 = 2 pi int_q0^q k^3 C dk, and the factors of the modulus that follow.
 class Softening {
@@ -40,16 +39,32 @@ class Softening {
   std::vector<double> kinks_;
 };
 
-/// I1 and I2 at frequencies, times the factors of the waves: g I1, and f^2 I2 + (g^2 - f^2) I2'' with the part I2'' of
-/// I2 that E'' has. Without factors they are those of the rubber, bit by bit.
+/// The waves that one asks of: those of the roughness, or what the edges of contacts carry beyond its end, which has
+/// the directions of that end.
+enum class Waves { of_roughness, of_edges };
+
+/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across or none.
+struct Directed {
+  const Rings* rings = nullptr;
+  std::size_t harmonics = 0;
+  std::span<double> across = {};
+};
+
+/// I1 and I2 at frequencies, as waves feel them: of the rubber, bit by bit; with directions their sums over the ring
+/// (directions.hpp); and those times the factors of strain, g I1 and f^2 I2 + (g^2 - f^2) I2'' with the part I2'' of I2
+/// that E'' has.
 class Excitation {
  public:
-  Excitation(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface);
+  /// `directions` has the rings of the surface, if they are no means over directions.
+  Excitation(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface,
+             const TabulatedSpectrum* directions = nullptr);
   /// The same waves on another rubber.
-  Excitation(const Rubber& rubber, const Excitation& waves) : rubber_(rubber), softening_(waves.softening_) {}
+  Excitation(const Rubber& rubber, const Excitation& waves)
+      : rubber_(rubber), softening_(waves.softening_), directions_(waves.directions_) {}
 
   [[nodiscard]] const Rubber& rubber() const { return rubber_; }
   [[nodiscard]] const Softening* softening() const { return softening_ ? &*softening_ : nullptr; }
+  [[nodiscard]] const Directions* directions() const { return directions_ ? &*directions_ : nullptr; }
   /// Wavenumbers at which the factors have kinks [1/m].
   [[nodiscard]] std::span<const double> kinks() const {
     return softening_ ? std::span<const double>(softening_->kinks()) : std::span<const double>();
@@ -58,18 +73,24 @@ class Excitation {
   [[nodiscard]] std::vector<double> stops() const;
   /// Of waves; none where they are all 1.
   [[nodiscard]] std::vector<ModulusFactors> factors(const ContactGrid& grid) const;
+  /// Of waves; none where they are means over directions.
+  [[nodiscard]] Rings rings(const ContactGrid& grid) const;
+  /// How many of their harmonics matter, as Directions::needed.
+  [[nodiscard]] Directions::Needed needed(const FrequencyRange& range, double least) const;
 
   /// At frequencies [rad/s], with the factors of as many waves or none. As `angular_integrals` otherwise.
   bool operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
-                  std::span<double> i2, std::span<double> i1_outside) const;
-  /// With the factors of as many wavenumbers.
+                  std::span<double> i2, std::span<double> i1_outside, const Directed& directed = {}) const;
+  /// With the factors of as many wavenumbers; of edges by `harmonics`.
   bool of_waves(std::span<const double> w, std::span<const double> wavenumber, std::span<double> i1,
-                std::span<double> i2, std::span<double> i1_outside) const;
-  [[nodiscard]] AngularIntegrals operator()(double w, double wavenumber) const;
+                std::span<double> i2, std::span<double> i1_outside, std::size_t harmonics = 0,
+                std::span<double> across = {}) const;
+  [[nodiscard]] AngularIntegrals operator()(double w, double wavenumber, Waves waves = Waves::of_roughness) const;
 
  private:
   const Rubber& rubber_;
   std::optional<Softening> softening_;
+  std::optional<Directions> directions_;
 };
 
 /// I1 and I2 of the small strain become those with factors; `loss_part` is I2''. `i1_outside` may be empty.

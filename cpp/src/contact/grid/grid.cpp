@@ -8,6 +8,7 @@
 #include "contact/grid/gauss_of_measure.hpp"
 #include "contact/grid/panel_nodes.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "spectrum/harmonics.hpp"
 
 namespace asperity {
 
@@ -351,7 +352,34 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
       wavenumber_.push_back(std::exp((lower + upper + nodes.x[j] * (upper - lower)) / 2));
       macro_weights_.push_back(g_factor_ * nodes.weight[j]);
     }
+    if (!options_.pieces->directions()) continue;
+    for (double& at : x) at = std::exp((lower + upper + at * (upper - lower)) / 2);
+    add_macro_harmonics(x, weight, nodes);
   }
+}
+
+/// Those with which the rule is exact for polynomials of ln q times the harmonics of the rings that it stands for.
+void ContactGrid::add_macro_harmonics(const std::vector<double>& wavenumber, const std::vector<double>& weight,
+                                      const NodeRule& nodes) {
+  const TabulatedSpectrum& table = *options_.pieces->directions();
+  const std::size_t count = table.harmonics().count, n = nodes.x.size(), first = wavenumber_.size() - n;
+  std::vector<double> cosine(n * count), sine(n * count);
+  for (std::size_t k = 0; k < wavenumber.size(); ++k) {
+    const HarmonicsAt at(table, wavenumber[k]);
+    for (std::size_t j = 0; j < n; ++j) {
+      double part = weight[k] / nodes.weight[j];
+      for (std::size_t i = 0; i < n; ++i)
+        if (i != j)
+          part *= std::log(wavenumber[k] / wavenumber_[first + i]) /
+                  std::log(wavenumber_[first + j] / wavenumber_[first + i]);
+      for (std::size_t m = 0; m < count; ++m) {
+        cosine[j * count + m] += part * at.cosine(m);
+        sine[j * count + m] += part * at.sine(m);
+      }
+    }
+  }
+  macro_harmonics_.cosine.insert(macro_harmonics_.cosine.end(), cosine.begin(), cosine.end());
+  macro_harmonics_.sine.insert(macro_harmonics_.sine.end(), sine.begin(), sine.end());
 }
 
 ContactGrid::Place ContactGrid::place_of(double wavenumber) const {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/grid/gauss_of_measure.hpp"
 #include "contact/grid/roughness_pieces.hpp"
 #include "contact/theory/partial_root.hpp"
 #include "numerics/gauss_legendre.hpp"
@@ -62,6 +63,11 @@ class ContactGrid {
   [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
   /// G at q_m as a sum over I2 of all nodes.
   [[nodiscard]] const Eigen::VectorXd& macro_weight() const { return macro_weight_; }
+  /// On pieces the last nodes are those of that sum: their harmonics, a row a node, none without directions.
+  struct Harmonics {
+    std::vector<double> cosine, sine;
+  };
+  [[nodiscard]] const Harmonics& macro_harmonics() const { return macro_harmonics_; }
   /// ln q of both ends of all nodes, those of the edges among them.
   [[nodiscard]] double lowest() const { return lowest_; }
   [[nodiscard]] double highest() const { return highest_; }
@@ -107,6 +113,8 @@ class ContactGrid {
   void add_pieces(const RoughnessPieces& pieces);
   void add_beyond();
   void add_macro_nodes(std::span<const Segment> surface);
+  void add_macro_harmonics(const std::vector<double>& wavenumber, const std::vector<double>& weight,
+                           const NodeRule& nodes);
   /// q on a panel at t, and dG / du at I2 = 1, u from -1 to 1 over 2 `half` of t.
   struct OnPanel {
     double wavenumber, roughness;
@@ -123,6 +131,7 @@ class ContactGrid {
   Eigen::VectorXd weight_, macro_weight_;
   std::vector<double> weights_, macro_weights_;
   std::vector<double> roughness_before_{0.0};  // each panel, and after all: sums of weights_
+  Harmonics macro_harmonics_;
   Beyond beyond_;
 };
 

@@ -47,6 +47,8 @@ class RoughnessPieces {
   /// Shorter ones with fewer points, for functions with kinks.
   [[nodiscard]] const RoughnessCells& coarse_cells() const { return coarse_cells_; }
   [[nodiscard]] const RoughnessWindow& window() const { return window_; }
+  /// Whose harmonics the nodes have, or none.
+  [[nodiscard]] const TabulatedSpectrum* directions() const { return directions_; }
 
  private:
   /// A part of one segment, and int c dy and int c (y - lower) dy over it.

@@ -40,15 +40,45 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   const RoughnessCells& cells = pieces.cells();  // of the same points at each level
   if (first) (void)take(cells, *analytic_, {});
   cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
-  if (level.factors.empty()) return;
-  if (first) {
-    of_loss_.resize(frequency_.size());
+  const std::size_t rows = needed_.count, points = frequency_.size();
+  if (first && !level.factors.empty()) {
+    of_loss_.resize((rows + 1) * points);
     loss_part(*analytic_, frequency_, of_loss_);
   }
+  if (first && rows > 0) {
+    for (auto* const row : {&loss_, &square_}) row->resize(rows * points);
+    std::get<PronySeries>(*analytic_).angular_harmonics(frequency_, rows, loss_, square_);
+  }
   at_nodes_.resize(level.i2.size());
-  cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
+  if (!level.factors.empty()) cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
+  if (rows > 0) add_directions_of_pieces(level, level.factors.empty() ? std::span<double>() : at_nodes_);
+  if (level.factors.empty()) return;
   soften(level.factors, at_nodes_, level.i1, level.i2,
          first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());
+  for (std::size_t i = 0; rows > 0 && i < n; ++i) level.across[i] *= level.factors[i].loss;
+}
+
+/// `of_loss` has the part of I2 that E'' has, or nothing.
+void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_loss) {
+  const RoughnessCells& cells = level.grid->pieces()->cells();
+  const std::size_t rows = needed_.count, n = level.grid->size(), stride = n + RoughnessCells::excess,
+                    points = frequency_.size();
+  for (auto* const row : {&loss_at_nodes_, &square_at_nodes_}) row->resize(rows * stride);
+  for (std::size_t m = 0; m < rows; ++m)
+    cells.at_nodes(&loss_[m * points], &square_[m * points], &loss_at_nodes_[m * stride],
+                   &square_at_nodes_[m * stride]);
+  const std::span<double> i1{level.i1.data(), n};
+  const bool outside = any_outside_ && !level.i1_outside.empty();
+  if (outside)  // as if it had the directions of all
+    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
+  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);
+  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, {level.i2.data(), n});
+  if (outside)
+    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] *= i1[i];
+  for (std::size_t m = 0; m < rows && !of_loss.empty(); ++m)
+    cells.at_nodes(&of_loss_[(m + 1) * points], &of_loss_[(m + 1) * points], &square_at_nodes_[m * stride],
+                   &square_at_nodes_[m * stride]);
+  if (!of_loss.empty()) add_directions(level.rings, {rows, stride, {}, square_at_nodes_}, of_loss.first(n));
 }
 
 /// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth

@@ -18,10 +18,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double for_edges = 0.02;  // of the tolerance
+constexpr double for_edges = 0.02;      // of the tolerance
+constexpr double for_harmonics = 0.02;  // that are left out
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
+constexpr double of_change_with_rings = 1;  // which scatter
 /// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
 /// they did.
 constexpr double least_error = 0.75;
@@ -44,6 +46,7 @@ double difference(double a, double b) { return b == 0 ? 0 : std::fabs(a / b - 1)
 LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surface, const Excitation& waves,
                          const ContactModel& model, const Options& options)
     : spectrum_(spectrum),
+      rings_of_(waves.directions() ? harmonics_of(spectrum) : nullptr),
       surface_(surface),
       waves_(waves),
       model_(model),
@@ -60,7 +63,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
   const bool many_rows = table && table->wavenumber().size() >= least_rows;
   if ((many_rows || (options.panels && !analytic_)) && model.rtol >= least_rtol && !options.parts)
-    pieces_.resize(RoughnessPieces::levels);
+    pieces_.resize(rings_of_ ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
   if (!options.panels) return;
   panels_.resize(most_levels);
   // differences of coarser grids are small by chance where a front is thin, which PartialContact does not have
@@ -71,11 +74,18 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
     ++first_level_;
 }
 
-/// The stops of panels, and the edges of contacts beside pieces.
+/// How many harmonics matter, the stops of panels, and the edges of contacts beside pieces.
 void LevelSolver::begin(double velocity) {
   if (velocity == velocity_) return;
   velocity_ = velocity;
-  if (window_ && !pieces_.empty()) edges_ = edges_of_(velocity, window_->end(), 1, partial_contact::tail_end);
+  if (rings_of_) {
+    const double end = window_ ? window_->end() * partial_contact::tail_end : surface_.back().b;
+    FrequencyRange range{velocity * surface_.front().a, velocity * std::fmax(end, surface_.back().b)};
+    if (known_) range.highest = std::clamp(range.highest, range.lowest, known_->highest);
+    needed_ = (analytic_waves_ ? *analytic_waves_ : waves_).needed(range, for_harmonics * model_.rtol);
+  }
+  if (window_ && !pieces_.empty())
+    edges_ = edges_of_(velocity, window_->end(), 1, partial_contact::tail_end, needed_.count);
   if (panels_.empty()) return;
   std::vector<double> stops;
   const double end = surface_.back().b,
@@ -104,6 +114,7 @@ void LevelSolver::begin(double velocity) {
     if (level.grid) {
       level.grid->lay_edges(held_from_);
       level.factors = waves_.factors(*level.grid);
+      level.rings = waves_.rings(*level.grid);
     }
 }
 
@@ -113,6 +124,7 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const ContactGrid& grid = *level.grid;
   const std::size_t n = grid.size();
   for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
+  if (rings_of_) level.across.assign(n + RoughnessCells::excess, 0.0);
   if (grid.pieces() && analytic_) {
     take_moduli_of_pieces(level, first);
     return;
@@ -125,9 +137,20 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
   if (asked) level.i1_outside.resize(n);
   const Excitation& waves = analytic_waves_ ? *analytic_waves_ : waves_;
-  const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside);
+  const Directed directed{&level.rings, needed_.count, std::span(level.across).first(rings_of_ ? n : 0)};
+  const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside, directed);
   if (first) any_outside_ = any;
-  if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {});
+  if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {}, directed);
+}
+
+void LevelSolver::check_directions(const Level& level) const {
+  const auto& weight = level.grid->weight();
+  for (std::size_t i = 0; rings_of_ && i < level.grid->band_size(); ++i)
+    if (weight[static_cast<Index>(i)] > 0 && !(level.i2[i] > 0))
+      throw InvalidInput(argument("spectrum") +
+                         ": its harmonics at wavenumber = " + show(level.grid->wavenumber()[i], 6) +
+                         " 1/m are those of no density that is positive in all directions" + must(", must have ") +
+                         "fewer of them, or wider rings");
 }
 
 void LevelSolver::lay_out(Levels& levels, std::size_t number) {
@@ -136,7 +159,7 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   if (&levels == &pieces_) {
     const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum_);
     if (!table || !waves_.kinks().empty())
-      level.pieces = std::make_unique<RoughnessPieces>(surface_, number, waves_.kinks());
+      level.pieces = std::make_unique<RoughnessPieces>(surface_, number, waves_.kinks(), rings_of_);
     options.pieces = level.pieces ? level.pieces.get() : &roughness_pieces(*table, number);
     if (window_) options.window = &options.pieces->window();
     options.edge_nodes = false;
@@ -152,6 +175,7 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   }
   level.grid = std::make_unique<ContactGrid>(surface_, options);
   level.factors = waves_.factors(*level.grid);
+  level.rings = waves_.rings(*level.grid);
   level.theory = contact_theory(model_, spectrum_, surface_, *level.grid);
   if (number == 0) return;
   if (!levels[number - 1].grid) lay_out(levels, number - 1);
@@ -169,9 +193,14 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
     if (!from_next_) from_next_ = cells_between(*next.grid, *level.grid);
     for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
     from_next_->at_nodes(next.i1.data(), next.i2.data(), level.i1.data(), level.i2.data());
+    if (rings_of_) {
+      level.across.resize(n + RoughnessCells::excess);
+      from_next_->at_nodes(next.across.data(), next.across.data(), level.across.data(), level.across.data());
+    }
   } else {
     take_moduli(level, number == (kinks() || level.grid->pieces() ? 0 : 1));
   }
+  check_directions(level);
   level.theory->take({{level.i1.data(), n}, {level.i2.data(), n}});
   if (window_ && level.grid->pieces()) level.theory->take_edges(edges_);
   return level;
@@ -236,6 +265,22 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
   return sum / scale_ / sums.friction;
 }
 
+double LevelSolver::across(const Level& level, const ContactSums& sums) const {
+  if (!rings_of_) return 0;
+  const ContactGrid& grid = *level.grid;
+  const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
+  const bool by_stress = window_ && grid.pieces();
+  double sum = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
+  for (std::size_t i = 0; i < (by_stress ? grid.band_size() : grid.size()); ++i) {
+    const auto at = static_cast<Index>(i);
+    if (by_stress)
+      sum += grid.weight()[at] * stress[at] * level.across[i];
+    else if (level.i1[i] != 0)
+      sum += part[at] / scale_ * (level.across[i] / level.i1[i]);
+  }
+  return sum;
+}
+
 double LevelSolver::share_beyond(double wavenumber) const {
   if (!(sums_.friction > 0)) return 0;
   const ContactGrid& grid = *solved_->grid;
@@ -276,7 +321,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
   if (g_ == 0) return !by_pieces;
   check_g(g_, pressure);
   ContactSums before = coarse->theory->solve(scale_, model_.rtol, usual_kappa);
-  double outside = by_pieces || kinks() ? outside_share(*coarse, before) : 0;
+  double outside = by_pieces || kinks() ? outside_share(*coarse, before) : 0, across_before = across(*coarse, before);
   const double of_edges = window_ && by_pieces
                               ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0)
                               : 0;
@@ -291,7 +336,13 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
                   difference(level.theory->unit_g(), coarse->theory->unit_g()), difference(now.kappa, before.kappa),
                   std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
                   whole > 0 ? running / whole : 0});
+    const double lateral = across(level, now);
     double error = of_change * change;
+    if (rings_of_) {
+      const double of_lateral = now.friction > 0 ? std::fabs(lateral - across_before) / now.friction : 0;
+      error = of_change_with_rings * std::fmax(change, of_lateral) + needed_.rest;
+      across_before = lateral;
+    }
     if (by_pieces) {
       if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
       error += of_rest * RoughnessPieces::roughest(number) + of_edges;
@@ -305,16 +356,17 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     sums_ = now;
     g_ = level.theory->unit_g() * scale_;
     error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
-    hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside};
+    hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside,
+                   mu_factor_ * lateral};
     solved_ = &level;
     return true;
   }
   return false;
 }
 
-AngularIntegrals LevelSolver::modulus(double wavenumber) const {
+AngularIntegrals LevelSolver::modulus(double wavenumber, Waves waves) const {
   const double w = velocity_ * wavenumber;
-  return waves_(known_ ? std::clamp(w, known_->lowest, known_->highest) : w, wavenumber);
+  return waves_(known_ ? std::clamp(w, known_->lowest, known_->highest) : w, wavenumber, waves);
 }
 
 double LevelSolver::g(double wavenumber) const {
@@ -333,10 +385,11 @@ double LevelSolver::stress(double wavenumber) const {
 
 double LevelSolver::hysteresis_density(double wavenumber) const {
   if (!solved_) return 0;
-  const AngularIntegrals at = modulus(wavenumber);
+  const AngularIntegrals of_edges = modulus(wavenumber, Waves::of_edges);
   const double per_stress = mu_factor_ / scale_,
-               edges = per_stress * solved_->theory->density_of_edges(wavenumber, at.i1, at.i2);
+               edges = per_stress * solved_->theory->density_of_edges(wavenumber, of_edges.i1, of_edges.i2);
   if (wavenumber > surface_.back().b) return edges;
+  const AngularIntegrals at = modulus(wavenumber);
   const double rate = solved_->grid->place_of(wavenumber).rate;
   return edges + mu_factor_ * rate * at.i1 * solved_->theory->stress_at(g(wavenumber), wavenumber, at.i2);
 }

@@ -57,8 +57,10 @@ class LevelSolver {
     std::unique_ptr<Theory> theory;
     std::vector<std::array<Eigen::Index, 2>> common_ends;  // of cells of the level before, and of this one
     std::vector<ModulusFactors> factors;                   // none where all are 1
+    Rings rings;                                           // with directions
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
+    std::vector<double> across;      // of rings, as i1
     std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on one level alone
   };
   using Levels = std::vector<Level>;
@@ -70,13 +72,18 @@ class LevelSolver {
   void lay_out(Levels& levels, std::size_t number);
   void take_moduli(Level& level, bool first);
   void take_moduli_of_pieces(Level& level, bool first);
+  void add_directions_of_pieces(Level& level, std::span<double> of_loss);
+  void check_directions(const Level& level) const;
   static void take_common_ends(Level& fine, const Level& coarse);
   [[nodiscard]] static double apart(const Level& coarse, const Level& fine);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
-  [[nodiscard]] AngularIntegrals modulus(double wavenumber) const;
+  /// The force across of a level, as the sum of friction.
+  [[nodiscard]] double across(const Level& level, const ContactSums& sums) const;
+  [[nodiscard]] AngularIntegrals modulus(double wavenumber, Waves waves = Waves::of_roughness) const;
 
   const Spectrum& spectrum_;
+  const TabulatedSpectrum* rings_of_;  // with directions
   std::span<const Segment> surface_;
   const Excitation& waves_;
   const ContactModel& model_;
@@ -89,13 +96,15 @@ class LevelSolver {
   std::vector<double> stops_;                // of panels at the velocity [1/m]
   std::optional<double> held_from_;          // where beyond the end of the roughness the modulus is not known [1/m]
   double velocity_ = 0;
+  Directions::Needed needed_{};  // of the harmonics of rings
   Edges edges_of_;
   EdgeIntegrals edges_;
   std::optional<FrequencyRange> known_;
   std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
   std::optional<Excitation> analytic_waves_;
   std::vector<double> frequency_, i1_, i2_, of_loss_, outside_at_points_;  // at the points of cells
-  std::vector<double> at_nodes_;
+  std::vector<double> loss_, square_;                                      // rows of harmonics at them
+  std::vector<double> at_nodes_, loss_at_nodes_, square_at_nodes_;
   std::vector<double> of_i1_, of_i2_;  // what the rule misses of I1 and I2 at the nodes
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;

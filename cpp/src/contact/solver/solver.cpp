@@ -43,17 +43,14 @@ Solver::Solver(const Spectrum& spectrum, std::span<const Segment> surface, const
                const ContactModel& model, const Options& options)
     : surface_(surface),
       model_(model),
-      waves_(rubber, model, surface),
+      waves_(rubber, model, surface, harmonics_of(spectrum)),
       factor_(s_in_integrand(model.correction)),
       options_(options),
       panel_solver_(surface, waves_, model.poisson_ratio, model.rtol) {
   check_scales(surface);
-  if (is_directional(spectrum)) {
-    directional_.emplace(spectrum, rubber, model);
-    return;
-  }
   if (model.method != Method::gauss) return;
-  const bool panels = options.levels || std::holds_alternative<PartialContact>(model.correction);
+  const bool panels =
+      options.levels || std::holds_alternative<PartialContact>(model.correction) || waves_.directions() != nullptr;
   if (panels || !options.parts)
     levels_.emplace(spectrum, surface, waves_, model,
                     LevelSolver::Options{.parts = options.parts, .stops = options.stops, .panels = panels});
@@ -69,10 +66,6 @@ void Solver::start(double velocity) {
 }
 
 void Solver::solve(double pressure, double velocity, double shift) {
-  if (directional_) {
-    directional_->solve(pressure, velocity, shift);
-    return;
-  }
   by_levels_ = levels_ && levels_->solve(pressure, velocity, shift);
   if (by_levels_) return;
   if (velocity != velocity_) start(velocity);
@@ -92,15 +85,11 @@ void Solver::solve(double pressure, double velocity, double shift) {
 }
 
 double Solver::g(double wavenumber) const {
-  return directional_  ? directional_->g()
-         : by_levels_  ? levels_->g(wavenumber)
-         : gsl_solver_ ? gsl_solver_->g(wavenumber)
-                       : panel_solver_.g(wavenumber);
+  return by_levels_ ? levels_->g(wavenumber) : gsl_solver_ ? gsl_solver_->g(wavenumber) : panel_solver_.g(wavenumber);
 }
 
 double Solver::relative_error() const {
-  return directional_  ? directional_->relative_error()
-         : by_levels_  ? levels_->relative_error()
+  return by_levels_    ? levels_->relative_error()
          : gsl_solver_ ? gsl_solver_->relative_error()
                        : panel_solver_.relative_error();
 }

@@ -1,12 +1,11 @@
-// Area and hysteresis at a point by the method asked for: levels of nodes with PartialContact and on the rings of a
-// table, panels with an error of each elsewhere, or GSL's adaptive integration as the independent check.
+// Area and hysteresis at a point by the method asked for: levels of nodes with PartialContact, with directions and on
+// the rings of a table, panels with an error of each elsewhere, or GSL's adaptive integration as the independent check.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "contact/solver/directional_solver.hpp"
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/level_solver.hpp"
 #include "contact/solver/panel_solver.hpp"
@@ -31,29 +30,24 @@ class Solver {
   void solve(double pressure, double velocity, double shift);
 
   [[nodiscard]] const Hysteresis& hysteresis() const {
-    return directional_  ? directional_->hysteresis()
-           : by_levels_  ? levels_->hysteresis()
-           : gsl_solver_ ? hysteresis_
-                         : panel_solver_.hysteresis();
+    return by_levels_ ? levels_->hysteresis() : gsl_solver_ ? hysteresis_ : panel_solver_.hysteresis();
   }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   /// Of every G; `hysteresis` has what that makes of it where the second holds.
   [[nodiscard]] double relative_error() const;
-  [[nodiscard]] bool g_error_is_in_hysteresis() const { return directional_ || by_levels_; }
+  [[nodiscard]] bool g_error_is_in_hysteresis() const { return by_levels_; }
   /// Of PartialContact: kappa, A / A0 at the upper end of the spectrum with its relative error, and R at a wavenumber.
   [[nodiscard]] double kappa() const { return sums().kappa; }
   [[nodiscard]] double partial_area() const { return sums().share; }
-  [[nodiscard]] double partial_area_error() const {
-    return directional_ ? directional_->relative_error() : levels_->relative_error();
-  }
+  [[nodiscard]] double partial_area_error() const { return levels_->relative_error(); }
   [[nodiscard]] double stress(double wavenumber) const { return levels_->stress(wavenumber); }
   [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
   /// Share of the hysteresis from strains beyond the last row of factors, to a hundredth.
   [[nodiscard]] double share_of_held_strains() const;
 
  private:
-  [[nodiscard]] const ContactSums& sums() const { return directional_ ? directional_->sums() : levels_->sums(); }
+  [[nodiscard]] const ContactSums& sums() const { return levels_->sums(); }
   void start(double velocity);
 
   std::span<const Segment> surface_;
@@ -63,8 +57,7 @@ class Solver {
   std::optional<ContactIntegral> contact_;
   Options options_;
   PanelSolver panel_solver_;
-  double velocity_ = 0, panel_velocity_ = 0;      // of the point before, and of the last that panels were made for
-  std::optional<DirectionalSolver> directional_;  // instead of all others
+  double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
   std::optional<LevelSolver> levels_;
   bool by_levels_ = false;  // the point
   std::vector<double> stop_wavenumbers_;

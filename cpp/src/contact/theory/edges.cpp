@@ -31,6 +31,7 @@ double factor(double of_i2, double x) {
 void add(EdgeIntegrals& to, const EdgeIntegrals& part) {
   to.i1 += part.i1;
   to.i2 += part.i2;
+  to.across += part.across;
   to.i1_outside += part.i1_outside;
   to.i1_error += part.i1_error;
   to.i2_error += part.i2_error;
@@ -52,20 +53,21 @@ EdgeIntegrals Edges::on_piece(const Place& place, const Piece& piece) const {
   const LegendreRule& rule = legendre_rule(nodes);
   const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
   const double frequency = place.velocity * place.q_e;
-  std::array<double, nodes> w, x, q, i1, i2, weight;
+  std::array<double, nodes> w, x, q, i1, i2, weight, across{};
   for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
   for (std::size_t k = 0; k < nodes; ++k) {
     x[k] = w[k] / frequency;
     q[k] = place.q_e * x[k];
     w[k] = std::fmin(w[k], highest_);
   }
-  (void)waves().of_waves(w, q, i1, i2, {});
+  (void)waves().of_waves(w, q, i1, i2, {}, place.harmonics, across);
   for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / place.i2_at_end, x[k]);
   EdgeIntegrals result;
   double tail[LegendreRule::kept];
   for (std::size_t k = 0; k < nodes; ++k) {
     i1[k] *= weight[k];
     i2[k] *= weight[k];
+    result.across += rule.weight[k] * weight[k] * across[k];
   }
   const Kernels& loops = kernels();
   loops.add_up(rule, i1.data(), &result.i1, tail);
@@ -87,7 +89,7 @@ double Edges::outside(const Place& place, double lower, double upper) const {
     w[k] = place.velocity * place.q_e * x;
     q[k] = place.q_e * x;
   }
-  if (!waves_.of_waves(w, q, i1, i2, i1_outside)) return 0;
+  if (!waves_.of_waves(w, q, i1, i2, i1_outside, place.harmonics)) return 0;
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * factor(i2[k] / place.i2_at_end, 1) * i1_outside[k];
   return sum * (to - from) / (2 * power);
@@ -101,30 +103,27 @@ std::vector<double> Edges::stops(const Place& place, double lower, double upper)
   };
   if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
     for (const double w : curve->knots()) add(std::log(w / (place.velocity * place.q_e)));
-  if (const Softening* const softening = waves_.softening()) {
-    for (const double q : softening->kinks()) add(std::log(q / place.q_e));
-    add(std::log(softening->end() / place.q_e));
-    add(std::log(highest_ / (place.velocity * place.q_e)));
-    std::ranges::sort(result);
-  }
+  for (const double q : waves_.stops()) add(std::log(q / place.q_e));
+  if (waves_.softening() || waves_.directions()) add(std::log(highest_ / (place.velocity * place.q_e)));
+  std::ranges::sort(result);
   return result;
 }
 
-EdgeIntegrals Edges::operator()(double velocity, double q_e, double lower, double upper) const {
+EdgeIntegrals Edges::operator()(double velocity, double q_e, double lower, double upper, std::size_t harmonics) const {
   const double frequency = velocity * q_e;
   double from = std::log(lower), to = std::log(upper);
-  const double i2_at_end = waves()(std::fmin(frequency, highest_), q_e).i2;
-  const Place place{velocity, q_e, i2_at_end};
+  const double i2_at_end = waves()(std::fmin(frequency, highest_), q_e, Waves::of_edges).i2;
+  const Place place{velocity, q_e, i2_at_end, harmonics};
   EdgeIntegrals held;
   held.i2_at_end = i2_at_end;
   double known_to = to;
   if (highest_ < frequency * upper) {
     const double at = std::fmax(lower, highest_ / frequency);
     known_to = std::log(at);
-    if (!waves_.softening()) {
+    if (!waves_.softening() && !waves_.directions()) {
       const AngularIntegrals last = angular_integrals(waves().rubber(), highest_);
       const double integral = factor(last.i2 / i2_at_end, 1) * (std::pow(at, -power) - std::pow(upper, -power)) / power;
-      held = {last.i1 * integral, last.i2 * integral, last.i1 * integral, 0, 0, i2_at_end};
+      held = {last.i1 * integral, last.i2 * integral, 0, last.i1 * integral, 0, 0, i2_at_end};
       to = known_to;
     }
   }

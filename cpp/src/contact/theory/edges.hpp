@@ -1,6 +1,7 @@
 // What the edges of contacts carry beyond the end of the roughness, as PartialContact has it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace asperity {
 /// int I (I2 / I2(v q_e))^(1/4) x^-3 d ln x for I1 and I2, x = q / q_e, and the errors of them.
 struct EdgeIntegrals {
   double i1 = 0, i2 = 0;
+  double across = 0;      // the same of the force across, where the waves have directions
   double i1_outside = 0;  // part of i1 from frequencies outside of the measured range, to a hundredth
   double i1_error = 0, i2_error = 0;
   double i2_at_end = 0;  // I2(v q_e)
@@ -20,8 +22,9 @@ struct EdgeIntegrals {
 class Edges {
  public:
   Edges(const Excitation& waves, double rtol);
-  /// At a velocity, with the end q_e of the roughness [1/m], from x = `lower` to `upper`.
-  [[nodiscard]] EdgeIntegrals operator()(double velocity, double q_e, double lower, double upper) const;
+  /// At a velocity, with the end q_e of the roughness [1/m], from x = `lower` to `upper`, by so many harmonics of it.
+  [[nodiscard]] EdgeIntegrals operator()(double velocity, double q_e, double lower, double upper,
+                                         std::size_t harmonics = 0) const;
 
  private:
   struct Piece {
@@ -29,6 +32,7 @@ class Edges {
   };
   struct Place {
     double velocity, q_e, i2_at_end;
+    std::size_t harmonics;
   };
   [[nodiscard]] double outside(const Place& place, double lower, double upper) const;
   [[nodiscard]] EdgeIntegrals on_piece(const Place& place, const Piece& piece) const;
