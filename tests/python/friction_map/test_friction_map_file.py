@@ -3,7 +3,6 @@
 import os
 import pickle
 import struct
-import zlib
 
 import numpy as np
 import pytest
@@ -17,6 +16,7 @@ from asperity import (
     SelfAffineSpectrum,
     friction_map,
 )
+from helpers.map_layout import ByLayout
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(equilibrium_modulus=3e6, moduli=[1e9, 1e7], relaxation_times=[1e-8, 1e-4])
@@ -32,82 +32,10 @@ def found(request):
     return friction_map(ROAD, RUBBER, **BOX, checked=1000, text="# µ\n", **KINDS[request.param])
 
 
-class ByDocumentation:
-    """What asperity/friction_map.hpp says of the file, and nothing else."""
-
-    def __init__(self, content):
-        assert content[:8] == b"ASPERMAP"
-        order, version, size = struct.unpack_from("<IIQ", content, 8)
-        assert (order, version, size) == (0x01020304, 4, len(content))
-        assert struct.unpack_from("<II", content, size - 8) == (zlib.crc32(content[:-8]), 0)
-        self.box = struct.unpack_from("<4d", content, 24)
-        errors = struct.unpack_from("<4d", content, 72)
-        self.rtol, self.max_error, self.largest, memory = errors
-        self.tau, self.v0, self.width = struct.unpack_from("<3d", content, 104)
-        self.checked, self.exceeded, cold = struct.unpack_from("<3Q", content, 128)
-        counts = struct.unpack_from("<10I", content, 152)
-        self.hysteresis, bands, nodes, m, columns, rows, grids, entries, cells, text = counts
-        assert struct.unpack_from("<2d", content, 56) == (0, 0)  # no temperature, no heat
-        assert (memory, cold, m, columns, rows) == (0, 0, 1, 0, 0)
-        at = 192
-
-        def take(kind, count):
-            nonlocal at
-            values = np.frombuffer(content, kind, count, at)
-            at += values.nbytes
-            return values
-
-        self.cuts = take("<f8", bands + 1)
-        self.shear = take("<f8", 2 * nodes).reshape(-1, 2)
-        self.grids = []
-        for _ in range(grids):
-            place, (columns, rows, first, zero) = take("<f8", 4), take("<u4", 4)
-            assert zero == 0
-            self.grids.append((*place, int(columns), int(rows), int(first)))
-        self.entries = take("<i4", entries)
-        at = -(-at // 8) * 8
-        self.cells = take("<f8", 34 * cells).reshape(-1, 34)
-        self.text = bytes(take("u1", text)).decode()
-        assert -(-at // 8) * 8 + 8 == size
-
-    def shear_at(self, x):
-        if self.shear.size == 0:
-            return 0.0
-        lo, hi = np.log(self.box[2:])
-        h = (hi - lo) / (len(self.shear) - 1)
-        i = min(int((x - lo) / h), len(self.shear) - 2)
-        (a, da), (b, db) = self.shear[i : i + 2]
-        t = (x - lo) / h - i
-        return (
-            a * (1 + 2 * t) * (1 - t) ** 2
-            + da * h * t * (1 - t) ** 2
-            + b * t**2 * (3 - 2 * t)
-            - db * h * t**2 * (1 - t)
-        )
-
-    def look_up(self, pressure, velocity):
-        x = np.log(velocity)
-        z = np.log(pressure) - self.shear_at(x)
-        k = int(np.searchsorted(self.cuts[1:-1], z, side="right"))
-        while True:
-            gx, gz, per_x, per_z, columns, rows, first = self.grids[k]
-            i = min(max(int((x - gx) * per_x), 0), columns - 1)
-            j = min(max(int((z - gz) * per_z), 0), rows - 1)
-            entry = int(self.entries[first + i * rows + j])
-            if entry >= 0:
-                break
-            assert -1 - entry > k
-            k = -1 - entry
-        x0, z0, *c = self.cells[entry]
-        powers = [(x - x0) ** i * (z - z0) ** j for j in range(4) for i in range(4)]
-        hysteresis = np.exp(np.dot(c[0::2], powers)) if self.hysteresis else 0.0
-        area = np.exp(np.dot(c[1::2], powers))
-        falling = np.exp(-self.width * np.log10(velocity / self.v0) ** 2)
-        return hysteresis, area, self.tau / pressure * area * falling
-
-
 def test_the_documentation_is_enough_to_read_a_file(found):
-    read = ByDocumentation(found.to_bytes())
+    read = ByLayout(found.to_bytes())
+    # no temperature, no heat
+    assert (read.background, read.memory, read.cold, read.m) == ((0, 0), 0, 0, 1)
     assert read.box == (*found.pressure, *found.velocity)
     assert (read.rtol, read.max_error) == (found.rtol, found.max_error)
     assert (read.checked, read.exceeded) == (found.checked, found.exceeded) == (1000, 0)

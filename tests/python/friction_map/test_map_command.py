@@ -75,18 +75,11 @@ def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
     ("arguments", "message"),
     [
         (["map"], "SCENE.toml, or --info FILE"),
-        (["map", "scene.toml", "--info", "a.fmap"], "SCENE.toml, or --info FILE"),
         (["map", "--info", "a.fmap", "--rtol", "1e-3"], "--rtol: goes with a SCENE.toml"),
         (["map", "--info", "none.fmap"], "none.fmap: cannot be read: No such file"),
         (["map", "--info", "scene.toml"], "scene.toml: is no friction map"),
         (["map", "scene.toml", "--pressure", "2e5,1e5"], "--pressure = 2e5,1e5: must be"),
-        (["map", "scene.toml", "--pressure", "1e5"], "must be two positive numbers, LO,HI"),
-        (["map", "scene.toml", "--output", "none/a.fmap"], "none/a.fmap: cannot be written"),
         (["map", "scene.toml", "--output", "scene.toml"], "scene.toml: is an input"),
-        (["map", "scene.toml", "--rtol", "0.5"], "--rtol = 0.5: must be in"),
-        (["map", "scene.toml", "--checked", "-1"], "--checked = -1: must be"),
-        (["map", "scene.toml", "--plot", "a.bmp"], "a.bmp: must end in .png"),
-        (["map", "scene.toml", "--export", "grid.xls"], "--export: grid.xls: must end in"),
         (
             ["map", "scene.toml", "--export", "a.csv", "--output", "a.csv"],
             "must be different files",

@@ -6,6 +6,7 @@ import pytest
 import asperity
 from asperity import WLF, Adhesion, Heating, MasterCurve, friction, friction_map
 from helpers.cases import long
+from helpers.map_layout import ByLayout
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 SERIES = asperity.PronySeries(
@@ -127,63 +128,8 @@ def test_one_temperature_of_a_box_that_is_rough_throughout():
     assert (made.to_bytes()[152], made.exceeded) == (1, 0)
 
 
-class ByDocumentation:
-    """The look-up of long ago, as friction_map.hpp states the layout of a slanted map."""
-
-    def __init__(self, content):
-        def take(kind, count):
-            nonlocal at
-            numbers = np.frombuffer(content, kind, count, at)
-            at += numbers.nbytes
-            return numbers
-
-        at = 24
-        self.p, self.v, self.T0 = take("<f8", 6).reshape(3, 2)
-        at = 152
-        flags, bands, nodes, self.m, columns, rows, grids, entries, cells, _ = map(
-            int, take("<u4", 10)
-        )
-        assert (flags, bands, nodes) == (3, 3, 0)
-        self.a, self.b = take("<f8", 2)
-        take("<f8", 2 * columns * rows)
-        self.ends = take("<f8", bands + 1)
-        self.grids = []
-        for _ in range(grids):
-            place, (i, j, first, _) = take("<f8", 4), take("<u4", 4)
-            self.grids.append((*place, int(i), int(j), int(first)))
-        self.entries = take("<i4", entries)
-        at = -(-at // 8) * 8
-        size = 2 + 128 * (self.m - 1)
-        self.cells = take("<f8", size * cells).reshape(cells, size)
-
-    def hysteresis_and_area(self, p, v, temperature):
-        def law(t):
-            return self.a * t / (1 + self.b * t)
-
-        y, g = np.log(p), law(temperature - self.T0[0])
-        least, most = sorted((0.0, law(self.T0[1] - self.T0[0])))
-        above = min(g - least, np.log(self.v[1] / v))
-        below = min(most - g, np.log(v / self.v[0]))
-        share, z = above / max(above + below, 1e-300), np.log(v) + g
-        k = int(np.searchsorted(self.ends[1:-1], z, side="right"))
-        while True:
-            first_y, first_z, per_y, per_z, columns, rows, first = self.grids[k]
-            i = min(max(int((y - first_y) * per_y), 0), columns - 1)
-            j = min(max(int((z - first_z) * per_z), 0), rows - 1)
-            k = self.entries[first + i * rows + j]
-            if k >= 0:
-                break
-            k = -1 - int(k)
-        y0, z0, *numbers = self.cells[k]
-        step = min(int(share * (self.m - 1)), self.m - 2)
-        power = np.array(numbers).reshape(self.m - 1, 4, 4, 4, 2)[step]  # of share, z, y
-        d = share - step / (self.m - 1)
-        by = (np.power(x, range(4)) for x in (d, z - z0, y - y0))
-        return np.exp(np.einsum("tjik,t,j,i->k", power, *by))
-
-
 def test_the_documentation_is_enough_to_read_a_file(found):
-    read, at = ByDocumentation(found.to_bytes()), points(found, 100, seed=5)
-    exact = np.array([read.hysteresis_and_area(*point) for point in zip(*at.values(), strict=True)])
+    read, at = ByLayout(found.to_bytes()), points(found, 100, seed=5)
+    exact = np.array([read.slanted_look_up(*point) for point in zip(*at.values(), strict=True)])
     np.testing.assert_allclose(found.hysteresis(**at), exact[:, 0], rtol=1e-11)
     np.testing.assert_allclose(found.contact_area(**at), exact[:, 1], rtol=1e-11)
