@@ -61,19 +61,6 @@ def test_over_velocity_there_is_mu_with_its_rise_and_that_of_each_roughness(
     assert {"100 kPa", "300 kPa", "without heat"} <= {*names}
 
 
-def test_roughness_beyond_q1_is_marked(folder: Path, figures: list[Any]) -> None:
-    """PartialContact counts the edges of contacts, which are finer than the road."""
-    partial = HEATING + '\n[correction]\nkind = "partial-contact"\n'
-    draw(folder, "290", "{from = 1e-3, to = 10, points = 3}", partial)
-    profile = figures[0].axes[2]
-    *curves, mark = shown(profile)
-    q1 = load_scene("hot.toml", for_friction=True).spectrum.q1
-    assert set(mark.get_xdata()) == {q1}
-    assert all(curve.get_xdata()[-1] > q1 for curve in curves)
-    assert mark.get_label() == "$q_1$"  # in the legend: beside the line it would lie on slow curves
-    assert "$q_1$" in [text.get_text() for text in profile.get_legend().get_texts()]
-
-
 @pytest.mark.parametrize("more", ["", HEATING])
 def test_a_list_of_temperatures_at_one_velocity_is_drawn_over_them(
     folder: Path, figures: list[Any], more: str
@@ -92,13 +79,3 @@ def test_a_list_of_temperatures_at_one_velocity_is_drawn_over_them(
     if more:
         risen = (table["hot_temperature_k"] - table["temperature_k"])[low][order]
         np.testing.assert_allclose(shown(rest[0])[0].get_ydata(), risen, rtol=1e-12)
-
-
-def test_two_temperatures_and_velocities_are_curves_over_velocity(
-    folder: Path, figures: list[Any]
-) -> None:
-    draw(folder, "[280, 300]", "[0.1, 1.0]", "")
-    (mu,) = figures[0].axes
-    assert [line.get_label() for line in shown(mu)] == [
-        f"{t} K, {p} kPa" for t in (280, 300) for p in (100, 300)
-    ]

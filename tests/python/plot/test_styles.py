@@ -138,48 +138,6 @@ def test_fatal_notes_stand_on_the_picture(style: str) -> None:
         assert new_figure(2)[0].get_supxlabel() == ""
 
 
-DMA = "frequency=f,temperature=T,storage=E1,loss=E2", "frequency=Hz,temperature=C,modulus=MPa"
-
-
-def rows_of_dma() -> str:
-    rows = ["f,T,E1,E2"]
-    for celsius in range(-20, 41, 5):
-        for hertz in np.geomspace(0.1, 30, 12):
-            w = hertz * 10 ** (-8 * (celsius - 20) / (110 + celsius - 20))
-            modulus = 3 + sum(30j * w * t / (1 + 1j * w * t) for t in 10.0 ** np.arange(-7, 3))
-            rows.append(f"{hertz},{celsius},{modulus.real},{modulus.imag}")
-    return "\n".join(rows)
-
-
-@pytest.mark.parametrize(
-    ("verb", "style"),
-    [("friction", "print"), ("area", "print"), ("spectrum", "single"), ("rubber", "single")],
-)
-def test_legends_lie_outside_of_their_panels_and_inside_of_the_picture(
-    folder: Path, figures: list[Any], verb: str, style: str
-) -> None:
-    arguments = ["scene.toml"]
-    if verb == "spectrum":
-        arguments = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    if verb == "rubber":
-        (folder / "dma.csv").write_text(rows_of_dma())
-        arguments = ["dma.csv", "--columns", DMA[0], "--units", DMA[1], "--modulus", "E"]
-    output = ["--plot", "a.png", "--output", "a.csv", "--style", style]
-    assert main([verb, *arguments, *output]) == 0
-    (figure,) = figures
-    figure.draw_without_rendering()
-    drawn = [(axes, legend) for axes in figure.axes if (legend := axes.get_legend())]
-    assert drawn
-    for axes, legend in drawn:
-        assert axes.get_title() == ""  # it is the legend's
-        box, panel = legend.get_window_extent(), axes.get_window_extent()
-        assert box.y0 >= panel.y1 or box.x0 >= panel.x1
-        assert figure.bbox.x0 - 1 <= box.x0 < box.x1 <= figure.bbox.x1 + 1
-        assert box.y1 <= figure.bbox.y1 + 1
-        others = [one for one, _ in drawn if one is not axes]
-        assert not any(box.overlaps(one.get_window_extent()) for one in others)
-
-
 def test_python_draws_what_the_shell_draws(folder: Path, figures: list[Any]) -> None:
     """One code: axis from 0, pressures in kPa, and whether it is hysteresis alone."""
     from matplotlib import pyplot

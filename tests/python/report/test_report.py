@@ -14,9 +14,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.demo import input_files
-from asperity.report.drawings import Drawings, Figure
 from helpers.accessible import violations
-from helpers.dropped import dma_bytes
 from helpers.scenes import ADHESION, RUBBER, SURFACE
 
 pytest.importorskip("matplotlib", reason="reports need asperity[plot]")
@@ -171,45 +169,6 @@ def test_python_writes_the_same_bytes(
     with pytest.raises(asperity.InvalidInput, match="SOURCE_DATE_EPOCH = 'yesterday': must be"):
         asperity.report("law.toml", "one.html")
     assert Path("one.html").read_bytes() == one
-
-
-def test_temperatures_isotherms_and_long_tables(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A list of temperatures, a master curve built on the way, and more rows than a page shows."""
-    monkeypatch.chdir(tmp_path)
-    Path("dma.csv").write_bytes(dma_bytes())
-    Path("warm.toml").write_text(
-        f"""{SURFACE}
-[rubber]
-isotherms = ["dma.csv"]
-columns = {{frequency = "Freq", temperature = "Temperature", storage = "G'", loss = 'G"'}}
-units = {{frequency = "Hz", temperature = "C", modulus = "MPa"}}
-modulus = "G"
-reference_temperature_c = 20
-extrapolation = "power-law"
-[conditions]
-pressure_pa = 81e3
-velocity_m_s = {{from = 1e-6, to = 1e-4, points = 401}}
-temperature_c = [20, 40]
-[uncertainty]
-samples = 20
-"""
-    )
-    monkeypatch.setattr(Drawings, "_figure", _no_picture)
-    asperity.report("warm.toml", "warm.html", title="Warm & cold")
-    page = Path("warm.html").read_text()
-    assert "<title>Warm &amp; cold</title>" in page
-    assert "<h3>Errors at 293.15 K</h3>" in page
-    assert "<h3>Errors at 313.15 K</h3>" in page
-    told = page.count("400 of 401 rows; the CSV has all")
-    assert told == 2 * 3  # captions and names of tables, the comparison's too
-    assert "warm.toml at 313.15 K against warm.toml at 293.15 K" in page
-    assert "All 802 points as CSV" in page
-
-
-def _no_picture(self: object, draw: object, text: str, caption: str, panels: int) -> object:
-    return Figure("", "", caption)
 
 
 def test_a_number_without_a_digit_of_its_own_is_told(tmp_path: Path) -> None:

@@ -124,16 +124,8 @@ BAD = {
     "--rank rubber": "--rank rubber: is no axis, did you mean rubbers?",
     "--rank rubbers --at rubbers=2e6": "--rank rubbers: is no axis",
     "--rank rubbers --at surface.hurst=0.75": "is not on the axis, which has 0.7, 0.8, 0.9",
-    "--rank rubbers --at surface.hurst=soft": "must be a number",
-    "--rank rubbers --at correction.kind=non": "which has none, partial-contact",
     "--rank rubbers --at hurst=0.7": "--at hurst: is no axis, did you mean surface.hurst?",
     "--plot p.png": "must be at most 3 beside conditions.velocity_m_s: fix the others by --at",
-    "--plot p.txt": "must end in .png",
-    "--plot p.png --variables my --at surface.hurst=0.8": "my: the store does not have it",
-    "--plot p.png --output r.nc": "--output: ",
-    "--rank rubbers --variables mu": "--variables: goes with --plot",
-    "--plot p.png --variables mu,hysteresis": "--variables mu,hysteresis: must be one",
-    "--style dark": "--style: goes with --plot",
     "--at surface.hurst=0.7": "--at: goes with --plot and --rank",
 }
 

@@ -103,32 +103,20 @@ def test_failures_are_counted_in_the_last_line_and_the_status(folder, capsys):
 
 BAD = {
     "surface.hurts = [0.7]": "surface.hurts: is no key of a scene, did you mean surface.hurst?",
-    '"surfaces.hurst" = [0.7]': "surfaces.hurst: is no key of a scene, did you mean surface.hurst?",
-    "surfaces.hurst = [0.7]": "over surfaces: hurst: is no key of a scene, did you mean surf",
-    "hurst = [0.7]": "over hurst: is no key of a scene, did you mean surface.hurst?",
     "surface.x = [0.7]": "surface.x: is no key of a scene, allowed are surface.file, surface.",
-    "x.y = [0.7]": "over x: y: is no key of a scene, allowed are surface., rubber., conditions.,",
     "surface.hurst = []": "surface.hurst: is empty",
     "surface.hurst = 0.7": "surface.hurst = 0.7: must be a list",
-    'surface.hurst = "0.7"': "surface.hurst = '0.7': must be a list",
     'surface.hurst = ["x"]': "hurst = 'x': must be a number",
     "surface.rms_height_m = [1e-4, 100.0]": "must be at most 1 m",
     'correction.kind = ["s-faktor"]': "did you mean s-factor?",
-    "conditions.pressure_pa = [[1e5]]": "must be a number",
     "conditions.pressure_pa = [-1e5]": "must be positive and finite",
-    "conditions.pressure_pa = [nan]": "must be positive and finite",
     "conditions.pressure_pa = {from = 1, points = 3}": "to is missing",
-    "conditions.pressure_pa = []": "is empty",
     "[over.road]": "over road: has no keys",
     "[over.road]\nsurface.hurst = [0.7, 0.8]\nsurface.q0_per_m = [1e3]": "must be equally long",
     "surface.hurst = [0.7]\n[over.road]\nsurface.hurst = [0.7]": "is in two axes",
     "surface.rolloff_per_m = [1e9]": "rolloff",
     "[over.mu]\nsurface.hurst = [0.7]": "over 'mu': is the name of a variable",
-    "[over.gain]\nsurface.hurst = [0.7]": "over 'gain': is the name of a variable",
-    "[over.failure_code]\nsurface.hurst = [0.7]": "is the name of a variable",
     '[over.""]\nsurface.hurst = [0.7]': "over '': must be of letters",
-    '[over."../x"]\nsurface.hurst = [0.7]': "over '../x': must be of letters",
-    '[over."a/b"]\nsurface.hurst = [0.7]': "over 'a/b': must be of letters",
     '[over."conditions.velocity_m_s"]\nsurface.hurst = [0.7]': "is a key of a scene",
 }
 
@@ -148,7 +136,6 @@ def test_bad_axes_are_refused_in_a_line_that_names_them(folder, capsys):
     ("text", "said"),
     [
         ("[over]\nsurface.hurst = [0.7]", "scene: must be the name of a file"),
-        ('scene = "gone.toml"\n[over]\nsurface.hurst = [0.7]', "gone.toml: cannot be read"),
         ('scene = "scene.toml"', "[over]: must be a table"),
         ('scene = "scene.toml"\nvelocities = 3\n[over]', "velocities: unknown key"),
         ('scene = "scene.toml"\nvariables = ["my"]\n[over]', "did you mean mu?"),
@@ -165,15 +152,11 @@ def test_a_bad_file_is_refused(text, said, folder, capsys):
     [
         ("sweep.toml", "--output: is missing"),
         ("sweep.toml --output r.csv", "must end in .zarr or .nc"),
-        ("sweep.toml --output gone/r.zarr", "gone does not exist"),
         ("sweep.toml --output r.zarr --force --resume", "--force, --resume: must be one of them"),
         ("sweep.toml --dry-run --resume", "--resume: must be left out with --dry-run"),
-        ("sweep.toml --dry-run --force", "--force: must be left out with --dry-run"),
         ("sweep.toml --output r.zarr --workers 0", "--workers 0: must be from 1"),
-        ("sweep.toml --output r.zarr --workers 2 --mpi", "must be one of them"),
         ("sweep.toml --output r.zarr --variables mu,my", "did you mean mu?"),
         ("sweep.toml --output r.zarr --scheduler nowhere:x", "--scheduler nowhere:x"),
-        ("gone.toml --output r.zarr", "gone.toml: cannot be read"),
     ],
 )
 def test_bad_options_are_refused(line, said, capsys):

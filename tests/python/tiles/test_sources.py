@@ -135,23 +135,6 @@ def test_a_file_that_was_replaced_after_it_was_mapped_is_refused(tmp_path, lengt
     assert height_statistics(again, pixel_size=1).rms_height == pytest.approx(np.std(again))
 
 
-def test_a_file_may_have_been_moved_where_the_path_leads_to_it_again(tmp_path):
-    array = mapped(tmp_path / "map.npy", HEIGHTS)
-    os.rename(tmp_path / "map.npy", tmp_path / "moved.npy")
-    (tmp_path / "map.npy").symlink_to(tmp_path / "moved.npy")
-    np.testing.assert_array_equal(source_of(array, 1).piece(BOX).read(), HEIGHTS[BOX])
-
-
-def test_where_inodes_are_unknown_the_length_tells(tmp_path, monkeypatch):
-    monkeypatch.setattr("asperity.tiles.file_array._inode", lambda address: None)
-    array = mapped(tmp_path / "map.npy", HEIGHTS)
-    assert isinstance(source_of(array, 1).array, FileArray)
-    np.save(tmp_path / "new.npy", HEIGHTS[:30])
-    os.replace(tmp_path / "new.npy", tmp_path / "map.npy")
-    with pytest.raises(InvalidInput, match=r"map\.npy: was replaced after it was mapped"):
-        source_of(array, 1)
-
-
 def test_a_damaged_chunk_is_an_error(tmp_path):
     zarr = pytest.importorskip("zarr")
     stored = zarr.create_array(tmp_path / "map.zarr", data=HEIGHTS, chunks=(40, 60))

@@ -327,19 +327,6 @@ def test_between_its_velocities_a_band_runs_straight_over_ln_v():
         np.testing.assert_allclose(found[1::2], (found[:-1:2] + found[2::2]) / 2, rtol=1e-12)
 
 
-def test_the_band_is_drawn_where_errors_are_known_and_only_there(scene, tmp_path):
-    pytest.importorskip("matplotlib", reason="pictures need asperity[plot]")
-    picture = tmp_path / "mu.svg"
-    assert main(["friction", str(scene()), "--plot", str(picture)]) == 0
-    assert "95 % band of the" in picture.read_text()
-    text = scene().read_text()
-    start, end = text.index("[surface]"), text.index("[rubber]")
-    plain = "[surface]\nrms_height_m = 2e-5\nhurst = 0.8\nq0_per_m = 2e4\nq1_per_m = 3e5\n"
-    (tmp_path / "plain.toml").write_text(text[:start] + plain + text[end:])
-    assert main(["friction", str(tmp_path / "plain.toml"), "--plot", str(picture)]) == 0
-    assert "draws" not in picture.read_text()
-
-
 def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_path, capsys):
     out = tmp_path / "mu.csv"
     path = scene(fit='fit = "self-affine"\nq1_per_m = 1e6')
