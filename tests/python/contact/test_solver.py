@@ -17,7 +17,6 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_scenes
 import truth
 
-ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
 RUBBER = asperity.PronySeries(
     equilibrium_modulus=3e6, moduli=[1e7, 1e8, 1e9], relaxation_times=[1e-2, 1e-4, 1e-6]
 )
@@ -200,17 +199,3 @@ def test_the_error_estimate_is_kept_where_the_contact_is_whole():
     exact = truth.contact(truth.table(wavenumber, density), integrals, **options)
     assert exact.g < 0.007  # P is 1 to rounding
     assert abs(found.mu - exact.mu) <= found.error_estimate
-
-
-def test_a_point_does_not_depend_on_the_points_beside_it():
-    pressure, velocity = np.geomspace(1e3, 1e7, 5), np.geomspace(1e-6, 1, 7)[:, None]
-    for correction in (None, asperity.SFactor()):
-        options = {"correction": correction, "adhesion": asperity.Adhesion(shear_stress=5e6)}
-        grid = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=velocity, **options)
-        for i, v in enumerate(velocity[:, 0]):
-            for j, p in enumerate(pressure):
-                alone = asperity.friction(ROAD, RUBBER, pressure=p, velocity=v, **options)
-                assert (alone.mu, alone.error_estimate) == (
-                    grid.mu[i, j],
-                    grid.error_estimate[i, j],
-                )

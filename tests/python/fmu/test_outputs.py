@@ -6,7 +6,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from helpers.fmus import A_T, MAX_ERROR, NAN, OUTPUTS, Host, of_map, on_linux, points, same
+from helpers.fmus import A_T, MAX_ERROR, NAN, OUTPUTS, of_map, on_linux, points, same
 
 
 @on_linux
@@ -39,22 +39,6 @@ def test_simulation_with_variable_steps(files, road, fmi):
         np.interp(before, times, signals["pressure"]), np.interp(before, times, signals["velocity"])
     )
     np.testing.assert_allclose(found["mu"][1:], expected, rtol=1e-13)
-
-
-@on_linux
-@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
-def test_many_points_at_once(files, road, tmp_path, fmi):
-    host = Host(files[fmi, 3], tmp_path)
-    pressure, velocity = points(3, seed=2)
-    if fmi == "2.0":
-        references = [1 + 32 * i for i in range(3)] + [2 + 32 * i for i in range(3)]
-        host.set(references, [*pressure, *velocity])
-        found = host.get([8, 40, 72])
-    else:
-        host.set([1, 2], [*pressure, *velocity])
-        found = host.get([8], 3)
-    assert list(found) == same(road.mu(pressure, velocity))
-    host.end()
 
 
 @on_linux

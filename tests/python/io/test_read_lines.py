@@ -22,7 +22,6 @@ GWYDDION = """\
 5 6 7 8
 9 10 11 12
 """
-POSITIONS = "# Lateral units: µm\n# Value units: nm\n"
 DEKTAK = "Scan Parameters\nStylus,Radius: 2.5 µm\n\nScan Data\n\nLateral um,Raw Micrometer,\n"
 
 
@@ -109,14 +108,6 @@ def test_arrays_of_one_dimension(tmp_path: Path, dtype: type, unit: str, metres:
         np.testing.assert_allclose(scan.heights, PROFILE * metres, rtol=1e-7)
 
 
-@pytest.mark.parametrize("shape", [(5, 1), (1, 5)])
-def test_an_array_of_two_dimensions_is_a_map(tmp_path: Path, shape: tuple[int, int]) -> None:
-    np.save(tmp_path / "scan.npy", PROFILE.reshape(shape))
-    surface = read_surface(tmp_path / "scan.npy", pixel_size=(1e-6, 2e-6), unit="m")
-    assert isinstance(surface, HeightMap)
-    assert surface.heights.shape == shape
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -148,13 +139,6 @@ def _read(path: Path, text: str, **given: object) -> HeightMap | LineScan:
     pytest.importorskip("SurfaceTopography")
     path.write_text(text, encoding="latin-1" if text.startswith("Scan") else "utf-8")
     return read_surface(path, **given)  # type: ignore[arg-type]
-
-
-def test_profile_with_positions(tmp_path: Path) -> None:
-    scan = _read(tmp_path / "scan.xyz", POSITIONS + "0 1\n0.5 2\n1 3\n1.5 5\n")
-    assert isinstance(scan, LineScan)
-    assert scan.spacing == pytest.approx(0.5e-6, rel=1e-12, abs=0)
-    np.testing.assert_allclose(scan.heights, [1e-9, 2e-9, 3e-9, 5e-9])
 
 
 def test_unit_of_an_instrument_file_is_that_of_all_its_lengths(tmp_path: Path) -> None:

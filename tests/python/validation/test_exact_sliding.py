@@ -148,21 +148,6 @@ def test_model_error_is_what_contacts_that_no_fit_saw_are_off(correction, chosen
             assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(told, abs=6e-4)
 
 
-def test_notes_tell_the_range_of_model_error():
-    told = {}
-    for row in gaussian("judge") + gaussian("curve"):
-        surface, rubber, conditions = parts(row)
-        found = asperity.friction(
-            surface, rubber, **conditions, correction=asperity.PartialContact()
-        )
-        (note,) = [note for note in found.notes if "exact sliding contacts of Gaussian" in note]
-        told.setdefault(note, []).append(100 * float(found.model_error))
-    assert len(told) == 3
-    for note, errors in told.items():
-        low, high = round(min(errors)), round(max(errors))
-        assert f"+-{low} to {high} % rms" in note
-
-
 def ratio(row):
     return float(row["k1"]) / float(row["k0"])
 

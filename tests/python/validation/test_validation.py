@@ -121,41 +121,6 @@ def test_area_errors_are_those_of_an_analysis_made_before(load):
         assert 100 * errors("area", name)[here].mean() == pytest.approx(expected, abs=1.6), name
 
 
-PAGE = {
-    "none": ("none", "none"),
-    "S on the integrand, gamma = 0.40": (None, "S in Eq. 22, 0.40"),
-    "S on the integrand, 0.50": (None, "S in Eq. 22, 0.50"),
-    "S inside G, 0.50": ("S in G, 0.50", None),
-    "S inside G, 5/9": ("S in G, 5/9", None),
-    "`NayakSFactor()`": ("Nayak S", "Nayak S"),
-    "p_T = 1.5": ("shift 1.5", "shift 1.5"),
-    "p_T = 2": ("shift 2", "shift 2"),
-    "local peaks, lambda0": ("peaks, lambda0", "peaks, lambda0"),
-    "local peaks, lambda0 / 2": ("peaks, lambda0/2", "peaks, lambda0/2"),
-    "IGW, implicit": ("IGW implicit", "IGW implicit"),
-    "IGW, added": ("IGW added", "IGW added"),
-    "peaks (lambda0 / 2), then IGW": ("peaks, then IGW", "peaks, then IGW"),
-}
-
-
-@pytest.mark.parametrize("name", PAGE)
-def test_the_page_of_corrections_has_these_errors(name):
-    page = Path(__file__).parents[3] / "docs/explanation/corrections.md"
-    text = page.read_text(encoding="utf-8")
-    table = text.partition("| correction | area, mean")[2]
-    line = next(line for line in table.splitlines() if line.startswith(f"| {name} |"))
-    cells = [cell.strip() for cell in line.strip("|").split("|")][1:]
-    for quantity, model, (mean, worst) in zip(
-        ("area", "energy"), PAGE[name], (cells[:2], cells[2:]), strict=True
-    ):
-        if model is None:
-            assert (mean, worst) == ("as none", "")
-            continue
-        error = 100 * errors(quantity, model)
-        assert mean == f"{np.abs(error).mean():.1f}"
-        assert worst == f"{error[np.abs(error).argmax()]:+.1f}"
-
-
 def test_the_factor_that_knows_the_band_halves_the_error_of_s_inside_g():
     found, other = (np.abs(errors("area", name)) for name in ("Nayak S", "S in G, 5/9"))
     assert found.mean() < other.mean() / 2
