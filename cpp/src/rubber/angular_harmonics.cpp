@@ -108,8 +108,8 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
         first[static_cast<Eigen::Index>(i)] = i1[i];
         second[static_cast<Eigen::Index>(i)] = i2[i];
       }
-      cells_.push_back(
-          {w_at(from), c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half), from, half, edges[p], length, root});
+      cells_.push_back({w_at(from), c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half), from, 1 / half, edges[p],
+                        1 / length, root});
       const std::size_t place = of_.size();
       of_.resize(place + count);
       const auto keep = [&](std::size_t which) {
@@ -135,8 +135,8 @@ void HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
       c = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
     }
     const Cell& cell = cells_[c];
-    const double share = std::fmax(0, (at - cell.panel_low) / cell.panel_length);
-    const double u = ((cell.root ? std::sqrt(share) : share) - cell.from) / cell.step - 1;
+    const double share = std::fmax(0, (at - cell.panel_low) * cell.inverse_length);
+    const double u = ((cell.root ? std::sqrt(share) : share) - cell.from) * cell.inverse_step - 1;
     for (std::size_t k = 0; k < count; ++k) {
       const Pair sum = of_[c * count_ + k](u);
       loss[k * n + i] = sum[0];

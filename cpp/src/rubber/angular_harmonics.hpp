@@ -28,9 +28,9 @@ class HarmonicTable {
 
  private:
   struct Cell {
-    double low, high;   // [rad/s]
-    double from, step;  // a polynomial's variable is (t - from) / step - 1 with t the share of the panel or its root
-    double panel_low, panel_length;
+    double low, high;  // [rad/s]
+    // a polynomial's variable is (t - from) / step - 1 with t the share of the panel or its root
+    double from, inverse_step, panel_low, inverse_length;
     bool root;
   };
   std::size_t count_;

@@ -168,7 +168,9 @@ void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) c
 void MasterCurve::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
                                     std::span<double> square) const {
   require_harmonics(w, count, loss, square);
-  for (const double one : w) table_->check(one);
+  if (w.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(w);
+  for (const double one : {lowest, highest}) table_->check(one);
   table_->harmonics.of(table_->angular, table_->pieces.front(), count)(w, count, loss.data(), square.data());
 }
 

@@ -2,6 +2,7 @@
 // Phys. 115, 3840 (2001), whose integrals over directions these are for C(q, phi).
 #include "contact/grid/directions.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -12,28 +13,43 @@
 
 namespace asperity {
 
+namespace {
+
+using Row = Eigen::Map<const Eigen::ArrayXd>;
+using Sums = Eigen::Map<Eigen::ArrayXd>;
+
+/// sums += `scale` a_m `by`, a_m of each wave or of all.
+template <class By>
+void add(const std::vector<double>& harmonics, const Rings& rings, std::size_t m, double scale, const By& by,
+         Sums& sums) {
+  const double* const a = harmonics.data() + m * rings.waves;
+  if (rings.waves == 1)
+    sums += (scale * *a) * by;
+  else
+    sums += scale * Row(a, sums.size()) * by;
+}
+
+}  // namespace
+
 void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across) {
-  for (std::size_t i = 0; i < i1.size(); ++i) {
-    const double *const a = rings.along.data() + rings.row(i), *const b = rings.across.data() + rings.row(i);
-    const double* now = rows.loss.data() + i;
-    double before = i1[i], first = 0, second = 0;
-    for (std::size_t m = 0; m < rows.count; ++m, now += rows.stride) {
-      first += a[m] * (before + *now);
-      second += b[m] * (before - *now);
-      before = *now;
-    }
-    i1[i] += first;
-    if (!across.empty()) across[i] = second;
+  const auto n = static_cast<Eigen::Index>(i1.size());
+  Sums along(i1.data(), n), beside(across.data(), across.empty() ? 0 : n);
+  const auto row = [&](std::size_t m) { return Row(rows.loss.data() + (m - 1) * rows.stride, n); };
+  // from I1, the row before the first, on
+  if (rows.count == 0) return;
+  if (!across.empty()) add(rings.across, rings, 0, 1, along - row(1), beside);
+  add(rings.along, rings, 0, 1, along + row(1), along);
+  for (std::size_t m = 1; m < rows.count; ++m) {
+    add(rings.along, rings, m, 1, row(m) + row(m + 1), along);
+    if (!across.empty()) add(rings.across, rings, m, 1, row(m) - row(m + 1), beside);
   }
 }
 
 void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2) {
-  for (std::size_t i = 0; i < i2.size(); ++i) {
-    const double *const a = rings.along.data() + rings.row(i), *now = rows.square.data() + i;
-    double sum = 0;
-    for (std::size_t m = 0; m < rows.count; ++m, now += rows.stride) sum += a[m] * *now;
-    i2[i] += 2 * sum;
-  }
+  const auto n = static_cast<Eigen::Index>(i2.size());
+  Sums sums(i2.data(), n);
+  for (std::size_t m = 0; m < rows.count; ++m)
+    add(rings.along, rings, m, 2, Row(rows.square.data() + m * rows.stride, n), sums);
 }
 
 const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
@@ -42,7 +58,7 @@ const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
 }
 
 Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction)
-    : table_(table), size_(table.harmonics().count), end_{table.harmonics().count, {}, {}} {
+    : table_(table), size_(table.harmonics().count), end_(table.harmonics().count) {
   const RingHarmonics& harmonics = table.harmonics();
   for (std::size_t m = 0; m < count(); ++m) {
     const double angle = 2 * static_cast<double>(m + 1) * direction;
@@ -69,43 +85,48 @@ Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> 
   }
   for (auto* const row : {&cosine, &sine})
     for (double& one : *row) one /= whole > 0 ? whole : 1;
-  add_turned(cosine.data(), sine.data(), end_);
+  turn(cosine.data(), sine.data(), end_, 0);
 }
 
-void Directions::add_turned(const double* cosine, const double* sine, Rings& to) const {
+void Directions::turn(const double* cosine, const double* sine, Rings& to, std::size_t wave) const {
   for (std::size_t m = 0; m < count(); ++m) {
-    to.along.push_back(cosine[m] * cosine_[m] + sine[m] * sine_[m]);
-    to.across.push_back(sine[m] * cosine_[m] - cosine[m] * sine_[m]);
+    to.along[m * to.waves + wave] = cosine[m] * cosine_[m] + sine[m] * sine_[m];
+    to.across[m * to.waves + wave] = sine[m] * cosine_[m] - cosine[m] * sine_[m];
   }
+}
+
+void Directions::turn(const HarmonicsAt& at, Rings& to, std::size_t wave) const {
+  std::vector<double> cosine(count()), sine(count());
+  for (std::size_t m = 0; m < count(); ++m) {
+    cosine[m] = at.cosine(m);
+    sine[m] = at.sine(m);
+  }
+  turn(cosine.data(), sine.data(), to, wave);
 }
 
 Rings Directions::at(double wavenumber) const {
-  const HarmonicsAt at(table_, wavenumber);
-  std::vector<double> cosine, sine;
-  for (std::size_t m = 0; m < count(); ++m) {
-    cosine.push_back(at.cosine(m));
-    sine.push_back(at.sine(m));
-  }
-  Rings result{count(), {}, {}};
-  add_turned(cosine.data(), sine.data(), result);
+  Rings result(count());
+  turn(HarmonicsAt(table_, wavenumber), result, 0);
   return result;
 }
 
 Rings Directions::at_nodes(const ContactGrid& grid) const {
-  Rings result{count(), {}, {}};
-  const auto add = [&](const Rings& ring) {
-    result.along.insert(result.along.end(), ring.along.begin(), ring.along.end());
-    result.across.insert(result.across.end(), ring.across.begin(), ring.across.end());
-  };
+  Rings result(count(), grid.size());
+  const RoughnessPieces* const pieces = grid.pieces();
   for (std::size_t i = 0; i < grid.band_size(); ++i)
-    if (grid.pieces())
-      add_turned(&grid.pieces()->nodes().cosine[i * count()], &grid.pieces()->nodes().sine[i * count()], result);
+    if (pieces)
+      turn(&pieces->nodes().cosine[i * count()], &pieces->nodes().sine[i * count()], result, i);
     else
-      add(at(grid.wavenumber()[i]));
-  const std::size_t macro = grid.macro_harmonics().cosine.size() / std::max<std::size_t>(count(), 1);
-  for (std::size_t i = grid.band_size(); i + macro < grid.size(); ++i) add(end_);
-  for (std::size_t i = 0; i < macro; ++i)
-    add_turned(&grid.macro_harmonics().cosine[i * count()], &grid.macro_harmonics().sine[i * count()], result);
+      turn(HarmonicsAt(table_, grid.wavenumber()[i]), result, i);
+  const auto& [cosine, sine] = grid.macro_harmonics();
+  const std::size_t macro = grid.size() - cosine.size() / count();
+  for (std::size_t i = grid.band_size(); i < grid.size(); ++i)
+    for (std::size_t m = 0; i < macro && m < count(); ++m) {
+      result.along[m * result.waves + i] = end_.along[m];
+      result.across[m * result.waves + i] = end_.across[m];
+    }
+  for (std::size_t i = macro; i < grid.size(); ++i)
+    turn(&cosine[(i - macro) * count()], &sine[(i - macro) * count()], result, i);
   return result;
 }
 

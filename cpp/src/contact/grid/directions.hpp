@@ -1,6 +1,7 @@
 // The harmonics of a directional spectrum, seen from the velocity, and what they add to the integrals of a rubber.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,12 +14,20 @@
 namespace asperity {
 
 class ContactGrid;
+class HarmonicsAt;
 
-/// Harmonics a_m and b_m of waves about the velocity: `count` of each for every wave, or one wave's for all.
+/// Harmonics a_m and b_m about the velocity, `count` rows of as many waves.
 struct Rings {
-  std::size_t count = 0;
+  std::size_t count = 0, waves = 0;
   std::vector<double> along, across;
-  [[nodiscard]] std::size_t row(std::size_t wave) const { return along.size() == count ? 0 : wave * count; }
+  Rings(std::size_t harmonics = 0, std::size_t of_waves = 1)
+      : count(harmonics), waves(of_waves), along(count * waves), across(count * waves) {}
+  /// C over its mean of so many harmonics, at most.
+  [[nodiscard]] double most(std::size_t wave, std::size_t harmonics) const {
+    double sum = 1;
+    for (std::size_t m = 0; m < harmonics; ++m) sum += 2 * std::fabs(along[m * waves + wave]);
+    return sum;
+  }
 };
 
 /// L_m and K_m of a rubber at frequencies, in rows of m from 1 on, each `stride` after the one before.
@@ -28,7 +37,7 @@ struct HarmonicRows {
 };
 
 /// I1 + sum a_m (L_m-1 + L_m), sum b_m (L_m-1 - L_m), the force across, and I2 + 2 sum a_m K_m take the places of I1,
-/// of nothing and of I2.
+/// of nothing and of I2. The rings of one wave are those of all.
 void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across);
 void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2);
 
@@ -55,7 +64,8 @@ class Directions {
   [[nodiscard]] Needed needed(const Rubber& rubber, const FrequencyRange& range, double least, bool parted) const;
 
  private:
-  void add_turned(const double* cosine, const double* sine, Rings& to) const;
+  void turn(const double* cosine, const double* sine, Rings& to, std::size_t wave) const;
+  void turn(const HarmonicsAt& at, Rings& to, std::size_t wave) const;
 
   const TabulatedSpectrum& table_;
   std::vector<double> cosine_, sine_;  // of 2 m times the direction

@@ -87,7 +87,7 @@ Excitation::Excitation(const Rubber& rubber, const ContactModel& model, std::spa
   if (directions) directions_.emplace(*directions, surface, model.direction);
 }
 
-Rings Excitation::rings(const ContactGrid& grid) const { return directions_ ? directions_->at_nodes(grid) : Rings{}; }
+Rings Excitation::rings(const ContactGrid& grid) const { return directions_ ? directions_->at_nodes(grid) : Rings(); }
 
 Directions::Needed Excitation::needed(const FrequencyRange& range, double least) const {
   if (!directions_) return {0, 0};
@@ -123,6 +123,11 @@ bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFa
   if (!factors.empty()) {
     of_loss.resize((rows + 1) * n);
     loss_part(rubber_, w, of_loss);
+  }
+  if (!directed.mean_i1.empty()) {
+    std::ranges::copy(i1, directed.mean_i1.begin());
+    std::ranges::copy(i2, directed.mean_i2.begin());
+    soften(factors, of_loss, directed.mean_i1, directed.mean_i2, {});
   }
   if (rows > 0) {
     std::vector<double> loss(rows * n), square(rows * n);

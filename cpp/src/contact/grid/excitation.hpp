@@ -43,11 +43,12 @@ class Softening {
 /// the directions of that end.
 enum class Waves { of_roughness, of_edges };
 
-/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across or none.
+/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across and for what
+/// I1 and I2 would be in the mean over directions, or none.
 struct Directed {
   const Rings* rings = nullptr;
   std::size_t harmonics = 0;
-  std::span<double> across = {};
+  std::span<double> across = {}, mean_i1 = {}, mean_i2 = {};
 };
 
 /// I1 and I2 at frequencies, as waves feel them: of the rubber, bit by bit; with directions their sums over the ring

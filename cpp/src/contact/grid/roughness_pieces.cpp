@@ -93,9 +93,11 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   do {
     nodes_.wavenumber.push_back(surface.back().b);
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
-    if (directions_)
-      for (auto* const row : {&nodes_.cosine, &nodes_.sine})
-        row->resize(nodes_.wavenumber.size() * directions_->harmonics().count);
+    for (std::size_t m = 0; directions_ && m < directions_->harmonics().count; ++m) {
+      const HarmonicsAt at(*directions_, surface.back().b);
+      nodes_.cosine.push_back(at.cosine(m));
+      nodes_.sine.push_back(at.sine(m));
+    }
   } while (nodes_.wavenumber.size() % 4 != 0);
   take_differences();
   cells_ = RoughnessCells(12, 1, foot_, surface.back().b, nodes_.wavenumber);

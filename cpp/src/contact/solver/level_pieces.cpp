@@ -51,6 +51,11 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   }
   at_nodes_.resize(level.i2.size());
   if (!level.factors.empty()) cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
+  if (!level.mean_i1.empty()) {
+    std::copy_n(level.i1.begin(), n, level.mean_i1.begin());
+    std::copy_n(level.i2.begin(), n, level.mean_i2.begin());
+    soften(level.factors, at_nodes_, level.mean_i1, level.mean_i2, {});
+  }
   if (rows > 0) add_directions_of_pieces(level, level.factors.empty() ? std::span<double>() : at_nodes_);
   if (level.factors.empty()) return;
   soften(level.factors, at_nodes_, level.i1, level.i2,
@@ -58,46 +63,28 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   for (std::size_t i = 0; rows > 0 && i < n; ++i) level.across[i] *= level.factors[i].loss;
 }
 
-/// `of_loss` has the part of I2 that E'' has, or nothing.
-void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_loss) {
-  const RoughnessCells& cells = level.grid->pieces()->cells();
-  const std::size_t rows = needed_.count, n = level.grid->size(), stride = n + RoughnessCells::excess,
-                    points = frequency_.size();
-  for (auto* const row : {&loss_at_nodes_, &square_at_nodes_}) row->resize(rows * stride);
-  for (std::size_t m = 0; m < rows; ++m)
-    cells.at_nodes(&loss_[m * points], &square_[m * points], &loss_at_nodes_[m * stride],
-                   &square_at_nodes_[m * stride]);
-  const std::span<double> i1{level.i1.data(), n};
-  const bool outside = any_outside_ && !level.i1_outside.empty();
-  if (outside)  // as if it had the directions of all
-    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
-  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);
-  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, {level.i2.data(), n});
-  if (outside)
-    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] *= i1[i];
-  for (std::size_t m = 0; m < rows && !of_loss.empty(); ++m)
-    cells.at_nodes(&of_loss_[(m + 1) * points], &of_loss_[(m + 1) * points], &square_at_nodes_[m * stride],
-                   &square_at_nodes_[m * stride]);
-  if (!of_loss.empty()) add_directions(level.rings, {rows, stride, {}, square_at_nodes_}, of_loss.first(n));
-}
-
 /// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth
 /// differences of I1 and I2 at the nodes tell it, whether two levels miss a knot alike or not. An error of G passes on
-/// to all behind it.
+/// to all behind it. A knot is felt from waves along the velocity on, so that a ring has as much of it as C there is
+/// above its mean.
 double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
   const auto& difference = level.grid->pieces()->nodes().difference;
   const std::size_t n = level.grid->size();
   const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / sums.slope;
   of_i1_.resize(n);
   of_i2_.resize(n);
+  const double *const i1 = (rings_of_ ? level.mean_i1 : level.i1).data(), *const i2 =
+                                                                              (rings_of_ ? level.mean_i2 : level.i2)
+                                                                                  .data();
   for (std::size_t i = 2; i + 2 < n; ++i) {
     double of_i1 = 0, of_i2 = 0;
     for (std::size_t k = 0; k < 5; ++k) {
-      of_i1 += difference[k][i] * level.i1[i + k - 2];
-      of_i2 += difference[k][i] * level.i2[i + k - 2];
+      of_i1 += difference[k][i] * i1[i + k - 2];
+      of_i2 += difference[k][i] * i2[i + k - 2];
     }
-    of_i1_[i] = std::fabs(factor * of_i1);
-    of_i2_[i] = std::fabs(factor * of_i2);
+    const double along = factor * level.rings.most(i, needed_.count);
+    of_i1_[i] = std::fabs(along * of_i1);
+    of_i2_[i] = std::fabs(along * of_i2);
   }
   const double kappa_on_mu = std::fabs(sums.friction_slope) * by_kappa,
                kappa_on_area = std::fabs(sums.share_slope) * by_kappa;

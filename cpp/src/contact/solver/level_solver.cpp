@@ -18,8 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double for_edges = 0.02;      // of the tolerance
-constexpr double for_harmonics = 0.02;  // that are left out
+constexpr double for_edges = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
@@ -78,12 +77,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
 void LevelSolver::begin(double velocity) {
   if (velocity == velocity_) return;
   velocity_ = velocity;
-  if (rings_of_) {
-    const double end = window_ ? window_->end() * partial_contact::tail_end : surface_.back().b;
-    FrequencyRange range{velocity * surface_.front().a, velocity * std::fmax(end, surface_.back().b)};
-    if (known_) range.highest = std::clamp(range.highest, range.lowest, known_->highest);
-    needed_ = (analytic_waves_ ? *analytic_waves_ : waves_).needed(range, for_harmonics * model_.rtol);
-  }
+  if (rings_of_) take_harmonics();
   if (window_ && !pieces_.empty())
     edges_ = edges_of_(velocity, window_->end(), 1, partial_contact::tail_end, needed_.count);
   if (panels_.empty()) return;
@@ -125,6 +119,8 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const std::size_t n = grid.size();
   for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
   if (rings_of_) level.across.assign(n + RoughnessCells::excess, 0.0);
+  if (rings_of_ && grid.pieces() && kinks())
+    for (auto* const row : {&level.mean_i1, &level.mean_i2}) row->resize(n);
   if (grid.pieces() && analytic_) {
     take_moduli_of_pieces(level, first);
     return;
@@ -137,20 +133,11 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
   if (asked) level.i1_outside.resize(n);
   const Excitation& waves = analytic_waves_ ? *analytic_waves_ : waves_;
-  const Directed directed{&level.rings, needed_.count, std::span(level.across).first(rings_of_ ? n : 0)};
+  const Directed directed{&level.rings, needed_.count, std::span(level.across).first(rings_of_ ? n : 0), level.mean_i1,
+                          level.mean_i2};
   const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside, directed);
   if (first) any_outside_ = any;
   if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {}, directed);
-}
-
-void LevelSolver::check_directions(const Level& level) const {
-  const auto& weight = level.grid->weight();
-  for (std::size_t i = 0; rings_of_ && i < level.grid->band_size(); ++i)
-    if (weight[static_cast<Index>(i)] > 0 && !(level.i2[i] > 0))
-      throw InvalidInput(argument("spectrum") +
-                         ": its harmonics at wavenumber = " + show(level.grid->wavenumber()[i], 6) +
-                         " 1/m are those of no density that is positive in all directions" + must(", must have ") +
-                         "fewer of them, or wider rings");
 }
 
 void LevelSolver::lay_out(Levels& levels, std::size_t number) {
@@ -263,22 +250,6 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
       sum += part[static_cast<Index>(i)] * (held ? 1 : level.i1_outside[i] / level.i1[i]);
   }
   return sum / scale_ / sums.friction;
-}
-
-double LevelSolver::across(const Level& level, const ContactSums& sums) const {
-  if (!rings_of_) return 0;
-  const ContactGrid& grid = *level.grid;
-  const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
-  const bool by_stress = window_ && grid.pieces();
-  double sum = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
-  for (std::size_t i = 0; i < (by_stress ? grid.band_size() : grid.size()); ++i) {
-    const auto at = static_cast<Index>(i);
-    if (by_stress)
-      sum += grid.weight()[at] * stress[at] * level.across[i];
-    else if (level.i1[i] != 0)
-      sum += part[at] / scale_ * (level.across[i] / level.i1[i]);
-  }
-  return sum;
 }
 
 double LevelSolver::share_beyond(double wavenumber) const {

@@ -60,13 +60,15 @@ class LevelSolver {
     Rings rings;                                           // with directions
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
-    std::vector<double> across;      // of rings, as i1
-    std::vector<double> i1_outside;  // of unmeasured frequencies; of a Prony series on one level alone
+    std::vector<double> across;            // of rings, as i1
+    std::vector<double> mean_i1, mean_i2;  // over directions, where the modulus has kinks
+    std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
   };
   using Levels = std::vector<Level>;
   /// Whether the modulus has kinks over ln q.
   [[nodiscard]] bool kinks() const { return !analytic_ || waves_.softening(); }
   void begin(double velocity);
+  void take_harmonics();
   [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift);
   Level& at_velocity(Levels& levels, std::size_t number);
   void lay_out(Levels& levels, std::size_t number);

@@ -1,0 +1,68 @@
+// Levels whose rings have directions (contact/grid/directions.hpp): their harmonics, and the force across.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/solver/level_solver.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
+#include "numerics/arguments.hpp"
+
+namespace asperity {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// How many harmonics matter at the velocity.
+void LevelSolver::take_harmonics() {
+  constexpr double least = 0.02;  // of the tolerance
+  const double band = surface_.back().b, end = window_ ? window_->end() * partial_contact::tail_end : band;
+  FrequencyRange range{velocity_ * surface_.front().a, velocity_ * std::fmax(end, band)};
+  if (known_) range.highest = std::clamp(range.highest, range.lowest, known_->highest);
+  needed_ = (analytic_waves_ ? *analytic_waves_ : waves_).needed(range, least * model_.rtol);
+}
+
+/// `of_loss` has the part of I2 that E'' has, or nothing.
+void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_loss) {
+  const RoughnessCells& cells = level.grid->pieces()->cells();
+  const std::size_t rows = needed_.count, n = level.grid->size(), stride = n + RoughnessCells::excess,
+                    points = frequency_.size();
+  for (auto* const row : {&loss_at_nodes_, &square_at_nodes_}) row->resize(rows * stride);
+  for (std::size_t m = 0; m < rows; ++m)
+    cells.at_nodes(&loss_[m * points], &square_[m * points], &loss_at_nodes_[m * stride],
+                   &square_at_nodes_[m * stride]);
+  const std::span<double> i1{level.i1.data(), n};
+  const bool outside = any_outside_ && !level.i1_outside.empty();
+  if (outside)  // as if it had the directions of all
+    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
+  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);
+  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, {level.i2.data(), n});
+  if (outside)
+    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] *= i1[i];
+  for (std::size_t m = 0; m < rows && !of_loss.empty(); ++m)
+    cells.at_nodes(&of_loss_[(m + 1) * points], &of_loss_[(m + 1) * points], &square_at_nodes_[m * stride],
+                   &square_at_nodes_[m * stride]);
+  if (!of_loss.empty()) add_directions(level.rings, {rows, stride, {}, square_at_nodes_}, of_loss.first(n));
+}
+
+void LevelSolver::check_directions(const Level& level) const {
+  const auto& weight = level.grid->weight();
+  for (std::size_t i = 0; rings_of_ && i < level.grid->band_size(); ++i)
+    if (weight[static_cast<Index>(i)] > 0 && !(level.i2[i] > 0))
+      throw InvalidInput(argument("spectrum") +
+                         ": its harmonics at wavenumber = " + show(level.grid->wavenumber()[i], 6) +
+                         " 1/m are those of no density that is positive in all directions" + must(", must have ") +
+                         "fewer of them, or wider rings");
+}
+
+double LevelSolver::across(const Level& level, const ContactSums& sums) const {
+  if (!rings_of_ || !(sums.friction > 0)) return 0;
+  const ContactGrid& grid = *level.grid;
+  const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
+  const bool by_stress = window_ && grid.pieces();
+  const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
+  const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
+  if (!by_stress) return (i1 != 0).select(part.head(n).array() * lateral / i1, 0).sum() / scale_;
+  const double edges = sums.edges * grid.beyond().end->window * edges_.across;
+  return edges + (grid.weight().array() * stress.array() * lateral).sum();
+}
+
+}  // namespace asperity
