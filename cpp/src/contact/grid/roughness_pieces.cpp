@@ -93,10 +93,10 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   do {
     nodes_.wavenumber.push_back(surface.back().b);
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
-    for (std::size_t m = 0; directions_ && m < directions_->harmonics().count; ++m) {
+    for (std::size_t k = 0; directions_ && k < directions_->harmonics().count; ++k) {
       const HarmonicsAt at(*directions_, surface.back().b);
-      nodes_.cosine.push_back(at.cosine(m));
-      nodes_.sine.push_back(at.sine(m));
+      nodes_.cosine.push_back(at.cosine(k));
+      nodes_.sine.push_back(at.sine(k));
     }
   } while (nodes_.wavenumber.size() % 4 != 0);
   take_differences();
