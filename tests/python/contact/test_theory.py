@@ -41,26 +41,6 @@ def test_a_spectrum_has_the_height_and_slope_that_it_claims(rolloff):
     np.testing.assert_array_equal(spectrum.at([1e3, 1999.9, 1.0001e6, 1e9]), 0)
 
 
-def test_the_articles_spectrum_delivers_h0_over_root_two():
-    spectrum = SelfAffineSpectrum.from_article(h0=1e-4, hurst=0.8, q0=1e3, q1=1e8)
-    q = np.array([1e3, 3e4, 1e8])
-    printed = (1e-4 / 1e3) ** 2 * 0.8 / (2 * np.pi) * (q / 1e3) ** -3.6
-    np.testing.assert_allclose(spectrum.at(q), printed, rtol=1e-12)
-    assert spectrum.rms_height == pytest.approx(1e-4 / math.sqrt(2), rel=1e-7)
-
-
-@pytest.mark.parametrize(
-    ("rms_height", "hurst", "cutoff"), [(76.572e-6, 0.7, 320), (265.7e-6, 0.87, 11.7)]
-)
-def test_slope_rule_cuts_the_articles_surfaces(rms_height, hurst, cutoff):
-    spectrum = SelfAffineSpectrum(rms_height=rms_height, hurst=hurst, q0=2e3, q1=1e6)
-    q = spectrum.cutoff_for_slope()
-    assert q / 2e3 == pytest.approx(cutoff, rel=5e-3)
-    assert spectrum.truncated(q1=q).rms_slope == pytest.approx(1.3, rel=1e-12)
-    assert spectrum.cutoff_for_contamination(1e-4) == pytest.approx(2 * np.pi / 1e-4)
-    assert spectrum.cutoff_for_contamination(1e-9) == spectrum.q1
-
-
 @pytest.mark.parametrize("table", [False, True])
 def test_truncation_keeps_densities_and_scaling_multiplies_them(table):
     spectrum = ROAD

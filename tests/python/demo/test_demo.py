@@ -39,13 +39,6 @@ def test_scan_is_what_the_issue_asks_for() -> None:
     assert surface.detrend("plane").rms_height > 1.05 * flat.rms_height  # and curved
 
 
-def test_its_spectrum_is_table_1s() -> None:
-    surface = asperity.HeightMap(demo.scan(), pixel_size=demo.PIXEL_SIZE).fill_dropouts()
-    spectrum = asperity.power_spectrum(surface, detrend="quadratic")
-    fit = asperity.fit_self_affine(spectrum, q_min=2500.0, q_max=1.5e4)
-    assert fit.hurst == pytest.approx(0.87, abs=0.06)
-
-
 def test_demo_leaves_what_it_says(finished: Path) -> None:
     wanted = {"scan.npy", "scene.toml", "hot.toml", "friction.csv"}
     if importlib.util.find_spec("matplotlib") is not None:

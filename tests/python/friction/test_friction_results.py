@@ -83,24 +83,6 @@ def test_tightening_the_tolerance_does_not_change_a_friction_already_found():
         assert abs(tight.mu - loose.mu) <= loose.error_estimate + tight.error_estimate, rtol
 
 
-@pytest.mark.parametrize("seed", range(30))
-def test_ragged_master_curves_keep_the_tolerance(seed):
-    rng = np.random.default_rng(seed)
-    rows = int(rng.integers(2, 9))
-    w = np.concatenate([[1.0], np.sort(10 ** rng.uniform(0.5, 7, rows)), [3e8]])
-    storage = 1e6 * 10 ** np.sort(rng.uniform(0, 3.5, w.size))
-    rubber = MasterCurve(
-        angular_frequency=w,
-        storage_modulus=storage,
-        loss_modulus=storage * rng.uniform(0.02, 1.5, w.size),
-    )
-    found = [
-        asperity.friction(STEEP, rubber, pressure=81e3, velocity=0.01, rtol=rtol)
-        for rtol in (1e-2, 1e-6)
-    ]
-    assert abs(found[1].mu - found[0].mu) <= found[0].error_estimate + found[1].error_estimate
-
-
 @pytest.mark.parametrize("correction", [None, asperity.SFactor(gamma=0.4, applies_to="both")])
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-8, 1e-11])
 def test_error_estimate_of_the_total_keeps_the_tolerance_asked_for(rtol, correction):

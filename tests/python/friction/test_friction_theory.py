@@ -44,10 +44,6 @@ def master_curve(rubber=RUBBER, low=1e-3, high=1e8, rows=300, extrapolation=None
     )
 
 
-def elastic(modulus):
-    return PronySeries(equilibrium_modulus=modulus, moduli=[], relaxation_times=[])
-
-
 ALL = [
     None,
     SFactor(applies_to="both"),
@@ -176,24 +172,6 @@ def test_local_peaks_are_eq_13():
     expected = surface.z_max / (surface.z_max - heights.mean())
     assert found.shift_factor == pytest.approx(expected, rel=1e-12)
     assert found.z_max == surface.z_max
-
-
-SANDPAPER = SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000, q1=1e5)
-
-
-@pytest.mark.parametrize(
-    ("reading", "modulus", "z_max", "z_min"),
-    [("implicit", 115.95e6, 0.29028e-3, -0.31587e-3), ("added", 16.7e6, 0.266e-3, -0.499e-3)],
-)
-def test_the_articles_shift_factors_come_out_of_eq_21(reading, modulus, z_max, z_min):
-    found = asperity.friction(
-        SANDPAPER,
-        elastic(0.75 * modulus),
-        pressure=[0.1e6, 0.3e6, 0.5e6],
-        velocity=1,
-        correction=GreenwoodWilliamson(z_max=z_max, z_min=z_min, reading=reading),
-    )
-    np.testing.assert_allclose(found.shift_factor, [2.46, 2.02, 1.83], atol=0.006)
 
 
 @pytest.mark.parametrize("reading", ["implicit", "added"])

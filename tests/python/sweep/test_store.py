@@ -4,7 +4,6 @@ import errno
 import json
 import os
 import shutil
-import stat
 from pathlib import Path
 
 import numpy as np
@@ -286,18 +285,6 @@ def test_netcdf_that_cannot_be_written_leaves_what_can_be_resumed(expected, monk
     assert os.listdir() == ["a.nc.part"]
     with sweep(SCENE, OVER, store="a.nc", resume=True) as found:
         same(found, expected)
-
-
-@pytest.mark.skipif(os.name == "nt", reason="has no such permissions")
-def test_netcdf_has_the_permissions_of_any_new_file(monkeypatch):
-    before = os.umask(0o027)
-    try:
-        with monkeypatch.context() as patched:
-            patched.setattr(os, "umask", None)  # it is that of all threads
-            sweep(SCENE, OVER, store="a.nc").close()
-    finally:
-        os.umask(before)
-    assert stat.S_IMODE(os.stat("a.nc").st_mode) == 0o640
 
 
 def test_a_file_that_changes_ends_the_sweep(tmp_path, monkeypatch):
