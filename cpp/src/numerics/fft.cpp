@@ -39,7 +39,7 @@ std::vector<double> backward_transform(std::vector<std::complex<double>>& modes,
   std::vector<double> heights(ny * nx);
   const Scratch<std::complex<double>> in(half);
   const Scratch<double> out(nx);
-  const RealInverse<double> along_row(nx);
+  const RealTransform<double> along_row(nx, Direction::backward);
   for (std::size_t y = 0; y < ny; ++y) {
     heed();
     std::copy_n(modes.data() + y * half, half, in.data());

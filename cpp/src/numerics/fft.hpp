@@ -20,14 +20,16 @@ enum class Direction { forward, backward };
 /// One-dimensional transforms of length n, planned once, run from any thread. Every pointer must be aligned as Scratch
 /// is.
 template <class T>
-class RealTransform {  // n real numbers to n / 2 + 1 modes; the input is overwritten
+class RealTransform {  // n real numbers to n / 2 + 1 modes, or back; the input is overwritten
  public:
   /// Rows that are transformed at once: pocketfft takes for all of them little longer than for one.
   static constexpr std::size_t together = has_gsl_and_fftw ? 1 : 32 / sizeof(T);
-  explicit RealTransform(std::size_t n);
+  explicit RealTransform(std::size_t n, Direction direction = Direction::forward);
   void operator()(T* in, std::complex<T>* out) const;
   /// `together` rows at once, `row` numbers and `modes` modes from one to the next.
   void operator()(T* in, std::size_t row, std::complex<T>* out, std::size_t modes) const;
+  /// The way back, sum m exp(i k x 2 pi / n), of one that goes it.
+  void operator()(std::complex<T>* in, T* out) const;
 
  private:
   std::size_t n_;
@@ -45,18 +47,6 @@ class ComplexTransform {  // `count` transforms at once, `distance` from one to 
   std::size_t count_, distance_;
   Direction direction_;
   std::shared_ptr<void> plan_;
-};
-
-template <class T>
-class RealInverse {  // n / 2 + 1 modes to the n real numbers sum m exp(i k x 2 pi / n); the input is overwritten
- public:
-  explicit RealInverse(std::size_t n);
-  void operator()(std::complex<T>* in, T* out) const;
-
- private:
-  std::size_t n_;
-  std::shared_ptr<void> plan_;
-  std::vector<std::complex<T>> twiddles_;
 };
 
 /// Transforms of `width` columns of n modes that lie side by side, a cache line a row, in place.

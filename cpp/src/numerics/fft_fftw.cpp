@@ -78,19 +78,26 @@ std::shared_ptr<void> planned(Make make) {
 //   Z_k = (X_k + conj X_h-k) / 2 + t_k (X_k - conj X_h-k),  t_k = -i / 2 exp(-2 pi i k / n),
 // where k and h - k share their terms: Z_h-k = conj((X_k + conj X_h-k) / 2 - t_k (X_k - conj X_h-k)).
 template <class T>
-RealTransform<T>::RealTransform(std::size_t n) : n_(n) {
-  const Scratch<T> in(n);
-  const Scratch<std::complex<T>> out(n / 2 + 1);
+RealTransform<T>::RealTransform(std::size_t n, Direction direction) : n_(n) {
+  const Scratch<T> numbers(n);
+  const Scratch<std::complex<T>> modes(n / 2 + 1);
   const auto flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
+  const bool forward = direction == Direction::forward;
   if (std::is_same_v<T, float> && n % 2 == 0) {
     for (std::size_t k = 0; k <= n / 4; ++k)
       twiddles_.emplace_back(
-          std::polar(0.5, -std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
-    auto* const pairs = reinterpret_cast<std::complex<T>*>(in.data());
-    plan_ = planned<Fftw<T>>(
-        [&] { return Fftw<T>::complex(side(n / 2), raw(pairs), raw(out.data()), FFTW_FORWARD, flags); });
+          std::polar(forward ? 0.5 : 1, (forward ? -std::numbers::pi : std::numbers::pi) *
+                                            (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
+    auto* const pairs = reinterpret_cast<std::complex<T>*>(numbers.data());
+    plan_ = planned<Fftw<T>>([&] {
+      return forward ? Fftw<T>::complex(side(n / 2), raw(pairs), raw(modes.data()), FFTW_FORWARD, flags)
+                     : Fftw<T>::complex(side(n / 2), raw(modes.data()), raw(pairs), FFTW_BACKWARD, flags);
+    });
   } else {
-    plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real(side(n), in.data(), raw(out.data()), flags); });
+    plan_ = planned<Fftw<T>>([&] {
+      return forward ? Fftw<T>::real(side(n), numbers.data(), raw(modes.data()), flags)
+                     : Fftw<T>::real_inverse(side(n), raw(modes.data()), numbers.data(), flags);
+    });
   }
 }
 
@@ -158,24 +165,7 @@ void RealTransform<T>::operator()(T* in, std::size_t, std::complex<T>* out, std:
 }
 
 template <class T>
-RealInverse<T>::RealInverse(std::size_t n) : n_(n) {
-  const Scratch<std::complex<T>> in(n / 2 + 1);
-  const Scratch<T> out(n);
-  const auto flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-  if (std::is_same_v<T, float> && n % 2 == 0) {
-    for (std::size_t k = 0; k <= n / 4; ++k)
-      twiddles_.emplace_back(
-          std::polar(1.0, std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
-    auto* const pairs = reinterpret_cast<std::complex<T>*>(out.data());
-    plan_ = planned<Fftw<T>>(
-        [&] { return Fftw<T>::complex(side(n / 2), raw(in.data()), raw(pairs), FFTW_BACKWARD, flags); });
-  } else {
-    plan_ = planned<Fftw<T>>([&] { return Fftw<T>::real_inverse(side(n), raw(in.data()), out.data(), flags); });
-  }
-}
-
-template <class T>
-void RealInverse<T>::operator()(std::complex<T>* in, T* out) const {
+void RealTransform<T>::operator()(std::complex<T>* in, T* out) const {
   const auto plan = static_cast<typename Fftw<T>::Plan>(plan_.get());
   if constexpr (std::is_same_v<T, float>)
     if (!twiddles_.empty()) {
@@ -219,8 +209,6 @@ void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) 
 
 template class RealTransform<float>;
 template class RealTransform<double>;
-template class RealInverse<float>;
-template class RealInverse<double>;
 template class ColumnsTransform<float>;
 template class ColumnsTransform<double>;
 template class ComplexTransform<float>;

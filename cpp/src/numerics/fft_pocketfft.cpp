@@ -66,7 +66,7 @@ T* numbers(std::complex<T>* modes) {
 }  // namespace
 
 template <class T>
-RealTransform<T>::RealTransform(std::size_t n) : n_(n), plan_(ASPERITY_PLAN(Real, n)) {}
+RealTransform<T>::RealTransform(std::size_t n, Direction) : n_(n), plan_(ASPERITY_PLAN(Real, n)) {}
 
 template <class T>
 void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
@@ -84,10 +84,7 @@ void RealTransform<T>::operator()(T* in, std::size_t row, std::complex<T>* out, 
 }
 
 template <class T>
-RealInverse<T>::RealInverse(std::size_t n) : n_(n), plan_(ASPERITY_PLAN(Real, n)) {}
-
-template <class T>
-void RealInverse<T>::operator()(std::complex<T>* in, T* out) const {
+void RealTransform<T>::operator()(std::complex<T>* in, T* out) const {
   const T* const from = numbers(in);
   out[0] = from[0];
   std::copy_n(from + 2, n_ - 1, out + 1);
@@ -117,8 +114,6 @@ void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) 
 
 template class RealTransform<float>;
 template class RealTransform<double>;
-template class RealInverse<float>;
-template class RealInverse<double>;
 template class ColumnsTransform<float>;
 template class ColumnsTransform<double>;
 template class ComplexTransform<float>;

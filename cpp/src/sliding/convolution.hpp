@@ -40,7 +40,7 @@ class Convolution {
         half_(shape[1] / 2 + 1),
         pitch_(Scratch<std::complex<T>>::aligned(half_) + 8),
         forward_row_(shape[1]),
-        backward_row_(shape[1]),
+        backward_row_(shape[1], Direction::backward),
         forward_columns_(shape[0], Direction::forward),
         backward_columns_(shape[0], Direction::backward),
         modes_(shape[0] * pitch_),
@@ -97,8 +97,7 @@ class Convolution {
 
   Grid shape_;
   std::size_t half_, pitch_;
-  RealTransform<T> forward_row_;
-  RealInverse<T> backward_row_;
+  RealTransform<T> forward_row_, backward_row_;
   ColumnsTransform<T> forward_columns_, backward_columns_;
   Scratch<std::complex<T>> modes_, slab_;
   Scratch<T> row_;
