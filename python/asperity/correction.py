@@ -363,31 +363,31 @@ Correction = (
 CORRECTIONS: tuple[type, ...] = Correction.__args__
 
 
-def _profile(given: Any) -> tuple[Array, float, float | None]:
+def _profile(correction: Any) -> tuple[Array, float, float | None]:
     """Return peak heights, z_max and, of a map, z_min; from the arguments of a correction."""
-    source = given.heights_or_map
-    z_max = given.z_max
+    source = correction.heights_or_map
+    z_max = correction.z_max
     if isinstance(source, HeightMap):
-        if given.min_distance is None:
+        if correction.min_distance is None:
             raise InvalidInput(
                 Argument("min_distance"),
                 MUST_BE,
                 "given with a HeightMap, for instance 2 pi / q0 [m]",
             )
-        heights = source.local_peaks(min_distance=given.min_distance)
+        heights = source.local_peaks(min_distance=correction.min_distance)
         heights.setflags(write=False)
         if len(heights) < 3:
             raise InvalidInput(
                 Argument("min_distance"),
                 " = ",
-                valued(given.min_distance, f"{given.min_distance!r}"),
+                valued(correction.min_distance, f"{correction.min_distance!r}"),
                 f": leaves {len(heights)} peaks on this map",
                 Must(", must leave "),
                 "3 or more",
             )
         return heights, source.z_max if z_max is None else z_max, source.z_min
     heights = vector(source, "heights_or_map")
-    if given.min_distance is not None:
+    if correction.min_distance is not None:
         raise InvalidInput(
             Argument("min_distance"), ": only goes with a HeightMap, these are the peaks' heights"
         )
@@ -395,5 +395,5 @@ def _profile(given: Any) -> tuple[Array, float, float | None]:
         raise InvalidInput(
             Argument("heights_or_map"), f" has {len(heights)} entries", MUST_BE, "3 or more"
         )
-    given._set(heights_or_map=heights)
+    correction._set(heights_or_map=heights)
     return heights, float(heights.max()) if z_max is None else z_max, None

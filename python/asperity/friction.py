@@ -146,21 +146,21 @@ def friction(
     """
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     law = known_shift(solid, shift)
-    given_at = {"pressure": pressure, "velocity": velocity}
+    at_points = {"pressure": pressure, "velocity": velocity}
     if temperature is not None:
-        given_at["temperature"] = temperature
+        at_points["temperature"] = temperature
     _check_temperature(temperature, shift, law)
-    shape, (p, v, *at) = broadcast(**given_at)
+    shape, (p, v, *at) = broadcast(**at_points)
     model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
     parts = surface._core, solid._core
     added = adhesion_core(adhesion)
-    told = flag(contributions, "contributions")
+    with_contributions = flag(contributions, "contributions")
     slopes = flag(gradients, "gradients")
     count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     which = choice(branch, "branch", BRANCHES)
     t = at[0] if at else None
     shifted_by = None if law is None or t is None else temperature_shift_core(law)
-    points = (*parts, model, added, p, v, told, count, shifted_by, t)
+    points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
     if heating is None:
         if which:
             raise InvalidInput(
@@ -169,9 +169,9 @@ def friction(
                 valued("hot", '"hot"'),
                 ": needs heating=, without which there is one",
             )
-        found = _core.friction(*points)  # which refuses what cannot be
+        core_result = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
-        result = _made(found, shape, (*solid.notes, *absurd))
+        result = _made(core_result, shape, (*solid.notes, *absurd))
         result = _with(result, notes=_size(result))
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
@@ -197,7 +197,7 @@ def friction(
         )
     hot, cold, hottest, area, gain, branches, profile = _core.flash_friction(*points, core, which)
     without = _made(cold, shape, solid.notes)
-    given = {
+    extras = {
         "cold": _with(
             without, temperature=_shaped(t, shape), notes=(*without.notes, *law_notes(law, t))
         ),
@@ -209,11 +209,11 @@ def friction(
     result = _made(hot, shape, (*solid.notes, *implausible_notes(surface, solid, p, v)))
     result = _with(result, notes=_size(result))
     if result.wavenumber is not None:
-        given["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
+        extras["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
-    given["sliding_length"] = lambda: _shaped(length(), shape)
-    given["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
-    return _with(result, **given)
+    extras["sliding_length"] = lambda: _shaped(length(), shape)
+    extras["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
+    return _with(result, **extras)
 
 
 def _size(result: Friction) -> tuple[Note, ...]:
@@ -236,12 +236,12 @@ def _made(parts: tuple[Any, ...], shape: Shape, of_rubber: tuple[Note, ...]) -> 
     rows, of_contact, shares = parts
     notes = tuple(fatal_first((*of_rubber, *of_contact)))
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
-    given: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), notes=notes)
+    fields: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), notes=notes)
     if shares is not None:
         q, density, edges, share = map(frozen, shares)
-        given |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}
-        given |= {"decade_edges": edges, "decade_share": share.reshape(*shape, len(edges) - 1)}
-    return Friction._made(given)
+        fields |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}
+        fields |= {"decade_edges": edges, "decade_share": share.reshape(*shape, len(edges) - 1)}
+    return Friction._made(fields)
 
 
 def known_shift(rubber: AnyRubber, shift: TemperatureShift | None) -> TemperatureShift | None:

@@ -185,8 +185,8 @@ def power_spectrum_of(
     """The same by tiles, of an opened map."""
     how = prepared(window, detrend)
     ny, nx = source.shape
-    given = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
-    sides = tile_shape(given, source.shape, source.pixel_size)
+    size = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
+    sides = tile_shape(size, source.shape, source.pixel_size)
     return tiled_spectrum(
         source,
         grid_of(source.shape, sides, overlap),

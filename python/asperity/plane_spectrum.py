@@ -106,7 +106,7 @@ class Anisotropy(Table):
     direction: float
 
     def __post_init__(self) -> None:
-        self._set(**{name: number(found, name) for name, found in self._arguments().items()})
+        self._set(**{name: number(entry, name) for name, entry in self._arguments().items()})
 
     @property
     def ratio(self) -> float:
@@ -117,7 +117,7 @@ class Anisotropy(Table):
         numbers = self._arguments() | {"ratio": self.ratio}
         units = {name: "rad" if name == "direction" else "1" for name in numbers}
         return Columns(
-            {}, {name: Column((), found, units[name]) for name, found in numbers.items()}
+            {}, {name: Column((), entry, units[name]) for name, entry in numbers.items()}
         )
 
     def _draw(self, axes: Any) -> None:

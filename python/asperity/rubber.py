@@ -41,10 +41,10 @@ EXTRAPOLATIONS = (
 )  # in the order of the core's enumeration; None is none
 
 
-def extrapolation_number(found: Any) -> int | None:
+def extrapolation_number(name: Any) -> int | None:
     """Return the number that an extrapolation has in the core."""
-    at = choice(found, "extrapolation", EXTRAPOLATIONS)
-    return None if found is None else at
+    at = choice(name, "extrapolation", EXTRAPOLATIONS)
+    return None if name is None else at
 
 
 def _two_over(
@@ -308,8 +308,8 @@ class MasterCurve(_HasModulus):
         if known is None:
             problem = "is missing; the curve does not know at which temperature it holds"
             raise InvalidInput(Argument("shift_factors"), f": {problem}")
-        given = [sweep._core for sweep in many(sweeps, "sweeps", StrainSweep)]
-        core, notes = _core.at_strain(self._core, known._core, size, given)
+        cores = [sweep._core for sweep in many(sweeps, "sweeps", StrainSweep)]
+        core, notes = _core.at_strain(self._core, known._core, size, cores)
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
         return MasterCurve._of(core, self.extrapolation, known, (*self.notes, *notes))

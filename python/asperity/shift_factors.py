@@ -36,11 +36,11 @@ class _Errors:
             raise AttributeError(self.name)  # tells dataclass that there is no default
         return dict(instance.__dict__[self.name])
 
-    def __set__(self, instance: object, given: Mapping[str, float]) -> None:
-        if not isinstance(given, Mapping) or not all(isinstance(name, str) for name in given):
-            raise refusal(self.name, given, "a dict of numbers")
+    def __set__(self, instance: object, errors: Mapping[str, float]) -> None:
+        if not isinstance(errors, Mapping) or not all(isinstance(name, str) for name in errors):
+            raise refusal(self.name, errors, "a dict of numbers")
         checked = {
-            name: number(error, f"{self.name}[{brief(name)}]") for name, error in given.items()
+            name: number(error, f"{self.name}[{brief(name)}]") for name, error in errors.items()
         }
         instance.__dict__[self.name] = checked
 
@@ -70,8 +70,8 @@ class _FittedLaw(_Law):
         ends = ("lowest_temperature", "highest_temperature")
         lowest, highest = self.lowest_temperature, self.highest_temperature
         if (lowest is None) != (highest is None):
-            given, missing = ends if highest is None else ends[::-1]
-            raise InvalidInput(Argument(missing), MUST_BE, f"given where {given} is")
+            known, missing = ends if highest is None else ends[::-1]
+            raise InvalidInput(Argument(missing), MUST_BE, f"given where {known} is")
         if lowest is not None and highest is not None and not 0 < lowest < highest:
             raise refusal(
                 "lowest_temperature",
@@ -304,27 +304,27 @@ class ShiftFactors(HasShiftFactors):
             axes.legend()
 
 
-def shift_factors_of(found: Any) -> ShiftFactors:
+def shift_factors_of(shifts: Any) -> ShiftFactors:
     """Return ShiftFactors, given as they are or by the build that they are part of."""
-    if isinstance(found, ShiftFactors):
-        return found
-    if isinstance(found, HasShiftFactors):
-        return found.shift_factors  # type: ignore[attr-defined, no-any-return]
+    if isinstance(shifts, ShiftFactors):
+        return shifts
+    if isinstance(shifts, HasShiftFactors):
+        return shifts.shift_factors  # type: ignore[attr-defined, no-any-return]
     allowed = "a ShiftFactors or what build_master_curve returned"
-    raise refusal("shift_factors", found, allowed)
+    raise refusal("shift_factors", shifts, allowed)
 
 
 TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors
 
 
-def temperature_shift_core(found: Any) -> Any:
+def temperature_shift_core(shift: Any) -> Any:
     """Return a law or shift factors as the core takes them."""
-    if isinstance(found, _Law | HasShiftFactors):
-        vertical = getattr(found, "b_T", None)
+    if isinstance(shift, _Law | HasShiftFactors):
+        vertical = getattr(shift, "b_T", None)
         if vertical is not None and np.any(vertical != 1):
             problem = "the modulus is shifted by a_T alone; give its shift_factors to leave b_T out"
             span = f"{vertical.min():.3g} to {vertical.max():.3g}"
             raise InvalidInput(Argument("shift"), f": its build has b_T from {span}, and {problem}")
-        return found._core
+        return shift._core
     kinds = "a WLF, a WlfFit, an ArrheniusFit, a ShiftFactors or what build_master_curve returned"
-    raise refusal("shift", found, kinds)
+    raise refusal("shift", shift, kinds)

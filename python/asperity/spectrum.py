@@ -172,8 +172,8 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
         Its rms height is not h0 [m] but h0 / sqrt(2) for q1 >> q0 [1/m]. Use it to reproduce the
         article only.
         """
-        given = {"h0": h0, "hurst": hurst, "q0": q0, "q1": q1}
-        numbers = [number(found, name) for name, found in given.items()]
+        arguments = {"h0": h0, "hurst": hurst, "q0": q0, "q1": q1}
+        numbers = [number(entry, name) for name, entry in arguments.items()]
         return around(SelfAffineSpectrum, _core.SelfAffineSpectrum.from_article(*numbers))
 
     def extended(self, *, q0: float | None = None, q1: float | None = None) -> SelfAffineSpectrum:

@@ -128,24 +128,24 @@ class Rows(Table):
         return axes.plot(q, density, ".", markersize=3, **style)[0]
 
 
-def _flags(found: Any) -> NDArray[np.uint8] | None:
+def _flags(flags: Any) -> NDArray[np.uint8] | None:
     """Return the flags of rows, sums of 1, 2 and 4."""
-    if found is None:
+    if flags is None:
         return None
-    given = vector(found, "flag")
-    wrong = ~np.isin(given, range(8))
+    numbers = vector(flags, "flag")
+    wrong = ~np.isin(numbers, range(8))
     if wrong.any():
         i = int(wrong.argmax())
-        raise InvalidInput(f"flag[{i}] = {given[i]}", MUST_BE, "a whole number from 0 to 7")
-    return frozen(given.astype(np.uint8))
+        raise InvalidInput(f"flag[{i}] = {numbers[i]}", MUST_BE, "a whole number from 0 to 7")
+    return frozen(numbers.astype(np.uint8))
 
 
-def two_axes(found: Any, name: str, columns: str) -> Array | None:
+def two_axes(entries: Any, name: str, columns: str) -> Array | None:
     """Return an array of two axes, rows of the spectrum and columns."""
-    if found is None:
+    if entries is None:
         return None
-    given = np.array(real_array(found, name), order="C")
-    if given.ndim != 2:
+    array = np.array(real_array(entries, name), order="C")
+    if array.ndim != 2:
         allowed = Must(": must have "), f"two axes, rows and {columns}"
-        raise InvalidInput(Argument(name), " = ", valued(given), *allowed)
-    return frozen(given)
+        raise InvalidInput(Argument(name), " = ", valued(array), *allowed)
+    return frozen(array)

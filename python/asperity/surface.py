@@ -39,31 +39,31 @@ _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
 def around(kind: type[Kind], core: Any) -> Kind:
     """Return an object of the package around one that the core made; its arrays are read-only."""
     fields = {name: getattr(core, name) for name in kind.__match_args__}
-    for found in fields.values():
-        if isinstance(found, np.ndarray):
-            frozen(found)
+    for entry in fields.values():
+        if isinstance(entry, np.ndarray):
+            frozen(entry)
     return kind._made(_core=core, **fields)
 
 
-def pixel_sizes(found: Any) -> tuple[float, float]:
+def pixel_sizes(sizes: Any) -> tuple[float, float]:
     """Return (dy, dx) of an argument that is one number or both."""
     try:
-        dy, dx = found
+        dy, dx = sizes
     except TypeError:
-        dy = dx = found
+        dy = dx = sizes
     except ValueError:
-        raise refusal("pixel_size", found, "a number or (dy, dx)") from None
+        raise refusal("pixel_size", sizes, "a number or (dy, dx)") from None
     return number(dy, "pixel_size"), number(dx, "pixel_size")
 
 
-def _heights(found: Any, axes: str) -> NDArray[Any]:
+def _heights(heights: Any, axes: str) -> NDArray[Any]:
     """Return heights as the core shares them: float32 or float64, strides of whole elements.
 
     float32 stays what it is, in whatever byte order it came; other real types become float64. No
     array that is like this already is copied.
     """
-    masked = is_masked(found)
-    array = real_numbers(found.data if masked else found, "heights")
+    masked = is_masked(heights)
+    array = real_numbers(heights.data if masked else heights, "heights")
     single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     array = array.astype(np.float32 if single else np.float64, copy=False)
     if array.ndim != axes.count("n"):
@@ -71,7 +71,7 @@ def _heights(found: Any, axes: str) -> NDArray[Any]:
             Argument("heights"), f" has shape {array.shape}", MUST_BE, f"of shape {axes}"
         )
     if masked:
-        array = np.where(found.mask, array.dtype.type(np.nan), array)
+        array = np.where(heights.mask, array.dtype.type(np.nan), array)
     packed = any(stride % array.itemsize for stride in array.strides)  # fields of packed records
     return array.copy() if packed or not array.flags.aligned else array
 

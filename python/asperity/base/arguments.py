@@ -28,7 +28,7 @@ class Given(Protocol[Taken, Kept]):
     """The type of a field that takes more kinds of arguments than it keeps."""
 
     def __get__(self, owner: object, cls: type) -> Kept: ...
-    def __set__(self, owner: object, given: Taken) -> None: ...
+    def __set__(self, owner: object, value: Taken) -> None: ...
 
 
 Vector = Given[ArrayLike, Array]
@@ -61,104 +61,104 @@ def quoted(text: str) -> str:
     return f'"{repr(text[:60])[1:-1][:60]}"'
 
 
-def number(found: Any, name: str) -> float:
+def number(value: Any, name: str) -> float:
     """Return a real number as a float."""
-    if type(found) is float:
-        return found
-    if isinstance(found, Real | Decimal):
+    if type(value) is float:
+        return value
+    if isinstance(value, Real | Decimal):
         try:
-            return float(found)
+            return float(value)
         except OverflowError:
             allowed = "at most 1.8e308 in size"
-            raise refusal(name, found, allowed) from None
+            raise refusal(name, value, allowed) from None
         except ValueError:  # a signalling NaN
-            raise refusal(name, found, "a number") from None
-    if getattr(found, "ndim", None) == 0:
-        return float(real_array(found, name))
-    raise refusal(name, found, "a number")
+            raise refusal(name, value, "a number") from None
+    if getattr(value, "ndim", None) == 0:
+        return float(real_array(value, name))
+    raise refusal(name, value, "a number")
 
 
-def number_or_none(found: Any, name: str) -> float | None:
+def number_or_none(value: Any, name: str) -> float | None:
     """Return a real number as a float, or None."""
-    return None if found is None else number(found, name)
+    return None if value is None else number(value, name)
 
 
-def whole(found: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> int:
+def whole(value: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> int:
     """Return a whole number of a range."""
-    if isinstance(found, int | np.integer) and lowest <= found <= highest:
-        return int(found)
+    if isinstance(value, int | np.integer) and lowest <= value <= highest:
+        return int(value)
     allowed = f"from {lowest} to {highest}" if highest != 2**62 else f"{lowest} or more"
-    raise refusal(name, found, f"a whole number, {allowed}")
+    raise refusal(name, value, f"a whole number, {allowed}")
 
 
-def flag(found: Any, name: str) -> bool:
+def flag(value: Any, name: str) -> bool:
     """Return True or False."""
-    if found is True or found is False:
-        return found
-    if isinstance(found, np.bool_):
-        return bool(found)
-    raise refusal(name, found, "True or False")
+    if value is True or value is False:
+        return value
+    if isinstance(value, np.bool_):
+        return bool(value)
+    raise refusal(name, value, "True or False")
 
 
-def choice(found: Any, name: str, allowed: Sequence[str | None]) -> int:
+def choice(value: Any, name: str, allowed: Sequence[str | None]) -> int:
     """Return the place of an option among those allowed, which is its number in the core."""
-    if (isinstance(found, str) or found is None) and found in allowed:
-        return allowed.index(found)
+    if (isinstance(value, str) or value is None) and value in allowed:
+        return allowed.index(value)
     names = ", ".join("None" if option is None else f'"{option}"' for option in allowed)
-    shown = quoted(found) if isinstance(found, str) else brief(found)
-    raise refusal(name, found, f"one of {names}", text=shown)
+    shown = quoted(value) if isinstance(value, str) else brief(value)
+    raise refusal(name, value, f"one of {names}", text=shown)
 
 
-def real_array(found: Any, name: str) -> Array:
+def real_array(value: Any, name: str) -> Array:
     """Return an array-like of real numbers as float64, of the shape that it has."""
-    if type(found) is float:
-        return np.array(found)
-    array = real_numbers(found, name)
+    if type(value) is float:
+        return np.array(value)
+    array = real_numbers(value, name)
     if array.dtype == np.float64:
         return array
     with np.errstate(invalid="ignore"):  # signalling NaN, of which the core says what is wrong
         return array.astype(np.float64)
 
 
-def real_numbers(found: Any, name: str) -> NDArray[Any]:
+def real_numbers(value: Any, name: str) -> NDArray[Any]:
     """Return an array-like of real numbers in the type that it has."""
-    if is_masked(found) or (isinstance(found, list | tuple) and any(map(is_masked, found))):
+    if is_masked(value) or (isinstance(value, list | tuple) and any(map(is_masked, value))):
         hint = "leave masked entries out with compressed()"
         raise InvalidInput(Argument(name), f" is a masked array; {hint}")
     try:
-        array = np.asarray(found)
+        array = np.asarray(value)
     except (TypeError, ValueError):
         array = np.array(None)
     if array.dtype.kind in "biuf":
         return array
-    raise refusal(name, found, "a number or an array of real numbers")
+    raise refusal(name, value, "a number or an array of real numbers")
 
 
-def is_masked(found: Any) -> bool:
+def is_masked(value: Any) -> bool:
     """Whether this is a NumPy masked array, told without importing `numpy.ma`."""
-    return isinstance(found, np.ndarray) and hasattr(found, "mask")
+    return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 
-def vector(found: Any, name: str) -> Array:
+def vector(value: Any, name: str) -> Array:
     """Return a copy of a one-dimensional array-like that nobody can write to."""
-    array = real_array(found, name)
+    array = real_array(value, name)
     if array.ndim != 1:
         raise InvalidInput(Argument(name), f" has {array.ndim} dimensions; it must have 1")
     return frozen(np.array(array, order="C"))
 
 
-def vector_or_none(found: Any, name: str) -> Array | None:
+def vector_or_none(value: Any, name: str) -> Array | None:
     """Return a vector, or None."""
-    return None if found is None else vector(found, name)
+    return None if value is None else vector(value, name)
 
 
-def covariance_matrix(found: Any) -> Array:
+def covariance_matrix(value: Any) -> Array:
     """Return the covariance of three parameters, read-only."""
-    matrix = real_array(found, "covariance")
+    matrix = real_array(value, "covariance")
     if matrix.shape != (3, 3):
         raise InvalidInput(Argument("covariance"), f" has shape {matrix.shape}", MUST_BE, "(3, 3)")
     if not np.isfinite(matrix).all() or np.diag(matrix).min() < 0:
-        raise refusal("covariance", found, "finite, its diagonal not negative")
+        raise refusal("covariance", value, "finite, its diagonal not negative")
     return frozen(np.array(matrix, order="C"))
 
 
@@ -168,47 +168,47 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def of_kind(found: Any, name: str, *kinds: type) -> Any:
+def of_kind(value: Any, name: str, *kinds: type) -> Any:
     """Return an object of one of the classes of the package."""
-    if isinstance(found, kinds):
-        return found
+    if isinstance(value, kinds):
+        return value
     names = [("an " if kind.__name__[0] in "AI" else "a ") + kind.__name__ for kind in kinds]
-    raise refusal(name, found, f"{' or '.join(names)}")
+    raise refusal(name, value, f"{' or '.join(names)}")
 
 
-def many(found: Any, name: str, kind: type) -> list[Any]:
+def many(value: Any, name: str, kind: type) -> list[Any]:
     """Return objects of one class of the package, given as an iterable."""
-    if not isinstance(found, Iterable):
-        raise refusal(name, found, "an iterable")
-    return [of_kind(one, f"{name}[{at}]", kind) for at, one in enumerate(found)]
+    if not isinstance(value, Iterable):
+        raise refusal(name, value, "an iterable")
+    return [of_kind(one, f"{name}[{at}]", kind) for at, one in enumerate(value)]
 
 
-def notes_of(found: Any, name: str) -> tuple[Note, ...]:
+def notes_of(value: Any, name: str) -> tuple[Note, ...]:
     """Return a tuple of notes, of which some may be plain texts."""
-    if isinstance(found, Iterable) and not isinstance(found, str | dict):
-        given = tuple(found)
-        if all(isinstance(one, str) for one in given):
-            return tuple(one if isinstance(one, Note) else Note(one) for one in given)
-    raise refusal(name, found, "a tuple of str")
+    if isinstance(value, Iterable) and not isinstance(value, str | dict):
+        entries = tuple(value)
+        if all(isinstance(one, str) for one in entries):
+            return tuple(one if isinstance(one, Note) else Note(one) for one in entries)
+    raise refusal(name, value, "a tuple of str")
 
 
-def path_of(found: Any, name: str) -> Path:
+def path_of(value: Any, name: str) -> Path:
     """Return where a file is."""
-    if isinstance(found, str | os.PathLike):
+    if isinstance(value, str | os.PathLike):
         with suppress(TypeError):  # of a __fspath__ that gives bytes
-            return FilePath(found)
-    raise refusal(name, found, "the path of a file")
+            return FilePath(value)
+    raise refusal(name, value, "the path of a file")
 
 
-def broadcast(**given: Any) -> tuple[Shape, list[Any]]:
+def broadcast(**arguments: Any) -> tuple[Shape, list[Any]]:
     """Return the shape that arguments have together, and each of them flat in that shape.
 
     Numbers stay numbers, which the core takes as arrays of one entry.
     """
-    flat = [*given.values()]
+    flat = [*arguments.values()]
     if all([type(one) is float for one in flat]):  # the common scalar, without NumPy's rules
         return (), flat
-    arrays = {name: real_array(one, name) for name, one in given.items()}
+    arrays = {name: real_array(one, name) for name, one in arguments.items()}
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:
@@ -230,7 +230,7 @@ def shaped(flat: NDArray[Any], shape: Shape) -> Any:
     return flat.reshape(shape) if shape else flat.item()
 
 
-def over(found: Any, name: str, compute: Callable[[Array], NDArray[Any]]) -> Any:
+def over(value: Any, name: str, compute: Callable[[Array], NDArray[Any]]) -> Any:
     """Return f of every entry, in the shape of the argument."""
-    array = real_array(found, name)
+    array = real_array(value, name)
     return shaped(compute(np.ascontiguousarray(array).ravel()), array.shape)

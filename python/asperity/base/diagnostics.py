@@ -268,8 +268,8 @@ class Note(_Diagnostic, str):
     @classmethod
     def of_line(cls, line: str) -> Self:
         """Return the note of such a line."""
-        told, _, next_step = line.partition("\t")
-        label, _, text = told.partition(": ")
+        front, _, next_step = line.partition("\t")
+        label, _, text = front.partition(": ")
         return cls.of_label(label, text, next_step)
 
     @classmethod
@@ -333,32 +333,32 @@ def few_lines(notes: Iterable[Note], most: int) -> list[str]:
     return [*lines, f"next: {step}"] if step else lines
 
 
-def brief(found: object) -> str:
+def brief(value: object) -> str:
     """Return what was found, in one short line."""
     try:
-        return " ".join(repr(found)[:60].split())
+        return " ".join(repr(value)[:60].split())
     except Exception:  # a whole number of more digits than Python writes, or a class's own trouble
-        return f"a {type(found).__name__}"
+        return f"a {type(value).__name__}"
 
 
-def valued(found: Any, text: str = "") -> Value:
+def valued(value: Any, text: str = "") -> Value:
     """Return what was found as a phrase, shown as `text`."""
-    several = found if isinstance(found, tuple) else (found,)
+    several = value if isinstance(value, tuple) else (value,)
     known = all(isinstance(one, int | float) and not isinstance(one, bool) for one in several)
     try:
-        return Value(text or brief(found), tuple(map(float, several)) if known else ())
+        return Value(text or brief(value), tuple(map(float, several)) if known else ())
     except OverflowError:
-        return Value(text or brief(found))
+        return Value(text or brief(value))
 
 
 def refusal(
-    argument: str, found: Any, allowed: str, *, text: str = "", where: object = ()
+    argument: str, value: Any, allowed: str, *, text: str = "", where: object = ()
 ) -> InvalidInput:
-    """Return the error "where: argument = found: must be allowed", `found` shown as `text`."""
+    """Return the error "where: argument = value: must be allowed", `value` shown as `text`."""
     return InvalidInput(
         Argument(argument),
         " = ",
-        valued(found, text),
+        valued(value, text),
         MUST_BE,
         allowed,
         code="invalid-value",

@@ -26,8 +26,8 @@ def worker_count(executor: Any) -> int:
             return max(1, int(sum(cores().values())))
     for name in ("num_workers", "_max_workers"):  # mpi4py.futures, concurrent.futures
         with suppress(Exception):
-            if isinstance(found := getattr(executor, name, None), int):
-                return max(1, found)
+            if isinstance(count := getattr(executor, name, None), int):
+                return max(1, count)
     return _UNTOLD
 
 

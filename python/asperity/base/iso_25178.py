@@ -31,16 +31,16 @@ def measured_parameters(heights: NDArray[Any], pixel_size: tuple[float, float]) 
     """Sa [m], Sdr [-] and Spd [1/m^2] of a map of up to 2^22 points, all measured."""
     z = np.asarray(heights, dtype=np.float64)
     dy, dx = pixel_size
-    found = {"Sa": float(np.nanmean(np.abs(z - np.nanmean(z))))}
+    parameters = {"Sa": float(np.nanmean(np.abs(z - np.nanmean(z))))}
     if min(z.shape) < 3:
-        return found
+        return parameters
     across = (z[1:-1, 2:] - z[1:-1, :-2]) / (2 * dx)
     along = (z[2:, 1:-1] - z[:-2, 1:-1]) / (2 * dy)
-    found["Sdr"] = float(np.nanmean(np.sqrt(1 + across**2 + along**2) - 1))
+    parameters["Sdr"] = float(np.nanmean(np.sqrt(1 + across**2 + along**2) - 1))
     if z.size <= _MOST and np.isfinite(z).all() and np.ptp(z) > 0:
         area = (z.shape[0] - 1) * dy * (z.shape[1] - 1) * dx
-        found["Spd"] = _count_hills(z) / area
-    return found
+        parameters["Spd"] = _count_hills(z) / area
+    return parameters
 
 
 def _count_hills(z: Array) -> int:
@@ -99,7 +99,7 @@ def _hills(z: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 def _saddles(z: Array, hills: NDArray[np.intp]) -> list[tuple[float, int, int]]:
     """The highest pass between each two hills that touch, from the highest down."""
     ny, nx = z.shape
-    found: dict[tuple[int, int], float] = {}
+    passes: dict[tuple[int, int], float] = {}
     for dy, dx in _BESIDE:
         here = np.s_[0 : ny - dy, max(0, -dx) : nx - max(0, dx)]
         there = np.s_[dy:ny, max(0, dx) : nx - max(0, -dx)]
@@ -108,9 +108,9 @@ def _saddles(z: Array, hills: NDArray[np.intp]) -> list[tuple[float, int, int]]:
         low, high = np.minimum(a, b)[apart], np.maximum(a, b)[apart]
         height = np.minimum(z[here], z[there]).ravel()[apart]
         order = np.argsort(height, kind="stable")
-        found_here = dict(
+        passes_here = dict(
             zip(zip(low[order], high[order], strict=True), height[order], strict=True)
         )
-        for pair, one in found_here.items():
-            found[pair] = max(found.get(pair, -np.inf), float(one))
-    return sorted(((h, int(a), int(b)) for (a, b), h in found.items()), reverse=True)
+        for pair, one in passes_here.items():
+            passes[pair] = max(passes.get(pair, -np.inf), float(one))
+    return sorted(((h, int(a), int(b)) for (a, b), h in passes.items()), reverse=True)

@@ -84,11 +84,11 @@ class Parameter:
         """Whether its type says all that there is to check, but for the range."""
         return bool(self.choices) or self.type in _CHECKS
 
-    def take(self, given: Any) -> tuple[Any, Any]:
+    def take(self, value: Any) -> tuple[Any, Any]:
         """Return what an object keeps of an argument, and what the object of the core gets."""
         if self.choices:
-            return given, choice(given, self.name, self.choices)
-        kept = _CHECKS[self.type](given, self.name)
+            return value, choice(value, self.name, self.choices)
+        kept = _CHECKS[self.type](value, self.name)
         return kept, kept
 
 

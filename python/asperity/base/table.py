@@ -51,13 +51,13 @@ class Table(Value):
         xarray = imported("xarray", "tables")
         columns = self._columns()
 
-        def given(part: Mapping[str, Column]) -> dict[str, tuple[Any, ...]]:
+        def arrays(part: Mapping[str, Column]) -> dict[str, tuple[Any, ...]]:
             return {
                 name: (c.dimensions, np.array(c.values), c.attributes()) for name, c in part.items()
             }
 
         return xarray.Dataset(
-            given(columns.variables), given(columns.coordinates), dict(columns.attributes)
+            arrays(columns.variables), arrays(columns.coordinates), dict(columns.attributes)
         )
 
     def to_dataframe(self) -> Any:

@@ -31,17 +31,17 @@ class Value:
 
     def __post_init__(self) -> None:
         """Make arrays read-only, in a class that has nothing else to check."""
-        for name, found in self._arguments().items():
-            if isinstance(found, np.ndarray):
-                shown = found.view()
+        for name, entry in self._arguments().items():
+            if isinstance(entry, np.ndarray):
+                shown = entry.view()
                 shown.setflags(write=False)
                 self._set(**{name: shown})
 
     def _take(self) -> dict[str, Any]:
         """Check and keep the fields whose types say how; return what the core takes of them."""
         cls: Any = type(self)
-        given = [one for one in parameters(cls) if one.is_checked]
-        taken = {one.name: one.take(getattr(self, one.name)) for one in given}
+        declarations = [one for one in parameters(cls) if one.is_checked]
+        taken = {one.name: one.take(getattr(self, one.name)) for one in declarations}
         self._set(**{name: kept for name, (kept, _) in taken.items()})
         return {name: of_core for name, (_, of_core) in taken.items()}
 

@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             try:
                 args.run(args)
             except Error as error:
-                typed = error.said(partial(as_typed, given=typed_options(args)))
+                typed = error.said(partial(as_typed, inputs=typed_options(args)))
                 return _fail(typed, 2 if isinstance(error, InvalidInput | OutOfRange) else 1)
         except BrokenPipeError:  # the reader of our output has gone
             discard(sys.stdout)

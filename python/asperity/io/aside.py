@@ -58,8 +58,8 @@ def remove_left(parent: Path, prefix: str, content: set[str] | None = None) -> N
         with suppress(OSError):  # of somebody else, or gone meanwhile
             handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
             try:
-                found = os.fstat(handle)
-                if found.st_uid != os.getuid() or time.time() - found.st_mtime < _YOUNG:
+                status = os.fstat(handle)
+                if status.st_uid != os.getuid() or time.time() - status.st_mtime < _YOUNG:
                     continue
                 if content is not None and not content.issuperset(os.listdir(handle)):
                     continue

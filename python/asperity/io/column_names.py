@@ -76,7 +76,7 @@ def unit_in(kind: str, text: str) -> str | None:
     """The unit that a cell below a name is, or a name ends in: "[kPa]", "G' (kPa)", "E'/MPa"."""
     inside = re.search(r"[\[(]([^\[\]()]*)[\])]\s*$", text)
     tail = re.search(r"[/,_ ]\s*([^/,_ ]+(?:/s)?)\s*$", text)
-    for candidate in (text, *(found[1] for found in (inside, tail) if found)):
+    for candidate in (text, *(match[1] for match in (inside, tail) if match)):
         for unit, pattern in _UNITS.get(kind, {}).items():
             if re.fullmatch(pattern, candidate.strip(" []()"), re.IGNORECASE):
                 return unit

@@ -83,7 +83,7 @@ class _Reader:
         self.path, self.source, self.names = path, source, names
         self.blocks: list[_Block] = []
         self.block: _Block | None = None
-        self.found: dict[str, list[float]] = {name: [] for name in names}
+        self.numbers: dict[str, list[float]] = {name: [] for name in names}
         self.lines: list[int] = []
         self.of: list[int] = []
         self.left: list[int] = []  # lines of numbers of other columns
@@ -161,7 +161,7 @@ class _Reader:
                 if not np.isfinite(one):
                     wrong = f"{where}: {name} = {one}"
                     raise InvalidInput(wrong, MUST_BE, "finite", where=self.path)
-                self.found[name].append(one)
+                self.numbers[name].append(one)
             elif one is None:
                 least = f"must have {block.places[name] + 1} or more"
                 self._refuse(f"{where} has {len(cells)} cells, {least} ({name})")
@@ -189,7 +189,7 @@ class _Reader:
             tested = ", ".join(sorted(self.tested))
             text = f"{where}: {len(self.left)} rows without {tested} were left out"
             plausible.tell_again([Note(text, code="rows-left-out", where=self.path)])
-        values = {name: np.array(found) for name, found in self.found.items()}
+        values = {name: np.array(numbers) for name, numbers in self.numbers.items()}
         lines, block = np.array(self.lines), np.array(self.of)
         return Columns(self.path, values, block, self._units(kinds), lines, self.source)
 

@@ -108,7 +108,7 @@ def read_declared(
 
 
 def _check_declared(
-    columns: Names, units: Mapping[str, str], wanted: Sequence[str], given: bool
+    columns: Names, units: Mapping[str, str], wanted: Sequence[str], by_file: bool
 ) -> None:
     for name, declared in (("columns", columns), ("units", units)):
         kinds = (str, int) if name == "columns" else str
@@ -118,13 +118,13 @@ def _check_declared(
             allowed = "of str, or of int for places" if name == "columns" else "of str"
             raise refusal(name, declared, f"a dict {allowed}")
         known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
-        if name == "columns" and given:
+        if name == "columns" and by_file:
             known.discard("temperature")
         for key in declared:
             if key not in known:
                 allowed = f"of {', '.join(sorted(known))}"
                 unknown = f": {brief(key)} is unknown"
-                if key == "temperature" and not given:
+                if key == "temperature" and not by_file:
                     unknown += " without shift"
                 raise InvalidInput(Argument(name), unknown, Must(", must be "), allowed)
         for key in sorted(known):
@@ -134,8 +134,8 @@ def _check_declared(
                 raise InvalidInput(Argument(name), f": {key!r} is missing{hint}")
     for key, place in columns.items():
         if isinstance(place, int) and place < 1:
-            found = f": {key} = {place}"
-            raise InvalidInput(Argument("columns"), found, MUST_BE, "1 or more, or a name")
+            label = f": {key} = {place}"
+            raise InvalidInput(Argument("columns"), label, MUST_BE, "1 or more, or a name")
     for key, unit in units.items():
         if unit not in UNITS[key]:
             allowed = f"one of {', '.join(UNITS[key])}"
@@ -147,9 +147,9 @@ def _check_stated(table: Columns, columns: Names, units: Mapping[str, str]) -> N
     for name, stated in table.units.items():
         kind = _KINDS.get(name, name)
         if stated != units[kind]:
-            found = valued(units[kind], repr(units[kind]))
+            unit = valued(units[kind], repr(units[kind]))
             allowed = f"{stated!r}, as the file says of {columns[name]!r}"
-            about = Argument("units"), f": {kind} = ", found, MUST_BE, allowed
+            about = Argument("units"), f": {kind} = ", unit, MUST_BE, allowed
             raise InvalidInput(*about, code="other-unit", where=table.path)
 
 

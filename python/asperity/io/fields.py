@@ -224,8 +224,8 @@ def required(fields: Mapping[str, Field]) -> tuple[str, ...]:
     return tuple(key for key, one in fields.items() if one.required)
 
 
-def refuse(path: Path, field: str, problem: str, found: Value | None = None) -> NoReturn:
-    value = () if found is None else (" = ", found)
+def refuse(path: Path, field: str, problem: str, phrase: Value | None = None) -> NoReturn:
+    value = () if phrase is None else (" = ", phrase)
     raise InvalidInput(Argument(shortened(field)), *value, f": {problem}", where=path)
 
 
@@ -277,8 +277,8 @@ def read_table(
         try:
             values[key] = fields[key].read(value)
         except _WrongValueError as wrong:
-            found = valued(value, _shown(value))
-            about = Argument(f"[{section}] {key}"), " = ", found, ": "
+            phrase = valued(value, _shown(value))
+            about = Argument(f"[{section}] {key}"), " = ", phrase, ": "
             raise InvalidInput(*about, *wrong.sentence, where=path) from None
         if (quantity := fields[key].quantity) is not None:
             name = f"[{section}] {key}"
@@ -336,14 +336,14 @@ def in_keys(sentence: Sentence, names: Mapping[str, str]) -> Sentence:
 
 @contextmanager
 def rename_in_errors(
-    path: Path | None, names: Mapping[str, str], given: Mapping[str, Any] | None = None
+    path: Path | None, names: Mapping[str, str], inputs: Mapping[str, Any] | None = None
 ) -> Iterator[None]:
-    """Let errors of the core name the file and its fields, with numbers of `given` as they were
+    """Let errors of the core name the file and its fields, with numbers of `inputs` as they were
     typed."""
     try:
         yield
     except (InvalidInput, OutOfRange, NotConverged) as error:
-        renamed = error.said(lambda sentence: as_typed(in_keys(sentence, names), given or {}))
+        renamed = error.said(lambda sentence: as_typed(in_keys(sentence, names), inputs or {}))
         raise (renamed if path is None else renamed.within(path)) from error
 
 

@@ -42,14 +42,14 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
 def check_file(path: Path) -> None:
     """Refuse what cannot be opened, and what one might wait for or read without end."""
     try:
-        found = path.stat()
+        status = path.stat()
     except ValueError as error:
         raise InvalidInput(f"cannot be read: {error}") from error
-    if stat.S_ISDIR(found.st_mode):
+    if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(status.st_mode):
         raise InvalidInput("cannot be read: not a regular file")
-    if found.st_size == 0:  # as those of /proc, some of which never end
+    if status.st_size == 0:  # as those of /proc, some of which never end
         raise InvalidInput("is empty")
     path.open("rb").close()
 

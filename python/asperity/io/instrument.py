@@ -158,14 +158,14 @@ def _read_channel(
     if not info.is_height_channel:
         kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
         raise refusal("channel", channel, f"one of heights ({kinds})", text=f"{channel}")
-    for name, given, stated in (
+    for name, argument, stated in (
         ("unit", unit, info.unit),
         ("pixel_size", pixel_size, info.physical_sizes),
     ):
-        if given is None and stated is None:
+        if argument is None and stated is None:
             raise InvalidInput(Argument(name), " is missing: the file does not state it")
-        if given is not None and stated is not None:
-            raise refusal(name, given, "left out, the file states its own", text=f"{given!r}")
+        if argument is not None and stated is not None:
+            raise refusal(name, argument, "left out, the file states its own", text=f"{argument!r}")
 
     sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
     topography = reader.topography(channel_index=channel, **sizes)

@@ -21,22 +21,26 @@ from asperity.io.positions import surface_at
 from asperity.surface import HeightMap, LineScan
 
 
-def is_frame(found: Any) -> bool:
+def is_frame(candidate: Any) -> bool:
     """Whether it is a table of columns, as pandas has them."""
-    return hasattr(found, "columns") and hasattr(found, "to_numpy") and hasattr(found, "iloc")
+    return (
+        hasattr(candidate, "columns")
+        and hasattr(candidate, "to_numpy")
+        and hasattr(candidate, "iloc")
+    )
 
 
-def frame_of(found: Any) -> Any:
+def frame_of(candidate: Any) -> Any:
     """A table of columns: itself, or what an xarray.Dataset makes of it; None of all else."""
-    if is_frame(found):
-        return found
-    if hasattr(found, "data_vars") and hasattr(found, "to_dataframe"):
-        return found.to_dataframe().reset_index()
+    if is_frame(candidate):
+        return candidate
+    if hasattr(candidate, "data_vars") and hasattr(candidate, "to_dataframe"):
+        return candidate.to_dataframe().reset_index()
     return None
 
 
 def surface_from(
-    found: Any, pixel_size: PixelSize | None = None, unit: str | None = None
+    candidate: Any, pixel_size: PixelSize | None = None, unit: str | None = None
 ) -> HeightMap | LineScan | None:
     """The surface that an object of another library is; None of what is none.
 
@@ -44,43 +48,45 @@ def surface_from(
     whose units are in `attrs`, or a Dataset with one; a DataFrame of columns x, (y and) height.
     `pixel_size` [m] and `unit` are those that the object does not state.
     """
-    if callable(getattr(found, "heights", None)) and hasattr(found, "physical_sizes"):
+    if callable(getattr(candidate, "heights", None)) and hasattr(candidate, "physical_sizes"):
         _left_out("pixel_size", pixel_size)
-        stated = getattr(found, "unit", None)
+        stated = getattr(candidate, "unit", None)
         if stated is not None:
             _left_out("unit", unit)
         elif unit is None:
             raise InvalidInput(Argument("unit"), " is missing: the topography has none")
-        return of_topography(found, None if unit is None else METRES[unit], None)
-    if hasattr(found, "data_vars"):
-        maps = [one for one in found.data_vars.values() if one.ndim in (1, 2)]
+        return of_topography(candidate, None if unit is None else METRES[unit], None)
+    if hasattr(candidate, "data_vars"):
+        maps = [one for one in candidate.data_vars.values() if one.ndim in (1, 2)]
         if len(maps) == 1 and maps[0].dims[-1] == "x":
             return _of_xarray(maps[0], pixel_size, unit)
-    elif hasattr(found, "dims") and hasattr(found, "coords") and hasattr(found, "attrs"):
-        return _of_xarray(found, pixel_size, unit)
-    elif is_frame(found):
-        return _of_frame(found, pixel_size, unit)
+    elif (
+        hasattr(candidate, "dims") and hasattr(candidate, "coords") and hasattr(candidate, "attrs")
+    ):
+        return _of_xarray(candidate, pixel_size, unit)
+    elif is_frame(candidate):
+        return _of_frame(candidate, pixel_size, unit)
     return None
 
 
-def _left_out(name: str, given: Any) -> None:
-    if given is not None:
-        raise refusal(name, given, "left out, the object states its own", text=f"{given!r}")
+def _left_out(name: str, value: Any) -> None:
+    if value is not None:
+        raise refusal(name, value, "left out, the object states its own", text=f"{value!r}")
 
 
-def _of_xarray(found: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
-    stated = found.attrs.get("units")
+def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+    stated = array.attrs.get("units")
     if stated is not None:
         _left_out("unit", unit)
     of_heights = stated or unit
     if of_heights is None:
         raise InvalidInput(Argument("unit"), ' is missing: attrs have no "units" of the heights')
     steps: list[float | None] = []
-    for name in found.dims:
-        if name not in found.coords:
+    for name in array.dims:
+        if name not in array.coords:
             steps.append(None)
             continue
-        places = found.coords[name]
+        places = array.coords[name]
         check_equal_distances(np.asarray(places.values, float))
         length = checked_unit(places.attrs.get("units", of_heights))
         steps.append(float(places[-1] - places[0]) / (places.size - 1) * METRES[length])
@@ -90,14 +96,14 @@ def _of_xarray(found: Any, pixel_size: PixelSize | None, unit: str | None) -> He
         pixel_size = sizes[0] if len(sizes) == 1 else tuple(sizes)
     elif pixel_size is None:
         raise InvalidInput(Argument("pixel_size"), " is missing: there are no coordinates")
-    return made(np.array(found.values), METRES[checked_unit(of_heights)], pixel_size)
+    return made(np.array(array.values), METRES[checked_unit(of_heights)], pixel_size)
 
 
-def _of_frame(found: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
-    names = [name for name in ("x", "y") if name in found.columns]
-    heights = [name for name in ("height", "z") if name in found.columns]
+def _of_frame(frame: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+    names = [name for name in ("x", "y") if name in frame.columns]
+    heights = [name for name in ("height", "z") if name in frame.columns]
     if "x" not in names or len(heights) != 1:
-        have = ", ".join(map(repr, list(found.columns)[:6]))
+        have = ", ".join(map(repr, list(frame.columns)[:6]))
         raise InvalidInput(f"a table of the columns {have}", MUST_BE, "of x, (y,) and height")
-    matrix = found[[*names, *heights]].to_numpy(dtype=float)
+    matrix = frame[[*names, *heights]].to_numpy(dtype=float)
     return surface_at(matrix, pixel_size, unit or "m", ())

@@ -44,14 +44,14 @@ _refuses: ContextVar[bool] = ContextVar("refuses", default=True)  # what is absu
 
 
 @contextmanager
-def collected(given: Mapping[str, Any] | None = None) -> Iterator[list[Note]]:
+def collected(inputs: Mapping[str, Any] | None = None) -> Iterator[list[Note]]:
     """Refuse absurd numbers, and collect the notes on unusual ones in a list.
 
     An error of the package that follows on a note may well be due to it, and repeats it. Both have
-    the numbers of `given` as they were typed (`as_typed`).
+    the numbers of `inputs` as they were typed (`as_typed`).
     """
     notes: list[Note] = []
-    typed = partial(as_typed, given=given or {})
+    typed = partial(as_typed, inputs=inputs or {})
     token = _notes.set(notes)
     try:
         yield notes
@@ -113,29 +113,29 @@ def check(
         may be in.
     """
     unit = unit or next(iter(quantity.units))
-    given = np.ravel(np.asarray(values, dtype=np.float64))
-    given = given[np.isfinite(given)]
+    numbers = np.ravel(np.asarray(values, dtype=np.float64))
+    numbers = numbers[np.isfinite(numbers)]
     if quantity.units is not TEMPERATURE_UNITS:
-        given = given[given != 0]
-    if given.size == 0:
+        numbers = numbers[numbers != 0]
+    if numbers.size == 0:
         return
-    size = _in_si(given, quantity, unit)
+    size = _in_si(numbers, quantity, unit)
     lowest, highest = int(size.argmin()), int(size.argmax())
     for at, side, words, limit in (
         (lowest, -1, "at least", quantity.least),
         (highest, 1, "at most", quantity.most),
     ):
         if _beyond(size[at], side, limit):
-            found = _sentence(name, float(given[at]), quantity, unit, (MUST_BE, words), limit)
-            _refuse(found, "absurd-value", path)
+            sentence = _sentence(name, float(numbers[at]), quantity, unit, (MUST_BE, words), limit)
+            _refuse(sentence, "absurd-value", path)
             return
     for at, side, words, unusual in (
         (lowest, -1, ": unusual, below", quantity.low),
         (highest, 1, ": unusual, above", quantity.high),
     ):
         if unusual is not None and _beyond(size[at], side, unusual):
-            found = _sentence(name, float(given[at]), quantity, unit, (words,), unusual)
-            _note(found, "unusual-value", path)
+            sentence = _sentence(name, float(numbers[at]), quantity, unit, (words,), unusual)
+            _note(sentence, "unusual-value", path)
 
 
 def check_scan(path: object, heights: NDArray[Any], spacing: ArrayLike, unit: str) -> None:
@@ -188,10 +188,10 @@ def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object 
         check(name, pressure, PRESSURE_ON_RUBBER, path=path)
     if not 0 < stiffest < highest:
         return
-    found = valued(highest, f"{highest:.6g}")
+    phrase = valued(highest, f"{highest:.6g}")
     times = f": {highest / stiffest:.3g} times the rubber's largest modulus ({stiffest:.4g} Pa)"
     guess = "; moduli in MPa?" if 1e5 <= stiffest * 1e6 <= 2e10 else ""
-    about = Argument(name), " = ", found, times
+    about = Argument(name), " = ", phrase, times
     if highest > 10 * stiffest:
         allowed = "at most 10 times (it would be squashed)"
         _refuse((*about, MUST_BE, allowed, guess), "absurd-pressure", path)
@@ -219,9 +219,9 @@ def _keep(note: Note) -> None:
         notes.append(note)
 
 
-def _in_si(given: NDArray[np.float64], quantity: Quantity, unit: str) -> NDArray[np.float64]:
+def _in_si(numbers: NDArray[np.float64], quantity: Quantity, unit: str) -> NDArray[np.float64]:
     factor, offset = quantity.units[unit]
-    si = factor * given + offset
+    si = factor * numbers + offset
     return si if quantity.units is TEMPERATURE_UNITS else np.abs(si)
 
 
@@ -234,9 +234,9 @@ def _sentence(
 ) -> Sentence:
     factor, offset = quantity.units[unit]
     bound = f" {(limit.value - offset) / factor:.6g} {unit}".rstrip()
-    found = Value(f"{value:.6g}", (value,), unit if quantity.units is TEMPERATURE_UNITS else "")
+    phrase = Value(f"{value:.6g}", (value,), unit if quantity.units is TEMPERATURE_UNITS else "")
     guess = _guess(value, quantity, unit)
-    return Argument(name), " = ", found, *words, f"{bound} ({limit.reason}){guess}"
+    return Argument(name), " = ", phrase, *words, f"{bound} ({limit.reason}){guess}"
 
 
 def _guess(value: float, quantity: Quantity, unit: str) -> str:

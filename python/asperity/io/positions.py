@@ -27,8 +27,8 @@ def _stated(names: Sequence[str], columns: int) -> tuple[str | None, str | None]
     """The units of positions and of heights that the names of columns end in."""
     if len(names) != columns:
         return None, None
-    found = [re.search(r"(?:^|[\[(/,_ ])\s*([munpµμ]?m)\s*[\])]?\s*$", name) for name in names]
-    units = [re.sub("^[µμ]", "u", one[1]) if one else None for one in found]
+    matches = [re.search(r"(?:^|[\[(/,_ ])\s*([munpµμ]?m)\s*[\])]?\s*$", name) for name in names]
+    units = [re.sub("^[µμ]", "u", one[1]) if one else None for one in matches]
     if len(set(units[:-1])) != 1:
         raise InvalidInput("has x and y in two units", MUST_BE, "in one")
     return units[0], units[-1]
@@ -43,9 +43,9 @@ def surface_at(
     step in another. `names` are those above the columns.
     """
     stated = _stated(names, matrix.shape[1])
-    for name, given, known in (("unit", unit, stated[1]), ("pixel_size", pixel_size, stated[0])):
-        if given is not None and known is not None:
-            raise refusal(name, given, "left out, the file states its own", text=f"{given!r}")
+    for name, argument, known in (("unit", unit, stated[1]), ("pixel_size", pixel_size, stated[0])):
+        if argument is not None and known is not None:
+            raise refusal(name, argument, "left out, the file states its own", text=f"{argument!r}")
     unit = unit or stated[1]
     if unit is None:
         problem = " is missing: rows of positions and heights do not state it"
@@ -92,16 +92,16 @@ def _steps(x: NDArray[np.float64]) -> tuple[float, NDArray[np.int64]]:
     return step, np.rint(place).astype(np.int64)
 
 
-def _off_grid(found: str) -> InvalidInput:
-    problem = f"holds rows x, y, z whose points lie on no regular grid ({found})"
+def _off_grid(reason: str) -> InvalidInput:
+    problem = f"holds rows x, y, z whose points lie on no regular grid ({reason})"
     return InvalidInput(problem, MUST_BE, "at equal steps of x and y; interpolate them")
 
 
 def _unit_of(steps: Sequence[float], pixel_size: PixelSize) -> float:
     """Metres per unit of the positions, by the pixel size that their step is."""
-    given = np.broadcast_to(np.asarray(pixel_size, float), len(steps))
+    pixel = np.broadcast_to(np.asarray(pixel_size, float), len(steps))
     for metres in METRES.values():
-        if np.allclose(np.multiply(steps, metres), given, rtol=_NEAR, atol=0):
+        if np.allclose(np.multiply(steps, metres), pixel, rtol=_NEAR, atol=0):
             return metres
-    found = " x ".join(f"{step:.6g}" for step in steps)
-    raise refusal("pixel_size", pixel_size, f"left out, or the file's step ({found}) in m, mm ...")
+    sides = " x ".join(f"{step:.6g}" for step in steps)
+    raise refusal("pixel_size", pixel_size, f"left out, or the file's step ({sides}) in m, mm ...")

@@ -98,16 +98,16 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         )
     header = [name.strip() for name in table[0][1]]
     columns = {kind: _column(path, header, kind) for kind in _COLUMNS}
-    found = {}
+    arrays = {}
     for kind, (place, unit) in ((k, c) for k, c in columns.items() if c is not None):
         values = [_value(path, number, cells, header, place) for number, cells in table[1:]]
         factor, offset = 1.0, 0.0
         if kind in _QUANTITIES:
             plausible.check(header[place], values, _QUANTITIES[kind], unit, path=path)
             factor, offset = _QUANTITIES[kind].units[unit]
-        found[kind] = np.array([value * factor + offset for value in values])
+        arrays[kind] = np.array([value * factor + offset for value in values])
     return MeasuredFriction(
-        found["velocity"], found["mu"], found.get("pressure"), found.get("temperature")
+        arrays["velocity"], arrays["mu"], arrays.get("pressure"), arrays.get("temperature")
     )
 
 

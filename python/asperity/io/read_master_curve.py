@@ -78,10 +78,10 @@ def read_master_curve(
     file = file_of(path, "path")
     own = _OF_FRAME if isinstance(file, Frame) else _OWN
     declared = {"columns": columns, "units": units, "modulus": modulus}
-    missing = [name for name, given in declared.items() if given is None]
+    missing = [name for name, argument in declared.items() if argument is None]
     if len(missing) not in (0, 3):
-        given = next(name for name in declared if name not in missing)
-        raise InvalidInput(Argument(missing[0]), f": is missing, which goes with {given}")
+        argument = next(name for name in declared if name not in missing)
+        raise InvalidInput(Argument(missing[0]), f": is missing, which goes with {argument}")
     if shift is not None and not isinstance(shift, HasShiftFactors):
         temperature_shift_core(shift)  # refuses what is none
     factor = young(modulus or "E", poisson_ratio)

@@ -90,7 +90,7 @@ def _relative(file: Path, shifts: ShiftFactors) -> ShiftFactors:
 def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
     """The isotherms' shifts in a file of `asperity rubber`, CSV or JSON; None of any other."""
     marks = [f"# isotherms.{key} = " for key in ("temperature_k", "log10_a_t")]
-    found: dict[str, list[float]] = {}
+    rows: dict[str, list[float]] = {}
     with suppress(OSError, InvalidInput, ValueError, KeyError, TypeError, IndexError):
         check_file(file)  # one might wait for a pipe
         for number, line in enumerate(text_lines(file)):
@@ -101,9 +101,9 @@ def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
                 break
             for mark in marks:
                 if line.startswith(mark):
-                    found[mark] = json.loads(line[len(mark) :])
-        if len(found) == len(marks):
-            return np.array(found[marks[0]]), np.array(found[marks[1]])
+                    rows[mark] = json.loads(line[len(mark) :])
+        if len(rows) == len(marks):
+            return np.array(rows[marks[0]]), np.array(rows[marks[1]])
     return None
 
 

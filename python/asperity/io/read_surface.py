@@ -97,9 +97,9 @@ def read_surface(
     """
     if not isinstance(path, str | os.PathLike):
         check_channel(channel, 1)
-        found = surface_from(path, pixel_size, None if unit is None else checked_unit(unit))
-        if found is not None:
-            return found
+        conversion = surface_from(path, pixel_size, None if unit is None else checked_unit(unit))
+        if conversion is not None:
+            return conversion
     path = path_of(path, "path")
     try:
         if unit is not None:
@@ -133,8 +133,8 @@ def _read(
         return _read_text(path, channel, pixel_size, unit)
     if suffix not in _LOADERS:
         return read_instrument(path, channel, pixel_size, unit)
-    given = required(path, pixel_size, unit)
-    return surface_of(_LOADERS[suffix](path, channel), *given)
+    scale = required(path, pixel_size, unit)
+    return surface_of(_LOADERS[suffix](path, channel), *scale)
 
 
 def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tuple[float, PixelSize]:

@@ -102,7 +102,7 @@ def input_lines(inputs: Mapping[str, Any]) -> list[str]:
 def json_text(value: Any, **options: Any) -> str:
     """A value as JSON that no terminal obeys: what json leaves of control characters is escaped."""
     text = json.dumps(value, ensure_ascii=False, **options)
-    return re.sub("[\x7f-\x9f\u2028-\u202e]", lambda found: f"\\u{ord(found[0]):04x}", text)
+    return re.sub("[\x7f-\x9f\u2028-\u202e]", lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def unit(column: str) -> str:

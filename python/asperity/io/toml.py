@@ -57,17 +57,17 @@ def _slip(text: str) -> str:
     """What is often wrong with a value of one line, in words; empty where it is not."""
     for number, line in enumerate(text.splitlines(), start=1):
         for pattern, problem in _SLIPS.items():
-            if found := re.match(rf"\s*[\w.-]+\s*=\s*\[?\s*{pattern}", line):
-                return f"; line {number}: {problem.format(*found.groups())}"
+            if match := re.match(rf"\s*[\w.-]+\s*=\s*\[?\s*{pattern}", line):
+                return f"; line {number}: {problem.format(*match.groups())}"
     return ""
 
 
 def _long_key(text: str) -> int | None:
     """The line of the first key of too many parts."""
-    for found in _TOKEN.finditer(text):
-        key = found["key"]
+    for token in _TOKEN.finditer(text):
+        key = token["key"]
         if key and key.count(".") >= _MOST_PARTS:
             dots = sum(part["dot"] is not None for part in _DOT.finditer(key))
             if dots >= _MOST_PARTS:
-                return text.count("\n", 0, found.start()) + 1
+                return text.count("\n", 0, token.start()) + 1
     return None

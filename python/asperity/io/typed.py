@@ -38,10 +38,10 @@ class TypedWhole(int):
         return self.text
 
 
-def as_typed(sentence: Sentence, given: Mapping[str, Any]) -> Sentence:
+def as_typed(sentence: Sentence, inputs: Mapping[str, Any]) -> Sentence:
     """A sentence with its numbers as they were typed.
 
-    `given` has what was typed by the names of arguments, as in "--q-max" or "[rubber] moduli_pa":
+    `inputs` has what was typed by the names of arguments, as in "--q-max" or "[rubber] moduli_pa":
     a number, or numbers in lists and tables. A value, which may be a pair of numbers, is known
     behind its argument. A number that nobody typed has the digits that a scene is written with.
     """
@@ -49,7 +49,7 @@ def as_typed(sentence: Sentence, given: Mapping[str, Any]) -> Sentence:
     texts: dict[float, str] = {}
     for phrase in sentence:
         if isinstance(phrase, Argument):
-            texts = dict(_texts(given.get(phrase)))
+            texts = dict(_texts(inputs.get(phrase)))
         elif isinstance(phrase, Value) and phrase.numbers and texts.keys() >= {*phrase.numbers}:
             typed = [texts[number] for number in phrase.numbers]
             phrase = phrase.saying(",".join(typed[:1] if len(texts) == 1 else typed))

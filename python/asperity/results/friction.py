@@ -32,13 +32,13 @@ class _WhenAsked:
     def __get__(self, instance: object, owner: type) -> Any:
         if instance is None:
             return self.default
-        found = instance.__dict__.get(self.name)
-        if callable(found):
-            found = instance.__dict__[self.name] = found()
-        return found
+        entry = instance.__dict__.get(self.name)
+        if callable(entry):
+            entry = instance.__dict__[self.name] = entry()
+        return entry
 
-    def __set__(self, instance: object, given: Any) -> None:
-        instance.__dict__[self.name] = given
+    def __set__(self, instance: object, entry: Any) -> None:
+        instance.__dict__[self.name] = entry
 
 
 @value
@@ -176,8 +176,8 @@ class Friction(Table):
         if self.cold is not None:
             variables["mu_cold"] = Column(axes, self.cold.mu, "1", "friction without its heat")
             if "temperature" not in coordinates:
-                given = "temperature of the background"
-                variables["background"] = Column(axes, self.cold.temperature, "K", given)
+                meaning = "temperature of the background"
+                variables["background"] = Column(axes, self.cold.temperature, "K", meaning)
         if self.wavenumber is not None:
             coordinates["wavenumber"] = Column(("wavenumber",), self.wavenumber, "1/m")
             variables["dmu_dlnq"] = Column((*axes, "wavenumber"), _known(self.dmu_dlnq), "1")
@@ -234,9 +234,9 @@ def _said(name: str) -> tuple[str, str]:
     return metadata["unit"], metadata["meaning"]
 
 
-def _known(found: Any) -> Any:
-    assert found is not None
-    return found
+def _known(entry: Any) -> Any:
+    assert entry is not None
+    return entry
 
 
 def _axes(result: Friction) -> tuple[tuple[str, ...], dict[str, tuple[tuple[str, ...], Array]]]:

@@ -38,8 +38,8 @@ def with_size_of_heat(
     it is asked for the fastest, and only where there is such a note. The note stays as it is where
     heat cannot be computed.
     """
-    found = list(notes)
-    for i, note in enumerate(found):
+    remarks = list(notes)
+    for i, note in enumerate(remarks):
         if note.code != "heat-left-out":
             continue
         fastest = int(np.argmax(np.ravel(velocity)))
@@ -50,7 +50,7 @@ def with_size_of_heat(
         rise = hot.temperature - hot.cold.temperature
         small = abs(hot.mu - hot.cold.mu) < _LITTLE * hot.cold.mu
         size = "changes little here, though it" if small else "matters, which"
-        found[i] = Note(
+        remarks[i] = Note(
             f"above 0.01 m/s flash heating {size} is not modelled without heating: at "
             f"{hot.velocity:.3g} m/s it would warm the rubber by {rise:.2g} K from ",
             *kelvin(hot.cold.temperature),
@@ -60,7 +60,7 @@ def with_size_of_heat(
             next_step=note.next_step_phrases,
             effect=float(abs(hot.mu - hot.cold.mu) / max(hot.cold.mu, 1e-300)),
         )
-    return tuple(found)
+    return tuple(remarks)
 
 
 def law_notes(shift: Any, temperature: ArrayLike) -> tuple[Note, ...]:

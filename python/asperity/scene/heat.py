@@ -19,12 +19,12 @@ TEMPERATURE = kelvin_or_celsius(
 
 def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
     """Temperatures [K] of [conditions], taken out of it; None where it has none."""
-    given = {key: conditions.pop(key) for key in TEMPERATURE if key in conditions}
-    if len(given) > 1:
+    entries = {key: conditions.pop(key) for key in TEMPERATURE if key in conditions}
+    if len(entries) > 1:
         refuse(path, "[conditions] temperature_c", "must be left out where temperature_k is given")
-    if not given:
+    if not entries:
         return [None]
-    [(key, values)] = given.items()
+    [(key, values)] = entries.items()
     kelvin = values + (ZERO_CELSIUS if key == "temperature_c" else 0)
     if len(kelvin) > MOST_TEMPERATURES:
         problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"

@@ -41,11 +41,11 @@ def rubber_of_map(scene: Scene) -> Rubber:
 
 
 def side_of_map(
-    name: str, given: Sequence[float] | None, swept: NDArray[np.float64], notes: list[Note]
+    name: str, sides: Sequence[float] | None, swept: NDArray[np.float64], notes: list[Note]
 ) -> tuple[float, float]:
     """The sides of the map: as asked for, else as the scene sweeps."""
-    if given is not None:
-        return given[0], given[1]
+    if sides is not None:
+        return sides[0], sides[1]
     lowest, highest = float(swept.min()), float(swept.max())
     if lowest < highest:
         return lowest, highest

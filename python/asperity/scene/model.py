@@ -169,14 +169,14 @@ class Scene:
             parts = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         share = np.concatenate([part.extrapolated_share for part in parts])
-        found = [note for part in parts for note in part.notes if note.code not in _OF_ALL]
-        found = [*self._with_size_of_heat(found), *extrapolation_notes(self.points[1], share)]
-        held = [note for note in found if note.code == _OF_STRAIN]
+        remarks = [note for part in parts for note in part.notes if note.code not in _OF_ALL]
+        remarks = [*self._with_size_of_heat(remarks), *extrapolation_notes(self.points[1], share)]
+        held = [note for note in remarks if note.code == _OF_STRAIN]
         most = max(held, key=_share, default=None)  # of all points
-        found = [note for note in found if note.code != _OF_STRAIN or note is most]
-        found += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
+        remarks = [note for note in remarks if note.code != _OF_STRAIN or note is most]
+        remarks += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
         named = partial(in_keys, names=NOTED)
-        notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in found)])
+        notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
         slopes = reshaped(_known(parts[0].gradients), shape) if gradients else None
         whole = {**vars(joined(parts, shape)), "gradients": slopes}
         return SceneFriction._made(whole, notes=tuple(notes))
@@ -244,7 +244,7 @@ class Scene:
         """Wavenumbers [1/m], and T(q) - T0 [K] there at each velocity and the first pressure."""
         built = self.built_rubber
         assert built.at_reference is not None
-        found = friction(
+        result = friction(
             self.spectrum,
             built.at_reference,
             pressure=self.pressure[0],
@@ -257,7 +257,7 @@ class Scene:
             contributions=True,
             **{**self.options, "rtol": ROUGHLY},
         )
-        return _known(found.wavenumber), _known(found.temperature_profile) - self.temperature
+        return _known(result.wavenumber), _known(result.temperature_profile) - self.temperature
 
     @property
     def asks_for_band(self) -> bool:
@@ -326,9 +326,9 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
-        found = [note for part in parts for note in part if note.code not in _OF_ALL]
+        remarks = [note for part in parts for note in part if note.code not in _OF_ALL]
         named = partial(in_keys, names=NOTED)
-        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in found)])
+        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

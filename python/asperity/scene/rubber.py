@@ -135,8 +135,8 @@ def build_rubber(
     source = next((key for key in ("isotherms", "master_curve") if key in values), "")
     for key in values:
         if key != source and key not in _WITH[source] and key not in STRAIN:
-            given = f"{source} is given" if source else "neither isotherms nor master_curve is"
-            refuse(path, f"[rubber] {key}", f"must be left out where {given}")
+            context = f"{source} is given" if source else "neither isotherms nor master_curve is"
+            refuse(path, f"[rubber] {key}", f"must be left out where {context}")
     factors = build_strain(path, values)
     built = _at(path, values, source, temperature, measure)
     if factors is None:
@@ -173,8 +173,8 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
         with rename_in_errors(path, names_of("rubber", keys)):
             file = path.parent / values["master_curve"]
             ramp = "temperature" in values.get("columns", {})
-            given = arguments(values, keys)
-            rubber = read_master_curve(file, shift=shifts if ramp else None, **given)
+            how = arguments(values, keys)
+            rubber = read_master_curve(file, shift=shifts if ramp else None, **how)
     else:
         alternatives = (
             "give isotherms, master_curve, or equilibrium_modulus_pa, moduli_pa and "

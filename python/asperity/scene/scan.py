@@ -78,10 +78,10 @@ def lay(scan: Scan, *, window: Window, detrend: Detrend | None) -> float | None:
     if isinstance(scan, LineScan):
         return None
     try:
-        found = anisotropy(scan, window=window, detrend=detrend)
+        slopes = anisotropy(scan, window=window, detrend=detrend)
     except InvalidInput:
         return None
-    return found.ratio if found.along > 0 else None
+    return slopes.ratio if slopes.along > 0 else None
 
 
 def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) -> list[Note]:

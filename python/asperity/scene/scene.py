@@ -232,8 +232,8 @@ def _list_isotherms(path: Path, rubber: Any) -> None:
         elif "temperatures" in rubber:
             problem = "must name its files one by one, as temperatures gives one to each"
             refuse(path, "[rubber] isotherms", problem, valued(name))
-        elif found := sorted(glob(name.replace("[", "[[]"), root_dir=path.parent)):
-            names += found
+        elif files := sorted(glob(name.replace("[", "[[]"), root_dir=path.parent)):
+            names += files
         else:
             refuse(path, "[rubber] isotherms", "no file has such a name", valued(name))
     rubber["isotherms"] = names

@@ -57,8 +57,8 @@ def build_strain(path: Path, values: dict[str, Any]) -> StrainFactors | None:
             if key in values:
                 refuse(path, f"[rubber] {key}", f'needs strain = "{BY_MAGNIFICATION}"')
         return None
-    if (found := values["strain"]) != BY_MAGNIFICATION:
-        refuse(path, "[rubber] strain", f'must be "{BY_MAGNIFICATION}"', valued(found, found))
+    if (model := values["strain"]) != BY_MAGNIFICATION:
+        refuse(path, "[rubber] strain", f'must be "{BY_MAGNIFICATION}"', valued(model, model))
     alternative = f"strain_sweeps, or {', '.join(_ROWS)} instead"
     if "strain_sweeps" not in values:
         for key in (*_FILES, *_REFERENCE, "strain_kind"):

@@ -294,7 +294,7 @@ def _slope_notes(
         return []
     if spectrum.rms_slope >= wanted * (1 - 1e-9):
         return []
-    found = (
+    problem = (
         f" is not reached: the rms slope up to {spectrum.q1:.4g} 1/m is {spectrum.rms_slope:.3g}"
     )
     value = valued(wanted, f"{typed['slope_cutoff']}")
@@ -307,7 +307,7 @@ def _slope_notes(
             if "file" in values and "fit" not in values:
                 by_law = f'fit = "self-affine" with {by_law}, beyond what was measured'
             step += f"; or {by_law}; or measure with pixels of {math.pi / end:.2g} m"
-    about = Argument("slope_cutoff"), " = ", value, found
+    about = Argument("slope_cutoff"), " = ", value, problem
     return [Note(*about, code="slope-not-reached", next_step=step)]
 
 
@@ -324,8 +324,8 @@ def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
         return spectrum
     key = min(cutoffs, key=cutoffs.__getitem__)
     if cutoffs[key] < _NARROWEST * spectrum.q0:
-        found = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
-        problem = f"must leave a band, cuts at {found}: are the heights in another unit?"
+        place = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
+        problem = f"must leave a band, cuts at {place}: are the heights in another unit?"
         refuse(path, f"[surface] {key}", problem, valued(values[key]))
     with rename_in_errors(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])
