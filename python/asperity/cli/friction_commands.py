@@ -134,7 +134,7 @@ def write_outputs(
     args: Namespace,
     table: Table,
     draw: Callable[[Path], bytes],
-    found: Mapping[str, float | None] | None = None,
+    numbers: Mapping[str, float | None] | None = None,
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
@@ -145,7 +145,7 @@ def write_outputs(
     if args.output is not None:
         files[FilePath(args.output)] = _bytes(text)
     write_files(files)
-    for name, value in (found or {}).items():
+    for name, value in (numbers or {}).items():
         print_stderr(f"{name} = {'none' if value is None else f'{value:.6g}'}\n")
     tell_notes(table.notes, args.notes)
     if args.output is None:

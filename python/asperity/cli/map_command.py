@@ -42,7 +42,7 @@ def friction_map_of(args: Namespace) -> None:
     if (args.scene is None) == (args.info is None):
         raise InvalidInput(Argument("map"), MUST_BE, "given a SCENE.toml, or --info FILE")
     asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
-    given = [
+    flags = [
         name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
     ]
     exported = None if args.export is None else FilePath(args.export)
@@ -50,9 +50,9 @@ def friction_map_of(args: Namespace) -> None:
         check_export(exported)
         check_output(exported)
     if args.info is not None:
-        if given:
+        if flags:
             raise InvalidInput(
-                Argument(f"--{given[0]}"), ": goes with a SCENE.toml, not with --info"
+                Argument(f"--{flags[0]}"), ": goes with a SCENE.toml, not with --info"
             )
         source = FilePath(args.info)
         loaded = read_map(source)
@@ -82,7 +82,7 @@ def friction_map_of(args: Namespace) -> None:
         "derived": scene.derived,
     }
     lines = [*(f"note: {note.line}" for note in notes), *input_lines(inputs)]
-    names = {"rtol": "[solver] rtol"} | {name: f"--{name}" for name in given}
+    names = {"rtol": "[solver] rtol"} | {name: f"--{name}" for name in flags}
     with rename_in_errors(scene.path, names, scene.typed):
         made = _shown_while_built(
             scene,
@@ -168,7 +168,7 @@ def read_map(path: Path) -> FrictionMap:
 
 
 def _tell(args: Namespace, made: FrictionMap) -> None:
-    found: dict[str, Any] = {
+    facts: dict[str, Any] = {
         "pressure_pa": made.pressure,
         "velocity_m_s": made.velocity,
         "rtol": made.rtol,
@@ -180,18 +180,18 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
         "bytes": len(made.to_bytes()),
     }
     if made.temperature is not None:
-        found |= {"temperature_k": made.temperature, "memory_error": made.memory_error}
+        facts |= {"temperature_k": made.temperature, "memory_error": made.memory_error}
     if made.adhesion_law is not None:
         law = made.adhesion_law
-        found |= {
+        facts |= {
             "shear_stress_pa": law.shear_stress,
             "reference_velocity_m_s": law.reference_velocity,
             "width": law.width,
         }
     if args.json:
-        print_stdout(json.dumps({**found, "notes": made.notes, "text": made.text}, indent=1) + "\n")
+        print_stdout(json.dumps({**facts, "notes": made.notes, "text": made.text}, indent=1) + "\n")
         return
-    lines = [f"{name} = {_short(value)}" for name, value in found.items()]
+    lines = [f"{name} = {_short(value)}" for name, value in facts.items()]
     if args.info is not None:
         text = made.text.removesuffix("\n").split("\n") if made.text else []
         lines += [printable(line) for line in text if not line.startswith(NOTE_LINE)]

@@ -143,11 +143,11 @@ def tile(text: str) -> int | tuple[int, int]:
 
 def typed_options(args: argparse.Namespace) -> dict[str, Any]:
     """The numbers of options by their names, for `as_typed`."""
-    given = {f"--{name.replace('_', '-')}": value for name, value in vars(args).items()}
-    for option, value in list(given.items()):
+    values = {f"--{name.replace('_', '-')}": value for name, value in vars(args).items()}
+    for option, value in list(values.items()):
         if isinstance(value, dict):  # of NAME=VALUE
-            given |= {f"{option} {name}": _number_or_none(text) for name, text in value.items()}
-    return given
+            values |= {f"{option} {name}": _number_or_none(text) for name, text in value.items()}
+    return values
 
 
 def _number_or_none(text: str) -> float | None:

@@ -50,8 +50,8 @@ def rubber(args: Namespace) -> None:
     refuse_overwrite([*check_outputs(args), *_tables_wanted(args)], [*files, *shift_file])
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:
-            flag, given = "--reference-temperature", args.reference_temperature
-            plausible.check(flag, given, quantities.TEMPERATURE)
+            flag, temperature = "--reference-temperature", args.reference_temperature
+            plausible.check(flag, temperature, quantities.TEMPERATURE)
         isotherms = read_isotherms(
             files,
             columns=args.columns,
@@ -73,7 +73,7 @@ def rubber(args: Namespace) -> None:
         )
     wlf, prony, of_fits = _fits(build)
     notes = fatal_first([*unusual, *build.notes, *of_fits])
-    found = _found(build, wlf, prony)
+    facts = _facts(build, wlf, prony)
     inputs: dict[str, Any] = {
         "files": [str(file) for file in files],
         "columns": args.columns,
@@ -84,7 +84,7 @@ def rubber(args: Namespace) -> None:
         "vertical_shift": args.vertical_shift,
         "shift": args.shift,
         "isotherms": _isotherms(build),
-        "found": found,
+        "found": facts,
     }
     if prony is not None:
         inputs["prony"] = {
@@ -108,7 +108,7 @@ def rubber(args: Namespace) -> None:
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path, celsius=celsius)
 
-    write_outputs(args, table, draw, found)
+    write_outputs(args, table, draw, facts)
 
 
 def _tables_wanted(args: Namespace) -> dict[Path, Callable[..., bytes]]:
@@ -175,32 +175,32 @@ def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list
     return wlf, prony, notes
 
 
-def _found(build: MasterCurveBuild, wlf: WlfFit | None, prony: PronyFit | None) -> dict[str, float]:
+def _facts(build: MasterCurveBuild, wlf: WlfFit | None, prony: PronyFit | None) -> dict[str, float]:
     arrhenius = build.fit_arrhenius()
-    found = {
+    facts = {
         "reference_temperature_k": build.reference_temperature,
         "lowest_frequency_rad_s": float(build.master_curve.angular_frequency[0]),
         "highest_frequency_rad_s": float(build.master_curve.angular_frequency[-1]),
         "residual": build.residual,
     }
     if wlf is not None:
-        found |= {
+        facts |= {
             "wlf_c1": wlf.c1,
             "wlf_c1_standard_error": wlf.standard_errors["c1"],
             "wlf_c2_k": wlf.c2,
             "wlf_c2_standard_error_k": wlf.standard_errors["c2"],
             "wlf_residual_decades": wlf.residual,
         }
-    found["activation_energy_j_per_mol"] = arrhenius.activation_energy
-    found["arrhenius_residual_decades"] = arrhenius.residual
+    facts["activation_energy_j_per_mol"] = arrhenius.activation_energy
+    facts["arrhenius_residual_decades"] = arrhenius.residual
     if prony is not None:
-        found |= {
+        facts |= {
             "prony_modes": float(prony.moduli.size),
             "prony_storage_residual": prony.storage_residual,
             "prony_loss_residual": prony.loss_residual,
             **_of_points(build, prony),
         }
-    return found
+    return facts
 
 
 def _of_points(build: MasterCurveBuild, prony: PronyFit) -> dict[str, float]:

@@ -55,38 +55,38 @@ def spectrum(args: Namespace) -> None:
         for flag, q in (("--q-min", args.q_min), ("--q-max", args.q_max)):
             if q is not None:
                 plausible.check(flag, q, quantities.WAVENUMBER)
-        found = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
-    measured = found.spectrum
+        result = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
+    measured = result.spectrum
     fit, fit_notes = _fit(measured, args)
     cutoff = measured.cutoff_for_slope(1.3)
     reached = cutoff < measured.q1
-    inputs = {"file": str(path), "channel": args.channel, **found.inputs}
-    for key, given in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
-        if given is not None:
-            inputs[key] = given
+    inputs = {"file": str(path), "channel": args.channel, **result.inputs}
+    for key, option in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
+        if option is not None:
+            inputs[key] = option
     numbers: dict[str, float | None] = {
         "rms_height_m": measured.rms_height,
         "rms_slope": measured.rms_slope,
-        "rms_slope_by_differences": found.statistics.rms_slope,
-        "skewness": found.statistics.skewness,
-        "kurtosis": found.statistics.kurtosis,
-        "z_max_m": found.statistics.z_max,
-        "z_min_m": found.statistics.z_min,
+        "rms_slope_by_differences": result.statistics.rms_slope,
+        "skewness": result.statistics.skewness,
+        "kurtosis": result.statistics.kurtosis,
+        "z_max_m": result.statistics.z_max,
+        "z_min_m": result.statistics.z_min,
         "slope_cutoff_1.3_per_m": cutoff if reached else None,
     }
-    if isinstance(found.flat, HeightMap):
-        numbers |= _iso_25178(found.statistics)
-    if found.lay is not None:
-        numbers["slope_anisotropy"] = found.lay
+    if isinstance(result.flat, HeightMap):
+        numbers |= _iso_25178(result.statistics)
+    if result.lay is not None:
+        numbers["slope_anisotropy"] = result.lay
     if (band := scan.trusted(measured)) is not None:
         numbers |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
     if fit is not None:
         numbers |= _fitted(fit)
-    of_map = isinstance(found.flat, HeightMap)
+    of_map = isinstance(result.flat, HeightMap)
     floor = scan.noise_floor(measured) if of_map else None
     if floor is not None:
         numbers["noise_from_per_m"] = floor
-    notes = [*unusual, *fit_notes, *found.notes, *(scan.line_notes(measured) if of_map else ())]
+    notes = [*unusual, *fit_notes, *result.notes, *(scan.line_notes(measured) if of_map else ())]
     if not reached:
         text = (
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
@@ -106,7 +106,7 @@ def spectrum(args: Namespace) -> None:
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
     whole = measured.truncated(q1=measured.q1)
-    draw = partial(plot_surface.spectrum_figure, found.raw, found.flat, whole, fit, drawn, floor)
+    draw = partial(plot_surface.spectrum_figure, result.raw, result.flat, whole, fit, drawn, floor)
     write_outputs(args, table, draw, numbers)
 
 
@@ -193,7 +193,7 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
             max_dropouts=float(args.max_dropouts),
             threads=threads,
         )
-        found = statistics_of(source, detrend or "offset", threads=threads)
+        statistics = statistics_of(source, detrend or "offset", threads=threads)
         raw = thinned(source, threads=threads)
         filled = raw.fill_dropouts(max_fraction=0.999)
         tile = middle_tile(source, args.tiles, float(args.max_dropouts))
@@ -201,11 +201,11 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
     notes = [] if tile is None else scan.scan_notes(tile, ratio)
     return Measured(
         spectrum=measured,
-        statistics=found,
+        statistics=statistics,
         inputs={
             "shape": list(source.shape),
             "pixel_size_m": list(source.pixel_size),
-            "dropout_fraction": found.dropout_fraction,
+            "dropout_fraction": statistics.dropout_fraction,
             "window": args.window,
             "detrend": args.detrend,
             "tiles": args.tiles if isinstance(args.tiles, int) else list(args.tiles),
@@ -233,7 +233,7 @@ def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
 
 
 def _fitted(fit: SelfAffineFit) -> dict[str, float]:
-    found = {
+    facts = {
         "fit_q0_per_m": fit.q0,
         "fit_q1_per_m": fit.q1,
         "fit_hurst": fit.hurst,
@@ -243,17 +243,17 @@ def _fitted(fit: SelfAffineFit) -> dict[str, float]:
         "fit_residual": fit.residual,
     }
     if fit.rolloff is not None:
-        found["fit_rolloff_per_m"] = fit.rolloff
-        found["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
-    return found
+        facts["fit_rolloff_per_m"] = fit.rolloff
+        facts["fit_rolloff_standard_error_per_m"] = fit.standard_errors["rolloff"]
+    return facts
 
 
 def _fit(measured: TabulatedSpectrum, args: Namespace) -> tuple[SelfAffineFit | None, list[Note]]:
     """The self-affine fit, or a note that says why there is none."""
     q_min, q_max = args.q_min, args.q_max
     if q_min is not None and q_max is not None and q_min >= q_max:
-        found = valued(q_max, f"{q_max}")
-        raise InvalidInput(Argument("--q-max"), " ", found, MUST_BE, f"above --q-min {q_min}")
+        phrase = valued(q_max, f"{q_max}")
+        raise InvalidInput(Argument("--q-max"), " ", phrase, MUST_BE, f"above --q-min {q_min}")
     try:
         with rename_in_errors(None, {"q_min": "--q-min", "q_max": "--q-max"}):
             return fit_self_affine(measured, q_min=q_min, q_max=q_max, method=args.method), []

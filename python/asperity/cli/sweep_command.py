@@ -93,7 +93,7 @@ def _compute(args: Namespace, executor: Any) -> None:
     if args.dry_run:
         _tell(plan, Executor(executor))
         return
-    found = run.computed(
+    dataset = run.computed(
         plan,
         executor,
         output,
@@ -101,11 +101,11 @@ def _compute(args: Namespace, executor: Any) -> None:
         force=args.force,
         progress=_bar(path),
     )
-    with found:
-        _look(args, found)
-        tell_notes(notes_of(found), args.notes)
-        points, failed = plan.points, int(found.attrs["failed"])
-        messages = found["failure_message"].values.tolist()
+    with dataset:
+        _look(args, dataset)
+        tell_notes(notes_of(dataset), args.notes)
+        points, failed = plan.points, int(dataset.attrs["failed"])
+        messages = dataset["failure_message"].values.tolist()
     if failed:
         rest = len(messages) - 1
         more = f"; failure_message has {rest} more" if rest else ""
@@ -115,7 +115,7 @@ def _compute(args: Namespace, executor: Any) -> None:
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     """Draw or rank what an earlier sweep computed."""
-    given = {
+    options = {
         "--output": args.output,
         "--workers": args.workers,
         "--scheduler": args.scheduler,
@@ -124,7 +124,7 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
         "--force": args.force,
         "--dry-run": args.dry_run,
     }
-    for option, value in given.items():
+    for option, value in options.items():
         if value:
             raise InvalidInput(
                 Argument(option), f": {path} is a store: give a SWEEP.toml to compute"
@@ -139,25 +139,25 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
         )
     if not path.exists():
         raise InvalidInput("cannot be read: No such file or directory", where=path)
-    with open_store(path) as found:
-        if "failure" not in found or "sweep" not in found.attrs:
+    with open_store(path) as dataset:
+        if "failure" not in dataset or "sweep" not in dataset.attrs:
             raise InvalidInput("is no store of a sweep", where=path)
-        if not found.attrs["complete"]:
+        if not dataset.attrs["complete"]:
             print_stderr(f"note: {path} is not whole: points that are missing are left out\n")
-        _look(args, found)
+        _look(args, dataset)
 
 
-def _look(args: Namespace, found: Any) -> None:
+def _look(args: Namespace, dataset: Any) -> None:
     """Draw and rank what is asked for, where --at says."""
-    part = choose(found, args.at)
+    part = choose(dataset, args.at)
     if args.plot is not None:
         picture = FilePath(args.plot)
         name = (args.variables or "mu").split(",")[0]
-        with drawn_in(args.style, notes_of(found)):
+        with drawn_in(args.style, notes_of(dataset)):
             write_whole(picture, sweep_figure(part, picture, name))
     if args.rank is not None:
         columns = ranks(part, args.rank)
-        fatal = [note for note in notes_of(found) if note.severity == FATAL]
+        fatal = [note for note in notes_of(dataset) if note.severity == FATAL]
         at = {f"at {name}": one for name, one in args.at.items()}
         inputs = [{"axis": args.rank, **at, "fatal_notes": len(fatal)}]
         notes = [*fatal, *map(Note, _RANK_NOTES)]
@@ -166,18 +166,18 @@ def _look(args: Namespace, found: Any) -> None:
 
 def _read(path: Path) -> tuple[Path, Any, Any]:
     """The scene of a sweep's file, its axes and the variables that it wants."""
-    given = read_toml(path)
-    for key in given:
+    tables = read_toml(path)
+    for key in tables:
         if key not in _KEYS:
             raise InvalidInput(Argument(key), f": unknown key, {nearest(key, _KEYS)}", where=path)
-    scene, over = given.get("scene"), given.get("over")
+    scene, over = tables.get("scene"), tables.get("over")
     if not isinstance(scene, str):
         raise InvalidInput(
             Argument("scene"), MUST_BE, 'the name of a file, as in scene = "scene.toml"', where=path
         )
     if not isinstance(over, dict):
         raise InvalidInput("[over]", MUST_BE, "a table of keys with lists", where=path)
-    return FilePath(path.parent / scene), over, given.get("variables")
+    return FilePath(path.parent / scene), over, tables.get("variables")
 
 
 def _tell(plan: Any, executor: Executor) -> None:
@@ -187,14 +187,14 @@ def _tell(plan: Any, executor: Executor) -> None:
     tasks = math.prod(math.ceil(n / c) for n, c in zip(plan.shape, cut, strict=True))
     size = plan.points * 8 * (len(plan.variables) + 1)
     seconds = estimated(plan, cost)
-    told = {
+    facts = {
         "points": plan.points,
         "shape": dict(zip((axis.name for axis in plan.axes), plan.shape, strict=True)),
         "tasks": tasks,
         "bytes": size,
         "seconds_of_one_worker": float(f"{seconds:.2g}"),
     }
-    print_stdout("".join(f"{name} = {json.dumps(one)}\n" for name, one in told.items()))
+    print_stdout("".join(f"{name} = {json.dumps(one)}\n" for name, one in facts.items()))
 
 
 def _bar(path: Path) -> Any:

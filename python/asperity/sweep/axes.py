@@ -50,7 +50,7 @@ def axes_of(path: Path, over: object, tables: Mapping[str, Any]) -> list[Axis]:
 
     `path` is whose errors they are.
     """
-    axes = [_axis(path, name, given) for name, given in _entries(path, over)]
+    axes = [_axis(path, name, entry) for name, entry in _entries(path, over)]
     taken: dict[str, str] = {}
     for axis in axes:
         for key in axis.values:
@@ -71,27 +71,27 @@ def _entries(path: Path, over: object) -> Iterator[tuple[str, Any]]:
     """Names with what was given for each; keys of TOML may be dotted without quotation marks."""
     if not isinstance(over, Mapping):
         raise refusal("over", over, "a table of keys with lists", where=path)
-    for name, given in over.items():
+    for name, values in over.items():
         if not isinstance(name, str):
             raise InvalidInput(
                 Argument("over"), f": {brief(name)}", MUST_BE, "the name of a key", where=path
             )
-        if name in KEYS and isinstance(given, Mapping):
-            yield from _flat(name, given).items()
+        if name in KEYS and isinstance(values, Mapping):
+            yield from _flat(name, values).items()
         else:
-            yield name, given
+            yield name, values
 
 
-def _flat(table: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    return {f"{table}.{key}": values for key, values in given.items()}
+def _flat(table: str, entries: Mapping[str, Any]) -> dict[str, Any]:
+    return {f"{table}.{key}": values for key, values in entries.items()}
 
 
-def _axis(path: Path, name: str, given: object) -> Axis:
-    if not isinstance(given, Mapping) or _SWEEP & given.keys():
-        return Axis(name, {name: _values(path, name, given, name)})
+def _axis(path: Path, name: str, entry: object) -> Axis:
+    if not isinstance(entry, Mapping) or _SWEEP & entry.keys():
+        return Axis(name, {name: _values(path, name, entry, name)})
     _check_name(path, name)
     zipped: dict[str, Any] = {}
-    for key, values in given.items():
+    for key, values in entry.items():
         nested = key in KEYS and isinstance(values, Mapping)
         zipped |= _flat(key, values) if nested else {key: values}
     if not zipped:
@@ -101,9 +101,9 @@ def _axis(path: Path, name: str, given: object) -> Axis:
     values = {key: _values(path, key, one, name) for key, one in zipped.items()}
     lengths = {key: len(one) for key, one in values.items()}
     if len(set(lengths.values())) > 1:
-        found = ", ".join(f"{key} has {length}" for key, length in lengths.items())
+        sizes = ", ".join(f"{key} has {length}" for key, length in lengths.items())
         raise InvalidInput(
-            Argument(f"over {name}"), f": {found}", MUST_BE, "equally long", where=path
+            Argument(f"over {name}"), f": {sizes}", MUST_BE, "equally long", where=path
         )
     return Axis(name, values)
 
@@ -119,23 +119,23 @@ def _check_name(path: Path, name: str) -> None:
         raise InvalidInput(Argument(f"over {brief(name)}"), f": {problem}", where=path)
 
 
-def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
+def _values(path: Path, key: str, entry: object, axis: str) -> Sequence[Any]:
     """The values along an axis, each of the kind that the key takes."""
     table, _, field = key.partition(".")
     if field not in KEYS.get(table, ()):
         inside = "" if axis == key else f"{axis}: "
         raise InvalidInput(f"over {inside}{key}: is no key of a scene, {_meant(key)}", where=path)
     fields = KEYS[table]
-    if isinstance(given, Mapping):
-        one = read_table(path, table, {field: given}, {field: Field(sweep)})
-        given = one[field]
-    if isinstance(given, str | bytes) or not hasattr(given, "__iter__"):
-        raise refusal(f"over {key}", given, "a list", where=path)
-    if not isinstance(given, np.ndarray):
-        given = tuple(given)
-    if fields[field].read is sweep and (numbers := _numbers(given)):
+    if isinstance(entry, Mapping):
+        one = read_table(path, table, {field: entry}, {field: Field(sweep)})
+        entry = one[field]
+    if isinstance(entry, str | bytes) or not hasattr(entry, "__iter__"):
+        raise refusal(f"over {key}", entry, "a list", where=path)
+    if not isinstance(entry, np.ndarray):
+        entry = tuple(entry)
+    if fields[field].read is sweep and (numbers := _numbers(entry)):
         return _checked(path, key, numbers, fields[field])
-    values = tuple(map(_plain, given))
+    values = tuple(map(_plain, entry))
     if not values:
         raise InvalidInput(
             Argument(f"over {key}"),
@@ -160,15 +160,15 @@ def _values(path: Path, key: str, given: object, axis: str) -> Sequence[Any]:
     return values
 
 
-def _numbers(given: Any) -> "array[float] | None":
+def _numbers(entry: Any) -> "array[float] | None":
     """Values that are all numbers, in 8 bytes each; None of others."""
-    if isinstance(given, np.ndarray):
-        plain = given.ndim == 1 and given.dtype.kind in "fiu"
-        return array("d", given.astype("d").tobytes()) if plain else None
-    if not all(issubclass(kind, _NUMBERS) and kind is not bool for kind in {*map(type, given)}):
+    if isinstance(entry, np.ndarray):
+        plain = entry.ndim == 1 and entry.dtype.kind in "fiu"
+        return array("d", entry.astype("d").tobytes()) if plain else None
+    if not all(issubclass(kind, _NUMBERS) and kind is not bool for kind in {*map(type, entry)}):
         return None
     try:
-        return array("d", given)
+        return array("d", entry)
     except OverflowError:
         return None
 
@@ -204,10 +204,10 @@ def _plain(value: Any) -> Any:
 def _listed(path: Path, tables: Mapping[str, Any], key: str) -> Sequence[Any]:
     """The list of a scene's key; empty where it has a number, or nothing."""
     table, _, field = key.partition(".")
-    given = tables.get(table)
-    if not isinstance(given, Mapping) or not isinstance(given.get(field), Mapping | list):
+    entries = tables.get(table)
+    if not isinstance(entries, Mapping) or not isinstance(entries.get(field), Mapping | list):
         return ()
-    values = read_table(path, table, {field: given[field]}, KEYS[table])[field]
+    values = read_table(path, table, {field: entries[field]}, KEYS[table])[field]
     return _values(path, key, values, key)
 
 
@@ -231,6 +231,6 @@ def with_values(tables: Mapping[str, Any], values: Mapping[str, Any]) -> dict[st
         else:
             known = KEYS_OF_KIND[kind]
             own = {key.removeprefix("correction.") for key in values}
-            given = changed["correction"]
-            changed["correction"] = {k: v for k, v in given.items() if k in known or k in own}
+            settings = changed["correction"]
+            changed["correction"] = {k: v for k, v in settings.items() if k in known or k in own}
     return changed

@@ -42,9 +42,9 @@ class Place:
 
 def encoded(outcome: Outcome, names: Sequence[str], cut: tuple[int, ...]) -> list[bytes]:
     """The content of a box's files, empty where none is needed."""
-    found = [_chunk(outcome.values[name], outcome.box, cut) for name in names]
+    contents = [_chunk(outcome.values[name], outcome.box, cut) for name in names]
     failure = outcome.failure
-    return [*found, b"" if failure is None else _chunk(failure, outcome.box, cut)]
+    return [*contents, b"" if failure is None else _chunk(failure, outcome.box, cut)]
 
 
 def _chunk(numbers: Any, box: tuple[int, ...], cut: tuple[int, ...]) -> bytes:

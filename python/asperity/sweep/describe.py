@@ -146,13 +146,15 @@ def _said(name: str) -> dict[str, str]:
 
 def _coordinates(axis: Axis) -> dict[str, Coordinate]:
     """Coordinates of an axis; one of several keys has the first of them as its index."""
-    found = {key: _coordinate(axis.name, key, entries) for key, entries in axis.values.items()}
-    if axis.name in found:
-        return found
-    first = next(iter(found.values()))
+    coordinates = {
+        key: _coordinate(axis.name, key, entries) for key, entries in axis.values.items()
+    }
+    if axis.name in coordinates:
+        return coordinates
+    first = next(iter(coordinates.values()))
     if len(set(first[1].tolist())) < axis.size:
         first = (axis.name, np.arange(axis.size), {})
-    return {axis.name: first, **found}
+    return {axis.name: first, **coordinates}
 
 
 def _coordinate(dimension: str, key: str, entries: Sequence[Any]) -> Coordinate:

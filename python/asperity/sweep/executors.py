@@ -22,13 +22,13 @@ class Lost(Exception):
 class Executor:
     """Where tasks go: an executor of the user's, or this process."""
 
-    def __init__(self, given: Any = None) -> None:
-        self._given = given
+    def __init__(self, executor: Any = None) -> None:
+        self._executor = executor
         self._submit: Callable[..., Any] = _here
         self._asked, self._workers = -_AGAIN, 1
-        if given is None:
+        if executor is None:
             return
-        self._submit = accepted(given).submit
+        self._submit = accepted(executor).submit
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Return the future of a call."""
@@ -40,10 +40,10 @@ class Executor:
     @property
     def room(self) -> int:
         """How many tasks may be under way: two for each worker, and one."""
-        if self._given is None:
+        if self._executor is None:
             return 1
         if time.monotonic() - self._asked > _AGAIN:
-            self._workers, self._asked = worker_count(self._given), time.monotonic()
+            self._workers, self._asked = worker_count(self._executor), time.monotonic()
         return 2 * self._workers + 1
 
 

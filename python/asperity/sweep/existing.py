@@ -18,8 +18,8 @@ def attributes_of(path: Path) -> dict[str, Any]:
     """Attributes of a store, whole or not; none of what is no store."""
     try:
         if path.suffix == ".nc":
-            with open_store(path) as found:
-                return dict(found.attrs)
+            with open_store(path) as dataset:
+                return dict(dataset.attrs)
         return dict(imported("zarr", "sweep").open_group(str(path), mode="r").attrs)
     except ImportError:
         raise

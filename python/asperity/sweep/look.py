@@ -33,9 +33,9 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
             wanted = float(text)
         except ValueError:
             raise refusal(f"{option} {name}", text, "a number", text=text) from None
-        found = int(np.abs(values - wanted).argmin())
-        if abs(values[found] - wanted) <= _AGREE * abs(wanted):
-            return found
+        index = int(np.abs(values - wanted).argmin())
+        if abs(values[index] - wanted) <= _AGREE * abs(wanted):
+            return index
         known = {f"{one:g}": None for one in values}
     else:
         known = {str(one): None for one in values}
@@ -125,8 +125,8 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
 
 
 def _take(values: NDArray[np.float64], index: NDArray[np.int64]) -> NDArray[np.float64]:
-    found: NDArray[np.float64] = np.take_along_axis(values, index[None], axis=0)[0]
-    return found
+    entries: NDArray[np.float64] = np.take_along_axis(values, index[None], axis=0)[0]
+    return entries
 
 
 def _blocks(dataset: Any, axis: str, others: list[str]) -> Iterator[tuple[Any, dict[str, int]]]:

@@ -42,8 +42,8 @@ class Outcome:
         """The numbers of a variable, NaN where nothing was put."""
         if name not in self.values:
             self.values[name] = np.full(self.box, np.nan)
-        found: Numbers = self.values[name]
-        return found
+        numbers: Numbers = self.values[name]
+        return numbers
 
     def fail(self, where: Any, error: Error) -> None:
         """Note why there is nothing at `where`, an index of the box; what failed before stays."""

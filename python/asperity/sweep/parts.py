@@ -71,14 +71,14 @@ class KeptBuilders:
             return replace(made, scan=None), notes
 
         self._surface = key, whole
-        found: Surface = _with_notes(_SURFACES.get(key, lean))
-        return found
+        surface: Surface = _with_notes(_SURFACES.get(key, lean))
+        return surface
 
     def rubber(self, path: Path, table: object, temperature: float | None) -> BuiltRubber:
         key = self._key(path, "rubber", table, temperature)
         build = self._noting(lambda: build_rubber(path, table, temperature), "rubber", table)
-        found: BuiltRubber = _with_notes(_RUBBERS.get(key, build))
-        return found
+        rubber: BuiltRubber = _with_notes(_RUBBERS.get(key, build))
+        return rubber
 
     def correction(self, path: Path, table: object, *_: Any) -> Any:
         assert self._surface is not None
@@ -129,10 +129,10 @@ def digest(file: str) -> str:
 
 def files_of(tables: Mapping[str, Any]) -> list[str]:
     """Files that the tables of a scene name."""
-    found: list[str] = []
+    files: list[str] = []
     for key in FILES:
         table, _, field = key.partition(".")
-        given = tables.get(table)
-        names = given.get(field) if isinstance(given, Mapping) else None
-        found += [names] if isinstance(names, str) else list(names or [])
-    return found
+        entries = tables.get(table)
+        names = entries.get(field) if isinstance(entries, Mapping) else None
+        files += [names] if isinstance(names, str) else list(names or [])
+    return files

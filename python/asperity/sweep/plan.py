@@ -118,7 +118,7 @@ def plan_of(
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
     template = {
-        name: {key: _found(folder, f"{name}.{key}", one) for key, one in table.items()}
+        name: {key: _absolute(folder, f"{name}.{key}", one) for key, one in table.items()}
         for name, table in tables.items()
     }
     # the axis that goes over a temperature takes the place of the scene's in the other unit
@@ -127,16 +127,16 @@ def plan_of(
             template["conditions"].pop(f"temperature_{other}", None)
     template = with_values(template, dict.fromkeys(swept - {"correction.kind"}))
     template.setdefault("conditions", {})
-    found = tuple(_with_files(folder, axis) for axis in axes)
+    absolute = tuple(_with_files(folder, axis) for axis in axes)
     chosen = _variables(where, template, swept, variables)
     task = Task(
         path=str(path),
         tables=template,
-        axes=found,
+        axes=absolute,
         start=(0,) * len(axes),
         shape=tuple(axis.size for axis in axes),
-        pressures=_pressures(path, found, template),
-        digests={file: digest(file) for file in dict.fromkeys(_all_files(template, found))},
+        pressures=_pressures(path, absolute, template),
+        digests={file: digest(file) for file in dict.fromkeys(_all_files(template, absolute))},
         variables=chosen,
     )
     return Plan(path, tables, axes, chosen, task)
@@ -163,7 +163,7 @@ def _listed(value: Any) -> Any:
     raise TypeError(f"{brief(value)} in the scene")
 
 
-def _found(folder: Path, key: str, value: Any) -> Any:
+def _absolute(folder: Path, key: str, value: Any) -> Any:
     """A value in which files are found from anywhere."""
     if key in FILES and isinstance(value, str):
         return str(folder / value)
@@ -174,11 +174,11 @@ def _found(folder: Path, key: str, value: Any) -> Any:
 
 def _with_files(folder: Path, axis: Axis) -> Axis:
     """An axis whose files are found from anywhere."""
-    found = {
-        key: tuple(_found(folder, key, value) for value in values) if key in FILES else values
+    entries = {
+        key: tuple(_absolute(folder, key, value) for value in values) if key in FILES else values
         for key, values in axis.values.items()
     }
-    return Axis(axis.name, found)
+    return Axis(axis.name, entries)
 
 
 def _all_files(tables: Mapping[str, Any], axes: Sequence[Axis]) -> Iterator[str]:
@@ -200,8 +200,8 @@ def _pressures(path: Path, axes: Sequence[Axis], tables: Mapping[str, Any]) -> t
                 raise InvalidInput(
                     Argument(f"[conditions] {name}"), ": missing", MUST_BE, "a number", where=path
                 )
-    given = float(tables["conditions"][PRESSURE.partition(".")[2]])
-    return given, given
+    pressure = float(tables["conditions"][PRESSURE.partition(".")[2]])
+    return pressure, pressure
 
 
 def _variables(

@@ -137,9 +137,9 @@ def computed(
     if path.suffix == ".nc" and os.path.lexists(path) and not force:
         if not resume:
             refuse_taken(path)
-        found = open_store(path)
-        refuse_another(path, found.attrs, described.inputs)
-        return found
+        dataset = open_store(path)
+        refuse_another(path, dataset.attrs, described.inputs)
+        return dataset
     part = path if path.suffix == ".zarr" else path.with_name(path.name + ".part")
     if resume and os.path.lexists(part):
         opened = ZarrStore.resumed(part, described)
@@ -155,11 +155,11 @@ def computed(
         opened = ZarrStore(part, described, cut)
     with opened as zarr:
         _fill(zarr, plan, zarr.cut, workers, progress)
-        found = zarr.finish()
+        dataset = zarr.finish()
         if part == path:
-            return found
-        with found:
-            write_netcdf(path, found, zarr.group)
+            return dataset
+        with dataset:
+            write_netcdf(path, dataset, zarr.group)
     shutil.rmtree(part)
     return open_store(path)
 
@@ -182,10 +182,10 @@ def planned(scene: Any, over: Any, variables: Any = None, where: Path | None = N
     return plan
 
 
-def store_path(given: Any) -> Path:
-    path = path_of(given, "store")
+def store_path(store: Any) -> Path:
+    path = path_of(store, "store")
     if path.suffix not in (".zarr", ".nc"):
-        raise InvalidInput(Argument("store"), " = ", valued(given), ": must end in .zarr or .nc")
+        raise InvalidInput(Argument("store"), " = ", valued(store), ": must end in .zarr or .nc")
     if not path.parent.is_dir():
         raise InvalidInput(f"the directory {FilePath(path.parent)} does not exist", where=path)
     return path
@@ -232,15 +232,15 @@ def _fill(
         )
 
 
-def _progress(given: Any) -> Progress | None:
-    if given is None or given is False:
+def _progress(progress: Any) -> Progress | None:
+    if progress is None or progress is False:
         return None
-    if given is True:
+    if progress is True:
         return bar("sweep")
-    if callable(given):
-        found: Progress = given
-        return found
-    raise refusal("progress", given, "a function, True, False or None")
+    if callable(progress):
+        function: Progress = progress
+        return function
+    raise refusal("progress", progress, "a function, True, False or None")
 
 
 def bar(title: str) -> Progress:

@@ -140,12 +140,12 @@ def _compute_scene(
                 outcome.notes[note] = min(number, outcome.notes.get(note, number))
         for name in task.variables:
             if name not in BAND:
-                _put(outcome, name, at, shape, part, _found(result, name))
+                _put(outcome, name, at, shape, part, _column(result, name))
     if task.wants_band:
         _band(scene, points, pressure, velocity, outcome, at, number)
 
 
-def _found(result: Friction, name: str) -> Any:
+def _column(result: Friction, name: str) -> Any:
     of = result.cold if name == "mu_cold" else result
     return getattr(of, name.removesuffix("_cold"))
 
@@ -156,18 +156,18 @@ def _put(
     at: tuple[Any, ...],
     shape: tuple[int, ...],
     part: slice,
-    found: Numbers,
+    numbers: Numbers,
 ) -> None:
     """Put the numbers of a run of a scene's points into their places."""
-    if found.size == outcome.points:  # of a box of one scene: without a copy
-        outcome.values[name] = np.array(found, float, copy=None).reshape(outcome.box)
+    if numbers.size == outcome.points:  # of a box of one scene: without a copy
+        outcome.values[name] = np.array(numbers, float, copy=None).reshape(outcome.box)
     elif not shape:
-        outcome.array(name)[at] = found[0]
+        outcome.array(name)[at] = numbers[0]
     elif part == slice(0, math.prod(shape)):
-        outcome.array(name)[at] = np.reshape(found, shape)
+        outcome.array(name)[at] = np.reshape(numbers, shape)
     else:
         places = np.unravel_index(np.arange(part.start, part.stop), shape)
-        outcome.array(name)[at][places] = found
+        outcome.array(name)[at][places] = numbers
 
 
 def _along(points: list[Axis], key: str, tables: Mapping[str, Any]) -> Numbers:
@@ -178,10 +178,10 @@ def _along(points: list[Axis], key: str, tables: Mapping[str, Any]) -> Numbers:
             shape[i] = axis.size
             return np.reshape(np.array(axis.values[key], float), shape)
     table, _, name = key.partition(".")
-    given = tables.get(table, {}).get(name)
-    if given is None:
+    entry = tables.get(table, {}).get(name)
+    if entry is None:
         raise InvalidInput(f"[{table}] {name}: missing")
-    return np.array(given, float)
+    return np.array(entry, float)
 
 
 def _scene(

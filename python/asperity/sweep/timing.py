@@ -44,8 +44,8 @@ def timed(plan: Plan, executor: Executor) -> Cost:
             entries = {key: tuple(v[j] for j in chosen) for key, v in axis.values.items()}
             axes.append(replace(axis, values=entries))
         part = plan.part(tuple(axes), (0,) * len(axes))
-        found: Outcome = result_of(executor.submit(compute, replace(part, shape=part.box)))
-        return found
+        outcome: Outcome = result_of(executor.submit(compute, replace(part, shape=part.box)))
+        return outcome
 
     fixed = [i for i in range(len(task.axes)) if i not in moved]
     refusal: str | None = None
@@ -62,11 +62,11 @@ def timed(plan: Plan, executor: Executor) -> Cost:
     warm = outcome_of(1, at).seconds
     points, took, size = 64, warm, 1
     while moved and took < _TIMED and points <= _MOST_TIMED:
-        found = outcome_of(points, at)
-        took = found.seconds
-        if found.points <= size:
+        outcome = outcome_of(points, at)
+        took = outcome.seconds
+        if outcome.points <= size:
             break
-        size, points = found.points, 4 * points
+        size, points = outcome.points, 4 * points
     change = {
         i: max(warm, outcome_of(1, {**at, i: (at[i] + 1) % task.shape[i]}).seconds)
         for i in fixed

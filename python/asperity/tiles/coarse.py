@@ -103,9 +103,7 @@ def few_modes(density: Array, error: Array) -> NDArray[np.uint8]:
     return np.where(error > density / 4, _FEW_MODES, 0).astype(np.uint8)
 
 
-def without_blocks(
-    found: Rows, coarse: Coarse, pixel_size: tuple[float, float], fine: Rows
-) -> Rows:
+def without_blocks(rows: Rows, coarse: Coarse, pixel_size: tuple[float, float], fine: Rows) -> Rows:
     """Return rows of the coarse map as those of the map: what is folded back is taken off, and
     what means over blocks take from a wave is given back.
 
@@ -114,7 +112,7 @@ def without_blocks(
     as those of few modes. No density is below 0: where less than nothing would be left, it is 0,
     and flagged, as its error is positive.
     """
-    q = found.wavenumber
+    q = rows.wavenumber
     radii = np.linspace(q[0], q[-1], _RADII)
     angle = (np.arange(_DIRECTIONS) + 0.5) * (math.pi / 2 / _DIRECTIONS)
     kept, folded, unsure = np.empty(_RADII), np.empty(_RADII), np.empty(_RADII)
@@ -129,10 +127,10 @@ def without_blocks(
             known = np.interp(length, fine.wavenumber, of_tiles)
             sums[i] = np.mean(np.sum(share * known, axis=(0, 1)))
     through = np.interp(q, radii, kept)
-    density = np.maximum(found.density - np.interp(q, radii, folded), 0) / through
-    error = np.hypot(found.error, np.interp(q, radii, unsure)) / through
-    flag = found.flag | few_modes(density, error)
-    return Rows(q, density, found.count, error, flag, found.correlation)
+    density = np.maximum(rows.density - np.interp(q, radii, folded), 0) / through
+    error = np.hypot(rows.error, np.interp(q, radii, unsure)) / through
+    flag = rows.flag | few_modes(density, error)
+    return Rows(q, density, rows.count, error, flag, rows.correlation)
 
 
 def _let_through(q: Array, block: int, pixel: float) -> tuple[Array, Array]:

@@ -38,7 +38,7 @@ class FileArray:
                 self.path, self.place, self.shape[::-1], (along, down), self.dtype, self.stamp
             )
             return np.ascontiguousarray(turned[box[::-1]].T)
-        found = np.empty((y1 - y0, x1 - x0), self.dtype)
+        heights = np.empty((y1 - y0, x1 - x0), self.dtype)
         length = (x1 - x0 - 1) * abs(along) + item
         first = min(x0 * along, (x1 - 1) * along)
         packed = along == item
@@ -47,12 +47,12 @@ class FileArray:
             self._check(os.fstat(file.fileno()))
             for row in range(y1 - y0):
                 file.seek(self.place + (y0 + row) * down + first)
-                self._fill(file, memoryview(found[row]).cast("B") if packed else line)
+                self._fill(file, memoryview(heights[row]).cast("B") if packed else line)
                 if not packed:
                     start = 0 if along >= 0 else length - item
-                    found[row] = np.ndarray(x1 - x0, self.dtype, line, start, (along,))
+                    heights[row] = np.ndarray(x1 - x0, self.dtype, line, start, (along,))
             self._check(os.fstat(file.fileno()))
-        return found
+        return heights
 
     def _opened(self) -> Any:
         try:

@@ -26,8 +26,8 @@ def fill_values(array: Any) -> tuple[Any, ...]:
 
     What xarray decodes has lost these attributes. Numbers that are still packed are refused.
     """
-    found = getattr(array, "attrs", None)
-    attributes = dict(found) if isinstance(found, Mapping) else {}
+    attrs = getattr(array, "attrs", None)
+    attributes = dict(attrs) if isinstance(attrs, Mapping) else {}
     packing = [name for name in _PACKING if name in attributes]
     if packing:
         problem = f"is packed ({', '.join(packing)})"
@@ -51,9 +51,9 @@ def without(heights: NDArray[Any], fill: tuple[Any, ...], real: np.dtype[Any]) -
     for number in fill:
         missing |= heights == number
     with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
-        found: NDArray[Any] = heights.astype(real)
-    found[missing] = np.nan
-    return found
+        result: NDArray[Any] = heights.astype(real)
+    result[missing] = np.nan
+    return result
 
 
 def _in_type(stated: Any, name: str, dtype: np.dtype[Any]) -> Any:
@@ -62,10 +62,10 @@ def _in_type(stated: Any, name: str, dtype: np.dtype[Any]) -> Any:
     if isinstance(number, float) and math.isnan(number):
         return None
     with suppress(TypeError, ValueError, OverflowError), np.errstate(all="ignore"):
-        found = np.asarray(number).astype(dtype)[()]
-        close = dtype.kind == "f" and np.isfinite(found) == np.isfinite(number)
-        if close or found == number:
-            return found
+        entry = np.asarray(number).astype(dtype)[()]
+        close = dtype.kind == "f" and np.isfinite(entry) == np.isfinite(number)
+        if close or entry == number:
+            return entry
     problem = f"surface: {name} = {brief(stated)} is no number of type {dtype}"
     raise InvalidInput(f"{problem}: correct the attribute, or give an array with NaN instead")
 

@@ -53,8 +53,8 @@ class Grid:
                 if not pairs:
                     continue
                 shift = round(down * steps[0]), round(along * steps[1])
-                found = _core.tile_covariances(window, self.tile, pixel_size, shift)
-                longer, shorter = sorted((total, pairs * found), key=np.size, reverse=True)
+                covariance = _core.tile_covariances(window, self.tile, pixel_size, shift)
+                longer, shorter = sorted((total, pairs * covariance), key=np.size, reverse=True)
                 total = longer.copy()
                 total[: shorter.size] += shorter
         return total / np.count_nonzero(mask) ** 2
@@ -72,14 +72,14 @@ def _pairs(mask: NDArray[np.bool_], down: int, along: int) -> int:
     return same if not (down or along) else 2 * same
 
 
-def tile_shape(found: Any, shape: Shape, pixel_size: tuple[float, float]) -> Shape:
+def tile_shape(tiles: Any, shape: Shape, pixel_size: tuple[float, float]) -> Shape:
     """Return the sides of a tile, given as (ny, nx) or as one number for both."""
     try:
-        ny, nx = found
+        ny, nx = tiles
     except TypeError:
-        ny = nx = found
+        ny = nx = tiles
     except ValueError:
-        raise refusal("tiles", found, "a number or (ny, nx)") from None
+        raise refusal("tiles", tiles, "a number or (ny, nx)") from None
     sides = whole(ny, "tiles"), whole(nx, "tiles")
     for side, whole_side in zip(sides, shape, strict=True):
         if side > whole_side:

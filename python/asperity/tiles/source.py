@@ -33,12 +33,12 @@ class Piece:
     def read(self) -> NDArray[Any]:
         """Return float32 or float64 heights in memory of their own, or views of what is there."""
         try:
-            found = self.array[self.box]
-            if callable(getattr(found, "compute", None)):  # Dask
-                found = found.compute(scheduler="synchronous")
-            if is_masked(found):
-                found = np.where(found.mask, np.nan, found.data)
-            found = np.asarray(found)
+            block = self.array[self.box]
+            if callable(getattr(block, "compute", None)):  # Dask
+                block = block.compute(scheduler="synchronous")
+            if is_masked(block):
+                block = np.where(block.mask, np.nan, block.data)
+            block = np.asarray(block)
         except (Error, MemoryError):
             raise
         except Exception as error:
@@ -46,18 +46,18 @@ class Piece:
                 Argument("heights"), f": cannot be read: {in_one_line(error)}"
             ) from error
         wanted = tuple(part.stop - part.start for part in self.box)
-        if found.shape != wanted:
+        if block.shape != wanted:
             raise InvalidInput(
-                Argument("heights"), f": gave {found.shape} points where {wanted} were asked for"
+                Argument("heights"), f": gave {block.shape} points where {wanted} were asked for"
             )
-        single = found.dtype.kind == "f" and found.dtype.itemsize == 4
+        single = block.dtype.kind == "f" and block.dtype.itemsize == 4
         real = np.dtype(np.float32 if single else np.float64)
         if self.fill:
-            found = without(found, self.fill, real)
+            block = without(block, self.fill, real)
         if self.scale != 1:
-            found = np.multiply(found, self.scale, dtype=real, casting="same_kind")
+            block = np.multiply(block, self.scale, dtype=real, casting="same_kind")
         with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
-            heights: NDArray[Any] = found.astype(real, copy=False)
+            heights: NDArray[Any] = block.astype(real, copy=False)
         return heights
 
 
@@ -106,17 +106,17 @@ def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
     return Source(held, _shape(array.shape), sizes, scale, fill)
 
 
-def _array(found: Any) -> Any:
+def _array(array: Any) -> Any:
     """Return an array of two axes of real numbers that can be sliced."""
-    if isinstance(found, list | tuple):
-        found = np.array(found)
-    if _is_group(found):
-        names = ", ".join(sorted(map(str, found))) or "none"
+    if isinstance(array, list | tuple):
+        array = np.array(array)
+    if _is_group(array):
+        names = ", ".join(sorted(map(str, array))) or "none"
         raise InvalidInput(Argument("surface"), f" = a group of arrays: give one of them ({names})")
-    dtype, shape = getattr(found, "dtype", None), getattr(found, "shape", None)
-    if dtype is None or shape is None or not hasattr(found, "__getitem__"):
+    dtype, shape = getattr(array, "dtype", None), getattr(array, "shape", None)
+    if dtype is None or shape is None or not hasattr(array, "__getitem__"):
         allowed = "a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
-        raise refusal("surface", found, allowed)
+        raise refusal("surface", array, allowed)
     if len(shape) != 2:
         raise InvalidInput(
             Argument("surface"),
@@ -129,25 +129,25 @@ def _array(found: Any) -> Any:
         raise InvalidInput(Argument("surface"), f" has shape {tuple(shape)}", MUST_BE, allowed)
     if getattr(dtype, "kind", "?") not in "biuf":
         raise InvalidInput(Argument("surface"), f" holds {dtype} values", MUST_BE, "real numbers")
-    return found
+    return array
 
 
 def _held(array: NDArray[Any]) -> Any:
     """Return the array, or the file behind a memory map."""
     if is_masked(array):
         return array
-    found: FileArray | None = file_behind(array)
-    return array if found is None else found
+    file: FileArray | None = file_behind(array)
+    return array if file is None else file
 
 
-def _is_group(found: Any) -> bool:
+def _is_group(candidate: Any) -> bool:
     """Whether this is a Zarr or HDF5 group, or anything else that holds arrays by names."""
-    named = isinstance(found, Mapping) or callable(getattr(found, "arrays", None))
-    return named and getattr(found, "dtype", None) is None
+    named = isinstance(candidate, Mapping) or callable(getattr(candidate, "arrays", None))
+    return named and getattr(candidate, "dtype", None) is None
 
 
-def _shape(found: Any) -> Shape:
-    ny, nx = found
+def _shape(shape: Any) -> Shape:
+    ny, nx = shape
     return int(ny), int(nx)
 
 

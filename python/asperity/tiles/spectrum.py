@@ -47,10 +47,10 @@ def tiled_spectrum(
     coarse = coarsen(source, block_of(grid.tile, source.pixel_size), grid.tile, workers)
     _check_dropouts(coarse.dropout_fraction, most)
     fine = _mean_rows(source, grid, how, workers)
-    found = _of_coarse(coarse, how)
-    low = _low_rows(found, coarse, source, grid, fine, window)
+    spectrum = _of_coarse(coarse, how)
+    low = _low_rows(spectrum, coarse, source, grid, fine, window)
     skipped = _edge(grid, source.pixel_size, window)[0]
-    return _merged(low, fine, skipped, found, source.pixel_size)
+    return _merged(low, fine, skipped, spectrum, source.pixel_size)
 
 
 def tile_columns(
@@ -65,9 +65,9 @@ def tile_columns(
     tile = _core.HeightMap(heights, pixel_size)
     if missing:
         tile = tile.fill_dropouts(most)
-    found = _core.power_spectrum(tile, window, detrend, 1, 0)
+    spectrum = _core.power_spectrum(tile, window, detrend, 1, 0)
     names: tuple[str, ...] = TabulatedSpectrum.__match_args__
-    return tuple(getattr(found, name) for name in names)
+    return tuple(getattr(spectrum, name) for name in names)
 
 
 def _single(
@@ -79,8 +79,8 @@ def _single(
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
-    given: dict[str, Any] = dict(zip(TabulatedSpectrum.__match_args__, columns, strict=True))
-    return TabulatedSpectrum(**given)
+    arguments: dict[str, Any] = dict(zip(TabulatedSpectrum.__match_args__, columns, strict=True))
+    return TabulatedSpectrum(**arguments)
 
 
 def _check_dropouts(share: float, most: float) -> None:
@@ -133,17 +133,17 @@ def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
 
 
 def _low_rows(
-    found: Any, coarse: Coarse, source: Source, grid: Grid, fine: Rows, window: int
+    spectrum: Any, coarse: Coarse, source: Source, grid: Grid, fine: Rows, window: int
 ) -> Rows:
     """The rows of the coarse map that tiles are too small for."""
-    below = found.wavenumber < _edge(grid, source.pixel_size, window)[1]
+    below = spectrum.wavenumber < _edge(grid, source.pixel_size, window)[1]
     rows = Rows(
-        found.wavenumber[below],
-        found.density[below],
-        found.count[below],
-        found.standard_error[below],
-        found.flag[below] & ~np.uint8(_NEAR_NYQUIST),
-        found.correlation[below],
+        spectrum.wavenumber[below],
+        spectrum.density[below],
+        spectrum.count[below],
+        spectrum.standard_error[below],
+        spectrum.flag[below] & ~np.uint8(_NEAR_NYQUIST),
+        spectrum.correlation[below],
     )
     return without_blocks(rows, coarse, source.pixel_size, fine)
 

@@ -62,15 +62,15 @@ class HeightStatistics(Table):
     dropout_fraction: float
 
     def __post_init__(self) -> None:
-        self._set(**{name: number(found, name) for name, found in self._arguments().items()})
+        self._set(**{name: number(entry, name) for name, entry in self._arguments().items()})
 
     def _columns(self) -> Columns:
         units = {"mean": "m", "rms_height": "m", "z_max": "m", "z_min": "m"}
         return Columns(
             {},
             {
-                name: Column((), found, units.get(name, "1"))
-                for name, found in self._arguments().items()
+                name: Column((), entry, units.get(name, "1"))
+                for name, entry in self._arguments().items()
             },
         )
 
@@ -233,9 +233,9 @@ def _trend(sums: Array, terms: int) -> Array:
     powers = _POWERS[:terms]
     matrix = [[sums[0, a + c, b + d] for c, d in powers] for a, b in powers]
     right = [sums[1, a, b] for a, b in powers]
-    found = np.zeros(6)
-    found[:terms] = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=None)[0]
-    return found
+    coefficients = np.zeros(6)
+    coefficients[:terms] = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=None)[0]
+    return coefficients
 
 
 def moment_sums(

@@ -17,8 +17,8 @@ def thinned(source: Source, *, threads: int = 1) -> HeightMap:
     """Return the means over blocks of the map, at most a thousand along a side."""
     side = math.ceil(max(source.shape) / _MOST_PIXELS)
     down, along = (min(side, n) for n in source.shape)
-    found = coarsen(source, (down, along), (DEFAULT, DEFAULT), Workers(threads))
-    return HeightMap(found.heights, pixel_size=found.pixel_size)
+    coarse = coarsen(source, (down, along), (DEFAULT, DEFAULT), Workers(threads))
+    return HeightMap(coarse.heights, pixel_size=coarse.pixel_size)
 
 
 def middle_tile(source: Source, tiles: TileSides, max_dropouts: float) -> HeightMap | None:

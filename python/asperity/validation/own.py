@@ -29,10 +29,10 @@ def own_contacts(
     slope; with the wavenumber `q0` [1/m] of the macro-asperities also their peaks. Arguments and
     errors as of `boundary_elements.contact`.
     """
-    found = contact(surface, p_over_Eh=loads, periodic=periodic, progress=progress)
+    result = contact(surface, p_over_Eh=loads, periodic=periodic, progress=progress)
     solved = surface if periodic else mirrored(surface)
     spectrum = power_spectrum(solved, window="none", detrend=None)
-    spectrum = spectrum.scaled((found.rms_slope / spectrum.rms_slope) ** 2)
+    spectrum = spectrum.scaled((result.rms_slope / spectrum.rms_slope) ** 2)
     peaks = {}
     if q0 is not None:
         for distance, length in (("lambda0", 2 * math.pi / q0), ("lambda0/2", math.pi / q0)):
@@ -54,11 +54,11 @@ def own_contacts(
             energy=float(energy),
         )
         for load, area, energy in zip(
-            found.p_over_Eh, found.area, found.elastic_energy, strict=True
+            result.p_over_Eh, result.area, result.elastic_energy, strict=True
         )
     ]
     notes = []
-    coarse = found.p_over_Eh[found.area_raw > _COARSE * found.area]
+    coarse = result.p_over_Eh[result.area_raw > _COARSE * result.area]
     if coarse.size:
         text = (
             f"at p* up to {coarse.max():.3g} the points touch in patches of few pixels: their area "

@@ -144,7 +144,7 @@ def predict(contact: Contact, model: Model) -> Prediction:
     """Area at q1 and elastic energy of a contact."""
     correction = model.correction(contact)
     # an elastic contact does not know its velocity, and E* is that of Poisson's ratio 0
-    found = friction(
+    result = friction(
         contact.spectrum,
         _solid(contact),
         pressure=contact.pressure,
@@ -156,8 +156,8 @@ def predict(contact: Contact, model: Model) -> Prediction:
     return Prediction(
         contact,
         model,
-        shift=float(found.shift_factor),
-        area=float(found.contact_area),
+        shift=float(result.shift_factor),
+        area=float(result.contact_area),
         energy=energy(contact, correction, model.form),
     )
 

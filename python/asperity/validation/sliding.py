@@ -98,9 +98,9 @@ class SlidingContact(Table):
             "pressure": Column(("y", "x"), self.pressure, "Pa", "contact pressure"),
             "gap": Column(("y", "x"), self.gap, "m", "gap between rubber and surface"),
         }
-        told = ("contact_area", "hysteresis", "work_of_slopes", "lateral", "error", "velocity")
+        facts = ("contact_area", "hysteresis", "work_of_slopes", "lateral", "error", "velocity")
         return Columns(
-            places, maps, {name: getattr(self, name) for name in told} | {"notes": [*self.notes]}
+            places, maps, {name: getattr(self, name) for name in facts} | {"notes": [*self.notes]}
         )
 
     def _draw(self, axes: Any) -> None:
@@ -225,7 +225,7 @@ def slide(
         number(rtol, "rtol"),
         limit,
         number(direction, "direction"),
-        _told(progress),
+        _reporter(progress),
     )
     names = ("contact_area", "contact_area_raw", "hysteresis", "work_of_slopes", "lateral")
     return SlidingContact._made(
@@ -239,7 +239,7 @@ def slide(
     )
 
 
-def _told(progress: Callable[[SlidingStep], object] | None) -> Callable[..., object] | None:
+def _reporter(progress: Callable[[SlidingStep], object] | None) -> Callable[..., object] | None:
     if progress is None:
         return None
     if not callable(progress):

@@ -49,17 +49,17 @@ def _eqs17_to_20(h0: float, stiff: float) -> Finding:
     bend = np.sqrt(2) * h0 * (2 * np.cos(Q0 * x) - 2) / x**2  # of sqrt(2) h0 cos(q0 x), at its top
     curvature = -bend / (Q0**2 * np.sqrt(2) * h0)
     rms = np.sqrt(np.mean((np.sqrt(2) * np.cos(2 * np.pi * np.arange(1000) / 1000)) ** 2))
-    found = separation(pressure=PRESSURES, effective_modulus=stiff, rms_height=h0, q0=Q0)
-    loads = [stiff * eq20(h0, d) / p for d, p in zip(found.effective, PRESSURES, strict=True)]
+    result = separation(pressure=PRESSURES, effective_modulus=stiff, rms_height=h0, q0=Q0)
+    loads = [stiff * eq20(h0, d) / p for d, p in zip(result.effective, PRESSURES, strict=True)]
     ratios = np.array([density, curvature, rms, *loads])
     return Finding(np.abs(ratios - 1) < 1e-4, ratios=ratios)
 
 
 def _interaction(h0: float, stiff: float) -> Finding:
     """How far d~ is above the separation of the plain model, in either reading."""
-    given: dict[str, Any] = {"effective_modulus": stiff, "rms_height": h0, "q0": Q0}
+    arguments: dict[str, Any] = {"effective_modulus": stiff, "rms_height": h0, "q0": Q0}
     implicit, added = (
-        separation(pressure=PRESSURES, reading=reading, **given)
+        separation(pressure=PRESSURES, reading=reading, **arguments)
         for reading in ("implicit", "added")
     )
     moved = [np.asarray(each.effective) - added.rigid for each in (implicit, added)]
@@ -68,10 +68,10 @@ def _interaction(h0: float, stiff: float) -> Finding:
 
 
 def _eq21(inputs: Inputs) -> dict[str, Finding]:
-    found = {}
+    findings = {}
     for name, model in inputs.models.items():
         d, _ = shifts(model, np.array(PRESSURES), np.array([VELOCITY]))
         printed = np.sqrt(2) * model.surface.rms_height / (d[:, 0] - model.correction.z_max)
-        found[name] = Finding(printed >= 1, printed=printed)
-    turned = max(-2 * finding.numbers["printed"].min() for finding in found.values())
-    return {**found, "": Finding(turned=turned)}
+        findings[name] = Finding(printed >= 1, printed=printed)
+    turned = max(-2 * finding.numbers["printed"].min() for finding in findings.values())
+    return {**findings, "": Finding(turned=turned)}

@@ -59,9 +59,11 @@ def article(args: Namespace) -> None:
 def remake() -> tuple[dict[str, bytes], Rows]:
     """All files by their names, and the statements."""
     inputs = prepare()
-    found = {name: finding for topic in _TOPICS for name, finding in topic.findings(inputs).items()}
-    statements = judge(found)
-    contents = {"summary.md": markdown(inputs, found, statements).encode()}
+    findings = {
+        name: finding for topic in _TOPICS for name, finding in topic.findings(inputs).items()
+    }
+    statements = judge(findings)
+    contents = {"summary.md": markdown(inputs, findings, statements).encode()}
     for draw in _FIGURES:
         contents |= draw(inputs)
     return contents, statements

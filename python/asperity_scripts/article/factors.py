@@ -50,7 +50,7 @@ _PF_CF = rf"PF-CF, $\gamma$ = {_GAMMA}"
 
 def findings(inputs: Inputs) -> Findings:
     """What Section 6.1 and the conclusions say of S, of matches, penetration and areas."""
-    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    findings: dict[str, dict[str, Finding]] = defaultdict(dict)
     for name, model in inputs.compounds.items():
         area, persson = model.area(_ZETA), model.cf(_ZETA, _S)
         s, end = persson / area, _ZETA[-1:]
@@ -59,13 +59,13 @@ def findings(inputs: Inputs) -> Findings:
         wide, narrow = (model.cf(_ZETA, shift) / persson - 1 for shift in (_WIDE, _NARROW))
         beyond = [np.flatnonzero(np.abs(row) > 0.05)[-1] + 1 for row in narrow]
         matches = np.abs(narrow[:, -1]).max() < 0.05, np.abs(narrow).max() < 0.05
-        found["C1"][name] = Finding(np.all(s[area < 1] > 1), s=s[area < 1])
-        found["C2"][name] = Finding(gamma.max() < MAGNIFICATION**0.1, gamma=gamma)
-        found["C5"][name] = Finding(np.abs(low).max() < 0.1, low=low)
-        found["C6"][name] = Finding(
+        findings["C1"][name] = Finding(np.all(s[area < 1] > 1), s=s[area < 1])
+        findings["C2"][name] = Finding(gamma.max() < MAGNIFICATION**0.1, gamma=gamma)
+        findings["C5"][name] = Finding(np.abs(low).max() < 0.1, low=low)
+        findings["C6"][name] = Finding(
             np.abs(wide[:, -1]).min() > 0.05, end=wide[0, -1], q0=wide[0, 0]
         )
-        found["C7"][name] = Finding(
+        findings["C7"][name] = Finding(
             matches, end=_largest(narrow[:, -1]), most=_largest(narrow), near=_ZETA[beyond]
         )
     for name, model in inputs.models.items():
@@ -77,12 +77,12 @@ def findings(inputs: Inputs) -> Findings:
         near, gain = np.abs(off), larger / area
         depth = (model.correction.z_max - model.correction.z_min) / p
         up = np.all(gain[area < 1] > 1), np.all(np.diff(gain[:, -1]) < 0)
-        found["C4"][name] = Finding([factor > 0.99 for factor in left.values()], **left)
-        found["C8"][name] = Finding(np.abs(ratio / _GAMMA - 1) < 0.1, ratio=ratio, p=p)
-        found["C9"][name] = Finding(np.all(near[1:] < 0.1), near[0] > near[1:].max(), off=off)
-        found["C11"][name] = Finding(depth[0] < depth[1:].min(), depth=1e6 * depth)
-        found["C14"][name] = Finding(up, gain=gain[:, -1], more=(larger - area)[:, -1])
-    return found
+        findings["C4"][name] = Finding([factor > 0.99 for factor in left.values()], **left)
+        findings["C8"][name] = Finding(np.abs(ratio / _GAMMA - 1) < 0.1, ratio=ratio, p=p)
+        findings["C9"][name] = Finding(np.all(near[1:] < 0.1), near[0] > near[1:].max(), off=off)
+        findings["C11"][name] = Finding(depth[0] < depth[1:].min(), depth=1e6 * depth)
+        findings["C14"][name] = Finding(up, gain=gain[:, -1], more=(larger - area)[:, -1])
+    return findings
 
 
 def fig08(inputs: Inputs) -> dict[str, bytes]:
@@ -97,8 +97,8 @@ def fig09(inputs: Inputs) -> dict[str, bytes]:
 
 def fig10(inputs: Inputs) -> dict[str, bytes]:
     """Area with the local peaks' p_T1 beside the original one."""
-    given, label = {"p_t1": _NARROW.p, **_given(inputs)}, f"modified, $p_{{T1}}$ = {_NARROW.p:g}"
-    return _areas("fig10", given, inputs.tuned["implicit"], _NARROW, label)
+    facts, label = {"p_t1": _NARROW.p, **_facts(inputs)}, f"modified, $p_{{T1}}$ = {_NARROW.p:g}"
+    return _areas("fig10", facts, inputs.tuned["implicit"], _NARROW, label)
 
 
 def fig11(inputs: Inputs) -> dict[str, bytes]:
@@ -112,13 +112,13 @@ def fig11(inputs: Inputs) -> dict[str, bytes]:
         axes.plot(_ZETA, persson, color=palette()[0], label=_PF_CF)
         axes.plot(_ZETA, improved, "--", color=palette()[1], label=f"IGW-CF, $p_T$ = {p:.2f}")
         panel(axes, load, "best", **_FACTOR, ylim=limits)
-    return page("fig11", figure, _given(inputs), _columns(curves))
+    return page("fig11", figure, _facts(inputs), _columns(curves))
 
 
 def fig12(inputs: Inputs) -> dict[str, bytes]:
     """Area with IGW beside the original one."""
     model = inputs.tuned["implicit"]
-    return _areas("fig12", _given(inputs), model, model.correction, "modified, IGW")
+    return _areas("fig12", _facts(inputs), model, model.correction, "modified, IGW")
 
 
 def _local(name: str, inputs: Inputs, distance: float, printed: AffineShift) -> dict[str, bytes]:
@@ -144,19 +144,19 @@ def _local(name: str, inputs: Inputs, distance: float, printed: AffineShift) -> 
     for row, dash, label, colour in lines:
         right.plot(_ZETA, row, dash, color=colour, label=label)
     panel(right, f"(b) {_MPA[_MIDDLE]}, {VELOCITY:g} m/s", "best", **_FACTOR)
-    given = {
-        **_given(inputs),
+    facts = {
+        **_facts(inputs),
         **scan_inputs(),
         "min_distance_m": distance * LAMBDA0,
         "p_t1_printed": printed.p,
         "p_t1_scan": shift,
         "pressure_pa": PRESSURES[_MIDDLE],
     }
-    found: list[dict[str, Any]] = [
+    parts: list[dict[str, Any]] = [
         {"part": "peaks", "x_m": x, "y_m": y, "height_m": peaks.heights},
         {"part": "factors", "magnification": _ZETA, **curves},
     ]
-    return page(name, figure, given, stacked(found))
+    return page(name, figure, facts, stacked(parts))
 
 
 def _draw_corner(axes: "Axes", heights: Array, x: Array, y: Array) -> None:
@@ -176,7 +176,7 @@ def _draw_corner(axes: "Axes", heights: Array, x: Array, y: Array) -> None:
 
 
 def _areas(
-    name: str, given: dict[str, Any], model: Model, correction: Correction, label: str
+    name: str, facts: dict[str, Any], model: Model, correction: Correction, label: str
 ) -> dict[str, bytes]:
     figure, (axes,) = new_figure(1)
     before, after = model.area(_ZETA), model.area(_ZETA, correction)
@@ -187,7 +187,7 @@ def _areas(
         axes.plot([], [], dash, color=grey(0.3), label=text)
     panel(axes, f"{VELOCITY:g} m/s", **_AREA)
     legend(axes)
-    return page(name, figure, given, _columns({"original_area": before, "modified_area": after}))
+    return page(name, figure, facts, _columns({"original_area": before, "modified_area": after}))
 
 
 def _columns(curves: dict[str, Array]) -> dict[str, list[Any]]:
@@ -201,7 +201,7 @@ def _columns(curves: dict[str, Array]) -> dict[str, list[Any]]:
     )
 
 
-def _given(inputs: Inputs) -> dict[str, Any]:
+def _facts(inputs: Inputs) -> dict[str, Any]:
     tuned = tuned_inputs(inputs.tuned["implicit"])
     return {**sandpaper_inputs(inputs), **tuned, "velocity_m_s": VELOCITY, "gamma": _GAMMA}
 

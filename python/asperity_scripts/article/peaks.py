@@ -32,7 +32,7 @@ def located(scan: HeightMap, distance: float) -> tuple[Array, Array, LocalPeaks]
 
 def findings(inputs: Inputs) -> Findings:
     """Sections 3.1, 6.1.1 and 7 on scans with and without skewness."""
-    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    findings: dict[str, dict[str, Finding]] = defaultdict(dict)
     lattice = 2 / np.sqrt(3)
     for skewness, scans in ((SKEWNESS, inputs.scans), (0.0, inputs.gaussian_scans)):
         peaks = [[local_peaks(scan, distance) for distance in _DISTANCES] for scan in scans]
@@ -43,23 +43,23 @@ def findings(inputs: Inputs) -> Findings:
         larger, lines = (np.diff(p) < 0).all(axis=1), np.array([_of_lines(scan) for scan in scans])
         scatter = [f"{x.mean():.2f} ± {x.std(ddof=1):.2f}" for x in (*p.T, *lines.T)]
         name, crossing = f"skewness {skewness:g}", np.interp(2.0, mean[::-1], _DISTANCES[::-1])
-        found["P2"][name] = Finding(
+        findings["P2"][name] = Finding(
             abs(wide / 2.5 - 1) < _TOLERANCE, p=scatter[1], lines=scatter[-2:], scans=len(scans)
         )
-        found["P3"][name] = Finding(
+        findings["P3"][name] = Finding(
             abs(narrow / 2 - 1) < _TOLERANCE, p=scatter[3], middle=scatter[2], scans=len(scans)
         )
         more = np.diff(density).min() > 0, larger.all()
-        found["P4"][name] = Finding(
+        findings["P4"][name] = Finding(
             more, mean=mean, count=count, larger=larger.sum(), scans=larger.size
         )
         matched = narrowest < 2 < widest, wide < (1 + _TOLERANCE) * narrow
         change = 100 * (wide / narrow - 1)
-        found["P5"][name] = Finding(matched, distance=crossing, change=change)
-        found["P7"][name] = Finding(
+        findings["P5"][name] = Finding(matched, distance=crossing, change=change)
+        findings["P7"][name] = Finding(
             abs(count[1] / lattice - 1) < 0.2, count=count[1], lattice=lattice, narrow=count[3]
         )
-    return found
+    return findings
 
 
 def _of_lines(scan: HeightMap) -> Array:

@@ -46,14 +46,14 @@ def implied(reading: Reading, rms_height: float, q0: float) -> Implied:
     inverse, low, high = (1 / p for p in (printed, printed + _ROUNDING, printed - _ROUNDING))
 
     def effective(modulus: Array) -> Array:
-        found = separation(
+        result = separation(
             pressure=list(PRINTED),
             effective_modulus=modulus[:, None],
             rms_height=rms_height,
             q0=q0,
             reading=reading,
         )
-        return np.asarray(found.effective)
+        return np.asarray(result.effective)
 
     def fitting(modulus: Array) -> NDArray[np.bool_]:
         """Whether a falling line passes through all three 1 / p_T, each within its rounding."""

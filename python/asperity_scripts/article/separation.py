@@ -29,7 +29,7 @@ _SLOW = np.array(PRESSURES), np.array([1e-9])
 def shifts(model: Model, pressure: Array, velocity: Array) -> tuple[Array, Array]:
     """d~ [m] and p_T2, pressures in rows; p_T2 is 1 in full and infinite without contact."""
     igw = model.correction
-    found = separation(
+    result = separation(
         pressure=pressure[:, None],
         effective_modulus=[effective_modulus(model.rubber, v) for v in velocity],
         rms_height=model.surface.rms_height,
@@ -38,7 +38,7 @@ def shifts(model: Model, pressure: Array, velocity: Array) -> tuple[Array, Array
         z_max=igw.z_max,
         z_min=igw.z_min,
     )
-    d, state = np.asarray(found.effective), np.asarray(found.state)
+    d, state = np.asarray(result.effective), np.asarray(result.state)
     gap = np.where(state == "partial", igw.z_max - d, 1.0)
     known = [state == "full", state == "no contact"]
     return d, np.select(known, [1.0, np.inf], (igw.z_max - igw.z_min) / gap)
@@ -56,15 +56,15 @@ def eq20(h0: float, d: float) -> float:
 
 def findings(inputs: Inputs) -> Findings:
     """Trends of d~ and p_T2, their limits and their averages."""
-    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    findings: dict[str, dict[str, Finding]] = defaultdict(dict)
     for name, model in inputs.models.items():
         d, p = shifts(model, *_FIG13)
         turns = np.diff(shifts(model, *_FOLLOWED)[0][:, 0]) > 0
         until = _FOLLOWED[0][turns.argmax()] if turns.any() else _FOLLOWED[0][-1]
         held, step = (_falls(d) and _falls(p), not turns.any()), np.diff(d, axis=0).max()
-        found["G4"][name] = Finding(held, step=1e6 * step, until=until / 1e6)
+        findings["G4"][name] = Finding(held, step=1e6 * step, until=until / 1e6)
         d, p = shifts(model, *_FIG14)
-        found["G5"][name] = Finding(_falls(-d.T) and _falls(-p.T), p=p[2])
+        findings["G5"][name] = Finding(_falls(-d.T) and _falls(-p.T), p=p[2])
         area = contact_area(
             model.surface,
             model.rubber,
@@ -74,7 +74,7 @@ def findings(inputs: Inputs) -> Findings:
         )
         touching, at = area[area > 0], _FADING[area > 0]
         least = int(touching.argmin())
-        found["G6"][name] = Finding(
+        findings["G6"][name] = Finding(
             _falls(-area),
             least=touching[least],
             at=at[least],
@@ -82,13 +82,13 @@ def findings(inputs: Inputs) -> Findings:
             lightest=at[0],
         )
         p = shifts(model, *_SLOW)[1][:, 0]
-        found["G7"][name] = Finding(p < 1.05, p=p)
+        findings["G7"][name] = Finding(p < 1.05, p=p)
         p = shifts(model, *_AVERAGE)[1].ravel()
-        found["G10"][name] = Finding(abs(p.mean() / 2 - 1) < 0.1, mean=p.mean(), p=p)
-        found["G11"][name] = Finding(abs(2 * (1 / p).mean() - 1) < 0.1, mean=(1 / p).mean())
+        findings["G10"][name] = Finding(abs(p.mean() / 2 - 1) < 0.1, mean=p.mean(), p=p)
+        findings["G11"][name] = Finding(abs(2 * (1 / p).mean() - 1) < 0.1, mean=(1 / p).mean())
     full = eq20(inputs.sandpaper.rms_height, inputs.tuned["implicit"].implied.z_min)
-    found["G7"][""] = Finding(softest=np.array(PRESSURES) / full / 1e6)  # where d~ is z_min
-    return found
+    findings["G7"][""] = Finding(softest=np.array(PRESSURES) / full / 1e6)  # where d~ is z_min
+    return findings
 
 
 def fig13(inputs: Inputs) -> dict[str, bytes]:
@@ -109,16 +109,16 @@ def _figure(
 ) -> dict[str, bytes]:
     """A row a reading, over the longer of `pressure` and `velocity`."""
     figure, panels = new_figure(4)
-    curves, given = [], sandpaper_inputs(inputs)
+    curves, facts = [], sandpaper_inputs(inputs)
     for k, (reading, tuned) in enumerate(inputs.tuned.items()):
-        found = shifts(tuned, pressure, velocity)
+        pair = shifts(tuned, pressure, velocity)
         left, right = panels[2 * k : 2 * k + 2]
         if pressure.size > velocity.size:
             x, labels, place = pressure / 1e6, [f"{v:g} m/s" for v in velocity], "upper right"
-            rows = zip(*(values.T for values in found), labels, palette(), strict=False)
+            rows = zip(*(values.T for values in pair), labels, palette(), strict=False)
         else:
             x, labels, place = velocity, [f"{p / 1e6:g} MPa" for p in pressure], "upper left"
-            rows = zip(*found, labels, palette(), strict=False)
+            rows = zip(*pair, labels, palette(), strict=False)
         for d, p, label, colour in rows:
             left.plot(x, 1e3 * d, color=colour, label=label)
             right.plot(x, np.where(np.isfinite(p), p, np.nan), color=colour, label=label)
@@ -132,10 +132,10 @@ def _figure(
             "pressure_pa": np.repeat(pressure, velocity.size),
             "velocity_m_s": np.tile(velocity, pressure.size),
         }
-        values = {"separation_m": found[0].ravel(), "shift_factor": found[1].ravel()}
+        values = {"separation_m": pair[0].ravel(), "shift_factor": pair[1].ravel()}
         curves.append({"reading": reading, **points, **values})
-        given[reading] = tuned_inputs(tuned)
-    return page(name, figure, given, stacked(curves))
+        facts[reading] = tuned_inputs(tuned)
+    return page(name, figure, facts, stacked(curves))
 
 
 def _limits(axes: "Axes", z_max: float, z_min: float) -> None:

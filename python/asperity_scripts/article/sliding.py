@@ -76,39 +76,41 @@ def _of_asphalt(inputs: Inputs, reading: Reading) -> GreenwoodWilliamson:
 
 def findings(inputs: Inputs) -> Findings:
     """Cut-offs, hysteresis and adhesion, with the article's cut-off and that of its rule."""
-    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    findings: dict[str, dict[str, Finding]] = defaultdict(dict)
     for name, surface in (("sandpaper", inputs.sandpaper), ("asphalt", inputs.asphalt)):
         q1 = surface.cutoff_for_slope(1.3) / Q0
-        found["F1"][name] = Finding(
+        findings["F1"][name] = Finding(
             abs(q1 / MAGNIFICATION - 1) < 0.1, q1=q1, slope=surface.rms_slope
         )
     curves = compute(inputs)
     for cutoff, theories in curves.items():
         plain, low, high = (theories[n] for n in ("original", "gamma 0.4", "gamma 0.5"))
         less = low.hysteresis / high.hysteresis - 1
-        found["F3"][cutoff] = Finding(np.all(np.abs(less) < 0.1), less=less)
+        findings["F3"][cutoff] = Finding(np.all(np.abs(less) < 0.1), less=less)
         for reading in READINGS:
             name, modified = f"{cutoff}, {reading}", theories[reading]
             ratio, total = plain.hysteresis / modified.hysteresis, plain.mu / modified.mu
             share = modified.adhesion / modified.mu
             rising = _VELOCITY[1:][np.diff(share) >= 0]
-            found["F4"][name] = Finding(np.all(ratio > 1), ratio=ratio)
-            found["F5"][name] = Finding(np.all(total > 1), ratio=total, less=_VELOCITY[total < 1])
-            found["F6"][name] = Finding(
+            findings["F4"][name] = Finding(np.all(ratio > 1), ratio=ratio)
+            findings["F5"][name] = Finding(
+                np.all(total > 1), ratio=total, less=_VELOCITY[total < 1]
+            )
+            findings["F6"][name] = Finding(
                 rising.size == 0, share=100 * _at(share, _SHARES), rising=rising
             )
     article, rule = (theories["original"].hysteresis for theories in curves.values())
     hot = heated(_surfaces(inputs), _VELOCITY)
-    found["F4"][""] = Finding(
+    findings["F4"][""] = Finding(
         cutoff=rule / article,
         heat=np.stack([one.hysteresis / cold(one).hysteresis for one in hot.values()]).ravel(),
     )
     changed = [one.mu / cold(one).mu - 1 for one in hot.values()]
-    found["F5"][""] = Finding(
+    findings["F5"][""] = Finding(
         heat=np.concatenate([_at(change, _SHARES) for change in changed]),
         rise=np.concatenate([_at(rise(one), _SHARES) for one in hot.values()]),
     )
-    return found
+    return findings
 
 
 def _at(values: Array, velocity: Sequence[float]) -> Array:
@@ -119,9 +121,9 @@ def _at(values: Array, velocity: Sequence[float]) -> Array:
 def fig15(inputs: Inputs) -> dict[str, bytes]:
     """The original theory and the modified one."""
     figure, panels = new_figure(2)
-    found = compute(inputs)
+    results = compute(inputs)
     hot = _hot_theories(inputs)
-    curves = found[_CUTOFFS[0]]
+    curves = results[_CUTOFFS[0]]
     theories = {"original": "(a) original theory", "implicit": "(b) modified, IGW"}
     for axes, (name, title) in zip(panels, theories.items(), strict=True):
         for label, values, dash, colour in (
@@ -160,12 +162,12 @@ def fig15(inputs: Inputs) -> dict[str, bytes]:
                 **{value: getattr(theories[which], value) for value in _VALUES},
                 **hot_columns(hot[which][cutoff]),
             }
-            for cutoff, theories in found.items()
+            for cutoff, theories in results.items()
             for which in names
         ]
     )
     note = "the measured points of the article's Fig. 15 are not at hand: none are given"
-    return page("fig15", figure, _given(inputs), columns, note)
+    return page("fig15", figure, _facts(inputs), columns, note)
 
 
 def table1(inputs: Inputs) -> dict[str, bytes]:
@@ -178,7 +180,7 @@ def table1(inputs: Inputs) -> dict[str, bytes]:
     )
     for title in ("symbol", "unit"):
         columns[title] = [re.sub(r"[$\\]", "", cell) for cell in columns[title]]
-    return page("table1", figure, _given(inputs), columns)
+    return page("table1", figure, _facts(inputs), columns)
 
 
 def draw_table(rows: Sequence[_Row]) -> "Figure":
@@ -216,7 +218,7 @@ def _headed(source: str, rows: Sequence[Sequence[str]]) -> list[list[str]]:
     return [[f"{source}:", "", "", ""], *(list(row[:-1]) for row in rows)]
 
 
-def _given(inputs: Inputs) -> dict[str, Any]:
+def _facts(inputs: Inputs) -> dict[str, Any]:
     igw = _of_asphalt(inputs, "implicit")
     return {
         **asphalt_inputs(inputs),
@@ -231,18 +233,18 @@ def _given(inputs: Inputs) -> dict[str, Any]:
 
 
 def _parameters(inputs: Inputs) -> list[_Row]:
-    road, igw, given = inputs.asphalt, _of_asphalt(inputs, "implicit"), "Table 1"
+    road, igw, source = inputs.asphalt, _of_asphalt(inputs, "implicit"), "Table 1"
     printed, scans = printed_eq12(road), "synthetic scans"
     return [
-        ("Hurst exponent", "$H$", road.hurst, "-", given),
-        ("rms height", "$h_0$", 1e6 * road.rms_height, "µm", given),
-        ("lower cut-off", "$q_0$", road.q0, "1/m", given),
-        ("upper cut-off", "$q_{max}$", road.q1, "1/m", given),
-        ("width of the adhesion", "$c$", ADHESION.width, "-", given),
-        ("velocity of the adhesion", "$v_0$", 1e3 * ADHESION.reference_velocity, "mm/s", given),
-        ("shear stress", r"$\tau_{f0}$", ADHESION.shear_stress / 1e6, "MPa", given),
-        ("nominal pressure", r"$\sigma_0$", ASPHALT_PRESSURE / 1e3, "kPa", given),
-        (f"rms slope to {_CUTOFFS[0]}", "$h'$", road.rms_slope, "-", given),
+        ("Hurst exponent", "$H$", road.hurst, "-", source),
+        ("rms height", "$h_0$", 1e6 * road.rms_height, "µm", source),
+        ("lower cut-off", "$q_0$", road.q0, "1/m", source),
+        ("upper cut-off", "$q_{max}$", road.q1, "1/m", source),
+        ("width of the adhesion", "$c$", ADHESION.width, "-", source),
+        ("velocity of the adhesion", "$v_0$", 1e3 * ADHESION.reference_velocity, "mm/s", source),
+        ("shear stress", r"$\tau_{f0}$", ADHESION.shear_stress / 1e6, "MPa", source),
+        ("nominal pressure", r"$\sigma_0$", ASPHALT_PRESSURE / 1e3, "kPa", source),
+        (f"rms slope to {_CUTOFFS[0]}", "$h'$", road.rms_slope, "-", source),
         ("q1 at rms slope 1.3", "$q_1/q_0$", road.cutoff_for_slope() / Q0, "-", "rule of Sec. 4"),
         ("spectrum at q0, rms height h0", "$C(q_0)$", float(road.at(Q0)), "m$^4$", "Parseval"),
         ("spectrum at q0, Eq. 12 as printed", "$C(q_0)$", float(printed.at(Q0)), "m$^4$", "Eq. 12"),
@@ -254,9 +256,9 @@ def _parameters(inputs: Inputs) -> list[_Row]:
 
 def _frictions(curves: Mapping[str, Mapping[str, Friction]]) -> list[_Row]:
     rows: list[_Row] = []
-    for cutoff, found in curves.items():
+    for cutoff, theories in curves.items():
         for name, which in (("original", "original"), ("modified", "implicit")):
-            for v, mu in zip(_LISTED, _at(found[which].mu, _LISTED).tolist(), strict=True):
+            for v, mu in zip(_LISTED, _at(theories[which].mu, _LISTED).tolist(), strict=True):
                 source = f"cut off at {cutoff}"
                 rows.append((f"friction at {v:g} m/s, {name}", r"$\mu$", mu, "-", source))
     factors = _at(curves[_CUTOFFS[0]]["implicit"].shift_factor, _LISTED).tolist()

@@ -41,8 +41,8 @@ def judge(findings: Findings) -> list[dict[str, str]]:
     if tested != set(findings):
         raise ValueError(f"statements.csv and findings differ in {tested ^ set(findings)}")
     for row in rows:
-        found = findings.get(row["id"], {})
-        row |= {"verdict": verdict(row["judged"], found), "found": worded(row["found"], found)}
+        of_row = findings.get(row["id"], {})
+        row |= {"verdict": verdict(row["judged"], of_row), "found": worded(row["found"], of_row)}
     return rows
 
 

@@ -26,27 +26,27 @@ _TOPICS = {
 
 def counted(statements: Rows) -> str:
     """How many statements have each verdict, in one line."""
-    found = [row["verdict"] for row in statements]
-    parts = [f"{found.count(verdict)} {verdict}" for verdict in VERDICTS]
-    return f"{len(found)} statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
+    verdicts = [row["verdict"] for row in statements]
+    parts = [f"{verdicts.count(verdict)} {verdict}" for verdict in VERDICTS]
+    return f"{len(verdicts)} statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
 
 
-def markdown(given: Inputs, found: Findings, statements: Rows) -> str:
+def markdown(setup: Inputs, findings: Findings, statements: Rows) -> str:
     """The whole summary: its text with the numbers, then the tables."""
     text = (files("asperity_scripts.article") / "summary.md").read_text(encoding="utf-8")
-    heights = given.untuned["implicit"].correction
+    heights = setup.untuned["implicit"].correction
     micrometres = {"z_max": heights.z_max, "z_min": heights.z_min}
-    micrometres |= {n: getattr(given, n).rms_height for n in ("sandpaper", "asphalt")}
-    numbers = {n: {**found["G1"][n].numbers, **found["G2"][n].numbers} for n in given.tuned}
+    micrometres |= {n: getattr(setup, n).rms_height for n in ("sandpaper", "asphalt")}
+    numbers = {n: {**findings["G1"][n].numbers, **findings["G2"][n].numbers} for n in setup.tuned}
     opening = fill(
         text,
         **numbers,
-        sandpaper=given.sandpaper,
-        asphalt=given.asphalt,
-        scans=len(given.scans),
+        sandpaper=setup.sandpaper,
+        asphalt=setup.asphalt,
+        scans=len(setup.scans),
         counted=counted(statements),
         um={name: 1e6 * height for name, height in micrometres.items()},
-        bare=found["G2"][""].numbers["bare"],
+        bare=findings["G2"][""].numbers["bare"],
         printed=PRINTED.values(),
         inputs=inputs,
         compounds=compounds,

@@ -66,7 +66,7 @@ def findings(inputs: Inputs) -> Findings:
         SelfAffineSpectrum(rms_height=1e-4, hurst=s.hurst, q0=Q0, q1=s.q1).rms_slope for s in own
     )
     slopes = [surface.rms_slope for surface in own]
-    found = {
+    findings = {
         "A4": Finding(abs(printed / h0 - 1) < 0.01, rms=1e6 * printed, share=printed / h0),
         "S1": _sloped(inputs.asphalt_scans[0]),
         "S5": Finding(
@@ -76,7 +76,7 @@ def findings(inputs: Inputs) -> Findings:
         "S8": Finding(steep > flat, ratio=steep / flat, own=slopes),
         **_windows(inputs),
     }
-    return {name: {"": finding} for name, finding in found.items()}
+    return {name: {"": finding} for name, finding in findings.items()}
 
 
 def _windows(inputs: Inputs) -> dict[str, Finding]:
@@ -86,10 +86,10 @@ def _windows(inputs: Inputs) -> dict[str, Finding]:
     for name, window in windows.items():
         levels, exponents = [], []
         for scan in inputs.asphalt_scans:
-            found = power_spectrum(cut(scan, _SHORT), window=window)
-            low = (found.wavenumber > Q0) & (found.wavenumber < 2 * Q0)
-            levels.append(np.mean(found.density[low] / truth.at(found.wavenumber[low])))
-            exponents.append(slope_fit(found).hurst)
+            spectrum = power_spectrum(cut(scan, _SHORT), window=window)
+            low = (spectrum.wavenumber > Q0) & (spectrum.wavenumber < 2 * Q0)
+            levels.append(np.mean(spectrum.density[low] / truth.at(spectrum.wavenumber[low])))
+            exponents.append(slope_fit(spectrum).hurst)
         scatter[name], hurst[name] = np.std(levels, ddof=1), np.mean(exponents)
     off = {name: abs(h - truth.hurst) for name, h in hurst.items()}
     held = off["none"] > 0.03, off["hann"] < 0.03, off["bell"] < 0.03
@@ -169,9 +169,9 @@ def fig02(inputs: Inputs) -> dict[str, bytes]:
     below: dict[str, Any] = {"loc": "outside lower center", "ncols": 3}
     figure.legend(*named, fontsize="small", **(below if narrow() else beside))
     columns = {"x_m": x.tolist(), "height_m": h.tolist(), "transformed_height_m": shifted.tolist()}
-    given = {"rms_height_m": inputs.sandpaper.rms_height, "q0_per_m": Q0, "shift_factor": _SHIFT}
+    facts = {"rms_height_m": inputs.sandpaper.rms_height, "q0_per_m": Q0, "shift_factor": _SHIFT}
     note = "the gap between h and h_T in (b) is where the rubber does not reach"
-    return page("fig02", figure, given, columns, note)
+    return page("fig02", figure, facts, columns, note)
 
 
 def fig03(inputs: Inputs) -> dict[str, bytes]:
@@ -211,13 +211,13 @@ def fig03(inputs: Inputs) -> dict[str, bytes]:
             {"curve": "peaks", "height_m": peak_middle, "density_per_m": counts},
         ]
     )
-    given = {
+    facts = {
         **sandpaper_inputs(inputs),
         **scan_inputs(),
         "min_distance_m": LAMBDA0,
         "mean_peak_height_m": float(peaks.mean()),
     }
-    return page("fig03", figure, given, columns)
+    return page("fig03", figure, facts, columns)
 
 
 def fig06(inputs: Inputs) -> dict[str, bytes]:
@@ -234,19 +234,19 @@ def fig06(inputs: Inputs) -> dict[str, bytes]:
         length = 1e3 * x[-1]
         panel(axes, title, xlim=(0, length), xlabel="$x$ [mm]", ylabel="Height $z$ [mm]")
     columns = {"x_m": x.tolist(), "height_m": raw.tolist(), "detrended_height_m": flat.tolist()}
-    given = {
+    facts = {
         **asphalt_inputs(inputs),
         **scan_inputs(0.0),
         "slope": _TILT,
         "offset_m": _OFFSET,
     }
-    return page("fig06", figure, given, columns, "slope and offset are added to a synthetic scan")
+    return page("fig06", figure, facts, columns, "slope and offset are added to a synthetic scan")
 
 
 def fig07(inputs: Inputs) -> dict[str, bytes]:
     """Spectra of synthetic scans of both surfaces, with Eq. 28's lines."""
     figure, panels = new_figure(2)
-    curves, given = [], {**scan_inputs(), "skewness": "sandpaper as given, asphalt 0"}
+    curves, facts = [], {**scan_inputs(), "skewness": "sandpaper as given, asphalt 0"}
     surfaces = (
         ("120-grit sandpaper", inputs.sandpaper, inputs.scans[0]),
         ("asphalt", inputs.asphalt, inputs.asphalt_scans[0]),
@@ -280,6 +280,6 @@ def fig07(inputs: Inputs) -> dict[str, bytes]:
                 ],
             }
         )
-        given[f"hurst_{name}"] = fit.hurst
-    given |= {f"rms_height_m_{name}": truth.rms_height for name, truth, _ in surfaces}
-    return page("fig07", figure, given, stacked(curves))
+        facts[f"hurst_{name}"] = fit.hurst
+    facts |= {f"rms_height_m_{name}": truth.rms_height for name, truth, _ in surfaces}
+    return page("fig07", figure, facts, stacked(curves))

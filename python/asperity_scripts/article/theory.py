@@ -38,7 +38,7 @@ _SHOWN = 5  # lambda0 of the scan
 
 def findings(inputs: Inputs) -> Findings:
     """Section 2 on the sandpaper with compound A at 0.1 m/s."""
-    found: dict[str, dict[str, Finding]] = defaultdict(dict)
+    findings: dict[str, dict[str, Finding]] = defaultdict(dict)
     zeta, pressure = magnifications(200)[-2:], np.geomspace(0.4e6, 1e11, 400)
     heavy: dict[str, Any] = {"pressure": PRESSURES[-1], "velocity": VELOCITY}
     for name, model in inputs.compounds.items():
@@ -52,10 +52,10 @@ def findings(inputs: Inputs) -> Findings:
             for form in ("exact", "interpolated")
         )
         error, least = rough / exact - 1, exact.min()
-        found["T3"][name] = Finding(levels, slope=slope)
-        found["T8"][name] = Finding(density == 0, density=density, stress=far / 1e6)
-        found["T9"][name] = Finding(np.abs(error).max() < 0.03, error=error, least=least)
-    return found
+        findings["T3"][name] = Finding(levels, slope=slope)
+        findings["T8"][name] = Finding(density == 0, density=density, stress=far / 1e6)
+        findings["T9"][name] = Finding(np.abs(error).max() < 0.03, error=error, least=least)
+    return findings
 
 
 def fig01(inputs: Inputs) -> dict[str, bytes]:
@@ -101,13 +101,13 @@ def fig01(inputs: Inputs) -> dict[str, bytes]:
         )
         point = {"magnification": zeta, "contact_area": area}
         curves.append({**point, "stress_pa": stress, "density_per_pa": density})
-    given = {**sandpaper_inputs(inputs), **tuned_inputs(tuned), **scan_inputs()}
-    given |= {"pressure_pa": load, "velocity_m_s": _SLIDING["velocity"]}
+    facts = {**sandpaper_inputs(inputs), **tuned_inputs(tuned), **scan_inputs()}
+    facts |= {"pressure_pa": load, "velocity_m_s": _SLIDING["velocity"]}
     note = (
         "patches in the picture: the highest A(q)/A0 of the scan smoothed at q, within the patches "
         "before; the theory gives their area, not their place"
     )
-    return page("fig01", figure, given, stacked(curves), note)
+    return page("fig01", figure, facts, stacked(curves), note)
 
 
 def _smooth(heights: Array, cutoff: float) -> Array:

@@ -58,7 +58,7 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
     labels = {"xlabel": r"Angular frequency $\omega$ [rad/s]", "ylabel": "Modulus [MPa]"}
     panel(axes, f"surrogates, {compounds.ROOM:g} °C", **LOG, **labels)
     legend(axes)
-    given = {
+    facts = {
         "temperature_c": compounds.ROOM,
         **{f"glass_transition_{k}_c": v for k, v in compounds.T_G.items()},
         "wlf_c1": compounds.C1,
@@ -67,4 +67,4 @@ def fig05(inputs: Inputs) -> dict[str, bytes]:
         **{f"tuned_by_decades_{name}": t.decades for name, t in inputs.tuned.items()},
     }
     note = "the article's moduli are not published; these are surrogates placed by T_g alone"
-    return page("fig05", figure, given, stacked(curves), note)
+    return page("fig05", figure, facts, stacked(curves), note)

@@ -36,18 +36,18 @@ def validate(args: Namespace) -> None:
     """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
     refuse_alone(args)
     if args.sliding:
-        surface, told, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
-        validate_sliding(args, surface, told)
+        surface, facts, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
+        validate_sliding(args, surface, facts)
         return tell_notes(unusual, args.notes)
     directory = FilePath(args.output)
     check_plot(directory / _AREA)
     check_directory(directory, _FILES, force=args.force)
     inputs = [FilePath(name) for name in (args.rows, args.surface) if name is not None]
     refuse_overwrite([directory / name for name in _FILES], inputs)
-    contacts, told, notes = _contacts(args)
+    contacts, facts, notes = _contacts(args)
     predictions = [[predict(c, model) for c in contacts] for model in models_for(contacts)]
     text = summary(predictions)
-    table = Table("validate", [told], notes, error_rows(predictions))
+    table = Table("validate", [facts], notes, error_rows(predictions))
     with drawn_in(args.style):
         pictures = _pictures(contacts, predictions)
     files = {"summary.md": text.encode(), "errors.csv": table.csv().encode(), **pictures}
@@ -65,7 +65,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note
         return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
     if args.rows is not None:
         raise InvalidInput(Argument("--rows"), MUST_BE, "left out where --surface is given")
-    flat, told, unusual = _own_map(args)
+    flat, facts, unusual = _own_map(args)
     path = FilePath(args.surface)
     with rename_in_errors(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
         contacts, notes = own_contacts(
@@ -76,10 +76,10 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note
             periodic=args.periodic,
             progress=progress(f"{path}"),
         )
-    return contacts, told, [*unusual, *notes]
+    return contacts, facts, [*unusual, *notes]
 
 
-def _given(args: Namespace) -> dict[str, Any]:
+def _options_of_map(args: Namespace) -> dict[str, Any]:
     """Options that say something of a map of one's own."""
     names = ("pixel_size", "unit", "channel", "detrend", "q0", "loads", "periodic")
     values = {name: getattr(args, name) for name in names}
@@ -90,27 +90,27 @@ def _given(args: Namespace) -> dict[str, Any]:
 
 def _no_map(args: Namespace) -> dict[str, Any]:
     """Refuse options of a map where there is none."""
-    if given := _given(args):
-        option = next(iter(given)).replace("_", "-")
+    if options := _options_of_map(args):
+        option = next(iter(options)).replace("_", "-")
         raise InvalidInput(Argument(f"--{option}"), ": only goes with --surface")
     return {}
 
 
 def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[Note]]:
     """A map read from --surface without its trend, what was given, and what to know of it."""
-    given = _given(args)
+    options = _options_of_map(args)
     path = FilePath(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, flags):
         if args.q0 is not None:
             plausible.check("--q0", args.q0, quantities.FIRST_WAVENUMBER)
-        read = {name: given[name] for name in flags if name in given}
+        read = {name: options[name] for name in flags if name in options}
         _, filled = read_filled(path, max_fraction=0.10, **read)
     if not isinstance(filled, HeightMap):
         raise InvalidInput("is a line scan: contacts need a map", where=path)
     detrend: Any = args.detrend or "plane"
     flat = filled if detrend == "none" else filled.detrend(detrend)
-    return flat, {"surface": args.surface, **given, "detrend": detrend}, list(unusual)
+    return flat, {"surface": args.surface, **options, "detrend": detrend}, list(unusual)
 
 
 def _pictures(

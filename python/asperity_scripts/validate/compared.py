@@ -71,9 +71,9 @@ class Comparison:
             "| correction | mu rms | mu | A rms | A |",
             "| --- | --- | --- | --- | --- |",
         ]
-        for name, found in self.predicted.items():
+        for name, of_model in self.predicted.items():
             cells = []
-            for values, truth in zip(found, (self.hysteresis, self.area), strict=True):
+            for values, truth in zip(of_model, (self.hysteresis, self.area), strict=True):
                 error = 100 * (values / truth - 1)
                 rms = math.sqrt(float(np.mean(error**2)))
                 cells += [f"{rms:.1f}", f"{error.min():+.1f} / {error.max():+.1f}"]
@@ -131,7 +131,7 @@ def compare(
 
         for chunk in shown:
             ((p, v),) = points[chunk]
-            found = slide(
+            contact = slide(
                 solved,
                 rubber,
                 pressure=p,
@@ -140,12 +140,12 @@ def compare(
                 periodic=True,
                 progress=tell,
             )
-            rows.append((found.hysteresis, found.work_of_slopes, found.contact_area))
+            rows.append((contact.hysteresis, contact.work_of_slopes, contact.contact_area))
     mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
     spectrum = _spectrum(solved)
 
     def theory(name: str, at: _Array) -> tuple[_Array, _Array]:
-        told: Any = friction(
+        result: Any = friction(
             spectrum,
             rubber,
             pressure=loads[:, None],
@@ -153,7 +153,7 @@ def compare(
             poisson_ratio=poisson_ratio,
             correction=CORRECTIONS[name],
         )
-        return told.hysteresis, told.contact_area
+        return result.hysteresis, result.contact_area
 
     between = np.geomspace(speeds.min(), speeds.max(), _POINTS)
     between = np.clip(between, speeds.min(), speeds.max())  # whatever rounding made of the ends

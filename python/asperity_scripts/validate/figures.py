@@ -41,12 +41,12 @@ def error_figure(
     bands = sorted({contact.band for contact in contacts})
     exponents = sorted({contact.hurst for contact in contacts}, key=str)
     colours = colours_for(len(bands))
-    for axes, found in zip(panels, predictions, strict=False):
+    for axes, group in zip(panels, predictions, strict=False):
         axes.axhline(0, color=grey(0.4), linewidth=0.8)
         for i, band in enumerate(bands):
             for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
-                _draw_errors(axes, found, band, hurst, quantity, colours[i], mark)
-        axes.set_title(shown(found[0].model.name), fontsize="medium")
+                _draw_errors(axes, group, band, hurst, quantity, colours[i], mark)
+        axes.set_title(shown(group[0].model.name), fontsize="medium")
         axes.tick_params(which="both", direction="in", top=True, right=True)
     for axes in panels[len(predictions) :]:
         axes.set_axis_off()
@@ -64,7 +64,7 @@ def error_figure(
     # linear up to what a theory without fitted numbers reaches, logarithmic beyond
     panels[0].set_yscale("symlog", linthresh=10, linscale=1.2, subs=range(2, 10))
     panels[0].set_yticks([-100, -10, 0, 10, 100], ["-100", "-10", "0", "10", "100"])
-    largest = max(abs(p.error(quantity)) for found in predictions for p in found)
+    largest = max(abs(p.error(quantity)) for group in predictions for p in group)
     panels[0].set_ylim(-120, max(120, 130 * largest))
     figure.supxlabel(_LOAD, fontsize="medium")
     name = "contact area" if quantity == "area" else "elastic energy"
@@ -79,21 +79,21 @@ def _different(
 ) -> list[Sequence[Prediction]]:
     """Without the models that say of this quantity what one before them says."""
     kept: dict[tuple[float, ...], Sequence[Prediction]] = {}
-    for found in predictions:
-        kept.setdefault(tuple(prediction.error(quantity) for prediction in found), found)
+    for group in predictions:
+        kept.setdefault(tuple(prediction.error(quantity) for prediction in group), group)
     return list(kept.values())
 
 
 def _draw_errors(
     axes: "Axes",
-    found: Sequence[Prediction],
+    group: Sequence[Prediction],
     band: float,
     hurst: float | None,
     quantity: Quantity,
     colour: object,
     mark: str,
 ) -> None:
-    points = [p for p in found if p.contact.band == band and p.contact.hurst == hurst]
+    points = [p for p in group if p.contact.band == band and p.contact.hurst == hurst]
     load = [p.contact.load for p in points]
     error = [100 * p.error(quantity) for p in points]
     axes.plot(load, error, mark, color=colour, markersize=3, markeredgewidth=0, alpha=0.8)
@@ -111,7 +111,7 @@ def shift_figure(
     it what the friction integrand makes of the energy."""
     figure, (left, right) = new_figure(2)
     figure.set_size_inches(*((COLUMN, 6.8) if narrow() else (12.5, 4.0)))
-    by_name = {found[0].model.name: found for found in predictions}
+    by_name = {group[0].model.name: group for group in predictions}
 
     def draw(axes: "Axes", label: str, values: Sequence[float], colour: str, dashes: str) -> None:
         load, low, middle, high = _ranges(contacts, values)
@@ -164,5 +164,5 @@ def _ranges(
         if math.isfinite(value):
             groups.setdefault(float(f"{contact.load:.3g}"), []).append(value)
     loads = sorted(groups)
-    found = [groups[load] for load in loads]
-    return loads, [min(g) for g in found], [median(g) for g in found], [max(g) for g in found]
+    lists = [groups[load] for load in loads]
+    return loads, [min(g) for g in lists], [median(g) for g in lists], [max(g) for g in lists]

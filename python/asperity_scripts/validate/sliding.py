@@ -38,7 +38,7 @@ def own_map() -> HeightMap:
     return synthesize(asphalt, shape=(256, 256), pixel_size=side / 256, seed=1)
 
 
-def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, object]) -> None:
+def validate_sliding(args: Namespace, surface: HeightMap | None, facts: dict[str, object]) -> None:
     """Tables, a picture, and the summary on the terminal."""
     directory = FilePath(args.output)
     check_plot(directory / FILES[2])
@@ -55,24 +55,24 @@ def validate_sliding(args: Namespace, given: HeightMap | None, told: dict[str, o
         text = f"{kept.size} of the scene's {velocity.size} velocities; see --velocities"
         notes.append(Note(text, code="fewer-velocities"))
         velocity = velocity[kept]
-    found = compare(
-        own_map() if given is None else given,
+    comparison = compare(
+        own_map() if surface is None else surface,
         scene.rubber,
         pressure=scene.pressure.tolist(),
         velocity=velocity.tolist(),
         poisson_ratio=scene.options.get("poisson_ratio", 0.5),
-        periodic=given is None or args.periodic,
+        periodic=surface is None or args.periodic,
         progress=progress("sliding contacts"),
     )
-    notes += found.notes
+    notes += comparison.notes
     rubber = args.rubber or "scene.toml, shipped"
-    table = Table("validate --sliding", [{"rubber": rubber, **told}], notes, found.columns())
+    table = Table("validate --sliding", [{"rubber": rubber, **facts}], notes, comparison.columns())
     with drawn_in(args.style):
-        picture = found.figure(Path(FILES[2]))
-    contents = (found.summary().encode(), table.csv().encode(), picture)
+        picture = comparison.figure(Path(FILES[2]))
+    contents = (comparison.summary().encode(), table.csv().encode(), picture)
     write_files({directory / n: data for n, data in zip(FILES, contents, strict=True)})
     tell_notes(notes, args.notes)
-    print_stdout(f"{found.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")
+    print_stdout(f"{comparison.summary()}\nfiles: {directory}: {', '.join(FILES)}\n")
 
 
 def _scene(args: Namespace) -> tuple[Scene, list[Note]]:

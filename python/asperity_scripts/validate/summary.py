@@ -10,7 +10,7 @@ TITLE = "# What each correction is worth"
 
 def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[Any]]:
     """Columns of a table, a row a model and contact."""
-    flat = [prediction for found in predictions for prediction in found]
+    flat = [prediction for group in predictions for prediction in group]
     return {
         "case": [p.contact.case for p in flat],
         "hurst": ["" if p.contact.hurst is None else p.contact.hurst for p in flat],
@@ -43,12 +43,12 @@ def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
         ("energy", "Elastic energy, which the friction integrand weighs"),
     )
     for quantity, title in quantities:
-        best = min(predictions, key=lambda found: _mean(found, quantity))
+        best = min(predictions, key=lambda group: _mean(group, quantity))
         text += [f"## {title}", "", *_table(predictions, quantity), ""]
         text += ["Mean signed error by load p*:", "", *_by_load(predictions, quantity), ""]
         text += [f"Least mean error: {best[0].model.name}, {_mean(best, quantity):.1f} %.", ""]
     text += ["| name | in Python |", "| --- | --- |"]
-    text += [f"| {found[0].model.name} | `{found[0].model.call}` |" for found in predictions]
+    text += [f"| {group[0].model.name} | `{group[0].model.call}` |" for group in predictions]
     text += [
         "",
         "S in Eq. 22: on the friction integrand, with the uncorrected area. S in G: inside G, "
@@ -58,8 +58,8 @@ def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
     return "\n".join(text)
 
 
-def _mean(found: Sequence[Prediction], quantity: Quantity) -> float:
-    return 100 * sum(abs(p.error(quantity)) for p in found) / len(found)
+def _mean(group: Sequence[Prediction], quantity: Quantity) -> float:
+    return 100 * sum(abs(p.error(quantity)) for p in group) / len(group)
 
 
 def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> list[str]:
@@ -73,11 +73,11 @@ def _table(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) -> l
     names = sorted(filter(None, groups), key=_by_number)
     head = "".join(f" worst, {name} ({len(groups[name])}) |" for name in names)
     lines = ["| correction | mean | worst |" + head, "| --- " * (len(names) + 3) + "|"]
-    for found in predictions:
-        errors = [100 * p.error(quantity) for p in found]
+    for group in predictions:
+        errors = [100 * p.error(quantity) for p in group]
         worst = [max((errors[i] for i in groups[name]), key=abs) for name in ("", *names)]
         cells = "".join(f" {error:+.1f} |" for error in worst)
-        lines.append(f"| {found[0].model.name} | {_mean(found, quantity):.1f} |{cells}")
+        lines.append(f"| {group[0].model.name} | {_mean(group, quantity):.1f} |{cells}")
     return lines
 
 
@@ -88,10 +88,10 @@ def _by_load(predictions: Sequence[Sequence[Prediction]], quantity: Quantity) ->
     ordered = sorted(loads)
     head = "".join(f" {load:g} ({len(loads[load])}) |" for load in ordered)
     lines = ["| correction |" + head, "| --- " * (len(ordered) + 1) + "|"]
-    for found in predictions:
-        errors = [100 * p.error(quantity) for p in found]
+    for group in predictions:
+        errors = [100 * p.error(quantity) for p in group]
         means = [sum(errors[i] for i in loads[load]) / len(loads[load]) for load in ordered]
-        lines.append(f"| {found[0].model.name} |" + "".join(f" {mean:+.1f} |" for mean in means))
+        lines.append(f"| {group[0].model.name} |" + "".join(f" {mean:+.1f} |" for mean in means))
     return lines
 
 
