@@ -11,7 +11,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
     Array,
-    Given,
+    Conversion,
     OptionalVector,
     Vector,
     flag,
@@ -56,7 +56,7 @@ class MasterPoints(Table):
     angular_frequency: Vector
     storage_modulus: Vector
     loss_modulus: Vector
-    isotherm: Given[ArrayLike, NDArray[np.int64]]
+    isotherm: Conversion[ArrayLike, NDArray[np.int64]]
 
     def __post_init__(self) -> None:
         for name, rows in self._arguments().items():
@@ -101,7 +101,7 @@ class MasterCurveBuild(HasShiftFactors):
     """
 
     master_curve: MasterCurve
-    shift_factors: Given[HasShiftFactors, ShiftFactors]
+    shift_factors: Conversion[HasShiftFactors, ShiftFactors]
     b_T: Vector  # noqa: N815
     points: MasterPoints
     residual: float

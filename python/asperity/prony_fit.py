@@ -8,7 +8,7 @@ import numpy as np
 from asperity import _core
 from asperity.base.arguments import (
     ABSENT,
-    Given,
+    Conversion,
     Vector,
     choice,
     notes_of,
@@ -65,7 +65,7 @@ class PronyFit(PronySeries):
     highest_frequency: float
     extrapolation: PronyExtrapolation | None = None
     notes: tuple[Note, ...] = ()
-    shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
+    shift_factors: Conversion[HasShiftFactors | None, ShiftFactors | None] = ABSENT
 
     def __post_init__(self) -> None:
         self._take()

@@ -12,7 +12,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
     Array,
-    Given,
+    Conversion,
     Vector,
     broadcast,
     choice,
@@ -236,7 +236,7 @@ class MasterCurve(_HasModulus):
     storage_modulus: Vector
     loss_modulus: Vector
     extrapolation: Extrapolation | None = None
-    shift_factors: Given[HasShiftFactors | None, ShiftFactors | None] = ABSENT
+    shift_factors: Conversion[HasShiftFactors | None, ShiftFactors | None] = ABSENT
     notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity.base.arguments import (
     Array,
-    Given,
+    Conversion,
     choice,
     covariance_matrix,
     frozen,
@@ -50,7 +50,7 @@ class SelfAffineFit(Table):
     """
 
     spectrum: SelfAffineSpectrum
-    covariance: Given[ArrayLike, Array]
+    covariance: Conversion[ArrayLike, Array]
     residual: float
     rows: int
 

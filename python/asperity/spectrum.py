@@ -11,7 +11,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
-    Given,
+    Conversion,
     OptionalVector,
     Vector,
     broadcast,
@@ -28,7 +28,7 @@ from asperity.base.value import CoreValue, value
 from asperity.spectrum_rows import Rows, two_axes
 from asperity.surface import around
 
-Flags = Given[ArrayLike | None, NDArray[np.uint8] | None]
+Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
 
 
 class _Spectrum(Table):
@@ -261,7 +261,7 @@ class TabulatedSpectrum(Rows, _Spectrum):
     cosine: OptionalVector = ABSENT
     sine: OptionalVector = ABSENT
     harmonic_error: OptionalVector = ABSENT
-    q1: Given[float | None, float] = ABSENT
+    q1: Conversion[float | None, float] = ABSENT
 
     def _take_harmonics(self) -> None:
         for name in ("cosine", "sine", "harmonic_error"):

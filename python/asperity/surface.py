@@ -13,7 +13,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Array,
-    Given,
+    Conversion,
     choice,
     flag,
     frozen,
@@ -29,8 +29,8 @@ from asperity.base.value import Value, value
 
 Detrend = Literal["offset", "plane", "quadratic"]
 DETRENDS: tuple[Detrend, ...] = get_args(Detrend)  # in the order of the core's enumeration
-Heights = Given[ArrayLike, NDArray[Any]]
-PixelSize = Given[float | tuple[float, float], tuple[float, float]]
+Heights = Conversion[ArrayLike, NDArray[Any]]
+PixelSize = Conversion[float | tuple[float, float], tuple[float, float]]
 Kind = TypeVar("Kind", bound=Value)
 
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out

@@ -9,7 +9,7 @@ from asperity import _core
 from asperity.base.arguments import (
     ABSENT,
     Array,
-    Given,
+    Conversion,
     OptionalVector,
     Vector,
     frozen,
@@ -89,7 +89,7 @@ class Isotherm(Table):
     angular_frequency: Vector
     storage_modulus: Vector
     loss_modulus: Vector
-    notes: Given[Iterable[str] | None, tuple[Note, ...]] = ABSENT
+    notes: Conversion[Iterable[str] | None, tuple[Note, ...]] = ABSENT
 
     def __post_init__(self) -> None:
         taken = self._take()

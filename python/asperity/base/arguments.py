@@ -20,21 +20,21 @@ from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]
 Shape = tuple[int, ...]
-Taken = TypeVar("Taken", contravariant=True)
-Kept = TypeVar("Kept", covariant=True)
+Input = TypeVar("Input", contravariant=True)
+Output = TypeVar("Output", covariant=True)
 
 
-class Given(Protocol[Taken, Kept]):
+class Conversion(Protocol[Input, Output]):
     """The type of a field that takes more kinds of arguments than it keeps."""
 
-    def __get__(self, owner: object, cls: type) -> Kept: ...
-    def __set__(self, owner: object, value: Taken) -> None: ...
+    def __get__(self, owner: object, cls: type) -> Output: ...
+    def __set__(self, owner: object, value: Input) -> None: ...
 
 
-Vector = Given[ArrayLike, Array]
-OptionalVector = Given[ArrayLike | None, Array | None]
+Vector = Conversion[ArrayLike, Array]
+OptionalVector = Conversion[ArrayLike | None, Array | None]
 MOST_THREADS = 1024  # more would be a slip
-ABSENT: Any = None  # the default of a field whose type is Given
+ABSENT: Any = None  # the default of a field whose type is Conversion
 
 
 if TYPE_CHECKING:
