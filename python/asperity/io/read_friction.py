@@ -1,6 +1,5 @@
 """Measured friction from files."""
 
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,10 +12,12 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import choice, path_of, real_array
-from asperity.base.diagnostics import MUST_BE, Argument, Must
+from asperity.base.diagnostics import MUST_BE, Argument
 from asperity.io import plausible
+from asperity.io.column_names import cells_of
+from asperity.io.columns import read_columns
 from asperity.io.instrument import brief
-from asperity.io.read_surface import cell, filled_lines
+from asperity.io.source import read_source
 
 # by the name of the column, which carries the unit
 _COLUMNS = {
@@ -73,9 +74,8 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
 
     Columns, in any order and among others: ``mu``; ``velocity_m_s``, ``velocity_mm_s`` or
     ``velocity_km_h``; where pressures differ, ``pressure_pa``, ``pressure_kpa`` or
-    ``pressure_mpa``; where temperatures do, ``temperature_k`` or ``temperature_c``. Lines beginning
-    with ``#`` are passed over. Cells are parted by semicolons, tabs, commas or blanks; where they
-    are not parted by commas, a comma is a decimal one.
+    ``pressure_mpa``; where temperatures do, ``temperature_k`` or ``temperature_c``. Lines, cells
+    and workbooks are read as by `read_isotherms`.
 
     Returns
     -------
@@ -88,39 +88,42 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         Naming file and line: no column of a known unit, a cell that is no positive number.
     """
     path = path_of(path, "path")
-    table = filled_lines(path)
-    if len(table) < 2:
-        raise InvalidInput(
-            f"has {max(0, len(table) - 1)} rows below its header",
-            Must(": must have "),
-            "1 or more",
-            where=path,
-        )
-    header = [name.strip() for name in table[0][1]]
+    (_, first), *_ = read_source(path).lines or [(1, "")]
+    header = cells_of(first)
     columns = {kind: _column(path, header, kind) for kind in _COLUMNS}
+    names = {name: name for name in columns.values() if name is not None}
+    table = read_columns(path, names, {})
     arrays = {}
-    for kind, (place, unit) in ((k, c) for k, c in columns.items() if c is not None):
-        values = [_value(path, number, cells, header, place) for number, cells in table[1:]]
-        factor, offset = 1.0, 0.0
+    for kind, name in columns.items():
+        if name is None:
+            continue
+        values = table.values[name]
+        known = values > (-math.inf if name == "temperature_c" else 0)
+        if not known.all():
+            row = int(np.argmin(known))
+            problem = f"{table.where(row)}: {name} = {values[row]:g}"
+            raise InvalidInput(problem, MUST_BE, "positive and finite", where=path)
         if kind in _QUANTITIES:
-            plausible.check(header[place], values, _QUANTITIES[kind], unit, path=path)
+            unit = _COLUMNS[kind][name]
+            plausible.check(name, values, _QUANTITIES[kind], unit, path=path)
             factor, offset = _QUANTITIES[kind].units[unit]
-        arrays[kind] = np.array([value * factor + offset for value in values])
+            values = values * factor + offset
+        arrays[kind] = values
     return MeasuredFriction(
         arrays["velocity"], arrays["mu"], arrays.get("pressure"), arrays.get("temperature")
     )
 
 
-def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
-    """Place and unit of a column; None of what a file may leave out, where it does."""
+def _column(path: Path, header: list[str], kind: str) -> str | None:
+    """The name of a column; None of what a file may leave out, where it does."""
     known: Mapping[str, str] = _COLUMNS[kind]
-    places = [(i, known[name]) for i, name in enumerate(header) if name in known]
-    if len(places) > 1:
+    names = [name for name in header if name in known]
+    if len(names) > 1:
         raise InvalidInput(
             f"has two columns of {kind}", MUST_BE, f"one of {', '.join(known)}", where=path
         )
-    if places:
-        return places[0]
+    if names:
+        return names[0]
     bare = [name for name in header if name.lower().startswith(kind)]
     if kind in _OPTIONAL and not bare:
         return None
@@ -131,23 +134,3 @@ def _column(path: Path, header: list[str], kind: str) -> tuple[int, str] | None:
         else f"header {brief(','.join(header))!r} has no {kind}"
     )
     raise InvalidInput(problem, MUST_BE, allowed, where=path)
-
-
-def _value(path: Path, number: int, cells: list[str], header: list[str], place: int) -> float:
-    if len(cells) != len(header):
-        problem = f"has {len(cells)} cells: must be {len(header)}, as the header"
-        if len(cells) == 2 * len(header):  # which decimal commas among commas make
-            problem += " (numbers have a decimal point)"
-        raise InvalidInput(f"line {number} {problem}", where=path)
-    try:
-        value = cell(cells[place])
-    except ValueError as error:
-        raise InvalidInput(f"line {number}: {header[place]}: {error}", where=path) from error
-    lowest = -math.inf if header[place] == "temperature_c" else 0
-    if not lowest < value < math.inf:
-        shown = cells[place].strip() or "nothing"
-        allowed = "positive and finite" if lowest == 0 else "finite"
-        raise InvalidInput(
-            f"line {number}: {header[place]} = {shown}", MUST_BE, allowed, where=path
-        )
-    return value

@@ -285,17 +285,6 @@ def _separator(line: str) -> str | None:
     return next((mark for mark in ";\t," if mark in line), None)
 
 
-def filled_lines(path: Path) -> list[tuple[int, list[str]]]:
-    """`lines` without blank ones, of a file that is named where it cannot be read."""
-    try:
-        check_file(path)
-        return [(number, cells) for number, cells in lines(path) if cells]
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
-
-
 def cell(text: str) -> float:
     """The number in a cell of a table; NaN in an empty one."""
     text = text.strip()
