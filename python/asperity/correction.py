@@ -32,6 +32,16 @@ AppliesTo = Literal["friction", "area", "both"]
 Reading = Literal["implicit", "added"]
 
 
+def _distance() -> Any:
+    label = "Least distance of peaks"
+    return parameter(SPACING, default=None, usual=(1e-7, 0.1), shown_unit="um", label=label)
+
+
+def _macro_wavenumber() -> Any:
+    label = "q0 of macro-asperities"
+    return parameter(FIRST_WAVENUMBER, default=None, usual=(10, 1e6), label=label)
+
+
 @value
 class SFactor(CoreValue):
     """Persson's correction for partial contact (Eq. 8).
@@ -213,13 +223,7 @@ class LocalPeaks(Value):
 
     _title = "local peaks of the scan"
     heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
-    min_distance: float | None = parameter(
-        SPACING,
-        default=None,
-        usual=(1e-7, 0.1),
-        shown_unit="um",
-        label="Least distance of peaks",
-    )
+    min_distance: float | None = _distance()
     z_max: float | None = parameter(HEIGHT, default=None)
     heights: Array = field(init=False)
 
@@ -273,9 +277,7 @@ class GreenwoodWilliamson(Value):
     peaks: ArrayLike | None = parameter(HEIGHT, default=None, key_name="heights")
     reading: Reading = "implicit"
     rms_height: float | None = parameter(RMS_HEIGHT, default=None)
-    q0: float | None = parameter(
-        FIRST_WAVENUMBER, default=None, usual=(10, 1e6), label="q0 of macro-asperities"
-    )
+    q0: float | None = _macro_wavenumber()
 
     def __post_init__(self) -> None:
         reading = self._take()["reading"]
@@ -319,20 +321,12 @@ class PeaksThenGreenwoodWilliamson(Value):
 
     _title = "local peaks, then Greenwood-Williamson"
     heights_or_map: ArrayLike | HeightMap = parameter(HEIGHT, kw_only=False, key_name="heights")
-    min_distance: float | None = parameter(
-        SPACING,
-        default=None,
-        usual=(1e-7, 0.1),
-        shown_unit="um",
-        label="Least distance of peaks",
-    )
+    min_distance: float | None = _distance()
     z_max: float | None = parameter(HEIGHT, default=None)
     z_min: float | None = parameter(HEIGHT, default=None)
     reading: Reading = "implicit"
     rms_height: float | None = parameter(RMS_HEIGHT, default=None)
-    q0: float | None = parameter(
-        FIRST_WAVENUMBER, default=None, usual=(10, 1e6), label="q0 of macro-asperities"
-    )
+    q0: float | None = _macro_wavenumber()
     heights: Array = field(init=False)
 
     def __post_init__(self) -> None:

@@ -2,40 +2,34 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from typing import Any
+from typing import Any, Self
 
 from asperity.base.diagnostics import Argument, Sentence, Value
 
 
-class Typed(float):
-    """A number that shows as it was typed; files get the shortest digits that read back."""
+class _AsTyped:
+    """What a number that knows its text does beside the number's own."""
 
     text: str
 
-    def __new__(cls, text: str) -> "Typed":
-        typed = super().__new__(cls, text)
+    def __new__(cls, text: str) -> Self:
+        typed = super().__new__(cls, text)  # type: ignore[call-arg]
         typed.text = text
         return typed
 
-    def __getnewargs__(self) -> tuple[str]:  # type: ignore[override]
+    def __getnewargs__(self) -> tuple[str]:
         return (self.text,)
 
     def __str__(self) -> str:
         return self.text
 
 
-class TypedWhole(int):
+class Typed(_AsTyped, float):  # type: ignore[misc]
+    """A number that shows as it was typed; files get the shortest digits that read back."""
+
+
+class TypedWhole(_AsTyped, int):  # type: ignore[misc]
     """The same of whole numbers."""
-
-    text: str
-
-    def __new__(cls, text: str) -> "TypedWhole":
-        typed = super().__new__(cls, text)
-        typed.text = text
-        return typed
-
-    def __str__(self) -> str:
-        return self.text
 
 
 def as_typed(sentence: Sentence, inputs: Mapping[str, Any]) -> Sentence:

@@ -25,14 +25,14 @@ def celsius_in_errors(keys: Container[str]) -> Iterator[None]:
 
 def all_in_celsius(sentence: Sentence) -> Sentence:
     """A sentence in which every temperature is in C."""
-    said: list[str] = []
-    for phrase in sentence:
-        if isinstance(phrase, Value) and phrase.tag == "K":
-            phrase = phrase.saying(f"{phrase.numbers[0] - ZERO_CELSIUS:.4g}")
-        elif isinstance(phrase, Unit) and phrase.tag == "K":
-            phrase = phrase.saying(" C")
-        said.append(phrase)
-    return tuple(said)
+    return tuple(_in_celsius_of(phrase, ".4g") for phrase in sentence)
+
+
+def _in_celsius_of(phrase: str, form: str) -> str:
+    """A phrase, in C if it is a temperature or its unit."""
+    if isinstance(phrase, Value) and phrase.tag == "K":
+        return phrase.saying(format(phrase.numbers[0] - ZERO_CELSIUS, form))
+    return phrase.saying(" C") if isinstance(phrase, Unit) and phrase.tag == "K" else phrase
 
 
 def _in_celsius(sentence: Sentence, keys: Container[str]) -> Sentence:
@@ -45,9 +45,7 @@ def _in_celsius(sentence: Sentence, keys: Container[str]) -> Sentence:
             key = names.get(phrase, "")
             celsius = key in keys
             phrase = phrase.saying(key) if celsius else phrase
-        elif celsius and isinstance(phrase, Value) and phrase.tag == "K":
-            phrase = phrase.saying(f"{phrase.numbers[0] - ZERO_CELSIUS:.6g}")
-        elif celsius and isinstance(phrase, Unit) and phrase.tag == "K":
-            phrase = phrase.saying(" C")
+        elif celsius:
+            phrase = _in_celsius_of(phrase, ".6g")
         said.append(phrase)
     return tuple(said)
