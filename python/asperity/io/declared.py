@@ -11,7 +11,6 @@ from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import brief, choice, path_of, vector
 from asperity.base.arguments import number as real
-from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names, read_columns
@@ -20,11 +19,11 @@ from asperity.io.source import Frame
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]] | Any
 
-UNITS = {
-    "frequency": {"Hz": 2 * np.pi, "rad/s": 1.0},
-    "modulus": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
-    "temperature": {"K": 1.0, "C": 1.0},
-    "strain": {"1": 1.0, "%": 0.01},
+KINDS = {
+    "frequency": quantities.FREQUENCY,
+    "modulus": quantities.MODULUS,
+    "temperature": quantities.TEMPERATURE,
+    "strain": quantities.STRAIN,
 }
 _KINDS = {"storage": "modulus", "loss": "modulus"}  # columns whose unit has another name
 
@@ -96,13 +95,13 @@ def read_declared(
                 row = int(np.argmin(values[name] > 0))
                 problem = f"{name} = {values[name][row]:g}: must be positive"
                 raise InvalidInput(f"{table.where(row)}: {problem}", where=file)
-            kind = _KINDS.get(name, name)
-            values[name] = values[name] * UNITS[kind][units[kind]]
         _check_sizes(table, units, factor, reduced)
-        for name in values.keys() & _KINDS.keys():
-            values[name] = factor * values[name]
-        if units.get("temperature") == "C":
-            values["temperature"] = values["temperature"] + ZERO_CELSIUS
+        for name in values:
+            kind = _KINDS.get(name, name)
+            scale, offset = KINDS[kind].units[units[kind]]
+            values[name] = scale * values[name] + offset
+            if name in _KINDS:
+                values[name] = factor * values[name]
         tables.append(table)
     return tables
 
@@ -137,8 +136,8 @@ def _check_declared(
             label = f": {key} = {place}"
             raise InvalidInput(Argument("columns"), label, MUST_BE, "1 or more, or a name")
     for key, unit in units.items():
-        if unit not in UNITS[key]:
-            allowed = f"one of {', '.join(UNITS[key])}"
+        if unit not in KINDS[key].units:
+            allowed = f"one of {', '.join(KINDS[key].units)}"
             raise InvalidInput(Argument("units"), f": {key} = {brief(unit)}", MUST_BE, allowed)
 
 
@@ -154,18 +153,11 @@ def _check_stated(table: Columns, columns: Names, units: Mapping[str, str]) -> N
 
 
 def _check_sizes(table: Columns, units: Mapping[str, str], factor: float, reduced: bool) -> None:
-    """Refuse what the declared units make absurd; temperatures are still in theirs."""
-
-    def check(named: str, kind: str, si: Any, quantity: quantities.Quantity) -> None:
-        declared = si / UNITS[kind][units[kind]]
-        plausible.check(named, declared, quantity, units[kind], path=table.path)
-
+    """Refuse what the declared units, in which the numbers still are, make absurd."""
     values = table.values
-    if "temperature" in values:
-        check("temperature", "temperature", values["temperature"], quantities.TEMPERATURE)
-    if not reduced:
-        check("frequency", "frequency", values["frequency"], quantities.FREQUENCY)
-    if "strain" in values:
-        check("strain", "strain", values["strain"], quantities.STRAIN)
     largest = factor * np.max(np.hypot(values["storage"], values["loss"]))
-    check("largest |E|", "modulus", largest, quantities.MODULUS)
+    numbers = {**values, "modulus": largest}
+    for kind in ("temperature", *(() if reduced else ("frequency",)), "strain", "modulus"):
+        if kind in numbers:
+            name = "largest |E|" if kind == "modulus" else kind
+            plausible.check(name, numbers[kind], KINDS[kind], units[kind], path=table.path)

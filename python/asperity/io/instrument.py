@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.base.extras import to_install
+from asperity.base.quantities import LENGTH_UNITS
 from asperity.io.archive import Archive
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
 
-METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12}
+METRES = {unit: factor for unit, (factor, _) in LENGTH_UNITS.items()}
 
 PixelSize = float | tuple[float, float]
 
