@@ -1,5 +1,6 @@
 """Measured friction from files."""
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass

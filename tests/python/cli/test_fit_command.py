@@ -214,12 +214,8 @@ BAD = [  # the file, options, and what the line names
     ("velocity,mu\n1,1\n2,1", "", "column 'velocity' names no unit"),
     ("velocity_m_s,friction\n1,1\n2,1", "", "has no mu"),
     ("velocity_m_s,mu\n1,1\n2,-0.1", "", "line 3: mu = -0.1"),
-    ("velocity_m_s,mu
-fast,1
-2,1", "", "line 2: velocity_m_s = 'fast'"),
-    ("velocity_m_s,mu
-1,0,0,5
-2,0,0,6", "", "line 2 has 4 cells"),
+    ("velocity_m_s,mu\nfast,1\n2,1", "", "line 2: velocity_m_s = 'fast'"),
+    ("velocity_m_s,mu\n1,0,0,5\n2,0,0,6", "", "line 2 has 4 cells"),
     ("velocity_m_s,velocity_mm_s,mu\n1,1,1", "", "two columns of velocity"),
     ("velocity_m_s,mu\n" + "0.01,1.0\n" * 20, "", "velocity: "),
     (GOOD, "widht=0.1", "--hold widht: did you mean width?"),
