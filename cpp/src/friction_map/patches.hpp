@@ -50,7 +50,7 @@ class MapPatches {
     std::int32_t child = -1;  // the first of two; -1: not halved
     bool in_x = false;        // which way it was halved
     double error = 0;
-    std::array<Matrix, 2> coefficient{};  // of T_i(x) T_j(z), of each function
+    std::array<Matrix, 2> coefficient{Matrix::Zero(), Matrix::Zero()};  // of T_i(x) T_j(z), of each function
   };
   struct Strip {  // patches that all begins with, by columns; one a band of slanted coordinates, else one in all
     std::size_t first, columns, rows;
