@@ -6,7 +6,8 @@ lay) / r) and C(q, phi) ~ k^(-2 - 2 H) on q0 < q < q1,
   mu_i = 1/2 int d^2q q q_i C W Im E(q_x v) / ((1 - nu^2) sigma0), i = x: drag, y: across,
 with W = erf(1 / (2 sqrt G)), or the stress of PartialContact's rule (partial_rule.py), in which I2
 is that of the plane, int |E|^2 C dphi / mean C, and c the mean over directions; beyond q_e C has
-the shape that it has there.
+the shape that it has there, and T is times (h_r / h_c)^(0.4 cos^2), the rms slopes along the ridges
+and across them and the angle of the velocity to the way across.
 Method one: Gauss rules in z, cos(phi) = sech(z), between the frequencies of a table; method two:
 in phi, other panels in ln q and another search for kappa, as in make_partial_contact.py.
 """
@@ -110,6 +111,16 @@ def shape_of(ratio, angle):
     return lambda phi: law(phi) / mean
 
 
+def crossed_edges(shape):
+    """Return the edges that are crossed over those of isotropic roughness."""
+    phi = 2 * np.pi * np.arange(8192) / 8192
+    along, across = ((shape(phi) * f(2 * phi)).mean() for f in (np.cos, np.sin))
+    size = np.hypot(along, across)
+    if size < 1e-12:
+        return 1.0
+    return np.sqrt((1 - size) / (1 + size)) ** (0.4 * (1 + along / size) / 2)
+
+
 def edges_of(start, end, knots, places, first, growth, longest):
     """Return the ends of panels in ln q."""
     grown = start + (end - start) * first * growth ** np.arange(
@@ -155,7 +166,15 @@ def solve(rubber, circle, velocity, pressure, shapes, method):
         share = erf(0.5 / np.sqrt(np.maximum(g, 1e-300))) * rate * weights
         plain = [g1, erf(0.5 / np.sqrt(g1))]
         plain += [force * (share * part[s] / i2[s]).sum() for part in (i1, across)]
-        factor = stiff**2 / 8 * w_e * (t2[s] / e2[s]) ** 0.25 * tail_weights * np.exp(-3 * z)
+        factor = (
+            crossed_edges(shapes[s])
+            * stiff**2
+            / 8
+            * w_e
+            * (t2[s] / e2[s]) ** 0.25
+            * tail_weights
+            * np.exp(-3 * z)
+        )
         excess = 1 - g1 / (stiff**2 / 8 * whole * e2[s, 0])
         found = []
         for part, tail in ((i1, t1), (across, t_across)):

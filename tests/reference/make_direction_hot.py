@@ -12,7 +12,15 @@ from functools import cache
 import make_hot_partial_contact as hot
 import numpy as np
 import tables
-from make_direction import LAY, SURFACE, circle_in_phi, circle_in_z, modulus_of, shape_of
+from make_direction import (
+    LAY,
+    SURFACE,
+    circle_in_phi,
+    circle_in_z,
+    crossed_edges,
+    modulus_of,
+    shape_of,
+)
 from make_partial_contact import SBR
 from make_strain import PAYNE, softened
 from numpy.polynomial.chebyshev import chebfit, chebval
@@ -104,8 +112,11 @@ def row(strain, heat, ratio, angle, velocity):
 
             return *soft(along), soft(across)[0]
 
-        stops = {"stops": np.unique([*kinks, *q])}
-        results.append(hot.solve(scene | stops, between, end, integrals, kernel, *rest))
+        edges = {
+            "stops": np.unique([*kinks, *q]),
+            "crossed": crossed_edges(shape_of(ratio, angle)),
+        }
+        results.append(hot.solve(scene | edges, between, end, integrals, kernel, *rest))
     for one, two in zip(*results, strict=True):
         tables.agree("direction_hot", float(one), float(two), 1e-9)
     case = f"{'strain ' * strain}{'heat ' * heat}{ratio:g} {angle} deg {velocity:g} m/s"

@@ -138,7 +138,8 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     """Return hysteresis, area, P_m and the rise at q_e and q1, then sums as the hysteresis of what
     `integrals` has beside I1 and I2.
 
-    Panels end at the scene's `stops` too [1/m], in rising order.
+    Panels end at the scene's `stops` too [1/m], in rising order; `crossed`: the edges over those of
+    isotropic roughness.
     """
     q, c = rows_of(scene["surface"])
     at, _, _ = roughness(q, c)
@@ -191,6 +192,7 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
         g_here = before[:-1, None] + half * (rate @ rule[2].T)
         on_edges = slice(of_band, of_band + of_tail)
         edge = stiff**2 / 8 * window_at_end * (i2[on_edges] / i2[-2]) ** 0.25 * tail_weights
+        edge = edge * scene.get("crossed", 1.0)
         excess = below_one(i2)
         if 0.1 * (1 - excess) > 1:
             excess = min(max(excess, cold), 0.0)

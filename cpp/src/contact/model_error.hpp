@@ -25,6 +25,7 @@ class ModelError {
  private:
   const double (*by_load_)[4] = nullptr;  // by speed and load
   const double* by_speed_ = nullptr;      // or by speed alone
+  const double* at_least_ = nullptr;      // over ridges, by speed
   const Rubber& rubber_;
   std::optional<Rubber> unlimited_;  // instead of it: a series without the range that it was fitted on
   double q0_ = 0, q1_ = 0, lightest_ = 0, heaviest_ = 0;

@@ -188,9 +188,9 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                           {"take PartialContact, which was measured at lighter loads"}));
   for (const auto& [flag, code, regime, error] :
        {std::tuple{slow_, "regime-slow", "slow (loss rises with frequency)",
-                   "1 to 5 % rms (12 where q1/q0 is above 128)"},
+                   "1 to 5 % rms (12 where q1/q0 is above 128, 6 over ridges)"},
         {constant_, "regime-constant", "about constant loss tangents",
-         "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128)"},
+         "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128, 7 over ridges)"},
         {fast_regime_, "regime-fast", "fast (the modulus outgrows the loss)",
          "2 to 11 % rms (2 to 15 where q1/q0 is below 5, 8 where it is above 128)"}})
     if (flag)
@@ -202,7 +202,7 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
         "unknown-model-error",
         {"the model error of PartialContact is not known at some points: exact sliding contacts were solved "
          "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5, and from 128 to "
-         "16384 with loads from 0.005 to 0.3"},
+         "16384 with loads from 0.005 to 0.3; over ridges of axis ratios to 6 with loads from 0.02 to 0.3"},
         {"compare with ScanContact on the scan itself"}));
   if (worse_)
     result.push_back(fatal("area-further-off",

@@ -97,7 +97,6 @@ class PointSolver {
   ModelError model_error_;
   double velocity_ = 0;  // of the point before
   Solver solver_;
-  bool directional_ = is_directional(scene_.spectrum);
   bool partial_ = std::holds_alternative<PartialContact>(scene_.model.correction);
 };
 
@@ -114,7 +113,7 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   at.contact_area = partial_ ? solver_.partial_area() : contact_share(area_g_(g), scene_.model.form);
   at.validity = validity_(g, shift.p);
   if (velocity != velocity_) model_error_.start(velocity_ = velocity);
-  if (!directional_) at.model_error = model_error_(g);  // the exact contacts were isotropic
+  at.model_error = model_error_(g);
   if (partial_ && !std::isnan(at.model_error)) at.validity.regime = model_error_.regime();
   at.validity.strained = solver_.share_of_held_strains();
   if (scene_.adhesion) {

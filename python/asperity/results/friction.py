@@ -66,9 +66,10 @@ class Friction(Table):
         Relative rms error of mu_H that this correction had on exact sliding contacts of Gaussian
         surfaces at such speeds and loads [-]; NaN where nothing is known: for corrections by a p_T,
         for S in Eq. 22 with another gamma than 0.4 and 0.5, for maps whose heights are far from
-        Gaussian (a note says so), for spectra that know directions, for q1/q0 outside of 3 to
-        16384, for loads sigma0 / (E* h') outside of 0.0015 to 0.6 (0.005 to 0.3 where q1/q0 is
-        above 128).
+        Gaussian (a note says so), for q1/q0 outside of 3 to 16384, for loads sigma0 / (E* h')
+        outside of 0.0015 to 0.6 (0.005 to 0.3 where q1/q0 is above 128). Over spectra that know
+        directions for S, for axis ratios above 6, q1/q0 outside of 4 to 128 and loads outside of
+        0.02 to 0.3.
     lateral : float or ndarray
         The force across the sliding over the load [-]: on the moving body it is
         -sigma0 (mu s + lateral n), s the direction of sliding and n that turned by 90 degrees from

@@ -322,3 +322,21 @@ def test_areas_of_magnifications_and_the_pressure_there():
         ridges(), RUBBER, **at, wavenumber=q, correction=PartialContact()
     )
     assert (np.diff(by_rule) < 0).all()
+
+
+def test_complete_contact_has_no_edges_to_cross():
+    complete = {"pressure": 1e10, "velocity": 1e-2, "rtol": 1e-4}
+    plain = asperity.friction(ridges(), RUBBER, **complete).mu
+    found = asperity.friction(ridges(), RUBBER, **complete, correction=PartialContact()).mu
+    assert found == pytest.approx(plain, rel=1e-3)
+
+
+def test_stronger_ridges_than_any_contact_had_are_told():
+    at = {"pressure": 2e5, "velocity": 1e-2, "correction": PartialContact()}
+    law = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 2e4}
+    known, beyond = (
+        asperity.friction(SelfAffineSpectrum(**law, axis_ratio=r), RUBBER, **at) for r in (4, 9)
+    )
+    assert known.model_error > 0
+    assert np.isnan(beyond.model_error)
+    assert "unknown-model-error" in [note.code for note in beyond.notes]

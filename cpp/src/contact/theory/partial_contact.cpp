@@ -23,7 +23,7 @@ namespace {
 
 class PartialContactTheory final : public Theory {
  public:
-  explicit PartialContactTheory(const ContactGrid& grid) : Theory(grid) {}
+  PartialContactTheory(const ContactGrid& grid, double crossed) : Theory(grid), crossed_(crossed) {}
   void start(std::function<VectorXd()> cold) override {
     kappa_ = usual_kappa;
     cold_ = std::move(cold);
@@ -44,7 +44,7 @@ class PartialContactTheory final : public Theory {
 
  private:
   [[nodiscard]] partial_contact::AtEnd rule(double log_g, double excess) const {
-    return {std::exp(log_g) * kappa_ * g(), kappa_, {grid_.beyond().end->factor, excess}};
+    return {std::exp(log_g) * kappa_ * g(), kappa_, {grid_.beyond().end->factor, excess, crossed_}};
   }
   /// Of logarithms at a fixed kappa, over ln G1 and over the excess.
   struct RuleSlopes {
@@ -71,6 +71,7 @@ class PartialContactTheory final : public Theory {
 
   std::function<VectorXd()> cold_;
   std::optional<double> cold_excess_;
+  double crossed_;     // edges over those of isotropic roughness
   bool held_ = false;  // excess_ is that at T0, or 0
   double kappa_ = usual_kappa, area_ = 1, excess_ = 0, edges_ = 0, obstacle_ = 0, off_rule_ = 0;
   PartialEnd end_;
@@ -109,7 +110,7 @@ void PartialContactTheory::take(const NodeModulus& modulus) {
 
 const ContactSums& PartialContactTheory::solve(double scale, double rtol, double start) {
   scale_ = scale;
-  end_.band = {grid_.beyond().end->factor, excess_ = excess()};
+  end_.band = {grid_.beyond().end->factor, excess_ = excess(), crossed_};
   const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(),
                            static_cast<std::size_t>(g_.size())};
   sums_ = partial_root(nodes, end_, scale, rtol, start, stress_.data());
@@ -315,8 +316,8 @@ double PartialContactTheory::density_of_edges(double wavenumber, double i1, doub
 
 }  // namespace
 
-std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid) {
-  return std::make_unique<PartialContactTheory>(grid);
+std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid, double crossed) {
+  return std::make_unique<PartialContactTheory>(grid, crossed);
 }
 
 }  // namespace asperity

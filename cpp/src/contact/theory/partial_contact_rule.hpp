@@ -6,7 +6,9 @@
 //     Z = obstacle (4 w_e / M)^0.2 kappa^(1/4) (1 - A1)^(1/8) (1 + light (1 - A1^(1/10))^3) A^2 g'(q),
 //     g' = K I2(v q) w(q), w_e = max(w(q_e), M / 20), as if all of that tenth stood in one window;
 //   T(x) = edges A1 (1 - A1^(1/4)) K I2(v q_e) w_e max(1, last / rho) (I2(v q) / I2(v q_e))^1.25 x^-3, that of
-//     the edges of contacts, x = q / q_e from 1 to tail_end.
+//     the edges of contacts, x = q / q_e from 1 to tail_end. Where roughness has directions spots are long: T is times
+//     (h_r / h_c)^(crossed cos^2), the rms slopes along the ridges and across them in the last tenth, and the angle of
+//     sliding to the way across them: who slides along the ridges crosses as many edges as on isotropic roughness.
 // kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
 // for a factor near 1:
 //   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)).
@@ -29,10 +31,18 @@ inline constexpr double tail_end = 33, tail_power = 3, tail_excess = 0.25;
 /// R of A and Z; partial_loops.inc has the same for many nodes.
 inline double stress(double share, double of_waves) { return share / ((1 + of_waves) * (1 + of_waves)); }
 
-/// What the surface and the rubber have beside G: (4 w_e / M)^0.2, and 1 - 1 / rho, which may be negative.
+/// What the surface and the rubber have beside G: (4 w_e / M)^0.2, 1 - 1 / rho, which may be negative, and the edges
+/// over those of isotropic roughness.
 struct Band {
-  double end_factor = 1, excess = 0;
+  double end_factor = 1, excess = 0, edges = 1;
 };
+
+/// Those edges by the first harmonics about the velocity: <cos 2 phi> and <sin 2 phi> of the slope variance.
+inline double crossed_edges(double along, double across) {
+  constexpr double crossed = 0.4;
+  const double size = std::fmin(1, std::hypot(along, across));
+  return size > 0 ? std::pow((1 - size) / (1 + size), crossed * (1 + along / size) / 4) : 1;
+}
 
 /// A factor, and the slope of its logarithm over ln kappa.
 struct Factor {
@@ -69,7 +79,7 @@ inline AtEnd::AtEnd(double g, double kappa, const Band& band) {
   obstacle = {partial_contact::obstacle * band.end_factor * std::sqrt(std::sqrt(kappa * std::sqrt(rest))) * far,
               0.25 + (rest > 0 ? -0.125 * share_slope / rest : 0) + 3 * light * tenth * tenth * tenth_slope / far};
   const auto [fourth, fourth_slope] = below_one(0.25);
-  edges = {partial_contact::edges * share * fourth * std::fmax(1, last * (1 - band.excess)),
+  edges = {partial_contact::edges * band.edges * share * fourth * std::fmax(1, last * (1 - band.excess)),
            log_slope + (fourth > 0 ? fourth_slope / fourth : 0)};
   const auto [eighth, eighth_slope] = below_one(8);
   const double excess = std::fmax(0, band.excess), square = excess * excess,

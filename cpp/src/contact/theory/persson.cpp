@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/grid/directions.hpp"
+#include "contact/theory/partial_contact_rule.hpp"
 #include "contact/theory/partial_loops.hpp"
 #include "contact/theory/theory.hpp"
 
@@ -238,7 +240,12 @@ void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& re
 
 std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
                                        std::span<const Segment> surface, const ContactGrid& grid) {
-  if (std::holds_alternative<PartialContact>(model.correction)) return partial_contact_theory(grid);
+  if (std::holds_alternative<PartialContact>(model.correction)) {
+    const TabulatedSpectrum* const table = harmonics_of(spectrum);
+    if (!table) return partial_contact_theory(grid, 1);
+    const Rings end = Directions(*table, surface, model.direction).end();
+    return partial_contact_theory(grid, partial_contact::crossed_edges(end.along[0], end.across[0]));
+  }
   return std::make_unique<PerssonTheory>(model, spectrum, surface, grid);
 }
 

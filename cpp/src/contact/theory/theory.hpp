@@ -120,7 +120,7 @@ class Theory {
 std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
                                        std::span<const Segment> surface, const ContactGrid& grid);
 
-/// The rule of PartialContact.
-std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid);
+/// The rule of PartialContact; `crossed` edges over those of isotropic roughness.
+std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid, double crossed);
 
 }  // namespace asperity
